@@ -1,0 +1,238 @@
+//! The desired motion: straight, one loop, straight.
+
+use robot_model::{Scalar, real};
+
+use crate::ControllerError;
+use crate::error::positive;
+
+/// Which way the loop turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Turn {
+    /// Counter-clockwise, positive yaw rate.
+    #[default]
+    Left,
+    /// Clockwise.
+    Right,
+}
+
+/// What the loop is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loop {
+    /// Cruising speed v, m/s.
+    pub speed: f64,
+    /// Radius of the circle R, m.
+    pub radius: f64,
+    /// Duration of the constant acceleration from rest, s.
+    pub accelerate: f64,
+    /// Duration of the straight before the circle, s.
+    pub lead_in: f64,
+    /// Duration over which the yaw rate goes linearly to its value at entry, and back at exit, s.
+    pub blend: f64,
+    /// Duration of the straight after the circle, s.
+    pub lead_out: f64,
+    /// Duration of the constant deceleration to rest, s.
+    pub brake: f64,
+    /// Which way the loop turns.
+    pub turn: Turn,
+}
+
+impl Default for Loop {
+    /// 0.5 m/s after 1 s, 3 s straight, a circle of 1.5 m with blends of 0.5 s, 3 s straight, braking in 2 s.
+    fn default() -> Self {
+        Self {
+            speed: 0.5,
+            radius: 1.5,
+            accelerate: 1.0,
+            lead_in: 3.0,
+            blend: 0.5,
+            lead_out: 3.0,
+            brake: 2.0,
+            turn: Turn::Left,
+        }
+    }
+}
+
+/// Times at which something begins, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Events {
+    /// The yaw rate begins to rise.
+    pub entry: f64,
+    /// The yaw rate begins to fall.
+    pub exit: f64,
+    /// Braking begins.
+    pub brake: f64,
+    /// The robot stands.
+    pub rest: f64,
+}
+
+/// A checked loop: desired speed, yaw rate and heading in closed form at any time.
+///
+/// Both blends shift the yaw rate's ramps equally, so the heading changes by exactly 2π:
+/// `ω_d(t) = (v/R) [ρ(t − t_entry) − ρ(t − t_exit)]`, `t_exit − t_entry = 2πR/v`, ρ a ramp from 0 to 1 over the blend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoopPath<T> {
+    events: Events,
+    speed: T,
+    yaw_rate: T,
+    accelerate: T,
+    blend: T,
+    brake: T,
+    entry_at: T,
+    exit_at: T,
+    brake_at: T,
+}
+
+impl<T: Scalar> LoopPath<T> {
+    /// Checks and prepares a loop.
+    ///
+    /// # Errors
+    /// [`ControllerError::NotPositive`] names the first quantity that is not a finite number above zero.
+    pub fn new(path: &Loop) -> Result<Self, ControllerError> {
+        positive("speed of the path", path.speed)?;
+        positive("radius of the loop", path.radius)?;
+        positive("duration of the acceleration", path.accelerate)?;
+        positive("duration of the straight before the loop", path.lead_in)?;
+        positive("duration of the blend", path.blend)?;
+        positive("duration of the straight after the loop", path.lead_out)?;
+        positive("duration of the braking", path.brake)?;
+        let entry = path.accelerate + path.lead_in;
+        let exit = entry + core::f64::consts::TAU * path.radius / path.speed;
+        let brake = exit + path.blend + path.lead_out;
+        let sign = match path.turn {
+            Turn::Left => 1.0,
+            Turn::Right => -1.0,
+        };
+        Ok(Self {
+            events: Events {
+                entry,
+                exit,
+                brake,
+                rest: brake + path.brake,
+            },
+            speed: real(path.speed),
+            yaw_rate: real(sign * path.speed / path.radius),
+            accelerate: real(path.accelerate),
+            blend: real(path.blend),
+            brake: real(path.brake),
+            entry_at: real(entry),
+            exit_at: real(exit),
+            brake_at: real(brake),
+        })
+    }
+
+    /// When things happen.
+    pub fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// Desired speed v_d, m/s.
+    #[inline]
+    pub fn speed(&self, t: T) -> T {
+        self.speed * (ramp(t, self.accelerate) - ramp(t - self.brake_at, self.brake))
+    }
+
+    /// Desired yaw rate ω_d, rad/s.
+    #[inline]
+    pub fn yaw_rate(&self, t: T) -> T {
+        self.yaw_rate * (ramp(t - self.entry_at, self.blend) - ramp(t - self.exit_at, self.blend))
+    }
+
+    /// Desired heading φ_d, the integral of the yaw rate, rad.
+    #[inline]
+    pub fn yaw(&self, t: T) -> T {
+        self.yaw_rate
+            * (ramp_area(t - self.entry_at, self.blend) - ramp_area(t - self.exit_at, self.blend))
+    }
+}
+
+/// 0 before zero, 1 after `duration`, linear between.
+#[inline]
+fn ramp<T: Scalar>(t: T, duration: T) -> T {
+    (t / duration).max(T::zero()).min(T::one())
+}
+
+/// Area under [`ramp`] up to `t`.
+#[inline]
+fn ramp_area<T: Scalar>(t: T, duration: T) -> T {
+    let half = real::<T>(0.5);
+    if t <= T::zero() {
+        T::zero()
+    } else if t < duration {
+        half * t * t / duration
+    } else {
+        t - half * duration
+    }
+}
+
+/// The desired pose and velocity, Eq. 6 and 7 of the paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference<T> {
+    /// Desired position, m.
+    pub x: T,
+    /// Desired position, m.
+    pub y: T,
+    /// Desired heading, rad, not wrapped.
+    pub yaw: T,
+    /// Desired speed, m/s.
+    pub speed: T,
+    /// Desired yaw rate, rad/s.
+    pub yaw_rate: T,
+}
+
+/// A point that moves along the path in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathReference<T> {
+    path: LoopPath<T>,
+    time: T,
+    x: T,
+    y: T,
+}
+
+impl<T: Scalar> PathReference<T> {
+    /// A reference at the start of the path, in the origin with heading zero.
+    pub fn new(path: LoopPath<T>) -> Self {
+        Self {
+            path,
+            time: T::zero(),
+            x: T::zero(),
+            y: T::zero(),
+        }
+    }
+
+    /// The path.
+    pub fn path(&self) -> &LoopPath<T> {
+        &self.path
+    }
+
+    /// Where the reference is now.
+    #[inline]
+    pub fn now(&self) -> Reference<T> {
+        let (path, t) = (&self.path, self.time);
+        Reference {
+            x: self.x,
+            y: self.y,
+            yaw: path.yaw(t),
+            speed: path.speed(t),
+            yaw_rate: path.yaw_rate(t),
+        }
+    }
+
+    /// Moves on by `h` seconds; the position is integrated by Simpson's rule from the closed-form heading and speed.
+    #[inline]
+    pub fn advance(&mut self, h: T) {
+        let velocity = |t: T| {
+            let (sin, cos) = self.path.yaw(t).sin_cos();
+            let v = self.path.speed(t);
+            [v * cos, v * sin]
+        };
+        let (a, b, c) = (
+            velocity(self.time),
+            velocity(self.time + real::<T>(0.5) * h),
+            velocity(self.time + h),
+        );
+        let (four, sixth) = (real::<T>(4.0), h / real::<T>(6.0));
+        self.x += sixth * (a[0] + four * b[0] + c[0]);
+        self.y += sixth * (a[1] + four * b[1] + c[1]);
+        self.time += h;
+    }
+}

@@ -1,0 +1,106 @@
+//! From fits to probabilities.
+
+use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::hypothesis::Place;
+use crate::search::{Found, Trial};
+
+/// Penalties in nats: per effect, per shape number beyond the first strength, for choosing a disc, an onset, a second
+/// effect; and the preference for "nothing is missing".
+const PER_EFFECT: f64 = 6.0;
+const PER_SHAPE: f64 = 1.0;
+const DISC: f64 = 10.0;
+const ONSET: f64 = 9.0;
+const SECOND: f64 = 10.0;
+const NONE: f64 = 12.0;
+/// Width of the smallest-size-of-interest penalty in ln(size).
+const SIZE_WIDTH: f64 = 0.35;
+/// Temperature that turns scores into probabilities.
+const TEMPERATURE: f64 = 4.0;
+/// Logistic of "worse than healthy" and of "most of the mismatch is left" for "unknown".
+const UNKNOWN_RATIO: [f64; 2] = [6.0, 0.35];
+const UNKNOWN_LEFT: [f64; 2] = [12.0, 0.5];
+/// Mismatch below which "left" is not a share of anything, nats.
+const LEAST_MISMATCH: f64 = 60.0;
+
+/// A hypothesis with its score and probability.
+#[derive(Clone)]
+pub(crate) struct Scored {
+    pub(crate) trial: Trial,
+    pub(crate) score: f64,
+    pub(crate) probability: f64,
+}
+
+/// The decision.
+pub(crate) struct Decision {
+    pub(crate) scored: Vec<Scored>,
+    pub(crate) none: f64,
+    pub(crate) unknown: f64,
+    /// How far the best is above the healthy misfit, ln.
+    pub(crate) excess: f64,
+    /// Share of the mismatch that the best leaves.
+    pub(crate) left: f64,
+}
+
+/// Penalty of a hypothesis.
+fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
+    let mut at = 0;
+    let mut sum = 0.0;
+    for (i, (v, onsets)) in h.parts.iter().enumerate() {
+        let n = v.free(1.0).len();
+        let e = &effects[at..at + n];
+        at += n;
+        let disc = if v.place == Place::Disc { 3 } else { 0 };
+        sum += PER_EFFECT + PER_SHAPE * (n - disc - 1) as f64;
+        sum += if v.place == Place::Disc { DISC } else { 0.0 };
+        sum += if onsets.iter().any(Option::is_some) { ONSET } else { 0.0 };
+        sum += if i > 0 { SECOND } else { 0.0 };
+        let interest = v.card().interest;
+        if interest > 0.0 {
+            let short = (interest / v.magnitude(e).abs().max(1e-12)).ln().max(0.0) / SIZE_WIDTH;
+            sum += 0.5 * short * short;
+        }
+    }
+    sum
+}
+
+/// Cost that a healthy drive of these segments would have.
+pub(crate) fn healthy_cost(problem: &Problem<'_>) -> f64 {
+    let mut f = 0.0;
+    for (r, cut) in problem.cuts.iter().enumerate() {
+        for (s, segment) in cut.segments.iter().enumerate() {
+            f += problem.segment_cost(r, s, segment.count * problem.regime[r][s]);
+        }
+    }
+    f
+}
+
+fn logistic(x: f64) -> f64 {
+    1.0 / (1.0 + (-x).exp())
+}
+
+/// Weighs all hypotheses.
+pub(crate) fn decide(problem: &Problem<'_>, found: &Found) -> Decision {
+    let base: &Fitted = &found.retuned;
+    let mut scored: Vec<Scored> = found
+        .singles
+        .iter()
+        .chain(&found.pairs)
+        .map(|t| {
+            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, &t.fitted.point.effects);
+            Scored { trial: t.clone(), score, probability: 0.0 }
+        })
+        .collect();
+    scored.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let top = scored.first().map_or(NONE, |s| s.score.max(NONE));
+    let weight = |s: f64| ((s - top) / TEMPERATURE).exp();
+    let sum = weight(NONE) + scored.iter().map(|s| weight(s.score)).sum::<f64>();
+    let healthy = healthy_cost(problem);
+    let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
+    let excess = (best / healthy.max(1e-9)).ln();
+    let left = (best - healthy) / (base.cost - healthy).max(LEAST_MISMATCH);
+    let unknown = logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
+    for s in &mut scored {
+        s.probability = (1.0 - unknown) * weight(s.score) / sum;
+    }
+    Decision { scored, none: (1.0 - unknown) * weight(NONE) / sum, unknown, excess, left }
+}

@@ -1,0 +1,422 @@
+//! The whole way of a torque-driven case, from recordings to a verdict.
+
+use std::collections::BTreeMap;
+
+use faer::Mat;
+use robot_model::Kind;
+use robot_model::tunable::{COUNT as NUISANCES, tunables};
+
+use crate::calibrate::{Calibration, calibrate};
+use crate::case::Case;
+use crate::decide::{Decision, Scored, decide, healthy_cost};
+use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem, tuned};
+use crate::hypothesis::{Place, Variant};
+use crate::linalg::solve_spd;
+use crate::locate;
+use crate::predict::predict;
+use crate::redundancy::{Redundant, check};
+use crate::run::Run;
+use crate::search::search;
+use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
+use crate::windows::{Cut, CutOptions, GyroError, cut};
+use crate::words;
+use crate::{DiagnosisError, Options};
+
+/// Version of the diagnosis' JSON.
+pub(crate) const FORMAT: u32 = 1;
+/// Probability above which a sensor fault is taken to be there, when a redundancy shows it.
+const SURE: f64 = 0.99;
+/// Causes below this probability are not listed.
+const LISTED: f64 = 1e-4;
+/// A rival this likely, relative to the best, cannot be told from it.
+const RIVAL: f64 = 0.1;
+
+/// Diagnoses a torque-driven case. `progress` is told the stage that begins.
+///
+/// # Errors
+/// When there is nothing to compare with, or the recordings do not determine the model.
+pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+    if case.references.is_empty() {
+        return Err(DiagnosisError::Empty { what: "reference" });
+    }
+    if case.recordings.is_empty() {
+        return Err(DiagnosisError::Empty { what: "recording" });
+    }
+    let robot = case.robot.checked()?;
+    progress("checking the sensors against each other");
+    let sensors = check(&case.recordings);
+    let reference_sensors = check(&case.references);
+    let cutting = |gyro: GyroError| CutOptions {
+        segment: options.segment,
+        pose_sigma: case.pose_sigma,
+        gyro,
+        wheel_radius: robot.wheel_radius,
+        half_base: [robot.half_wheelbase, robot.half_track],
+    };
+    let cut_all = |runs: &[Run], gyro: GyroError| -> Vec<Cut> { runs.iter().map(|r| cut(r, &cutting(gyro))).collect() };
+    let references = cut_all(&case.references, reference_sensors.gyro);
+    let recordings = cut_all(&case.recordings, sensors.gyro);
+    for c in references.iter().chain(&recordings) {
+        if c.segments.is_empty() {
+            let rows = c.torque.len();
+            let needed = (2.0 * options.segment / c.period) as usize;
+            return Err(DiagnosisError::TooShort { recording: c.name.clone(), rows, needed });
+        }
+    }
+    let largest = case.recordings.iter().chain(&case.references).flat_map(|r| &r.torque).flatten().fold(0.0_f64, |a, t| a.max(t.abs()));
+    progress("calibrating on the references");
+    let calibration = calibrate(&robot, &case.sigma, &references, largest, options)?;
+    let problem = problem(&robot, case, &recordings, &calibration, largest, options);
+    let found = search(&problem, progress);
+    let decision = decide(&problem, &found);
+    progress("comparing on data that was not fitted");
+    let answer = Answer { case, options, problem: &problem, calibration: &calibration, sensors: &sensors, decision: &decision };
+    Ok(answer.diagnosis(&found.retuned, found.screened.clone()))
+}
+
+fn problem<'a>(
+    robot: &'a robot_model::Robot<f64>,
+    case: &Case,
+    cuts: &'a [Cut],
+    calibration: &Calibration,
+    largest_torque: f64,
+    options: &Options,
+) -> Problem<'a> {
+    Problem {
+        robot,
+        sigma: case.sigma,
+        cuts,
+        variance: calibration.variance,
+        regime: calibration.regimes.of(cuts),
+        information: calibration.information.clone(),
+        centre: calibration.theta,
+        spread: calibration.spread,
+        temper: options.temper,
+        kappa: options.kappa,
+        step: options.step,
+        largest_torque,
+    }
+}
+
+/// All that an answer is made of.
+struct Answer<'a> {
+    case: &'a Case,
+    options: &'a Options,
+    problem: &'a Problem<'a>,
+    calibration: &'a Calibration,
+    sensors: &'a Redundant,
+    decision: &'a Decision,
+}
+
+impl Answer<'_> {
+    fn verdict(&self) -> Verdict {
+        let d = self.decision;
+        let best = d.scored.first().map_or(0.0, |s| s.probability);
+        if d.unknown > 0.5 {
+            Verdict::Unknown
+        } else if !self.sensors.faults.is_empty() || d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none && best > 0.0 {
+            Verdict::Explained
+        } else {
+            Verdict::NoMismatch
+        }
+    }
+
+    /// The hypothesis the robot is corrected with; `None` when nothing in the motion is to be corrected.
+    fn winner(&self) -> Option<&Scored> {
+        let d = self.decision;
+        let best = d.scored.first()?;
+        // Also under "unknown" the best effect still makes a better simulator than none.
+        (d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none).then_some(best)
+    }
+
+    fn causes(&self) -> Vec<Cause> {
+        let mut by_effect: BTreeMap<&str, (f64, &Scored, usize)> = BTreeMap::new();
+        for s in &self.decision.scored {
+            for (i, (v, _)) in s.trial.hypothesis.parts.iter().enumerate() {
+                let slot = by_effect.entry(v.card().id).or_insert((0.0, s, i));
+                slot.0 += s.probability;
+            }
+        }
+        let mut out: Vec<Cause> = by_effect.into_values().map(|(p, s, i)| self.cause(s, i, p)).collect();
+        let fault = !self.sensors.faults.is_empty();
+        for f in &self.sensors.faults {
+            out.push(Cause {
+                effect: f.card.id.to_owned(),
+                name: words::named(f.card.name, f.side),
+                probability: SURE,
+                magnitude: Some(f.magnitude),
+                sigma: Some(f.sigma),
+                unit: words::unit(f.card),
+                parameters: BTreeMap::from([(f.card.parameters[0].name.to_owned(), f.magnitude)]),
+                side: f.side.map(words::side),
+                place: None,
+                intervals: None,
+            });
+        }
+        let plain = |effect: &str, name: &str, probability: f64| Cause {
+            effect: effect.to_owned(),
+            name: name.to_owned(),
+            probability,
+            magnitude: None,
+            sigma: None,
+            unit: "-",
+            parameters: BTreeMap::new(),
+            side: None,
+            place: None,
+            intervals: None,
+        };
+        let none = if fault { self.decision.none * (1.0 - SURE) } else { self.decision.none };
+        out.push(plain("none", "nothing is missing", none));
+        out.push(plain("unknown", "something that is not in the catalogue", self.decision.unknown));
+        out.retain(|c| c.probability >= LISTED || c.effect == "none" || c.effect == "unknown");
+        out.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(a.effect.cmp(&b.effect)));
+        out
+    }
+
+    fn cause(&self, scored: &Scored, part: usize, probability: f64) -> Cause {
+        let trial = &scored.trial;
+        let (variant, onsets) = &trial.hypothesis.parts[part];
+        let before: usize = trial.hypothesis.parts[..part].iter().map(|(v, _)| v.free(1.0).len()).sum();
+        let free = variant.free(self.problem.largest_torque);
+        let e = &trial.fitted.point.effects[before..before + free.len()];
+        let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
+        let card = variant.card();
+        let strengths = variant.strengths().len();
+        let mut parameters = BTreeMap::new();
+        let mut place = None;
+        for (f, &v) in free.iter().zip(e) {
+            if let Some(i) = f.parameter {
+                parameters.insert(card.parameters[i].name.to_owned(), v);
+            }
+        }
+        if variant.place == Place::Disc {
+            let d = &e[free.len() - 3..];
+            place = Some([d[0], d[1], d[2]]);
+        }
+        let intervals = match variant.place {
+            Place::Disc => place.map(|d| self.inside(d)),
+            Place::Onset => Some(self.after(onsets)),
+            _ => None,
+        };
+        let side = if let Place::Side(s) = variant.place { Some(s) } else { None };
+        let sigma = sigmas.as_ref().map(|s| {
+            let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
+            s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum::<f64>().sqrt()
+        });
+        Cause {
+            effect: card.id.to_owned(),
+            name: words::variant(variant),
+            probability: probability.min(1.0),
+            magnitude: Some(variant.magnitude(e)),
+            sigma,
+            unit: words::unit(card),
+            parameters,
+            side: side.map(words::side),
+            place,
+            intervals,
+        }
+    }
+
+    /// One sigma of every free value of a fit, from the curvature of its cost.
+    fn sigmas(&self, h: &Hypothesis, fitted: &Fitted) -> Option<Vec<f64>> {
+        let p = self.problem;
+        let columns = p.effect_columns(&fitted.point, h, &fitted.response);
+        let mut normal = p.normal(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
+        p.with_prior(&fitted.point, &mut normal);
+        let n = normal.matrix.nrows();
+        for i in NUISANCES..n {
+            normal.matrix[(i, i)] += 1e-6;
+        }
+        let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
+        let free = h.free(p.largest_torque);
+        Some(free.iter().enumerate().map(|(i, f)| inverse[(NUISANCES + i, NUISANCES + i)].max(0.0).sqrt() * f.unit).collect())
+    }
+
+    /// When any wheel was inside the disc, in each recording.
+    fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
+        let robot = self.problem.robot;
+        let (a, b) = (robot.half_wheelbase, robot.half_track);
+        let mut out = BTreeMap::new();
+        for cut in self.problem.cuts {
+            let window = cut.rows_per_window as f64 * cut.period;
+            let mut list: Vec<[f64; 2]> = Vec::new();
+            let fine = 5;
+            for w in 0..cut.path.len().saturating_sub(1) {
+                for i in 0..fine {
+                    let f = (f64::from(i) + 0.5) / f64::from(fine);
+                    let (p, q) = (cut.path[w], cut.path[w + 1]);
+                    let at: [f64; 3] = std::array::from_fn(|k| p[k] * (1.0 - f) + q[k] * f);
+                    let (s, c) = at[2].sin_cos();
+                    let touched = [[a, b], [a, -b], [-a, b], [-a, -b]].iter().any(|[x, y]| {
+                        (at[0] + c * x - s * y - disc[0]).hypot(at[1] + s * x + c * y - disc[1]) < disc[2]
+                    });
+                    if touched {
+                        let from = (w as f64 + f64::from(i) / f64::from(fine)) * window;
+                        let until = from + window / f64::from(fine);
+                        match list.last_mut() {
+                            Some(last) if from - last[1] < 1e-6 => last[1] = until,
+                            _ => list.push([from, until]),
+                        }
+                    }
+                }
+            }
+            out.insert(cut.name.clone(), list);
+        }
+        out
+    }
+
+    fn after(&self, onsets: &[Option<f64>]) -> BTreeMap<String, Vec<[f64; 2]>> {
+        self.problem
+            .cuts
+            .iter()
+            .zip(onsets)
+            .map(|(c, t)| (c.name.clone(), t.map(|t| vec![[t, c.torque.len() as f64 * c.period]]).unwrap_or_default()))
+            .collect()
+    }
+
+    /// Free runs on each recording, fitted on the others only.
+    fn free_runs(&self) -> Vec<FreeRun> {
+        let p = self.problem;
+        if p.cuts.len() < 2 {
+            return Vec::new();
+        }
+        let none = Hypothesis::default();
+        let nominal = Point { theta: [0.0; NUISANCES], ..p.origin() };
+        let as_is = p.response(&nominal, &none);
+        let mut out = Vec::new();
+        for left_out in 0..p.cuts.len() {
+            let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != left_out).map(|r| p.cuts[r].clone()).collect();
+            let others = problem(p.robot, self.case, &cuts, self.calibration, p.largest_torque, self.options);
+            let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
+            let mut point = p.origin();
+            point.theta = retuned.point.theta;
+            let retuned_response = p.response(&point, &none);
+            let corrected_response = self.winner().map(|w| {
+                let mut h = w.trial.hypothesis.clone();
+                for (_, onsets) in &mut h.parts {
+                    if !onsets.is_empty() {
+                        onsets.remove(left_out);
+                    }
+                }
+                let start = Point { effects: w.trial.fitted.point.effects.clone(), ..others.origin() };
+                let fitted = others.refine(&h, others.begin(&h, start, None), 3, None);
+                let mut point = p.origin();
+                point.theta = fitted.point.theta;
+                point.effects = fitted.point.effects;
+                p.response(&point, &w.trial.hypothesis)
+            });
+            let of = |r| locate::rms(p, r, left_out);
+            let (a, b) = (of(&as_is), of(&retuned_response));
+            let c = corrected_response.as_ref().map_or(b, of);
+            for (i, quantity) in ["wheel speed, rad/s", "yaw rate, rad/s"].into_iter().enumerate() {
+                out.push(FreeRun {
+                    recording: p.cuts[left_out].name.clone(),
+                    quantity: quantity.to_owned(),
+                    nominal: a[i],
+                    retuned: b[i],
+                    corrected: c[i],
+                });
+            }
+        }
+        out
+    }
+
+    fn diagnosis(&self, retuned: &Fitted, screened: Vec<(String, f64)>) -> Diagnosis {
+        let p = self.problem;
+        let verdict = self.verdict();
+        let ranked = self.causes();
+        let none = Hypothesis::default();
+        let calibrated = p.response(&p.origin(), &none);
+        let winner = self.winner();
+        let theta = winner.map_or(retuned.point.theta, |w| w.trial.fitted.point.theta);
+        let gyro = self.sensors.gyro;
+        let predictions = self
+            .case
+            .held_out
+            .iter()
+            .map(|h| {
+                // Where an effect began at an instant, it is there throughout what follows.
+                let doses = winner.map_or(Vec::new(), |w| {
+                    let always: Vec<(Variant, Vec<Option<f64>>)> = w
+                        .trial
+                        .hypothesis
+                        .parts
+                        .iter()
+                        .map(|(v, o)| (*v, o.iter().map(|_| Some(-1.0)).collect()))
+                        .collect();
+                    Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0)
+                });
+                let corrected = predict(h, &tuned(p.robot, &p.sigma, &theta), &doses, gyro, self.options.step);
+                let plain = predict(h, &tuned(p.robot, &p.sigma, &p.centre), &[], GyroError::default(), self.options.step);
+                (corrected, plain)
+            })
+            .collect();
+        let healthy = healthy_cost(p);
+        let best = winner.map_or(retuned.cost, |w| w.trial.fitted.cost);
+        let unexplained = (verdict != Verdict::NoMismatch).then(|| {
+            let before = p.misfit(&calibrated) - healthy;
+            ((best - healthy) / before.max(1.0)).clamp(0.0, 1.0)
+        });
+        let indistinguishable = self.rivals(&ranked, verdict);
+        let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
+        let mut out = Diagnosis {
+            format: FORMAT,
+            verdict,
+            sentences: Vec::new(),
+            ranked,
+            indistinguishable,
+            findings: locate::findings(p, &calibrated),
+            cells: locate::cells(p, &calibrated),
+            free_runs: self.free_runs(),
+            unexplained,
+            limits: self.limits(),
+            screened,
+            tuning,
+            steady: None,
+            predictions,
+        };
+        out.sentences = words::sentences(&out);
+        out
+    }
+
+    /// Effects of the same kind of probability as the best: these recordings cannot tell them apart.
+    fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<String> {
+        if verdict != Verdict::Explained {
+            return Vec::new();
+        }
+        // Alternatives to the best hypothesis, not its own second member.
+        let members: Vec<&str> =
+            self.winner().map_or(Vec::new(), |w| w.trial.hypothesis.parts.iter().map(|(v, _)| v.card().id).collect());
+        let best = members.iter().filter_map(|m| ranked.iter().find(|c| c.effect == *m)).map(|c| c.probability).fold(0.0, f64::max);
+        let rivals: Vec<String> = ranked
+            .iter()
+            .filter(|c| c.effect != "none" && c.effect != "unknown" && !members.contains(&c.effect.as_str()))
+            .filter(|c| c.probability > RIVAL * best && c.probability < SURE)
+            .map(|c| c.effect.clone())
+            .collect();
+        if rivals.is_empty() { rivals } else { members.iter().map(|m| (*m).to_owned()).chain(rivals).collect() }
+    }
+
+    fn limits(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        let runs = || self.case.recordings.iter();
+        if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
+            out.push("no pose: slip and places on the ground cannot be told, gyro faults cannot be told from turning".to_owned());
+        }
+        if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
+            out.push("no gyro: turning is only known from the wheels".to_owned());
+        }
+        if runs().all(|r| r.accel[0].iter().all(Option::is_none)) {
+            out.push("no accelerometer: grade and pulls are told apart by the motion only".to_owned());
+        }
+        let held: usize = runs().map(|r| r.held_torques).sum();
+        if held > 0 {
+            out.push(format!("{held} torque samples were missing and took the value before them"));
+        }
+        let sided = self.sensors.faults.iter().any(|f| f.card.kind == Kind::Sensor && f.side.is_some());
+        if sided {
+            out.push("windows beside frozen encoder rows were left out".to_owned());
+        }
+        out
+    }
+}

@@ -1,0 +1,62 @@
+//! Why a diagnosis could not be made.
+
+/// Why a diagnosis could not be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DiagnosisError {
+    /// A recording lacks a signal without which nothing can be said.
+    #[error("recording '{recording}' has no signal {what}; map a column to it")]
+    MissingSignal {
+        /// Name of the recording.
+        recording: String,
+        /// The signal.
+        what: &'static str,
+    },
+    /// A recording is too short.
+    #[error("recording '{recording}' has {rows} rows, but at least {needed} are needed; record longer")]
+    TooShort {
+        /// Name of the recording.
+        recording: String,
+        /// Rows there are.
+        rows: usize,
+        /// Rows needed.
+        needed: usize,
+    },
+    /// A recording has more holes than samples.
+    #[error("recording '{recording}' spans {rows} rows with only {samples} samples; split it at its gaps")]
+    Gaps {
+        /// Name of the recording.
+        recording: String,
+        /// Rows spanned.
+        rows: usize,
+        /// Samples there are.
+        samples: usize,
+    },
+    /// Nothing moves.
+    #[error("the wheels never turn in recording '{recording}'; record a drive")]
+    NoMotion {
+        /// Name of the recording.
+        recording: String,
+    },
+    /// There is nothing to compare with or to diagnose.
+    #[error("the case has no {what}; at least one is needed")]
+    Empty {
+        /// "reference" or "recording".
+        what: &'static str,
+    },
+    /// The data do not determine the model.
+    #[error("the {stage} could not be solved: the recordings do not move enough to determine the model")]
+    Singular {
+        /// Stage of the diagnosis.
+        stage: &'static str,
+    },
+    /// A recording gives no answer to any question.
+    #[error("no recording has enough steady driving to answer: {reason}")]
+    TooCalm {
+        /// What is missing.
+        reason: String,
+    },
+    /// The robot cannot be what its file says.
+    #[error(transparent)]
+    Model(#[from] robot_model::ModelError),
+}

@@ -1,0 +1,447 @@
+//! Gauss–Newton in free run: nuisance parameters, run-to-run deviations and the strengths and shapes of effects.
+
+use faer::Mat;
+use rayon::prelude::*;
+use robot_model::Robot;
+use robot_model::tunable::{COUNT as NUISANCES, tunables};
+
+use crate::hypothesis::{Free, Onsets, Variant};
+use crate::linalg::solve_spd;
+use crate::simulate::{Dose, free_run};
+use crate::windows::{CHANNELS, Cut};
+
+/// Offsets of a run that sensors add: gyro, accelerometer x and y.
+const OFFSETS: usize = 3;
+/// Channel of each offset.
+const OFFSET_CHANNEL: [usize; OFFSETS] = [2, 5, 6];
+/// Constants of the ground and drivetrain that differ a little from run to run: their place among the tunables.
+const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
+/// Relative standard deviation of each of these between runs, before the common factor.
+const DEVIATION: [f64; 5] = [0.004, 0.01, 0.01, 0.01, 0.005];
+/// Standard deviation of the offsets between runs before the common factor: rad/s, m/s², m/s².
+const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
+/// Numbers that a run has to itself.
+pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
+/// Finite step of a nuisance parameter, in its sigma.
+const NUISANCE_STEP: f64 = 0.3;
+
+/// Effects that a fit includes, with the onsets of those that have one.
+#[derive(Clone, Default)]
+pub(crate) struct Hypothesis {
+    pub(crate) parts: Vec<(Variant, Onsets)>,
+}
+
+impl Hypothesis {
+    pub(crate) fn single(variant: Variant, onsets: Onsets) -> Self {
+        Self { parts: vec![(variant, onsets)] }
+    }
+
+    pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
+        self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
+    }
+
+    pub(crate) fn doses(&self, e: &[f64], run: usize) -> Vec<Dose> {
+        let mut at = 0;
+        self.parts
+            .iter()
+            .map(|(v, onsets)| {
+                let n = v.free(1.0).len();
+                let dose = v.dose(&e[at..at + n], onsets.get(run).copied().flatten());
+                at += n;
+                dose
+            })
+            .collect()
+    }
+}
+
+/// Everything a fit compares with and is bound by.
+pub(crate) struct Problem<'a> {
+    pub(crate) robot: &'a Robot<f64>,
+    /// One sigma of each tunable.
+    pub(crate) sigma: [f64; NUISANCES],
+    pub(crate) cuts: &'a [Cut],
+    /// Mean squared residual of each channel on the references.
+    pub(crate) variance: [f64; CHANNELS],
+    /// Expected q/D of each segment's regime.
+    pub(crate) regime: Vec<Vec<f64>>,
+    /// Information about θ: `½ (θ − centre)ᵀ H (θ − centre)`.
+    pub(crate) information: Mat<f64>,
+    pub(crate) centre: [f64; NUISANCES],
+    /// Common factor of the run-to-run deviations.
+    pub(crate) spread: f64,
+    /// Share of the log-likelihood that counts, for correlation within a segment.
+    pub(crate) temper: f64,
+    /// Saturation of outliers.
+    pub(crate) kappa: f64,
+    /// Integration step, s.
+    pub(crate) step: f64,
+    /// Largest torque commanded, N m.
+    pub(crate) largest_torque: f64,
+}
+
+/// Where a fit stands.
+#[derive(Clone)]
+pub(crate) struct Point {
+    pub(crate) theta: [f64; NUISANCES],
+    pub(crate) run: Vec<[f64; PER_RUN]>,
+    pub(crate) effects: Vec<f64>,
+}
+
+/// Predicted windows: run, segment, number.
+pub(crate) type Response = Vec<Vec<Vec<f64>>>;
+
+/// The robot tuned by `theta` (in sigmas).
+pub(crate) fn tuned(robot: &Robot<f64>, sigma: &[f64; NUISANCES], theta: &[f64; NUISANCES]) -> Robot<f64> {
+    let mut r = *robot;
+    for ((t, s), x) in tunables::<f64>().iter().zip(sigma).zip(theta) {
+        (t.apply)(&mut r, s * x);
+    }
+    // A tuning may not leave what a robot can be.
+    r.stribeck = r.stribeck.max(0.0);
+    r
+}
+
+/// Columns of a Jacobian, one response each.
+pub(crate) struct Columns(pub(crate) Vec<Response>);
+
+/// Normal equations reduced to θ and the effects, with what back-substitution needs.
+pub(crate) struct Normal {
+    pub(crate) matrix: Mat<f64>,
+    pub(crate) gradient: Mat<f64>,
+    /// Per run: solution of the eliminated block for each kept column and the gradient.
+    eliminated: Vec<Mat<f64>>,
+    /// Log-determinant of the eliminated blocks.
+    pub(crate) log_determinant: f64,
+    /// Fall of the quadratic cost by the eliminated numbers alone.
+    pub(crate) gain: f64,
+}
+
+/// Normal equations of one run.
+struct RunNormal {
+    matrix: Mat<f64>,
+    gradient: Mat<f64>,
+    solved: Mat<f64>,
+    log_determinant: f64,
+    gain: f64,
+}
+
+impl Problem<'_> {
+    pub(crate) fn origin(&self) -> Point {
+        Point { theta: self.centre, run: vec![[0.0; PER_RUN]; self.cuts.len()], effects: Vec::new() }
+    }
+
+    /// Standard deviation of a run's own numbers, in sigmas of θ or in units of the channel.
+    fn run_scale(&self, i: usize) -> f64 {
+        if i < DEVIATING.len() {
+            DEVIATION[i] * self.spread / self.sigma[DEVIATING[i]]
+        } else {
+            OFFSET_SIGMA[i - DEVIATING.len()]
+        }
+    }
+
+    fn robot_of(&self, point: &Point, run: usize) -> Robot<f64> {
+        let mut theta = point.theta;
+        for (i, &k) in DEVIATING.iter().enumerate() {
+            theta[k] += point.run[run][i] * self.run_scale(i);
+        }
+        tuned(self.robot, &self.sigma, &theta)
+    }
+
+    fn run_response(&self, point: &Point, doses: &[Dose], run: usize, part: Option<usize>) -> Vec<Vec<f64>> {
+        let mut y = free_run(&self.cuts[run], &self.robot_of(point, run), doses, part, self.step);
+        for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
+            let offset = point.run[run][DEVIATING.len() + o] * OFFSET_SIGMA[o];
+            for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
+                *v += offset;
+            }
+        }
+        y
+    }
+
+    /// Response at several points and doses at once; work is shared over (lane, run).
+    pub(crate) fn lanes(&self, lanes: &[Lane<'_>]) -> Vec<Response> {
+        let runs = self.cuts.len();
+        let flat: Vec<Vec<Vec<f64>>> = (0..lanes.len() * runs)
+            .into_par_iter()
+            .map(|i| {
+                let (lane, run) = (&lanes[i / runs], i % runs);
+                let doses = (lane.doses)(run);
+                self.run_response(&lane.point, &doses, run, lane.part)
+            })
+            .collect();
+        let mut flat = flat.into_iter();
+        (0..lanes.len()).map(|_| flat.by_ref().take(runs).collect()).collect()
+    }
+
+    pub(crate) fn response(&self, point: &Point, h: &Hypothesis) -> Response {
+        self.lanes(&[Lane { point: point.clone(), doses: &|run| h.doses(&point.effects, run), part: None }]).remove(0)
+    }
+
+    /// Response and columns of θ by finite steps of 0.3 sigma.
+    pub(crate) fn nuisance_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
+        let doses = |run: usize| h.doses(&point.effects, run);
+        let lanes: Vec<Lane<'_>> = (0..NUISANCES)
+            .map(|k| {
+                let mut p = point.clone();
+                p.theta[k] += NUISANCE_STEP;
+                Lane { point: p, doses: &doses, part: None }
+            })
+            .collect();
+        let out = self.lanes(&lanes);
+        Columns(out.into_iter().map(|y| difference(&y, base, 1.0 / NUISANCE_STEP)).collect())
+    }
+
+    /// Columns of the effects' free values, per unit, by finite steps.
+    pub(crate) fn effect_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
+        let free = h.free(self.largest_torque);
+        let shifted: Vec<(Point, f64)> = free
+            .iter()
+            .enumerate()
+            .map(|(i, f)| {
+                let mut p = point.clone();
+                let size = (0.1 * f.unit).max(0.02 * p.effects[i].abs());
+                // Step towards the inside of the bounds.
+                let d = if p.effects[i] + size > f.bounds[1] { -size } else { size };
+                p.effects[i] += d;
+                (p, d)
+            })
+            .collect();
+        let doses: Vec<_> = shifted.iter().map(|(p, _)| move |run: usize| h.doses(&p.effects, run)).collect();
+        let lanes: Vec<Lane<'_>> =
+            shifted.iter().zip(&doses).map(|((p, _), d)| Lane { point: p.clone(), doses: d, part: None }).collect();
+        let out = self.lanes(&lanes);
+        Columns(out.iter().zip(&shifted).zip(&free).map(|((y, (_, d)), f)| difference(y, base, f.unit / d)).collect())
+    }
+
+    /// Weighted square of a segment's residual, `Σ r²/R`.
+    pub(crate) fn q(&self, run: usize, segment: usize, response: &Response) -> f64 {
+        let s = &self.cuts[run].segments[segment];
+        let mut q = 0.0;
+        for (i, ((o, p), &valid)) in s.observed.iter().zip(&response[run][segment]).zip(&s.valid).enumerate() {
+            if valid {
+                q += (o - p).powi(2) / self.variance[i % CHANNELS];
+            }
+        }
+        q
+    }
+
+    /// Tempered, saturated cost of a segment, nats.
+    pub(crate) fn segment_cost(&self, run: usize, segment: usize, q: f64) -> f64 {
+        let d = self.cuts[run].segments[segment].count;
+        if d == 0.0 {
+            return 0.0;
+        }
+        let c = self.regime[run][segment];
+        0.5 * self.temper * d * self.kappa * (q / (self.kappa * d * c)).ln_1p()
+    }
+
+    /// Cost of a response, without priors.
+    pub(crate) fn misfit(&self, response: &Response) -> f64 {
+        let mut f = 0.0;
+        for (r, cut) in self.cuts.iter().enumerate() {
+            for s in 0..cut.segments.len() {
+                f += self.segment_cost(r, s, self.q(r, s, response));
+            }
+        }
+        if f.is_finite() { f } else { f64::MAX }
+    }
+
+    fn prior(&self, point: &Point) -> f64 {
+        let d: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
+        let mut f = 0.0;
+        for i in 0..NUISANCES {
+            for j in 0..NUISANCES {
+                f += 0.5 * d[i] * self.information[(i, j)] * d[j];
+            }
+        }
+        f + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
+    }
+
+    pub(crate) fn cost(&self, point: &Point, response: &Response) -> f64 {
+        self.misfit(response) + self.prior(point)
+    }
+
+    fn weight(&self, run: usize, segment: usize, q: f64) -> f64 {
+        let d = self.cuts[run].segments[segment].count.max(1.0);
+        let c = self.regime[run][segment];
+        self.temper / (c * (1.0 + q / (self.kappa * d * c)))
+    }
+
+    /// Normal equations of θ, then `effects`, at `base`, with every run's own numbers eliminated.
+    pub(crate) fn normal(&self, point: &Point, base: &Response, theta: &Columns, effects: &Columns) -> Option<Normal> {
+        let parts: Vec<RunNormal> = (0..self.cuts.len())
+            .into_par_iter()
+            .map(|r| self.normal_of_run(point, base, theta, effects, r))
+            .collect::<Option<Vec<_>>>()?;
+        let n = NUISANCES + effects.0.len();
+        let mut sum = Normal {
+            matrix: Mat::zeros(n, n),
+            gradient: Mat::zeros(n, 1),
+            eliminated: Vec::with_capacity(parts.len()),
+            log_determinant: 0.0,
+            gain: 0.0,
+        };
+        for p in parts {
+            sum.matrix += &p.matrix;
+            sum.gradient += &p.gradient;
+            sum.eliminated.push(p.solved);
+            sum.log_determinant += p.log_determinant;
+            sum.gain += p.gain;
+        }
+        Some(sum)
+    }
+
+    fn normal_of_run(
+        &self,
+        point: &Point,
+        base: &Response,
+        theta: &Columns,
+        effects: &Columns,
+        r: usize,
+    ) -> Option<RunNormal> {
+        let columns: Vec<&Response> = theta.0.iter().chain(&effects.0).collect();
+        let (n, all) = (columns.len(), columns.len() + OFFSETS + 1);
+        // Gram of [θ, effects, offsets, residual], weighted.
+        let mut gram = Mat::<f64>::zeros(all, all);
+        let root = self.variance.map(|v| 1.0 / v.sqrt());
+        for (s, segment) in self.cuts[r].segments.iter().enumerate() {
+            let weight = self.weight(r, s, self.q(r, s, base)).sqrt();
+            let rows: Vec<usize> = (0..segment.observed.len()).filter(|&i| segment.valid[i]).collect();
+            let a = Mat::from_fn(rows.len(), all, |i, c| {
+                let k = rows[i];
+                let channel = k % CHANNELS;
+                let v = if c < n {
+                    columns[c][r][s][k]
+                } else if c < n + OFFSETS {
+                    if OFFSET_CHANNEL[c - n] == channel { OFFSET_SIGMA[c - n] } else { 0.0 }
+                } else {
+                    segment.observed[k] - base[r][s][k]
+                };
+                v * root[channel] * weight
+            });
+            gram += a.transpose() * &a;
+        }
+        // A run's own numbers: deviations move like θ, scaled; offsets are columns of their own.
+        let expand = |u: usize| if u < DEVIATING.len() { (DEVIATING[u], self.run_scale(u)) } else { (n + u - DEVIATING.len(), 1.0) };
+        let residual = all - 1;
+        let own = Mat::from_fn(PER_RUN, PER_RUN, |i, j| {
+            let ((a, x), (b, y)) = (expand(i), expand(j));
+            gram[(a, b)] * x * y + if i == j { 1.0 } else { 0.0 }
+        });
+        let right = Mat::from_fn(PER_RUN, n + 1, |i, j| {
+            let (a, x) = expand(i);
+            if j < n { gram[(a, j)] * x } else { gram[(a, residual)] * x - point.run[r][i] }
+        });
+        let (solved, log_determinant) = solve_spd(&own, &right)?;
+        let cross = right.subcols(0, n);
+        let reduced = gram.submatrix(0, 0, n, n) - cross.transpose() * solved.subcols(0, n);
+        let gradient = gram.submatrix(0, residual, n, 1) - cross.transpose() * solved.subcols(n, 1);
+        let gain = (0..PER_RUN).map(|i| 0.5 * right[(i, n)] * solved[(i, n)]).sum();
+        Some(RunNormal { matrix: reduced, gradient, solved, log_determinant, gain })
+    }
+
+    /// Adds the prior of θ to normal equations.
+    pub(crate) fn with_prior(&self, point: &Point, normal: &mut Normal) {
+        for i in 0..NUISANCES {
+            let mut g = 0.0;
+            for j in 0..NUISANCES {
+                normal.matrix[(i, j)] += self.information[(i, j)];
+                g += self.information[(i, j)] * (point.theta[j] - self.centre[j]);
+            }
+            normal.gradient[(i, 0)] -= g;
+        }
+    }
+
+    /// Gauss–Newton from `start`: at most `steps`, each halved up to four times until the cost falls.
+    ///
+    /// The columns of θ are those given; they are renewed before step `renew` if that is reached.
+    pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
+        let mut at = start;
+        let free = h.free(self.largest_torque);
+        for step in 0..steps {
+            if renew == Some(step) {
+                at.columns = std::sync::Arc::new(self.nuisance_columns(&at.point, h, &at.response));
+            }
+            let effects = self.effect_columns(&at.point, h, &at.response);
+            let Some(mut normal) = self.normal(&at.point, &at.response, &at.columns, &effects) else { break };
+            self.with_prior(&at.point, &mut normal);
+            let n = normal.matrix.nrows();
+            for i in NUISANCES..n {
+                // A whiff of a prior on strengths keeps what the data do not determine where it is.
+                normal.matrix[(i, i)] += 1e-3;
+            }
+            let Some((delta, _)) = solve_spd(&normal.matrix, &normal.gradient) else { break };
+            let predicted: f64 = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
+            let mut share = 1.0;
+            let mut moved = false;
+            for _ in 0..5 {
+                let point = Self::advanced(&at.point, &delta, &normal, &free, share);
+                let response = self.response(&point, h);
+                let cost = self.cost(&point, &response);
+                if cost < at.cost {
+                    let gain = at.cost - cost;
+                    at = Fitted { point, response, cost, columns: at.columns.clone() };
+                    moved = gain > 0.05;
+                    break;
+                }
+                share *= 0.5;
+            }
+            if !moved || predicted < 0.05 {
+                break;
+            }
+        }
+        at
+    }
+
+    fn advanced(point: &Point, delta: &Mat<f64>, normal: &Normal, free: &[Free], share: f64) -> Point {
+        let mut p = point.clone();
+        for (k, t) in p.theta.iter_mut().enumerate() {
+            *t = (*t + share * delta[(k, 0)]).clamp(-6.0, 6.0);
+        }
+        for (i, f) in free.iter().enumerate() {
+            // At most two units at once: a linear column says nothing beyond.
+            let d = (share * delta[(NUISANCES + i, 0)]).clamp(-2.0, 2.0) * f.unit;
+            p.effects[i] = (p.effects[i] + d).clamp(f.bounds[0], f.bounds[1]);
+        }
+        let n = delta.nrows();
+        for (u, solved) in p.run.iter_mut().zip(&normal.eliminated) {
+            for (i, u) in u.iter_mut().enumerate() {
+                let back: f64 = (0..n).map(|j| solved[(i, j)] * delta[(j, 0)]).sum();
+                *u += share * (solved[(i, n)] - back);
+            }
+        }
+        p
+    }
+
+    /// A fit's first point with its response and columns.
+    pub(crate) fn begin(&self, h: &Hypothesis, point: Point, columns: Option<std::sync::Arc<Columns>>) -> Fitted {
+        let response = self.response(&point, h);
+        let cost = self.cost(&point, &response);
+        let columns = columns.unwrap_or_else(|| std::sync::Arc::new(self.nuisance_columns(&point, h, &response)));
+        Fitted { point, response, cost, columns }
+    }
+}
+
+/// One lane of a simulation: a point, doses for each run, and optionally only one part of each segment.
+pub(crate) struct Lane<'a> {
+    pub(crate) point: Point,
+    pub(crate) doses: &'a (dyn Fn(usize) -> Vec<Dose> + Sync),
+    pub(crate) part: Option<usize>,
+}
+
+/// Where a fit has come to.
+#[derive(Clone)]
+pub(crate) struct Fitted {
+    pub(crate) point: Point,
+    pub(crate) response: Response,
+    pub(crate) cost: f64,
+    pub(crate) columns: std::sync::Arc<Columns>,
+}
+
+/// `(y − base)·factor`, number by number.
+pub(crate) fn difference(y: &Response, base: &Response, factor: f64) -> Response {
+    y.iter()
+        .zip(base)
+        .map(|(y, b)| y.iter().zip(b).map(|(y, b)| y.iter().zip(b).map(|(y, b)| (y - b) * factor).collect()).collect())
+        .collect()
+}

@@ -1,0 +1,151 @@
+//! What may be missing: every way in which an effect of the catalogue can be present.
+
+use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
+use robot_model::presence::{Disc, Presence};
+use robot_model::{Card, Effect, effects};
+
+use crate::simulate::Dose;
+
+/// Where an effect is present.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    Whole,
+    Side(usize),
+    Disc,
+    Onset,
+}
+
+/// One effect in one of its forms.
+#[derive(Clone, Copy)]
+pub(crate) struct Variant {
+    pub(crate) effect: &'static dyn Effect<f64>,
+    pub(crate) axis: Option<usize>,
+    pub(crate) place: Place,
+}
+
+/// A number that a fit may change.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Free {
+    /// Index in the card's parameters; `None` for the disc's x, y and radius.
+    pub(crate) parameter: Option<usize>,
+    /// Size of one unit of it: a medium strength, a usual shape, 0.3 m.
+    pub(crate) unit: f64,
+    pub(crate) bounds: [f64; 2],
+    /// Value at which a fit starts when nothing better is known.
+    pub(crate) usual: f64,
+}
+
+/// Onsets of a hypothesis in each run, s; `None` where it does not set in.
+pub(crate) type Onsets = Vec<Option<f64>>;
+
+impl Variant {
+    pub(crate) fn card(&self) -> &'static Card {
+        self.effect.card()
+    }
+
+    /// Name for people and files: effect, side, axis, place.
+    pub(crate) fn label(&self) -> String {
+        let mut out = self.card().id.to_owned();
+        if let Some(a) = self.axis {
+            out += &format!(" ({})", self.card().axes[a]);
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => out += [" (left)", " (right)"][s.min(1)],
+            Place::Disc => out += " (place)",
+            Place::Onset => out += " (from an instant)",
+        }
+        out
+    }
+
+    /// Whether the sign of its single strength is known.
+    pub(crate) fn one_signed(&self) -> bool {
+        !self.card().signed && self.strengths().len() == 1
+    }
+
+    /// Indices of the strengths that are free here.
+    pub(crate) fn strengths(&self) -> Vec<usize> {
+        let all: Vec<usize> = self.card().strengths().collect();
+        self.axis.map_or(all.clone(), |a| vec![all[a]])
+    }
+
+    /// Everything a fit may change, strengths first, then shapes, then the disc.
+    pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
+        let card = self.card();
+        let mut out = Vec::new();
+        for role in [false, true] {
+            for (i, p) in card.parameters.iter().enumerate() {
+                if (p.role == Role::Shape) != role || (!role && !self.strengths().contains(&i)) {
+                    continue;
+                }
+                let scale = if p.scale == Scale::LargestTorque { largest_torque } else { 1.0 };
+                let probe = p.probes[p.probes.len() / 2] * scale;
+                out.push(Free { parameter: Some(i), unit: probe.abs(), bounds: p.bounds, usual: probe });
+            }
+        }
+        if self.place == Place::Disc {
+            let far = 1e3;
+            for (unit, bounds) in [(0.3, [-far, far]), (0.3, [-far, far]), (0.3, [0.3, 6.0])] {
+                out.push(Free { parameter: None, unit, bounds, usual: 1.2 });
+            }
+        }
+        out
+    }
+
+    /// The doses of run `run` at the free values `e`.
+    pub(crate) fn dose(&self, e: &[f64], onset: Option<f64>) -> Dose {
+        let card = self.card();
+        let mut values: Vec<f64> = card.parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+        let mut presence = Presence::default();
+        let mut disc = Vec::new();
+        // Bounds and scale do not matter here, only the order.
+        for (f, &v) in self.free(1.0).iter().zip(e) {
+            match f.parameter {
+                Some(i) => values[i] = v,
+                None => disc.push(v),
+            }
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => presence.side = Some(s),
+            Place::Disc => presence.disc = Some(Disc { centre: [disc[0], disc[1]], radius: disc[2] }),
+            Place::Onset => presence.from = onset.unwrap_or(f64::MAX),
+        }
+        Dose { effect: self.effect, values, presence }
+    }
+
+    /// Size of the effect in the unit of its card: the norm of its strengths, or the one that is free with its sign.
+    pub(crate) fn magnitude(&self, e: &[f64]) -> f64 {
+        match self.strengths().len() {
+            1 => e[0],
+            n => e[..n].iter().map(|x| x * x).sum::<f64>().sqrt(),
+        }
+    }
+}
+
+/// All forms of all effects that show in the motion, in the order of the catalogue.
+pub(crate) fn variants() -> Vec<Variant> {
+    let mut out = Vec::new();
+    for effect in effects::catalogue::<f64>() {
+        let card = effect.card();
+        if card.redundancy != Redundancy::None {
+            continue;
+        }
+        let axes: Vec<Option<usize>> = if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
+        for axis in axes {
+            let wears = card.wears;
+            if wears.side {
+                out.extend((0..2).map(|s| Variant { effect, axis, place: Place::Side(s) }));
+            } else if wears.everywhere {
+                out.push(Variant { effect, axis, place: Place::Whole });
+            }
+            if wears.onset {
+                out.push(Variant { effect, axis, place: Place::Onset });
+            }
+            if wears.disc {
+                out.push(Variant { effect, axis, place: Place::Disc });
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,38 @@
+//! Says which physics a simulation left out.
+//!
+//! The way of a torque-driven case: cut recordings into windows and segments ([`run`], `windows`), find sensor faults
+//! by `redundancy`, `calibrate` the model on the references, run every effect as a column of one linearised free run
+//! (`screen`), refit the finalists and pairs in free run (`search`), and `decide`.
+//! A speed-driven case compares [`steady`] loads instead.
+//!
+//! Pure functions: no files, no clock, no output. Effects are known by their cards only.
+
+mod calibrate;
+pub mod case;
+mod decide;
+mod diagnose;
+mod error;
+mod fit;
+mod hypothesis;
+mod linalg;
+mod locate;
+mod options;
+mod predict;
+mod redundancy;
+pub mod run;
+mod screen;
+mod search;
+mod simulate;
+mod smooth;
+pub mod steady;
+mod verdict;
+mod windows;
+mod words;
+
+pub use case::{Case, HeldOut};
+pub use diagnose::diagnose;
+pub use error::DiagnosisError;
+pub use options::Options;
+pub use predict::Prediction;
+pub use run::Run;
+pub use verdict::{Cause, Cell, Diagnosis, Finding, FreeRun, Verdict};

@@ -1,0 +1,20 @@
+//! Settings of a diagnosis, each with its source.
+
+/// Settings of a diagnosis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Integration step, s. At 1 ms the plant's error is a quarter of the healthy residual.
+    pub step: f64,
+    /// Length of a segment over which the model runs free, s.
+    pub segment: f64,
+    /// Share of the log-likelihood that counts: a segment's numbers are correlated, about one in seven is new.
+    pub temper: f64,
+    /// Saturation of outliers, in expected misfits of a segment.
+    pub kappa: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { step: 1e-3, segment: 2.0, temper: 0.15, kappa: 3.0 }
+    }
+}

@@ -1,0 +1,61 @@
+//! Predicting drives from their inputs alone.
+
+use robot_model::{Active, Plant, Robot, State};
+
+use crate::case::HeldOut;
+use crate::simulate::{Dose, command};
+use crate::windows::GyroError;
+
+/// The predicted response of a held-out drive, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Name of the drive.
+    pub name: String,
+    /// Time, s.
+    pub time: Vec<f64>,
+    /// Wheel speed of each side, rad/s.
+    pub wheel_speed: Vec<[f64; 2]>,
+    /// Yaw rate as the gyro would show it, rad/s.
+    pub yaw_rate: Vec<f64>,
+}
+
+/// Runs the plant freely from restart to restart.
+pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: GyroError, step: f64) -> Prediction {
+    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+    let substeps = (held.period / step).round().max(1.0) as usize;
+    let h = held.period / substeps as f64;
+    let plant = Plant::new(robot, &active, h);
+    let delay = plant.drive().delay;
+    let shown = |yaw_rate: f64| yaw_rate * (1.0 + gyro.scale) + gyro.bias;
+    let mut s = State::default();
+    let mut next = held.restarts.iter().peekable();
+    let mut out = Prediction { name: held.name.clone(), time: Vec::new(), wheel_speed: Vec::new(), yaw_rate: Vec::new() };
+    for k in 0..held.torque.len() {
+        if let Some(r) = next.next_if(|r| r.row == k) {
+            let (sin, cos) = r.pose[2].sin_cos();
+            s = State {
+                time: k as f64 * held.period,
+                position: [r.pose[0], r.pose[1]],
+                heading: [cos, sin],
+                yaw_rate: (r.gyro - gyro.bias) / (1.0 + gyro.scale),
+                wheel_speed: r.wheel_speed,
+                front_speed: r.wheel_speed,
+                wheel_angle: r.wheel_angle,
+                torque: s.torque,
+                lagged: s.lagged,
+                ..State::default()
+            };
+            plant.set_velocity(&mut s, r.velocity);
+        }
+        out.time.push(held.first_time + k as f64 * held.period);
+        out.wheel_speed.push(s.wheel_speed);
+        let mut readings = plant.readings(&s);
+        plant.sense(&mut readings);
+        out.yaw_rate.push(shown(readings.gyro));
+        for i in 0..substeps {
+            let t = k as f64 * held.period + i as f64 * h;
+            plant.step(&mut s, command(&held.torque, held.period, t, h, delay));
+        }
+    }
+    out
+}

@@ -1,0 +1,215 @@
+//! The search: screen, finalists, refits, pairs.
+
+use std::sync::Arc;
+
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::hypothesis::{Place, variants};
+use crate::screen::{Candidate, screen};
+
+/// A hypothesis that was fitted in free run.
+#[derive(Clone)]
+pub(crate) struct Trial {
+    pub(crate) hypothesis: Hypothesis,
+    pub(crate) fitted: Fitted,
+}
+
+/// All that the search found.
+pub(crate) struct Found {
+    pub(crate) retuned: Fitted,
+    pub(crate) singles: Vec<Trial>,
+    pub(crate) pairs: Vec<Trial>,
+    /// Best evidence of the screens per effect id, for the report.
+    pub(crate) screened: Vec<(String, f64)>,
+}
+
+/// Finalists that are refitted.
+const FINALISTS: usize = 6;
+/// Steps of a first refit, and more for those within `CLOSE` nats of the best.
+const STEPS: usize = 4;
+const MORE_STEPS: usize = 6;
+const CLOSE: f64 = 60.0;
+/// Below this gain a finalist starts a second time, from the re-tuned point.
+const SMALL_GAIN: f64 = 30.0;
+/// Partners of a first effect that are tried, and what a partner's evidence must exceed.
+const PARTNERS: usize = 4;
+const PARTNER_EVIDENCE: f64 = 3.0;
+
+/// Distinct ids in the order of evidence, with the best candidate of each.
+fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
+    let mut out: Vec<&Candidate> = Vec::new();
+    for c in candidates {
+        if !out.iter().any(|o| o.variant.card().id == c.variant.card().id) {
+            out.push(c);
+        }
+    }
+    out
+}
+
+/// Finalists: alternately from both rankings until six ids, with a second form of an effect that has one close by.
+fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
+    let (a, b) = (by_id(first), by_id(second));
+    let mut ids: Vec<&'static str> = Vec::new();
+    let mut out: Vec<Candidate> = Vec::new();
+    for i in 0..a.len().max(b.len()) {
+        for list in [&a, &b] {
+            if let Some(c) = list.get(i)
+                && ids.len() < FINALISTS
+                && !ids.contains(&c.variant.card().id)
+            {
+                ids.push(c.variant.card().id);
+                out.push((*c).clone());
+                // Its next best form (other side, axis, place) in the same ranking.
+                let ranking = if std::ptr::eq(list, &raw const a) { first } else { second };
+                let rival = ranking
+                    .iter()
+                    .filter(|o| o.variant.card().id == c.variant.card().id && o.variant.label() != c.variant.label())
+                    .find(|o| o.evidence > c.evidence - CLOSE);
+                out.extend(rival.cloned());
+            }
+        }
+    }
+    out
+}
+
+/// Moves every onset to where the cost is least: half-second steps about the start, then tenths.
+fn scan_onsets(problem: &Problem<'_>, trial: &mut Trial) {
+    for part in 0..trial.hypothesis.parts.len() {
+        if trial.hypothesis.parts[part].0.place != Place::Onset {
+            continue;
+        }
+        for run in 0..problem.cuts.len() {
+            let cut = &problem.cuts[run];
+            let end = cut.torque.len() as f64 * cut.period;
+            for step in [0.5, 0.1] {
+                let Some(now) = trial.hypothesis.parts[part].1[run] else { continue };
+                let mut best = (trial.fitted.cost, now);
+                for k in -4_i32..=4 {
+                    let t = (now + step * f64::from(k)).clamp(0.0, end);
+                    let mut h = trial.hypothesis.clone();
+                    h.parts[part].1[run] = Some(t);
+                    let response = problem.response(&trial.fitted.point, &h);
+                    let cost = problem.cost(&trial.fitted.point, &response);
+                    if cost < best.0 {
+                        best = (cost, t);
+                        trial.fitted.response = response;
+                        trial.fitted.cost = cost;
+                        trial.hypothesis = h;
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], base: &Fitted) -> Fitted {
+    let point = Point { effects: effects.to_vec(), ..point.clone() };
+    problem.begin(h, point, Some(base.columns.clone()))
+}
+
+fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize) -> Trial {
+    let fitted = problem.refine(&h, start, steps, Some(2));
+    let mut trial = Trial { hypothesis: h, fitted };
+    scan_onsets(problem, &mut trial);
+    trial
+}
+
+/// Runs the whole search on the recordings.
+pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
+    let none = Hypothesis::default();
+    let all = variants();
+    progress("screening every effect");
+    let origin = problem.begin(&none, problem.origin(), None);
+    let first = screen(problem, &origin, &all, &none);
+    progress("re-tuning without any effect");
+    let mut retuned = problem.refine(&none, origin.clone(), 3, Some(1));
+    retuned = problem.refine(&none, retuned, 5, Some(0));
+    retuned.columns = Arc::new(problem.nuisance_columns(&retuned.point, &none, &retuned.response));
+    let second = screen(problem, &retuned, &all, &none);
+    progress("fitting the finalists");
+    let mut singles: Vec<Trial> = finalists(&first, &second)
+        .into_iter()
+        .map(|c| {
+            let h = Hypothesis::single(c.variant, c.onsets.clone());
+            let trial = refit(problem, h.clone(), begin(problem, &h, &origin.point, &c.start, &origin), STEPS);
+            if retuned.cost - trial.fitted.cost < SMALL_GAIN {
+                let again = refit(problem, h.clone(), begin(problem, &h, &retuned.point, &c.start, &retuned), STEPS);
+                if again.fitted.cost < trial.fitted.cost {
+                    return again;
+                }
+            }
+            trial
+        })
+        .collect();
+    best_first(&mut singles);
+    let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
+    for trial in singles.iter_mut().filter(|t| t.fitted.cost < best + CLOSE) {
+        *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), MORE_STEPS);
+    }
+    best_first(&mut singles);
+    // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
+    if let Some(top) = singles.first()
+        && retuned.cost - top.fitted.cost < 25.0
+    {
+        let point = Point { effects: Vec::new(), ..top.fitted.point.clone() };
+        let again = problem.refine(&none, problem.begin(&none, point, Some(top.fitted.columns.clone())), 6, Some(2));
+        if again.cost < retuned.cost {
+            retuned = again;
+        }
+    }
+    progress("looking for a second effect");
+    let pairs = pairs(problem, &singles, &origin);
+    let mut screened: Vec<(String, f64)> = by_id(&first).iter().map(|c| (c.variant.card().id.to_owned(), c.evidence)).collect();
+    for c in by_id(&second) {
+        if let Some(s) = screened.iter_mut().find(|s| s.0 == c.variant.card().id) {
+            s.1 = s.1.max(c.evidence);
+        }
+    }
+    Found { retuned, singles, pairs, screened }
+}
+
+fn best_first(trials: &mut [Trial]) {
+    trials.sort_by(|a, b| a.fitted.cost.total_cmp(&b.fitted.cost));
+}
+
+/// Second effects beside the two best: screened with the first at its size, both refitted from the calibrated point.
+fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial> {
+    let mut out: Vec<Trial> = Vec::new();
+    let mut ids: Vec<&'static str> = Vec::new();
+    for first in singles {
+        let id = first.hypothesis.parts[0].0.card().id;
+        if ids.contains(&id) || ids.len() >= 2 {
+            continue;
+        }
+        ids.push(id);
+        let (h1, e1) = (&first.hypothesis, &first.fitted.point.effects);
+        let base = begin(problem, h1, &origin.point, e1, origin);
+        let partners = screen_beside(problem, &base, first);
+        for p in partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE).take(PARTNERS) {
+            let known = out.iter().any(|t: &Trial| {
+                let [a, b] = [t.hypothesis.parts[0].0.card().id, t.hypothesis.parts[1].0.card().id];
+                (a, b) == (p.variant.card().id, id)
+            });
+            if known {
+                continue;
+            }
+            let mut h = h1.clone();
+            h.parts.push((p.variant, p.onsets.clone()));
+            let start: Vec<f64> = e1.iter().chain(&p.start).copied().collect();
+            out.push(refit(problem, h.clone(), begin(problem, &h, &origin.point, &start, origin), 5));
+        }
+    }
+    best_first(&mut out);
+    for trial in out.iter_mut().take(3) {
+        *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), 5);
+    }
+    best_first(&mut out);
+    out
+}
+
+/// Partners of `first`, screened with it present at its fitted size.
+fn screen_beside(problem: &Problem<'_>, base: &Fitted, first: &Trial) -> Vec<Candidate> {
+    let id = first.hypothesis.parts[0].0.card().id;
+    let others: Vec<_> = variants().into_iter().filter(|v| v.card().id != id).collect();
+    let list = screen(problem, base, &others, &first.hypothesis);
+    by_id(&list).into_iter().cloned().collect()
+}

@@ -1,0 +1,121 @@
+//! What a diagnosis says.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::predict::Prediction;
+
+/// The kind of answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// One or more effects of the catalogue explain the mismatch.
+    Explained,
+    /// There is a mismatch, but nothing in the catalogue explains it.
+    Unknown,
+    /// Nothing is missing.
+    NoMismatch,
+    /// The recordings permit no answer.
+    Withheld,
+}
+
+/// One possible cause with what is known about it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cause {
+    /// Effect id, "none" or "unknown".
+    pub effect: String,
+    /// Name for people, with side, axis and place.
+    pub name: String,
+    /// Probability that it is part of the truth.
+    pub probability: f64,
+    /// Size in `unit`.
+    pub magnitude: Option<f64>,
+    /// One sigma of the size.
+    pub sigma: Option<f64>,
+    /// Unit of the size.
+    pub unit: &'static str,
+    /// Every number of its law, by name.
+    pub parameters: BTreeMap<String, f64>,
+    /// Side, when it sits on one.
+    pub side: Option<&'static str>,
+    /// Where on the ground, when it is a place: x, y, radius in m.
+    pub place: Option<[f64; 3]>,
+    /// When it was present in each recording, s; `None` when it was there all the time.
+    pub intervals: Option<BTreeMap<String, Vec<[f64; 2]>>>,
+}
+
+/// Free-run errors of a recording that was not used for the fit, rms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FreeRun {
+    /// Name of the recording that was left out.
+    pub recording: String,
+    /// What is compared, with its unit.
+    pub quantity: String,
+    /// The user's model as it is.
+    pub nominal: f64,
+    /// Re-tuned without any effect.
+    pub retuned: f64,
+    /// Corrected by the named effects.
+    pub corrected: f64,
+}
+
+/// A place in the data where the mismatch shows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// Which signal.
+    pub signal: String,
+    /// Mean squared mismatch of the calibrated model over that of the references.
+    pub ratio: f64,
+    /// Recording and interval in which it is largest, s.
+    pub recording: String,
+    /// From, until, s.
+    pub interval: [f64; 2],
+}
+
+/// Mean mismatch in a range of speed and turning.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// Range of |forward velocity|, m/s.
+    pub speed: [f64; 2],
+    /// Range of yaw rate, rad/s.
+    pub turning: [f64; 2],
+    /// Seconds of driving in it.
+    pub seconds: f64,
+    /// Mismatch over the references', as in [`Finding::ratio`].
+    pub ratio: f64,
+}
+
+/// The answer to a case.
+#[derive(Debug, Clone, Serialize)]
+pub struct Diagnosis {
+    /// Version of this structure.
+    pub format: u32,
+    /// Kind of answer.
+    pub verdict: Verdict,
+    /// The answer in sentences.
+    pub sentences: Vec<String>,
+    /// Causes, "none" and "unknown" by probability.
+    pub ranked: Vec<Cause>,
+    /// Effects that these recordings cannot tell apart.
+    pub indistinguishable: Vec<String>,
+    /// Where the mismatch shows.
+    pub findings: Vec<Finding>,
+    /// Mismatch by speed and turning.
+    pub cells: Vec<Cell>,
+    /// Free runs on recordings that were not fitted.
+    pub free_runs: Vec<FreeRun>,
+    /// Share of the mismatch that the best answer leaves unexplained, if there is one.
+    pub unexplained: Option<f64>,
+    /// What limits the answer.
+    pub limits: Vec<String>,
+    /// Evidence of the screen per effect, nats.
+    pub screened: Vec<(String, f64)>,
+    /// Constants of the robot as re-tuned together with the named effects, relative to sigma.
+    pub tuning: BTreeMap<String, f64>,
+    /// Loads of steady driving (speed-driven cases).
+    pub steady: Option<crate::steady::Loads>,
+    /// Predicted responses of the held-out drives: corrected, then without the effect.
+    #[serde(skip)]
+    pub predictions: Vec<(Prediction, Prediction)>,
+}

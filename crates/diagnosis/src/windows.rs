@@ -1,0 +1,349 @@
+//! Windows of 0.1 s and the segments from which the model runs free.
+
+use crate::run::Run;
+use crate::smooth::{interpolate, local_fit, slope, smooth};
+
+/// What is compared in every window.
+///
+/// Wheel speeds are angle differences over the window, so hardly any encoder quantisation is left; the others are
+/// means over it.
+pub(crate) const CHANNELS: usize = 7;
+/// Names of the channels for people.
+pub(crate) const CHANNEL_NAMES: [&str; CHANNELS] = [
+    "left wheel speed",
+    "right wheel speed",
+    "yaw rate",
+    "forward velocity",
+    "lateral velocity",
+    "forward acceleration",
+    "lateral acceleration",
+];
+/// Units of the channels.
+pub(crate) const CHANNEL_UNITS: [&str; CHANNELS] = ["rad/s", "rad/s", "rad/s", "m/s", "m/s", "m/s²", "m/s²"];
+
+/// Length of a window, s.
+pub(crate) const WINDOW: f64 = 0.1;
+/// Parts of a segment in which a local presence is resolved.
+pub(crate) const PARTS: usize = 4;
+
+/// State of the robot at the start of a segment, from all sensors.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Start {
+    pub(crate) wheel_speed: [f64; 2],
+    pub(crate) wheel_angle: [f64; 2],
+    pub(crate) yaw_rate: f64,
+    /// Velocity of the geometric centre in body axes.
+    pub(crate) velocity: [f64; 2],
+    pub(crate) position: [f64; 2],
+    pub(crate) yaw: f64,
+}
+
+/// A stretch over which the model runs free.
+#[derive(Debug, Clone)]
+pub(crate) struct Segment {
+    /// First row.
+    pub(crate) row: usize,
+    /// Number of windows.
+    pub(crate) windows: usize,
+    pub(crate) start: Start,
+    /// Window by window, channel by channel; zero where not valid.
+    pub(crate) observed: Vec<f64>,
+    pub(crate) valid: Vec<bool>,
+    /// Wheel positions in the middle of each part, for local presence.
+    pub(crate) wheels: [[[f64; 2]; 4]; PARTS],
+    /// Mean |yaw rate| and |v|, range of the wheel speeds: what kind of driving this is.
+    pub(crate) regime: [f64; 3],
+    /// Numbers that are valid.
+    pub(crate) count: f64,
+}
+
+/// What a sensor correction found by redundancy leaves to do.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct GyroError {
+    /// Constant offset, rad/s.
+    pub bias: f64,
+    /// Relative scale error.
+    pub scale: f64,
+}
+
+/// A run cut into segments.
+#[derive(Debug, Clone)]
+pub(crate) struct Cut {
+    pub(crate) name: String,
+    pub(crate) period: f64,
+    pub(crate) rows_per_window: usize,
+    pub(crate) torque: Vec<[f64; 2]>,
+    pub(crate) segments: Vec<Segment>,
+    /// Smoothed path (x, y) and yaw at each window border, for pictures and places.
+    pub(crate) path: Vec<[f64; 3]>,
+}
+
+/// Nodes of the pose smoother, s.
+const NODE: f64 = 0.05;
+/// Noise of a pose when the robot file says nothing, m.
+pub(crate) const POSE_SIGMA: f64 = 0.004;
+
+/// Rows whose angle is frozen: three or more equal counts while moving, ended by a jump above three times the
+/// usual increment.
+pub(crate) fn frozen_rows(angle: &[Option<f64>]) -> Vec<bool> {
+    let mut frozen = vec![false; angle.len()];
+    let present: Vec<(usize, f64)> = Run::present(angle).collect();
+    let steps: Vec<f64> = present.windows(2).map(|w| (w[1].1 - w[0].1).abs()).collect();
+    let mut k = 0;
+    while k < steps.len() {
+        if steps[k] > 0.0 {
+            k += 1;
+            continue;
+        }
+        let first = k;
+        while k < steps.len() && steps[k] == 0.0 {
+            k += 1;
+        }
+        // present[first..=k] are equal; the jump that ends them is steps[k].
+        let usual = {
+            let mut near: Vec<f64> = (0..first).rev().take(5).chain(k + 1..(k + 6).min(steps.len())).map(|i| steps[i]).collect();
+            near.sort_by(f64::total_cmp);
+            near.get(near.len() / 2).copied().unwrap_or(0.0)
+        };
+        let count = k - first + 1;
+        if count >= 3 && k < steps.len() && usual > 0.0 && steps[k] > 3.0 * usual {
+            for p in &present[first + 1..=k] {
+                frozen[p.0] = true;
+            }
+        }
+    }
+    frozen
+}
+
+/// Yaw by integrating the corrected gyro, at each row; `None` without a gyro.
+pub(crate) fn integrated_yaw(run: &Run, error: GyroError) -> Option<Vec<f64>> {
+    let first = run.gyro.iter().flatten().next()?;
+    let mut last = (first - error.bias) / (1.0 + error.scale);
+    let mut yaw = 0.0;
+    Some(
+        run.gyro
+            .iter()
+            .map(|g| {
+                if let Some(g) = g {
+                    last = (g - error.bias) / (1.0 + error.scale);
+                }
+                // A sample stands for the row before it.
+                yaw += last * run.period;
+                yaw
+            })
+            .collect(),
+    )
+}
+
+/// Unwrapped pose heading at its rows.
+pub(crate) fn pose_yaw(run: &Run) -> Vec<(usize, f64)> {
+    let mut last: Option<f64> = None;
+    Run::present(&run.pose[2])
+        .map(|(k, y)| {
+            let z = last.map_or(y, |l: f64| l + (y - l + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI);
+            last = Some(z);
+            (k, z)
+        })
+        .collect()
+}
+
+struct Smoothed {
+    x: Option<[Vec<f64>; 2]>,
+    yaw: Vec<f64>,
+}
+
+impl Smoothed {
+    fn new(run: &Run, error: GyroError, sigma: f64) -> Self {
+        let rows = run.rows();
+        // Samples belong, on average, half a row before the row they are written in.
+        let node = |k: usize| (k as f64 - 0.5) * run.period / NODE;
+        let nodes = (run.duration() / NODE).ceil() as usize + 1;
+        let poses = pose_yaw(run);
+        let turned = integrated_yaw(run, error);
+        let yaw = match (turned, poses.is_empty()) {
+            (Some(t), true) => t,
+            (Some(t), false) => {
+                // The pose corrects the slow part only: a line through pose less integrated gyro.
+                let points: Vec<(f64, f64)> =
+                    poses.iter().map(|&(k, y)| (node(k), y - 0.5 * (t[k] + t[k.saturating_sub(1)]))).collect();
+                let middle = nodes as f64 / 2.0;
+                let (n, mut st, mut stt, mut sz, mut stz) = (points.len() as f64, 0.0, 0.0, 0.0, 0.0);
+                for &(t, z) in &points {
+                    let t = t - middle;
+                    st += t;
+                    stt += t * t;
+                    sz += z;
+                    stz += t * z;
+                }
+                let det = n * stt - st * st;
+                let slope = if n > 10.0 && det > 0.0 { (n * stz - st * sz) / det } else { 0.0 };
+                let offset = (sz - slope * st) / n;
+                t.iter().enumerate().map(|(k, y)| y + offset + slope * ((k as f64) * run.period / NODE - middle)).collect()
+            }
+            (None, true) => vec![0.0; rows],
+            (None, false) => {
+                let at: Vec<f64> = poses.iter().map(|&(k, _)| node(k)).collect();
+                let z: Vec<f64> = poses.iter().map(|p| p.1).collect();
+                smooth(&at, &z, nodes, sigma).map_or_else(
+                    || vec![0.0; rows],
+                    |x| (0..rows).map(|k| interpolate(&x, k as f64 * run.period / NODE)).collect(),
+                )
+            }
+        };
+        let axis = |i: usize| {
+            let (at, z): (Vec<f64>, Vec<f64>) = Run::present(&run.pose[i]).map(|(k, v)| (node(k), v)).unzip();
+            smooth(&at, &z, nodes, sigma)
+        };
+        let x = axis(0).zip(axis(1)).map(|(x, y)| [x, y]);
+        Self { x, yaw }
+    }
+
+    /// Velocity in body axes at time `t`, s.
+    fn velocity(&self, t: f64, period: f64) -> Option<[f64; 2]> {
+        let x = self.x.as_ref()?;
+        let v = [slope(&x[0], t / NODE) / NODE, slope(&x[1], t / NODE) / NODE];
+        let (s, c) = interpolate(&self.yaw, t / period).sin_cos();
+        Some([v[0] * c + v[1] * s, v[1] * c - v[0] * s])
+    }
+
+    fn position(&self, t: f64) -> [f64; 2] {
+        self.x.as_ref().map_or([0.0; 2], |x| [interpolate(&x[0], t / NODE), interpolate(&x[1], t / NODE)])
+    }
+}
+
+/// What cutting needs to know.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CutOptions {
+    /// Length of a segment, s.
+    pub(crate) segment: f64,
+    /// Noise of a pose, m.
+    pub(crate) pose_sigma: f64,
+    pub(crate) gyro: GyroError,
+    pub(crate) wheel_radius: f64,
+    /// Half wheelbase and half track, m.
+    pub(crate) half_base: [f64; 2],
+}
+
+/// Cuts a run into segments of windows.
+pub(crate) fn cut(run: &Run, o: &CutOptions) -> Cut {
+    let per_window = ((WINDOW / run.period).round() as usize).max(1);
+    let per_segment = ((o.segment / WINDOW).round() as usize).max(PARTS);
+    let windows = (run.rows() - 1) / per_window;
+    let smoothed = Smoothed::new(run, o.gyro, o.pose_sigma);
+    let frozen = [frozen_rows(&run.angle[0]), frozen_rows(&run.angle[1])];
+    let mut segments = Vec::new();
+    // The last window of a run is dropped: the pose smoother has no data beyond it.
+    let mut first = 0;
+    while first + per_segment < windows {
+        segments.push(segment(run, o, &smoothed, &frozen, first, per_segment, per_window));
+        first += per_segment;
+    }
+    let path = (0..=windows)
+        .map(|w| {
+            let t = (w * per_window) as f64 * run.period;
+            let [x, y] = smoothed.position(t);
+            [x, y, interpolate(&smoothed.yaw, t / run.period)]
+        })
+        .collect();
+    Cut { name: run.name.clone(), period: run.period, rows_per_window: per_window, torque: run.torque.clone(), segments, path }
+}
+
+fn segment(
+    run: &Run,
+    o: &CutOptions,
+    smoothed: &Smoothed,
+    frozen: &[Vec<bool>; 2],
+    first: usize,
+    windows: usize,
+    per_window: usize,
+) -> Segment {
+    let row = first * per_window;
+    let start = start_state(run, o, smoothed, frozen, row);
+    let length = per_window as f64 * run.period;
+    let mut observed = vec![0.0; windows * CHANNELS];
+    let mut valid = vec![false; windows * CHANNELS];
+    let mut regime = [0.0; 3];
+    let mut extremes = (f64::MAX, f64::MIN);
+    for w in 0..windows {
+        let (a, b) = (row + w * per_window, row + (w + 1) * per_window);
+        let mut set = |c: usize, v: Option<f64>| {
+            if let Some(v) = v.filter(|v| v.is_finite()) {
+                observed[w * CHANNELS + c] = v;
+                valid[w * CHANNELS + c] = true;
+            }
+        };
+        for j in 0..2 {
+            let near = |k: usize| frozen[j][k.saturating_sub(2)..(k + 3).min(run.rows())].iter().any(|&f| f);
+            let v = (!near(a) && !near(b)).then_some(()).and(run.angle[j][b].zip(run.angle[j][a])).map(|(x, y)| (x - y) / length);
+            if let Some(v) = v {
+                extremes = (extremes.0.min(v), extremes.1.max(v));
+            }
+            set(j, v);
+        }
+        let mean = |channel: &[Option<f64>]| {
+            let (n, sum) = channel[a + 1..=b].iter().flatten().fold((0.0, 0.0), |(n, s), v| (n + 1.0, s + v));
+            (n > 0.0).then(|| sum / n)
+        };
+        let gyro = mean(&run.gyro).map(|g| (g - o.gyro.bias) / (1.0 + o.gyro.scale));
+        set(2, gyro);
+        let v = smoothed.velocity((a + b) as f64 * 0.5 * run.period, run.period);
+        set(3, v.map(|v| v[0]));
+        set(4, v.map(|v| v[1]));
+        set(5, mean(&run.accel[0]));
+        set(6, mean(&run.accel[1]));
+        regime[0] += gyro.unwrap_or(0.0).abs() / (0.3 * windows as f64);
+        regime[1] += v.map_or(0.0, |v| v[0].abs()) / (0.3 * windows as f64);
+    }
+    regime[2] = ((extremes.1 - extremes.0) / 4.0).max(0.0);
+    let mut wheels = [[[0.0; 2]; 4]; PARTS];
+    for (q, wheels) in wheels.iter_mut().enumerate() {
+        let t = (row as f64 + (q as f64 + 0.5) / PARTS as f64 * (windows * per_window) as f64) * run.period;
+        let p = smoothed.position(t);
+        let (s, c) = interpolate(&smoothed.yaw, t / run.period).sin_cos();
+        for (i, w) in wheels.iter_mut().enumerate() {
+            let x = if i < 2 { o.half_base[0] } else { -o.half_base[0] };
+            let y = if i % 2 == 0 { o.half_base[1] } else { -o.half_base[1] };
+            *w = [p[0] + c * x - s * y, p[1] + s * x + c * y];
+        }
+    }
+    let count = valid.iter().filter(|&&v| v).count() as f64;
+    Segment { row, windows, start, observed, valid, wheels, regime, count }
+}
+
+fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<bool>; 2], row: usize) -> Start {
+    let t = row as f64 * run.period;
+    let around = |half: f64| {
+        let h = (half / run.period).round().max(1.0) as usize;
+        row.saturating_sub(h)..(row + h + 1).min(run.rows())
+    };
+    let mut start = Start { position: smoothed.position(t), yaw: interpolate(&smoothed.yaw, t / run.period), ..Start::default() };
+    for j in 0..2 {
+        // Wider when the encoder is frozen here, so that there is something to fit.
+        let fit = [0.05, 0.15, 0.4].into_iter().find_map(|half| {
+            let points: Vec<(f64, f64)> = around(half)
+                .filter(|&k| !frozen[j][k])
+                .filter_map(|k| run.angle[j][k].map(|a| ((k as f64 - row as f64) * run.period, a)))
+                .collect();
+            (points.len() >= 5).then(|| local_fit(&points)).flatten()
+        });
+        if let Some((angle, speed)) = fit {
+            start.wheel_angle[j] = angle;
+            start.wheel_speed[j] = speed;
+        }
+    }
+    let points: Vec<(f64, f64)> = around(0.07)
+        .filter_map(|k| run.gyro[k].map(|g| ((k as f64 - 0.5 - row as f64) * run.period, (g - o.gyro.bias) / (1.0 + o.gyro.scale))))
+        .collect();
+    start.yaw_rate = local_fit(&points).map_or(0.0, |f| f.0);
+    // Without a pose, the wheels tell the forward velocity up to their slip.
+    let rolled = o.wheel_radius * 0.5 * (start.wheel_speed[0] + start.wheel_speed[1]);
+    start.velocity = smoothed.velocity(t, run.period).unwrap_or([rolled, 0.0]);
+    // A robot whose wheels do not turn at the first row stands.
+    if row == 0 {
+        let still = |a: &[Option<f64>]| a.iter().flatten().take(3).all(|x| (x - a.iter().flatten().next().unwrap_or(x)).abs() < 1e-3);
+        if still(&run.angle[0]) && still(&run.angle[1]) {
+            start = Start { position: start.position, yaw: start.yaw, wheel_angle: start.wheel_angle, ..Start::default() };
+        }
+    }
+    start
+}

@@ -1,0 +1,82 @@
+//! Sentences for people.
+
+use robot_model::Card;
+
+use crate::hypothesis::{Place, Variant};
+use crate::verdict::{Cause, Diagnosis, Verdict};
+
+pub(crate) fn side(s: usize) -> &'static str {
+    if s == 0 { "left" } else { "right" }
+}
+
+pub(crate) fn named(name: &str, on: Option<usize>) -> String {
+    on.map_or_else(|| name.to_owned(), |s| format!("{name}: {}", side(s)))
+}
+
+/// Unit of an effect's magnitude: that of its first strength.
+pub(crate) fn unit(card: &Card) -> &'static str {
+    card.strengths().next().map_or("-", |i| card.parameters[i].unit)
+}
+
+pub(crate) fn variant(v: &Variant) -> String {
+    let card = v.card();
+    let mut out = card.name.to_owned();
+    if let Some(a) = v.axis {
+        out += &format!(", along {}", card.axes[a]);
+    }
+    match v.place {
+        Place::Whole => out,
+        Place::Side(s) => named(&out, Some(s)),
+        Place::Disc => out + ", at one place",
+        Place::Onset => out + ", from an instant on",
+    }
+}
+
+/// A number with as many digits as its uncertainty deserves.
+pub(crate) fn quantity(c: &Cause) -> String {
+    let Some(m) = c.magnitude else { return String::new() };
+    let unit = if c.unit == "-" { String::new() } else { format!(" {}", c.unit) };
+    match c.sigma.filter(|s| *s > 0.0 && s.is_finite()) {
+        Some(s) => {
+            let digits = (1 - s.log10().floor() as i32).clamp(0, 6) as usize;
+            format!("{m:.digits$} ± {:.digits$}{unit} (90 %)", 1.645 * s)
+        }
+        None => format!("{m:.3}{unit}"),
+    }
+}
+
+/// The answer in sentences, the most important one first.
+pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
+    let mut out = Vec::new();
+    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != "none" && c.effect != "unknown").collect();
+    match d.verdict {
+        Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
+        Verdict::Unknown => {
+            out.push(
+                "The simulation lacks something that is not in the catalogue: no effect in it explains these recordings.".to_owned(),
+            );
+            if let Some(c) = causes.first() {
+                out.push(format!("The nearest is {}, {}, but it leaves too much.", c.name, quantity(c)));
+            }
+        }
+        Verdict::Explained => {
+            for c in causes.iter().filter(|c| c.probability > 0.5) {
+                let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
+                out.push(format!("Missing: {}, {}{place} (probability {:.2}).", c.name, quantity(c), c.probability));
+            }
+            if out.is_empty()
+                && let Some(c) = causes.first()
+            {
+                out.push(format!("Most likely missing: {}, {} (probability {:.2}).", c.name, quantity(c), c.probability));
+            }
+        }
+        Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
+    }
+    if !d.indistinguishable.is_empty() {
+        out.push(format!("These recordings cannot tell apart: {}.", d.indistinguishable.join(", ")));
+    }
+    if let Some(u) = d.unexplained.filter(|_| d.verdict == Verdict::Explained) {
+        out.push(format!("{:.0} % of the mismatch is still unexplained.", 100.0 * u));
+    }
+    out
+}

@@ -1,0 +1,45 @@
+//! Online neural identifier with a Lyapunov certificate for every step.
+//!
+//! One [`Identifier`] follows one output x of an unknown system `ẋ = −a x + G(x, u)` with the model
+//! `d/dt x̂ = −a x̂ + Ŵᵀφ` (Hendzel & Trojnacki 2014, Eq. 10–13 with A = −a I) and adapts Ŵ. How the law is advanced
+//! over a sample is a [`Law`]; [`Midpoint`] keeps the paper's Lyapunov function exactly, at any step size.
+//! Rows 1 and 2 of Eq. 23, whose right-hand sides are known, are [`AngleRow`]s.
+//!
+//! The Lyapunov function `L = ½ x̃² + ‖W* − Ŵ‖²/(2γ)` needs weights W* that nobody knows. A [`Certificate`] is
+//! therefore stated against a comparison W* that the caller chooses: it holds for *every* choice, and all that the
+//! chosen W* cannot represent counts as approximation error ε. [`Ledger`] adds certificates up to the mean-square
+//! bound. What is *not* certified: convergence of the weights, or a bound on max |x̃|.
+//!
+//! No standard library, no allocation; steps never panic.
+//!
+//! ```
+//! use identifier::{Identifier, Midpoint};
+//!
+//! // Follow a sine, sampled at 1 ms, with one constant regressor entry.
+//! let mut identifier = Identifier::new(8.0, Midpoint::new(500.0)?, 0.0)?;
+//! let mut error = 0.0_f64;
+//! for k in 0..5000 {
+//!     let (now, next) = (f64::from(k) * 1e-3, f64::from(k + 1) * 1e-3);
+//!     let step = identifier.step(now.sin(), next.sin(), &[1.0], 1e-3);
+//!     assert!(identifier.certificate(&step, &[0.0]).residual < 1e-12);
+//!     error = step.error_after;
+//! }
+//! assert!(error.abs() < 0.02);
+//! # Ok::<(), identifier::IdentifierError>(())
+//! ```
+#![no_std]
+
+mod angle;
+mod certificate;
+mod error;
+mod law;
+mod midpoint;
+#[cfg(test)]
+mod tests;
+
+pub use angle::AngleRow;
+pub use certificate::{Certificate, Ledger};
+pub use error::IdentifierError;
+pub use law::{Identifier, Law, Model, Sample, Step};
+pub use midpoint::Midpoint;
+pub use nn_basis::Scalar;

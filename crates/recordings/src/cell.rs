@@ -1,0 +1,127 @@
+//! One cell of a table: bytes become a number, an instant, a gap or a complaint.
+
+/// Why a cell holds no number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CellError {
+    /// Text.
+    NotANumber,
+    /// NaN, infinity or out of range.
+    NotFinite,
+}
+
+/// The cell without blanks and enclosing quotes.
+pub(crate) fn bare(cell: &[u8]) -> &[u8] {
+    let cell = cell.trim_ascii();
+    let inner = cell
+        .strip_prefix(b"\"")
+        .and_then(|rest| rest.strip_suffix(b"\""));
+    inner.map_or(cell, <[u8]>::trim_ascii)
+}
+
+/// The number in a cell; `None` for an empty one.
+pub(crate) fn number(cell: &[u8]) -> Result<Option<f64>, CellError> {
+    let cell = bare(cell);
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    let text = str::from_utf8(cell).map_err(|_| CellError::NotANumber)?;
+    let value: f64 = text.parse().map_err(|_| CellError::NotANumber)?;
+    if value.is_finite() {
+        Ok(Some(value))
+    } else {
+        Err(CellError::NotFinite)
+    }
+}
+
+/// The instant in a cell whose unit is `ns_per_unit` nanoseconds, rounded to the nearest nanosecond; `None` for an
+/// empty cell. Plain decimals are converted exactly, so that stamps since 1970 keep their nanoseconds.
+pub(crate) fn instant_ns(cell: &[u8], ns_per_unit: i64) -> Result<Option<i64>, CellError> {
+    let Some(value) = number(cell)? else {
+        return Ok(None);
+    };
+    if let Some(exact) = decimal_ns(bare(cell), ns_per_unit) {
+        return i64::try_from(exact)
+            .map(Some)
+            .map_err(|_| CellError::NotFinite);
+    }
+    rounded_ns(value * ns_per_unit as f64)
+        .map(Some)
+        .ok_or(CellError::NotFinite)
+}
+
+/// A number of nanoseconds rounded to i64, when it fits.
+pub(crate) fn rounded_ns(ns: f64) -> Option<i64> {
+    /// 2^63: the first number that does not fit.
+    const LIMIT: f64 = 9_223_372_036_854_775_808.0;
+    let ns = ns.round();
+    (ns > -LIMIT && ns < LIMIT).then_some(ns as i64)
+}
+
+/// `sign digits [. digits]` times `ns_per_unit`, rounded half away from zero; `None` when written otherwise or too long.
+fn decimal_ns(cell: &[u8], ns_per_unit: i64) -> Option<i128> {
+    let negative = cell.first() == Some(&b'-');
+    let digits = cell
+        .strip_prefix(b"-")
+        .or_else(|| cell.strip_prefix(b"+"))
+        .unwrap_or(cell);
+    let (mut mantissa, mut divisor, mut after_point) = (0_i128, 1_i128, false);
+    for &byte in digits {
+        match byte {
+            b'0'..=b'9' => {
+                mantissa = mantissa
+                    .checked_mul(10)?
+                    .checked_add(i128::from(byte - b'0'))?;
+                if after_point {
+                    divisor = divisor.checked_mul(10)?;
+                }
+            }
+            b'.' if !after_point => after_point = true,
+            _ => return None,
+        }
+    }
+    let ns = mantissa
+        .checked_mul(i128::from(ns_per_unit))?
+        .checked_add(divisor / 2)?
+        / divisor;
+    Some(if negative { -ns } else { ns })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_gaps_and_complaints() {
+        assert_eq!(number(b" 1.5 "), Ok(Some(1.5)));
+        assert_eq!(number(b"\"2\""), Ok(Some(2.0)));
+        assert_eq!(number(b"-1e-3"), Ok(Some(-0.001)));
+        assert_eq!(number(b""), Ok(None));
+        assert_eq!(number(b"  "), Ok(None));
+        assert_eq!(number(b"abc"), Err(CellError::NotANumber));
+        assert_eq!(number(b"1,5"), Err(CellError::NotANumber));
+        assert_eq!(number(b"\xff"), Err(CellError::NotANumber));
+        for bad in ["nan", "NaN", "inf", "-infinity", "1e999"] {
+            assert_eq!(number(bad.as_bytes()), Err(CellError::NotFinite), "{bad}");
+        }
+    }
+
+    #[test]
+    fn instants_are_exact_where_the_text_is() {
+        let s = 1_000_000_000;
+        assert_eq!(
+            instant_ns(b"1700000000.123456789", s),
+            Ok(Some(1_700_000_000_123_456_789))
+        );
+        assert_eq!(instant_ns(b"0.15384615384615385", s), Ok(Some(153_846_154)));
+        assert_eq!(instant_ns(b"-0.0000000005", s), Ok(Some(-1)));
+        assert_eq!(instant_ns(b"1e-3", s), Ok(Some(1_000_000)));
+        assert_eq!(instant_ns(b"12", 1_000_000), Ok(Some(12_000_000)));
+        assert_eq!(instant_ns(b"1e30", s), Err(CellError::NotFinite));
+        assert_eq!(
+            instant_ns(b"99999999999999999999", s),
+            Err(CellError::NotFinite)
+        );
+        assert_eq!(instant_ns(b"", s), Ok(None));
+        assert_eq!(instant_ns(b"-.", s), Err(CellError::NotANumber));
+    }
+}

@@ -1,0 +1,256 @@
+//! The crate's one error type.
+
+use crate::signal::Signal;
+use crate::units::Unit;
+
+/// Why a mapping, a file or a channel was refused. Each sentence says what, where and what to do.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // the sentences are the documentation of the fields
+pub enum RecordingError {
+    /// Nothing in the file, or blanks only.
+    #[error("{file}: the file is empty; give a CSV file with a header line and rows")]
+    EmptyFile { file: String },
+
+    /// A header line and nothing after it.
+    #[error("{file}: line {line} is a header but no row follows it; was the recording cut off?")]
+    NoRows { file: String, line: u64 },
+
+    /// Bytes that are no UTF-8 text.
+    #[error("{file}: line {line}: the header is not UTF-8 text; save the file as CSV in UTF-8")]
+    NotText { file: String, line: u64 },
+
+    /// A column that the mapping asks for.
+    #[error("{file}: line {line}: no column `{column}` (needed for {key}); {hint}")]
+    MissingColumn {
+        file: String,
+        line: u64,
+        column: String,
+        key: String,
+        hint: String,
+    },
+
+    /// A mapped column name that occurs twice in the header.
+    #[error(
+        "{file}: line {line}: column `{column}` occurs more than once; rename one so that it is clear which is meant"
+    )]
+    DuplicateColumn {
+        file: String,
+        line: u64,
+        column: String,
+    },
+
+    /// None of the optional columns is there.
+    #[error("{file}: line {line}: none of the columns of mapping {mapping} is here; {hint}")]
+    NoSignals {
+        file: String,
+        line: u64,
+        mapping: String,
+        hint: String,
+    },
+
+    /// Rows, but not one sample that could be used.
+    #[error(
+        "{file}: not one sample could be read ({losses}); check the file and the columns of the mapping"
+    )]
+    NoSamples { file: String, losses: String },
+
+    /// Too many or too few fields (strict reading).
+    #[error(
+        "{file}: line {line}: {found} fields where the header has {expected}; repair or delete the line"
+    )]
+    WrongFieldCount {
+        file: String,
+        line: u64,
+        found: usize,
+        expected: usize,
+    },
+
+    /// A row with an empty time cell (strict reading).
+    #[error("{file}: line {line}, column {column}: the time is empty; give it or delete the line")]
+    NoTime {
+        file: String,
+        line: u64,
+        column: String,
+    },
+
+    /// Text where a number is expected.
+    #[error(
+        "{file}: line {line}, column {column}: `{text}` is not a number; \
+         correct it, leave the cell empty, or read in tolerant mode to skip it"
+    )]
+    NotANumber {
+        file: String,
+        line: u64,
+        column: String,
+        text: String,
+    },
+
+    /// NaN, infinity, or too large for the arithmetic.
+    #[error(
+        "{file}: line {line}, column {column}: `{text}` is not a finite number in range; \
+         a missing sample is an empty cell (or read in tolerant mode to skip it)"
+    )]
+    NotFinite {
+        file: String,
+        line: u64,
+        column: String,
+        text: String,
+    },
+
+    /// A negative number in a column that the mapping declares to be without sign.
+    #[error(
+        "{file}: line {line}, column {column}: {text} is negative, but the mapping says magnitude_only; \
+         correct the mapping (magnitude_only = false)"
+    )]
+    NegativeMagnitude {
+        file: String,
+        line: u64,
+        column: String,
+        text: String,
+    },
+
+    /// A stamp before the one above it.
+    #[error(
+        "{file}: line {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
+         sort the rows, split the file there, or read in tolerant mode to skip them"
+    )]
+    TimeBackwards {
+        file: String,
+        line: u64,
+        column: String,
+        before_s: f64,
+        now_s: f64,
+    },
+
+    /// The same stamp twice (strict reading).
+    #[error(
+        "{file}: line {line}, column {column}: the stamp {now_s} s occurs twice; delete one of the lines"
+    )]
+    DuplicateStamp {
+        file: String,
+        line: u64,
+        column: String,
+        now_s: f64,
+    },
+
+    /// TOML that does not parse, an unknown key, a wrong type.
+    #[error("{mapping}: line {line}: {message}")]
+    MappingSyntax {
+        mapping: String,
+        line: usize,
+        message: String,
+    },
+
+    /// A key with a value that makes no sense.
+    #[error("{mapping}: line {line}: {key}: {message}")]
+    MappingValue {
+        mapping: String,
+        line: usize,
+        key: String,
+        message: String,
+    },
+
+    /// A signal id outside the vocabulary.
+    #[error("{mapping}: line {line}: no signal is called `{name}`; {hint}")]
+    UnknownSignal {
+        mapping: String,
+        line: usize,
+        name: String,
+        hint: String,
+    },
+
+    /// A unit name that is not understood.
+    #[error("{mapping}: line {line}: {key}: no unit is called `{unit}`; {hint}")]
+    UnknownUnit {
+        mapping: String,
+        line: usize,
+        key: String,
+        unit: String,
+        hint: String,
+    },
+
+    /// A unit of another quantity than the key's.
+    #[error(
+        "{mapping}: line {line}: {key}: wrong unit `{unit}`, {} where {} is expected; \
+         give a unit of that kind, such as {expected}{hint}",
+        is.quantity(), expected.quantity()
+    )]
+    WrongUnit {
+        mapping: String,
+        line: usize,
+        key: String,
+        unit: String,
+        is: Unit,
+        expected: Unit,
+        hint: String,
+    },
+
+    /// No built-in mapping has this name.
+    #[error("no built-in mapping is called `{name}`; {hint}")]
+    UnknownMapping { name: String, hint: String },
+
+    /// A file that fits none of the mapping's patterns.
+    #[error(
+        "{file}: fits no pattern of mapping {mapping} ({patterns}); rename the file or add a pattern"
+    )]
+    UnmatchedFile {
+        file: String,
+        mapping: String,
+        patterns: String,
+    },
+
+    /// Two files of one run for the same entry of the mapping.
+    #[error("{file}: a second file for the pattern {pattern} of one run; read them as two runs")]
+    FileTwice { file: String, pattern: String },
+
+    /// `read` was called without files.
+    #[error("run {run}: no file was given; give at least one")]
+    NoFiles { run: String },
+
+    /// A signal that a caller cannot do without.
+    #[error("recording {recording}: no signal {signal} ({}); map a column to it; mapped are: {mapped}", signal.unit())]
+    MissingSignal {
+        recording: String,
+        signal: Signal,
+        mapped: String,
+    },
+
+    /// A channel whose stamps and values do not pair up.
+    #[error("channel {channel}: {stamps} stamps but {values} values; give one stamp per value")]
+    UnequalLengths {
+        channel: String,
+        stamps: usize,
+        values: usize,
+    },
+
+    /// A channel whose stamps do not rise.
+    #[error(
+        "channel {channel}: stamp {index} is {now_ns} ns, not after {before_ns} ns; stamps must rise"
+    )]
+    StampsNotRising {
+        channel: String,
+        index: usize,
+        before_ns: i64,
+        now_ns: i64,
+    },
+
+    /// A channel with NaN or infinity.
+    #[error(
+        "channel {channel}: value {index} is not finite; leave the sample out: a gap is a missing sample"
+    )]
+    ValueNotFinite { channel: String, index: usize },
+
+    /// A recording with two channels for one signal.
+    #[error("recording {recording}: two channels are called {channel}; give each signal once")]
+    ChannelTwice { recording: String, channel: String },
+
+    /// A channel that names a clock that its recording does not have.
+    #[error("recording {recording}: channel {channel} is on clock {clock}, but there are {clocks}")]
+    NoSuchClock {
+        recording: String,
+        channel: String,
+        clock: usize,
+        clocks: usize,
+    },
+}

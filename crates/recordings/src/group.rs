@@ -1,0 +1,166 @@
+//! Which files make up which run: a pure function of their names.
+
+use std::collections::BTreeMap;
+
+use crate::mapping::{Mapping, base_name};
+
+/// The files of one run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// The run's id: what stood for `*`, after the folder where there is one.
+    pub run: String,
+    /// The files that are there, in the order of the mapping's entries.
+    pub files: Vec<GroupFile>,
+    /// Names of the files that the mapping expects and that are not there.
+    pub missing: Vec<String>,
+}
+
+/// One file of a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GroupFile {
+    /// Index into [`Mapping::files`].
+    pub entry: usize,
+    /// The name as it was given.
+    pub name: String,
+}
+
+/// File names sorted into runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Grouping {
+    /// The runs, by folder and id; numbers in ids count as numbers (`run_2` before `run_10`).
+    pub groups: Vec<Group>,
+    /// Names that fit no pattern (or were given twice), in the order given.
+    pub unmatched: Vec<String>,
+}
+
+impl Mapping {
+    /// Sorts file names (or paths) into runs. A name belongs to the first entry whose pattern it fits.
+    ///
+    /// ```
+    /// # use recordings::Mapping;
+    /// let husky = Mapping::built_in("husky-open")?;
+    /// let sorted = husky.group(&["pro_01.csv", "imu_01.csv", "pro_04.csv", "notes.txt"]);
+    /// assert_eq!(sorted.groups[0].run, "01");
+    /// assert_eq!(sorted.groups[1].missing, ["imu_04.csv"]);
+    /// assert_eq!(sorted.unmatched, ["notes.txt"]);
+    /// # Ok::<(), recordings::RecordingError>(())
+    /// ```
+    pub fn group<S: AsRef<str>>(&self, names: &[S]) -> Grouping {
+        let mut runs: BTreeMap<(&str, Vec<Part<'_>>), Vec<Option<&str>>> = BTreeMap::new();
+        let mut unmatched = Vec::new();
+        for name in names.iter().map(AsRef::as_ref) {
+            let slot = self.entry_of(name).map(|(entry, id)| {
+                let folder = &name[..name.len() - base_name(name).len()];
+                let files = runs
+                    .entry((folder, parts(id)))
+                    .or_insert_with(|| vec![None; self.files.len()]);
+                &mut files[entry]
+            });
+            match slot {
+                Some(slot @ None) => *slot = Some(name),
+                _ => unmatched.push(name.to_owned()),
+            }
+        }
+        let groups = runs.into_iter().map(|((folder, id), files)| {
+            let id: String = id.iter().map(|part| part.text).collect();
+            let absent = self
+                .files
+                .iter()
+                .zip(&files)
+                .filter(|(_, file)| file.is_none());
+            Group {
+                run: format!("{folder}{id}"),
+                missing: absent
+                    .map(|(entry, _)| format!("{folder}{}", entry.file_of(&id)))
+                    .collect(),
+                files: files
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(entry, name)| {
+                        name.map(|name| GroupFile {
+                            entry,
+                            name: name.to_owned(),
+                        })
+                    })
+                    .collect(),
+            }
+        });
+        Grouping {
+            groups: groups.collect(),
+            unmatched,
+        }
+    }
+}
+
+/// A stretch of digits or of anything else; digits compare as numbers (by length without leading zeros, then by text).
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Part<'a> {
+    rank: (bool, usize, &'a str),
+    text: &'a str,
+}
+
+/// The id in parts that compare as people count.
+fn parts(id: &str) -> Vec<Part<'_>> {
+    id.as_bytes()
+        .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
+        .scan(0, |start, chunk| {
+            let text = &id[*start..*start + chunk.len()];
+            *start += chunk.len();
+            let plain = text.trim_start_matches('0');
+            let digits = chunk[0].is_ascii_digit();
+            Some(Part {
+                rank: if digits {
+                    (false, plain.len(), plain)
+                } else {
+                    (true, 0, text)
+                },
+                text,
+            })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_sorted_as_people_count_and_kept_apart_by_folder() {
+        let mapping = Mapping::built_in("skid-steer-columns").unwrap();
+        let names = [
+            "b/run_10.csv",
+            "b/run_2.csv",
+            "a/run_2.csv",
+            "b/run_02.csv",
+            "b/robot.json",
+            "a/run_2.csv",
+        ];
+        let sorted = mapping.group(&names);
+        let runs: Vec<&str> = sorted
+            .groups
+            .iter()
+            .map(|group| group.run.as_str())
+            .collect();
+        assert_eq!(runs, ["a/run_2", "b/run_02", "b/run_2", "b/run_10"]);
+        assert_eq!(sorted.unmatched, ["b/robot.json", "a/run_2.csv"]);
+    }
+
+    #[test]
+    fn a_missing_file_is_named_with_its_folder() {
+        let mapping = Mapping::built_in("husky-open").unwrap();
+        let sorted = mapping.group(&[
+            "FLOORING/pro_04.csv",
+            "FLOORING/imu_01.csv",
+            "FLOORING/pro_01.csv",
+        ]);
+        assert_eq!(sorted.groups[0].run, "FLOORING/01");
+        let names: Vec<&str> = sorted.groups[0]
+            .files
+            .iter()
+            .map(|file| file.name.as_str())
+            .collect();
+        assert_eq!(names, ["FLOORING/pro_01.csv", "FLOORING/imu_01.csv"]);
+        assert!(sorted.groups[0].missing.is_empty());
+        assert_eq!(sorted.groups[1].missing, ["FLOORING/imu_04.csv"]);
+    }
+}

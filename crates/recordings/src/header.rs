@@ -1,0 +1,194 @@
+//! The header line of a CSV file: where the mapped columns are.
+
+use crate::cell::bare;
+use crate::error::RecordingError;
+use crate::mapping::{ColumnMapping, FileMapping};
+use crate::read::Input;
+use crate::suggest;
+
+/// The header, and what is below it.
+pub(crate) struct Header<'a> {
+    /// Line of the header, from 1.
+    pub(crate) line: u64,
+    /// Everything below the header line.
+    pub(crate) body: &'a [u8],
+    /// Number of columns.
+    pub(crate) width: usize,
+    /// Where the time is, when there is a time column.
+    pub(crate) time: Option<usize>,
+    /// The mapped columns that are there.
+    pub(crate) columns: Vec<Found<'a>>,
+    /// The columns that no signal or time was read from.
+    pub(crate) unused: Vec<String>,
+}
+
+/// A mapped column and where it is.
+pub(crate) struct Found<'a> {
+    pub(crate) position: usize,
+    pub(crate) mapped: &'a ColumnMapping,
+}
+
+impl<'a> Header<'a> {
+    /// Finds the mapped columns in the first line that is not blank.
+    pub(crate) fn find(
+        input: &Input<'a>,
+        file: &'a FileMapping,
+        mapping: &str,
+    ) -> Result<Self, RecordingError> {
+        let name = || input.name.to_owned();
+        let bytes = input
+            .bytes
+            .strip_prefix(b"\xef\xbb\xbf")
+            .unwrap_or(input.bytes);
+        let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
+        let start = start.ok_or_else(|| RecordingError::EmptyFile { file: name() })?;
+        let line = 1 + line_ends(&bytes[..start]);
+        let rest = &bytes[start..];
+        let end = rest
+            .iter()
+            .position(|byte| b"\r\n".contains(byte))
+            .unwrap_or(rest.len());
+        let (head, body) = rest.split_at(end);
+        let body = body
+            .strip_prefix(b"\r\n")
+            .or_else(|| body.get(1..))
+            .unwrap_or_default();
+        let head = str::from_utf8(head)
+            .ok()
+            .filter(|head| !head.contains('\0'));
+        let head = head.ok_or_else(|| RecordingError::NotText { file: name(), line })?;
+        let names = split(head, file.delimiter);
+
+        let hint = |column: &str| {
+            let known: Vec<&str> = names.iter().map(String::as_str).collect();
+            hint(column, &known, file.delimiter)
+        };
+        let position = |column: &str| {
+            let mut places = names
+                .iter()
+                .enumerate()
+                .filter(|(_, name)| *name == column.trim());
+            match (places.next(), places.next()) {
+                (Some(_), Some(_)) => Err(RecordingError::DuplicateColumn {
+                    file: name(),
+                    line,
+                    column: column.to_owned(),
+                }),
+                (found, _) => Ok(found.map(|(position, _)| position)),
+            }
+        };
+        let missing = |column: &str, key: String| {
+            let (column, hint) = (column.to_owned(), hint(column));
+            RecordingError::MissingColumn {
+                file: name(),
+                line,
+                column,
+                key,
+                hint,
+            }
+        };
+
+        let time = match &file.time.column {
+            Some(column) => Some(
+                position(column)?
+                    .ok_or_else(|| missing(column, "the time of mapping ".to_owned() + mapping))?,
+            ),
+            None => None,
+        };
+        let mut columns = Vec::new();
+        for mapped in &file.columns {
+            match position(&mapped.column)? {
+                Some(position) => columns.push(Found { position, mapped }),
+                None if mapped.optional => {}
+                None => {
+                    return Err(missing(
+                        &mapped.column,
+                        format!("{} of mapping {mapping}", mapped.signal),
+                    ));
+                }
+            }
+        }
+        if columns.is_empty() {
+            let first = file
+                .columns
+                .first()
+                .map_or("", |mapped| mapped.column.as_str());
+            let (mapping, hint) = (mapping.to_owned(), hint(first));
+            return Err(RecordingError::NoSignals {
+                file: name(),
+                line,
+                mapping,
+                hint,
+            });
+        }
+        let used = |index: &usize| {
+            time == Some(*index) || columns.iter().any(|found| found.position == *index)
+        };
+        let unused = (0..names.len())
+            .filter(|index| !used(index))
+            .map(|index| names[index].clone())
+            .collect();
+        Ok(Self {
+            line,
+            body,
+            width: names.len(),
+            time,
+            columns,
+            unused,
+        })
+    }
+
+    /// The line (from 1) of the row at this byte of the body, blank lines before it skipped.
+    pub(crate) fn line_at(&self, offset: u64) -> u64 {
+        let offset = usize::try_from(offset)
+            .unwrap_or(usize::MAX)
+            .min(self.body.len());
+        let blank = self.body[offset..]
+            .iter()
+            .take_while(|byte| b"\r\n".contains(byte))
+            .count();
+        self.line + 1 + line_ends(&self.body[..offset + blank])
+    }
+}
+
+/// Ends of lines: `\n`, `\r\n` or a lone `\r`.
+fn line_ends(bytes: &[u8]) -> u64 {
+    let is_end = |index: usize| match bytes[index] {
+        b'\n' => true,
+        b'\r' => bytes.get(index + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    (0..bytes.len()).filter(|&index| is_end(index)).count() as u64
+}
+
+/// The names in a header line, quotes and blanks around them removed.
+fn split(head: &str, delimiter: u8) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new();
+    let mut reader = reader
+        .has_headers(false)
+        .delimiter(delimiter)
+        .from_reader(head.as_bytes());
+    let mut record = csv::ByteRecord::new();
+    // Reading from memory cannot fail; an error leaves the record empty, and every column is missing.
+    let _ = reader.read_byte_record(&mut record);
+    record
+        .iter()
+        .map(|name| String::from_utf8_lossy(bare(name)).into_owned())
+        .collect()
+}
+
+/// What to do about a column that is not there.
+fn hint(column: &str, names: &[&str], delimiter: u8) -> String {
+    if let (1, Some(only)) = (names.len(), names.first()) {
+        let others = [b',', b';', b'\t', b'|'];
+        if let Some(&other) = others
+            .iter()
+            .find(|&&other| other != delimiter && only.contains(char::from(other)))
+        {
+            let other = char::from(other).escape_default();
+            return format!("the header is one field; set delimiter = \"{other}\" in the mapping");
+        }
+    }
+    let hint = suggest::hint(column, names);
+    hint.replacen("known are:", "the columns are:", 1) + "; correct the mapping or the file"
+}

@@ -1,0 +1,55 @@
+//! Recordings in SI units: readers, mappings and what could not be read.
+//!
+//! The crate knows nothing of robots or simulation and opens no file: it is given names and bytes.
+//!
+//! ```text
+//! file names --Mapping::group--> runs --bytes--> read --> Read { recording, losses, .. }
+//! ```
+//!
+//! * [`Signal`] is the closed vocabulary; [`Unit`] is what a signal is in, always SI.
+//! * [`Mapping`] says which column of which file is which signal, in which unit and with which sign.
+//! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way.
+//! * [`write_csv`] is the way back; the built-in mapping `skid-steer-columns` reads what it wrote.
+//!
+//! ```
+//! use recordings::{Input, Mapping, ReadOptions, Signal, read};
+//!
+//! let mapping = Mapping::built_in("skid-steer-columns")?;
+//! let bytes = b"time_s,gyro_z_rad_s\n0.00,\n0.01,0.25\n";
+//! let run = read(&mapping, "run_1", &[Input { name: "run_1.csv", bytes }], &ReadOptions::default())?;
+//! let gyro = run.recording.require(Signal::GyroZ)?;
+//! assert_eq!(gyro.t_ns(), [10_000_000]);
+//! assert_eq!(gyro.values(), [0.25]);
+//! assert!(run.losses.is_empty());
+//! # Ok::<(), recordings::RecordingError>(())
+//! ```
+
+mod cell;
+mod channel;
+mod error;
+mod group;
+mod header;
+mod loss;
+mod mapping;
+mod mapping_raw;
+mod mapping_text;
+mod mapping_toml;
+mod read;
+mod recording;
+mod row;
+mod signal;
+mod suggest;
+mod table;
+mod units;
+mod write;
+
+pub use channel::{Attributes, Channel};
+pub use error::RecordingError;
+pub use group::{Group, GroupFile, Grouping};
+pub use loss::{Loss, LossKind};
+pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping};
+pub use read::{Input, Policy, Read, ReadOptions, Source, UnusedColumn, read};
+pub use recording::{Clock, Recording};
+pub use signal::Signal;
+pub use units::{Scale, Unit, parse_unit};
+pub use write::write_csv;

@@ -1,0 +1,183 @@
+//! Which column of which file is which signal, in which unit and with which sign.
+
+use crate::channel::Attributes;
+use crate::error::RecordingError;
+use crate::signal::Signal;
+use crate::suggest;
+
+/// The mappings that are built in, by name, as the TOML text that a user can copy and change.
+pub const BUILT_IN_MAPPINGS: &[(&str, &str)] = &[
+    (
+        "skid-steer-columns",
+        include_str!("../mappings/skid-steer-columns.toml"),
+    ),
+    ("husky-open", include_str!("../mappings/husky-open.toml")),
+];
+
+/// How the files of one kind of run become signals. Made by [`Mapping::parse`] or [`Mapping::built_in`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Mapping {
+    /// The mapping's name.
+    pub name: String,
+    /// The kinds of files of a run; each has a clock of its own.
+    pub files: Vec<FileMapping>,
+}
+
+/// One kind of file of a run.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FileMapping {
+    /// File name with one `*` in the place of the run's id: `imu_*.csv`.
+    pub pattern: String,
+    /// What stands between fields.
+    pub delimiter: u8,
+    /// When a row was taken.
+    pub time: TimeMapping,
+    /// The signals in the file, in the order of [`Signal::ALL`].
+    pub columns: Vec<ColumnMapping>,
+}
+
+/// When a row was taken.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct TimeMapping {
+    /// The column with the stamp; without one, a row's time is its number times the period.
+    pub column: Option<String>,
+    /// Nanoseconds in one unit of the column.
+    pub ns_per_unit: i64,
+    /// Rows per second, as declared.
+    pub rate_hz: Option<f64>,
+}
+
+/// One column that is a signal.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ColumnMapping {
+    /// What it measures.
+    pub signal: Signal,
+    /// Its name in the header.
+    pub column: String,
+    /// Number in SI = factor * number as written: unit, sign and scale together.
+    pub factor: f64,
+    /// True when a file without the column is as good.
+    pub optional: bool,
+    /// What the recording shall say about it; the dead band is in SI.
+    pub attributes: Attributes,
+}
+
+impl Mapping {
+    /// The built-in mapping of this name.
+    ///
+    /// # Errors
+    /// When there is none; the message names the nearest, or all.
+    pub fn built_in(name: &str) -> Result<Self, RecordingError> {
+        if let Some((known, text)) = BUILT_IN_MAPPINGS.iter().find(|(known, _)| *known == name) {
+            return Self::parse(known, text);
+        }
+        let known: Vec<&str> = BUILT_IN_MAPPINGS.iter().map(|(known, _)| *known).collect();
+        let hint = suggest::hint(name, &known);
+        Err(RecordingError::UnknownMapping {
+            name: name.to_owned(),
+            hint,
+        })
+    }
+
+    /// All patterns, for messages.
+    pub(crate) fn patterns(&self) -> String {
+        self.files
+            .iter()
+            .map(|file| file.pattern.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    }
+
+    /// The first entry that a file name fits, and the run's id in it.
+    pub(crate) fn entry_of<'n>(&self, file: &'n str) -> Option<(usize, &'n str)> {
+        self.files
+            .iter()
+            .enumerate()
+            .find_map(|(index, entry)| Some((index, entry.run_id(file)?)))
+    }
+}
+
+impl FileMapping {
+    /// What stands in the place of `*` in a file name (folders do not matter); `None` when it does not fit.
+    ///
+    /// ```
+    /// # use recordings::Mapping;
+    /// let husky = Mapping::built_in("husky-open")?;
+    /// assert_eq!(husky.files[1].run_id("FLOORING/imu_04.csv"), Some("04"));
+    /// assert_eq!(husky.files[1].run_id("FLOORING/pro_04.csv"), None);
+    /// # Ok::<(), recordings::RecordingError>(())
+    /// ```
+    pub fn run_id<'n>(&self, file: &'n str) -> Option<&'n str> {
+        let (prefix, suffix) = self.pattern.split_once('*')?;
+        let id = base_name(file).strip_prefix(prefix)?.strip_suffix(suffix)?;
+        (!id.is_empty()).then_some(id)
+    }
+
+    /// The file name for a run.
+    pub(crate) fn file_of(&self, run_id: &str) -> String {
+        self.pattern.replacen('*', run_id, 1)
+    }
+}
+
+/// The part of a path after the last slash of either kind.
+pub(crate) fn base_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Unit;
+
+    #[test]
+    fn built_in_mappings_parse_and_carry_their_name() {
+        for (name, _) in BUILT_IN_MAPPINGS {
+            assert_eq!(Mapping::built_in(name).unwrap().name, *name);
+        }
+        let message = Mapping::built_in("husky_open").unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "no built-in mapping is called `husky_open`; did you mean `husky-open`?"
+        );
+    }
+
+    #[test]
+    fn self_describing_columns_cover_the_vocabulary() {
+        let mapping = Mapping::built_in("skid-steer-columns").unwrap();
+        let columns = &mapping.files[0].columns;
+        assert_eq!(columns.len(), Signal::ALL.len());
+        for (column, &signal) in columns.iter().zip(Signal::ALL) {
+            assert_eq!((column.signal, column.factor), (signal, 1.0));
+            assert_eq!(column.column, signal.column_name());
+            assert!(column.optional);
+            let set_point = signal.is_set_point() || signal.unit() == Unit::NewtonMetre;
+            assert_eq!(column.attributes.set_point, set_point);
+        }
+    }
+
+    #[test]
+    fn the_husky_mapping_says_what_the_data_set_says() {
+        let mapping = Mapping::built_in("husky-open").unwrap();
+        let find = |signal| {
+            let mut all = mapping.files.iter().flat_map(|file| &file.columns);
+            all.find(|column| column.signal == signal).unwrap()
+        };
+        let current = find(Signal::CurrentLeft);
+        assert_eq!(current.column, "curL");
+        let expected = Attributes {
+            magnitude_only: true,
+            dead_band: Some(0.59),
+            set_point: false,
+        };
+        assert_eq!(current.attributes, expected);
+        let speed = find(Signal::CommandSpeedRight);
+        assert!(speed.attributes.set_point);
+        assert!((speed.factor * 0.1651 - 1.0).abs() < 1e-12);
+        assert_eq!(find(Signal::GyroZ).factor, 1.0);
+        assert_eq!(mapping.files[0].time.rate_hz, Some(6.5));
+    }
+}

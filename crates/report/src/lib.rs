@@ -1,0 +1,5 @@
+//! Pages and text for diagnoses and experiments.
+
+pub mod chart;
+pub mod page;
+pub mod reproduction;

@@ -1,0 +1,120 @@
+//! The contact patch: slip, the Kiencke tyre law, and the loads that balance the body.
+
+use crate::scalar::{Scalar, real};
+
+/// Kiencke's law: the share of the peak adhesion at slip `slip`,
+/// `K(λ) = 2 λp λ / (λp² + λ²)`, odd in λ, with its peak ±1 at λ = ±λp.
+///
+/// Source: Hendzel & Trojnacki 2014, the factor in Eq. 8.
+#[inline]
+pub fn kiencke<T: Scalar>(slip: T, slip_at_peak: T) -> T {
+    real::<T>(2.0) * slip_at_peak * slip / (slip_at_peak * slip_at_peak + slip * slip)
+}
+
+/// Adhesion per slip speed under combined slip: Kiencke's law up to its peak, constant beyond, along the slip velocity.
+///
+/// With slip speed `s = |v_slip|`, reference speed `d` and `λ = s/d`, the friction coefficient is
+/// `μ·min(K(λ), 1 beyond λp)`; returned is that coefficient without μ divided by `s`, and its derivative factor
+/// `∂K/∂s` for the implicit wheel step (zero on the plateau).
+#[inline]
+pub fn combined<T: Scalar>(slip_speed2: T, reference_speed2: T, slip_at_peak: T) -> (T, T) {
+    let d2 = reference_speed2;
+    let peak2 = slip_at_peak * slip_at_peak * d2;
+    if slip_speed2 < peak2 {
+        // K/s = 2 λp d / (λp² d² + s²);  dK/ds = 2 λp d (λp² d² − s²)/(λp² d² + s²)²
+        let sum = peak2 + slip_speed2;
+        let per_speed = real::<T>(2.0) * slip_at_peak * d2.sqrt() / sum;
+        (per_speed, per_speed * (peak2 - slip_speed2) / sum)
+    } else {
+        (T::one() / slip_speed2.sqrt(), T::zero())
+    }
+}
+
+/// What the loads depend on: mass, height of the centre of mass and where the wheels stand relative to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stance<T> {
+    /// Mass in kg.
+    pub mass: T,
+    /// Load of each wheel at rest on level ground, N.
+    pub static_load: [T; 4],
+    /// Change of load of a wheel per longitudinal specific force, kg: −m h/(4a) in front, + at the rear.
+    pub pitch: T,
+    /// Change of load of a wheel per lateral specific force, kg: −m h/(4b) on the left, + on the right.
+    pub roll: T,
+    /// Position of each wheel relative to the centre of mass, m.
+    pub wheel: [[T; 2]; 4],
+}
+
+/// Signs of the wheels: +1 in front / on the left.
+const FRONT: [f64; 4] = [1.0, 1.0, -1.0, -1.0];
+const LEFT: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
+
+impl<T: Scalar> Stance<T> {
+    /// The stance of a rigid body on four wheels, roll and pitch transfer split equally over the axles and sides.
+    ///
+    /// `half_wheelbase` a, `half_track` b, centre of mass `(com_x, com_y, com_height)` from the geometric centre, m.
+    pub fn new(mass: T, gravity: T, half_wheelbase: T, half_track: T, com: [T; 3]) -> Self {
+        let quarter = real::<T>(0.25);
+        let mut static_load = [T::zero(); 4];
+        let mut wheel = [[T::zero(); 2]; 4];
+        for i in 0..4 {
+            let (front, left) = (real::<T>(FRONT[i]), real::<T>(LEFT[i]));
+            static_load[i] =
+                mass * gravity * quarter * (T::one() + front * com[0] / half_wheelbase) * (T::one() + left * com[1] / half_track);
+            wheel[i] = [front * half_wheelbase - com[0], left * half_track - com[1]];
+        }
+        Self {
+            mass,
+            static_load,
+            pitch: mass * com[2] * quarter / half_wheelbase,
+            roll: mass * com[2] * quarter / half_track,
+            wheel,
+        }
+    }
+
+    /// Finds the loads and the specific force of the contacts together.
+    ///
+    /// Given each wheel's force per unit load `k = F/N`, the loads depend linearly on the specific force
+    /// `s = ΣF/m` and the forces linearly on the loads: `m s = Σ (N⁰ + N' s) k`, a 2×2 system, no iteration.
+    /// A wheel never pulls on the ground: negative loads are set to zero.
+    #[inline]
+    pub fn settle(&self, k: &[[T; 2]; 4]) -> Balance<T> {
+        let (m, p, r) = (self.mass, self.pitch, self.roll);
+        let mut b = [T::zero(); 2];
+        for i in 0..4 {
+            b[0] += self.static_load[i] * k[i][0];
+            b[1] += self.static_load[i] * k[i][1];
+        }
+        let rear = |j: usize| k[2][j] + k[3][j] - k[0][j] - k[1][j];
+        let right = |j: usize| k[1][j] + k[3][j] - k[0][j] - k[2][j];
+        let (a11, a12) = (m - p * rear(0), -(r * right(0)));
+        let (a21, a22) = (-(p * rear(1)), m - r * right(1));
+        let inv = T::one() / (a11 * a22 - a12 * a21);
+        let (sx, sy) = ((b[0] * a22 - a12 * b[1]) * inv, (a11 * b[1] - a21 * b[0]) * inv);
+        let (dp, dr) = (p * sx, r * sy);
+        let s = &self.static_load;
+        let load = [s[0] - dp - dr, s[1] - dp + dr, s[2] + dp - dr, s[3] + dp + dr].map(|n| n.max(T::zero()));
+        let mut out = Balance { load, force: [[T::zero(); 2]; 4], total: [T::zero(); 2], yaw_moment: T::zero() };
+        for i in 0..4 {
+            let f = [load[i] * k[i][0], load[i] * k[i][1]];
+            out.total[0] += f[0];
+            out.total[1] += f[1];
+            out.yaw_moment += self.wheel[i][0] * f[1] - self.wheel[i][1] * f[0];
+            out.force[i] = f;
+        }
+        out
+    }
+}
+
+/// Loads and forces in the four contact patches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance<T> {
+    /// Normal load of each wheel, N.
+    pub load: [T; 4],
+    /// Force of the ground on each wheel in body axes, N.
+    pub force: [[T; 2]; 4],
+    /// Sum of the contact forces, N.
+    pub total: [T; 2],
+    /// Yaw moment of the contact forces about the centre of mass, N m.
+    pub yaw_moment: T,
+}

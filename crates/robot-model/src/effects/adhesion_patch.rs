@@ -1,0 +1,38 @@
+//! Slippery or grippy ground.
+
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Wears, World};
+use crate::scalar::Scalar;
+
+/// μ (1 − q)
+pub struct Law;
+
+const CARD: Card = Card {
+    id: "adhesion_patch",
+    name: "slippery or grippy ground",
+    kind: Kind::Physics,
+    law: "μ (1 − q)",
+    seen: "Wheels spin or slide earlier; turns come out wider or tighter.",
+    parameters: &[
+        Parameter { name: "lost share", unit: "-", role: Role::Strength, bounds: [-2.0, 0.95], neutral: 0.0, probes: &[0.3], scale: Scale::Own },
+    ],
+    signed: false,
+    axes: &[],
+    wears: Wears { everywhere: true, onset: true, disc: true, side: false },
+    redundancy: Redundancy::None,
+    interest: 0.2,
+    revealed_by: "hard acceleration and tight turns on and off the place",
+    resembles: "turning_resistance in turns; payload in spins",
+    source: "Coulomb adhesion",
+};
+
+impl<T: Scalar> Effect<T> for Law {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+        for mu in &mut w.adhesion {
+            *mu *= T::one() - v[0];
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Quadratic drag.
+
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::scalar::Scalar;
+
+/// F = −c v |v|
+pub struct Law;
+
+const CARD: Card = Card {
+    id: "quadratic_drag",
+    name: "quadratic drag",
+    kind: Kind::Physics,
+    law: "F = −c v |v|",
+    seen: "Costs more the faster it drives, hardly anything in spins.",
+    parameters: &[
+        Parameter { name: "c", unit: "N s²/m²", role: Role::Strength, bounds: [0.0, 200.0], neutral: 0.0, probes: &[4.0], scale: Scale::Own },
+    ],
+    signed: false,
+    axes: &[],
+    wears: WHOLE,
+    redundancy: Redundancy::None,
+    interest: 1.6,
+    revealed_by: "straight drives at three speeds",
+    resembles: "viscous_friction over a narrow range of speed",
+    source: "fluid drag",
+};
+
+impl<T: Scalar> Effect<T> for Law {
+    fn card(&self) -> &'static Card {
+        &CARD
+    }
+
+    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+        let [x, y] = at.velocity;
+        let drag = v[0] * (x * x + y * y).sqrt();
+        w.force[0] -= drag * x;
+        w.force[1] -= drag * y;
+    }
+}

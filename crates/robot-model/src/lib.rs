@@ -1,0 +1,34 @@
+//! A four-wheeled skid-steer robot with wheel slip.
+//!
+//! Two plants share the contact patch of [`contact`]:
+//! * [`paper`]: the robot of Hendzel & Trojnacki 2014, Eq. 8 taken literally, closed by planar body dynamics;
+//! * [`plant`]: the robot of a user's simulation, torque-driven or speed-driven, which any [`Effect`] may change.
+//!
+//! Axes: x forward, y left, z up. Wheels: 0 front left, 1 front right, 2 rear left, 3 rear right
+//! (the paper's 1, 2, 3, 4). Sides: 0 left, 1 right. All quantities in SI units and radians.
+//!
+//! The crate needs neither the standard library nor an allocator, and is generic over the scalar:
+//! `f32`, `f64`, or dual numbers for derivatives.
+#![no_std]
+
+pub mod contact;
+pub mod effect;
+mod error;
+pub mod paper;
+pub mod plant;
+pub mod presence;
+pub mod robot;
+mod scalar;
+pub mod tunable;
+
+/// The effects a simulation may lack, one file each; found by the build script in file-name order.
+pub mod effects {
+    include!(concat!(env!("OUT_DIR"), "/effects.rs"));
+}
+
+pub use effect::{Card, Effect, Kind, Parameter, Readings, Role, Situation, World};
+pub use error::ModelError;
+pub use plant::{Active, Plant, State};
+pub use presence::{Disc, Presence};
+pub use robot::Robot;
+pub use scalar::{Scalar, real};

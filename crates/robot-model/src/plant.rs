@@ -1,0 +1,382 @@
+//! The plant of a user's simulation: torque-driven (torque in, motion out) or speed-driven (wheel speeds in,
+//! body motion and torque out).
+
+use crate::contact::{Stance, combined};
+use crate::effect::{Effect, MAX_PARAMETERS, Readings, Situation, World};
+use crate::presence::Presence;
+use crate::robot::{Drive, Robot, UNLIMITED};
+use crate::scalar::{Scalar, real, smooth_sign};
+
+/// Slip speed below which the contact behaves viscously, m/s: `λ = v_slip / sqrt((ω r)² + v0²)`.
+const SLIP_REST: f64 = 0.3;
+/// Wheel speed over which dry friction changes its sign, rad/s.
+const FRICTION_REST: f64 = 0.15;
+/// Wheel speed over which the Stribeck rise decays, rad/s.
+const STRIBECK_SPEED: f64 = 0.6;
+
+/// An effect at given values, present somewhere.
+#[derive(Clone, Copy)]
+pub struct Active<T: Scalar> {
+    effect: &'static dyn Effect<T>,
+    values: [T; MAX_PARAMETERS],
+    presence: Presence<T>,
+    unlimited: bool,
+}
+
+impl<T: Scalar> Active<T> {
+    /// An effect at `values` (the card's order; missing ones at their neutral value), present where `presence` says.
+    pub fn new(effect: &'static dyn Effect<T>, values: &[T], presence: Presence<T>) -> Self {
+        let mut v = [T::zero(); MAX_PARAMETERS];
+        for (i, p) in effect.card().parameters.iter().enumerate().take(MAX_PARAMETERS) {
+            v[i] = values.get(i).copied().unwrap_or_else(|| real(p.neutral));
+        }
+        Self { effect, values: v, presence, unlimited: presence.is_unlimited() }
+    }
+
+    fn values(&self) -> &[T] {
+        &self.values[..self.effect.card().parameters.len().min(MAX_PARAMETERS)]
+    }
+
+    fn act(&self, at: &Situation<T>, world: &mut World<T>) {
+        if self.unlimited {
+            self.effect.act(self.values(), at, world);
+        } else {
+            let mut changed = *world;
+            self.effect.act(self.values(), at, &mut changed);
+            world.blend(&changed, self.presence.at(at));
+        }
+    }
+}
+
+/// The moving state of the robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State<T> {
+    /// Time since the start of the recording, s.
+    pub time: T,
+    /// Geometric centre on the ground, m.
+    pub position: [T; 2],
+    /// Cosine and sine of the yaw angle.
+    pub heading: [T; 2],
+    /// Velocity of the centre of mass in body axes, m/s.
+    pub velocity: [T; 2],
+    /// Yaw rate, rad/s.
+    pub yaw_rate: T,
+    /// Speed of the driven (rear) wheel of each side, rad/s.
+    pub wheel_speed: [T; 2],
+    /// Speed of the belt-driven front wheel of each side, rad/s.
+    pub front_speed: [T; 2],
+    /// Angle of the driven wheel of each side, rad.
+    pub wheel_angle: [T; 2],
+    /// Torque after the current loop of each side, N m.
+    pub torque: [T; 2],
+    /// Torque after the second lag of each side, N m.
+    pub lagged: [T; 2],
+    /// Specific force at the centre of mass in body axes, m/s² (of the last step).
+    pub specific: [T; 2],
+    /// Rate of change of the body velocity and yaw rate in the last step.
+    pub rate: [T; 3],
+    /// Torque needed at each side's wheels in the last step, N m (speed-driven robots).
+    pub needed: [T; 2],
+}
+
+impl<T: Scalar> Default for State<T> {
+    /// At rest at the origin, heading along x.
+    fn default() -> Self {
+        let (o, oo) = (T::zero(), [T::zero(); 2]);
+        Self {
+            time: o,
+            position: oo,
+            heading: [T::one(), o],
+            velocity: oo,
+            yaw_rate: o,
+            wheel_speed: oo,
+            front_speed: oo,
+            wheel_angle: oo,
+            torque: oo,
+            lagged: oo,
+            specific: oo,
+            rate: [o; 3],
+            needed: oo,
+        }
+    }
+}
+
+/// A robot with its active effects, ready to step.
+pub struct Plant<'a, T: Scalar> {
+    robot: Robot<T>,
+    stance: Stance<T>,
+    world: World<T>,
+    active: &'a [Active<T>],
+    step: T,
+    keep: [T; 2],
+}
+
+/// Forces of an instant, before any speed has moved.
+struct Contacts<T> {
+    force: [[T; 2]; 4],
+    stiffness: [T; 4],
+    rolling: [T; 4],
+}
+
+impl<'a, T: Scalar> Plant<'a, T> {
+    /// A plant that steps by `step` seconds.
+    pub fn new(robot: &Robot<T>, active: &'a [Active<T>], step: T) -> Self {
+        let mut robot = *robot;
+        for a in active {
+            a.effect.robot(a.values(), &mut robot);
+        }
+        let decay = |tau: T| if tau > T::zero() { (-step / tau).exp() } else { T::zero() };
+        let keep = [decay(robot.drive.lag), decay(robot.drive.extra_lag)];
+        Self { stance: robot.stance(), world: robot.world(), robot, active, step, keep }
+    }
+
+    /// The drive, as the active effects left it: its delay is for whoever looks the command up.
+    pub fn drive(&self) -> &Drive<T> {
+        &self.robot.drive
+    }
+
+    /// Sets the body velocity from that of the geometric centre.
+    pub fn set_velocity(&self, s: &mut State<T>, reference: [T; 2]) {
+        let w = s.yaw_rate;
+        s.velocity = [reference[0] - w * self.robot.com[1], reference[1] + w * self.robot.com[0]];
+    }
+
+    /// Sets the drive to a torque command that has been held for long.
+    pub fn settle_drive(&self, s: &mut State<T>, command: [T; 2]) {
+        for (j, &c) in command.iter().enumerate() {
+            s.torque[j] = self.limited(c);
+            s.lagged[j] = s.torque[j];
+        }
+    }
+
+    fn limited(&self, command: T) -> T {
+        let d = &self.robot.drive;
+        (command * d.gain).max(-d.limit).min(d.limit)
+    }
+
+    /// Advances the drive alone by one step, for the history before a restart.
+    pub fn step_drive(&self, s: &mut State<T>, command: [T; 2]) {
+        for (j, &c) in command.iter().enumerate() {
+            let x = self.limited(c);
+            s.torque[j] = x + self.keep[0] * (s.torque[j] - x);
+            s.lagged[j] = s.torque[j] + self.keep[1] * (s.lagged[j] - s.torque[j]);
+        }
+    }
+
+    fn delivered(&self, s: &State<T>, j: usize) -> T {
+        let (x, d) = (s.lagged[j], self.robot.drive.dead_band);
+        if x > d {
+            x - d
+        } else if x < -d {
+            x + d
+        } else {
+            T::zero()
+        }
+    }
+
+    fn situation(&self, s: &State<T>) -> Situation<T> {
+        let r = &self.robot;
+        Situation {
+            time: s.time,
+            position: s.position,
+            heading: s.heading,
+            velocity: s.velocity,
+            yaw_rate: s.yaw_rate,
+            wheel_speed: s.wheel_speed,
+            wheel_angle: s.wheel_angle,
+            mass: r.mass,
+            gravity: r.gravity,
+            hitch: [r.hitch_x - r.com[0], -r.com[1]],
+            half_base: [r.half_wheelbase, r.half_track],
+        }
+    }
+
+    fn world_at(&self, s: &State<T>) -> World<T> {
+        let mut world = self.world;
+        if !self.active.is_empty() {
+            let at = self.situation(s);
+            for a in self.active {
+                a.act(&at, &mut world);
+            }
+        }
+        world
+    }
+
+    fn speeds(s: &State<T>) -> [T; 4] {
+        [s.front_speed[0], s.front_speed[1], s.wheel_speed[0], s.wheel_speed[1]]
+    }
+
+    /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
+    fn contacts(&self, s: &State<T>, world: &World<T>) -> Contacts<T> {
+        let speed = Self::speeds(s);
+        let rest2 = real::<T>(SLIP_REST * SLIP_REST);
+        let mut k = [[T::zero(); 2]; 4];
+        let mut stiffness = [T::zero(); 4];
+        for i in 0..4 {
+            let [x, y] = self.stance.wheel[i];
+            let rim = speed[i] * world.radius[i];
+            let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
+            let (sx2, s2) = (slip[0] * slip[0], slip[0] * slip[0] + slip[1] * slip[1]);
+            let (per_speed, slope) = combined(s2, rim * rim + rest2, self.robot.slip_at_peak);
+            let mu = world.adhesion[i] * per_speed;
+            k[i] = [mu * slip[0], mu * slip[1] * world.lateral[i]];
+            let turned = if s2 > T::zero() { (slope - per_speed) * sx2 / s2 } else { T::zero() };
+            stiffness[i] = world.adhesion[i] * (per_speed + turned).max(T::zero());
+        }
+        let balance = self.stance.settle(&k);
+        let mut rolling = [T::zero(); 4];
+        for i in 0..4 {
+            stiffness[i] *= balance.load[i];
+            rolling[i] = world.rolling[i] * balance.load[i] * world.radius[i];
+        }
+        Contacts { force: balance.force, stiffness, rolling }
+    }
+
+    /// Torque of a side's drivetrain friction at wheel speed `w`, without rolling resistance.
+    fn friction(world: &World<T>, j: usize, w: T, sign: T) -> T {
+        let mut dry = world.coulomb[j];
+        if world.stribeck[j] != T::zero() {
+            // exp(−x²) as (1 − x²/16)¹⁶, zero beyond 4.
+            let x = w / real(STRIBECK_SPEED);
+            let mut bell = (T::one() - x * x / real(16.0)).max(T::zero());
+            for _ in 0..4 {
+                bell *= bell;
+            }
+            dry += world.stribeck[j] * bell;
+        }
+        dry * sign + world.viscous[j] * w
+    }
+
+    /// One step of a torque-driven robot: `command` is held over the step.
+    ///
+    /// Linearly implicit in the wheel speeds, whose slip stiffness is the fast part: with contact stiffness
+    /// `F' = ∂F_x/∂v_slip` and the last acceleration `a` of the contact point,
+    /// `(J + h r² F') Δω = h (T − r F + r F' h a)`, and the body receives the same impulses as the wheels.
+    pub fn step(&self, s: &mut State<T>, command: [T; 2]) {
+        let h = self.step;
+        self.step_drive(s, command);
+        let world = self.world_at(s);
+        let Contacts { mut force, stiffness, rolling } = self.contacts(s, &world);
+        let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
+        for j in 0..2 {
+            let (f, r) = (j, j + 2);
+            let sign = smooth_sign(s.wheel_speed[j] / real(FRICTION_REST));
+            let mut inertia = [jw, jw + jm];
+            let mut impulse = [T::zero(); 2];
+            let mut ahead = [T::zero(); 2];
+            for (n, i) in [f, r].into_iter().enumerate() {
+                let radius = world.radius[i];
+                ahead[n] = h * (s.rate[0] - s.rate[2] * self.stance.wheel[i][1]);
+                let stiff = h * radius * stiffness[i];
+                inertia[n] += stiff * radius;
+                impulse[n] = stiff * ahead[n] - h * radius * force[i][0];
+            }
+            impulse[1] += h * (self.delivered(s, j) - Self::friction(&world, j, s.wheel_speed[j], sign));
+            impulse[1] -= h * rolling[r] * sign;
+            let limit = world.belt_limit[j];
+            let change = if limit >= real(UNLIMITED) {
+                impulse[0] -= h * rolling[f] * sign;
+                let dw = (impulse[0] + impulse[1]) / (inertia[0] + inertia[1]);
+                [dw, dw]
+            } else {
+                impulse[0] -= h * rolling[f] * smooth_sign(s.front_speed[j] / real(FRICTION_REST));
+                let gap = s.wheel_speed[j] - s.front_speed[j] + impulse[1] / inertia[1] - impulse[0] / inertia[0];
+                let belt = gap / (T::one() / inertia[0] + T::one() / inertia[1]);
+                let belt = belt.max(-limit * h).min(limit * h);
+                [(impulse[0] + belt) / inertia[0], (impulse[1] - belt) / inertia[1]]
+            };
+            for (n, i) in [f, r].into_iter().enumerate() {
+                force[i][0] += stiffness[i] * (world.radius[i] * change[n] - ahead[n]);
+            }
+            s.front_speed[j] += change[0];
+            s.wheel_speed[j] += change[1];
+            s.wheel_angle[j] += h * s.wheel_speed[j];
+        }
+        self.move_body(s, &force, &world);
+    }
+
+    /// One step of a speed-driven robot: the wheels turn at `speed` and change it at `rate`;
+    /// the torque that this takes is left in [`State::needed`].
+    pub fn step_at_speed(&self, s: &mut State<T>, speed: [T; 2], rate: [T; 2]) {
+        let h = self.step;
+        s.wheel_speed = speed;
+        s.front_speed = speed;
+        let world = self.world_at(s);
+        let Contacts { force, rolling, .. } = self.contacts(s, &world);
+        let inertia = self.robot.wheel_inertia * real(2.0) + self.robot.motor_inertia;
+        for j in 0..2 {
+            let sign = smooth_sign(speed[j] / real(FRICTION_REST));
+            s.needed[j] = inertia * rate[j] + Self::friction(&world, j, speed[j], sign);
+            for i in [j, j + 2] {
+                s.needed[j] += rolling[i] * sign + world.radius[i] * force[i][0];
+            }
+            s.needed[j] /= self.robot.drive.gain;
+            s.wheel_angle[j] += h * speed[j];
+        }
+        self.move_body(s, &force, &world);
+    }
+
+    fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], world: &World<T>) {
+        let (h, half) = (self.step, real::<T>(0.5));
+        let mut total = world.force;
+        let mut ground = [T::zero(); 2];
+        let mut moment = world.moment;
+        for (f, [x, y]) in force.iter().zip(self.stance.wheel) {
+            ground[0] += f[0];
+            ground[1] += f[1];
+            moment += x * f[1] - y * f[0];
+        }
+        total[0] += ground[0];
+        total[1] += ground[1];
+        let m = self.robot.mass;
+        let w = s.yaw_rate;
+        s.specific = [total[0] / m, total[1] / m];
+        s.rate = [
+            s.specific[0] + world.tilt[0] + w * s.velocity[1],
+            s.specific[1] + world.tilt[1] - w * s.velocity[0],
+            moment / self.robot.yaw_inertia,
+        ];
+        s.yaw_rate += h * s.rate[2];
+        s.velocity[0] += h * s.rate[0];
+        s.velocity[1] += h * s.rate[1];
+        // Velocity of the geometric centre, then the pose; the heading turns by a small angle and stays a unit vector.
+        let v = self.velocity(s);
+        let [c, n] = s.heading;
+        s.position[0] += h * (v[0] * c - v[1] * n);
+        s.position[1] += h * (v[0] * n + v[1] * c);
+        let turn = h * half * (w + s.yaw_rate);
+        let (cd, sd) = (T::one() - half * turn * turn, turn - turn * turn * turn / real(6.0));
+        let (c2, n2) = (c * cd - n * sd, n * cd + c * sd);
+        let fix = real::<T>(1.5) - half * (c2 * c2 + n2 * n2);
+        s.heading = [c2 * fix, n2 * fix];
+        s.time += h;
+    }
+
+    /// Velocity of the geometric centre in body axes, m/s.
+    pub fn velocity(&self, s: &State<T>) -> [T; 2] {
+        let (w, com) = (s.yaw_rate, &self.robot.com);
+        [s.velocity[0] + w * com[1], s.velocity[1] - w * com[0]]
+    }
+
+    /// What ideal sensors show, before any sensor effect.
+    pub fn readings(&self, s: &State<T>) -> Readings<T> {
+        let (w, dw, com) = (s.yaw_rate, s.rate[2], &self.robot.com);
+        Readings {
+            wheel_speed: s.wheel_speed,
+            gyro: w,
+            velocity: self.velocity(s),
+            accel: [
+                s.specific[0] + dw * com[1] + w * w * com[0],
+                s.specific[1] - dw * com[0] + w * w * com[1],
+            ],
+            torque: s.needed,
+        }
+    }
+
+    /// Adds what the active effects do to the sensors.
+    pub fn sense(&self, readings: &mut Readings<T>) {
+        for a in self.active {
+            a.effect.sense(a.values(), readings);
+        }
+    }
+}

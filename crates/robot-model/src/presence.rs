@@ -1,0 +1,96 @@
+//! Where and when an effect is present: wrappers that any force may wear.
+
+use crate::effect::{Situation, World};
+use crate::scalar::{Scalar, real, smooth_sign};
+
+/// A disc on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc<T> {
+    /// Centre, m.
+    pub centre: [T; 2],
+    /// Radius, m.
+    pub radius: T,
+}
+
+/// Width over which a disc's edge is smooth, m, so that fits can move it.
+const EDGE: f64 = 0.03;
+
+/// Where and when an effect is present.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Presence<T> {
+    /// From this time on, s.
+    pub from: T,
+    /// Until this time, s.
+    pub until: T,
+    /// Only under the wheels inside this disc.
+    pub disc: Option<Disc<T>>,
+    /// Only on this side (0 left, 1 right).
+    pub side: Option<usize>,
+}
+
+impl<T: Scalar> Default for Presence<T> {
+    /// Always, everywhere, both sides.
+    fn default() -> Self {
+        Self { from: real(-1e12), until: real(1e12), disc: None, side: None }
+    }
+}
+
+impl<T: Scalar> Presence<T> {
+    /// Always, everywhere, both sides: nothing needs to be blended.
+    pub fn is_unlimited(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Share of the effect under each wheel, 0 to 1.
+    pub fn at(&self, at: &Situation<T>) -> [T; 4] {
+        if at.time < self.from || at.time >= self.until {
+            return [T::zero(); 4];
+        }
+        let mut share = [T::one(); 4];
+        if let Some(disc) = self.disc {
+            let ([c, s], [a, b]) = (at.heading, at.half_base);
+            for (i, share) in share.iter_mut().enumerate() {
+                let x = if i < 2 { a } else { -a };
+                let y = if i % 2 == 0 { b } else { -b };
+                let dx = at.position[0] + c * x - s * y - disc.centre[0];
+                let dy = at.position[1] + s * x + c * y - disc.centre[1];
+                let inside = disc.radius - (dx * dx + dy * dy).sqrt();
+                *share = real::<T>(0.5) * (T::one() + smooth_sign(inside / real(EDGE)));
+            }
+        }
+        if let Some(side) = self.side {
+            let other = 1 - side.min(1);
+            share[other] = T::zero();
+            share[other + 2] = T::zero();
+        }
+        share
+    }
+}
+
+impl<T: Scalar> World<T> {
+    /// Takes `share` of what `other` changes, wheel by wheel; sides and the body take the mean of their wheels.
+    pub(crate) fn blend(&mut self, other: &Self, share: [T; 4]) {
+        let half = real::<T>(0.5);
+        let side = [half * (share[0] + share[2]), half * (share[1] + share[3])];
+        let body = half * (side[0] + side[1]);
+        let mix = |own: &mut T, with: T, part: T| *own += part * (with - *own);
+        for i in 0..4 {
+            mix(&mut self.adhesion[i], other.adhesion[i], share[i]);
+            mix(&mut self.lateral[i], other.lateral[i], share[i]);
+            mix(&mut self.rolling[i], other.rolling[i], share[i]);
+            mix(&mut self.radius[i], other.radius[i], share[i]);
+        }
+        for i in 0..2 {
+            mix(&mut self.coulomb[i], other.coulomb[i], side[i]);
+            mix(&mut self.viscous[i], other.viscous[i], side[i]);
+            mix(&mut self.stribeck[i], other.stribeck[i], side[i]);
+            mix(&mut self.force[i], other.force[i], body);
+            mix(&mut self.tilt[i], other.tilt[i], body);
+            // A limit does not average: it is worn whole or not at all.
+            if side[i] > half {
+                self.belt_limit[i] = other.belt_limit[i];
+            }
+        }
+        mix(&mut self.moment, other.moment, body);
+    }
+}

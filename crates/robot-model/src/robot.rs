@@ -1,0 +1,170 @@
+//! The constants of a user's robot model.
+
+use crate::contact::Stance;
+use crate::effect::World;
+use crate::error::{ModelError, finite, not_negative, positive, within};
+use crate::scalar::{Scalar, real};
+
+/// From the commanded to the delivered torque of a side:
+/// delay → gain → limit → first-order lags → dead band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive<T> {
+    /// Delivered torque per commanded torque.
+    pub gain: T,
+    /// Time constant of the current loop, s.
+    pub lag: T,
+    /// Time constant of a second lag in series, s; zero when there is none.
+    pub extra_lag: T,
+    /// Pure delay, s; applied by whoever looks the command up.
+    pub delay: T,
+    /// Largest torque of a side, N m.
+    pub limit: T,
+    /// Torque that is lost in a dead band, N m.
+    pub dead_band: T,
+}
+
+/// A four-wheeled skid-steer robot whose wheels are coupled by a belt on each side, one motor per side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Robot<T> {
+    /// Mass m, kg.
+    pub mass: T,
+    /// Inertia about the vertical through the centre of mass I_z, kg m².
+    pub yaw_inertia: T,
+    /// Centre of mass from the geometric centre on the ground (x, y, height), m.
+    pub com: [T; 3],
+    /// Half the wheelbase a, m.
+    pub half_wheelbase: T,
+    /// Half the track b, m.
+    pub half_track: T,
+    /// Wheel radius r, m.
+    pub wheel_radius: T,
+    /// Inertia of one wheel about its axle, kg m².
+    pub wheel_inertia: T,
+    /// Inertia of one side's motor and gear, seen at the wheel, kg m².
+    pub motor_inertia: T,
+    /// Peak adhesion μ of the ground.
+    pub adhesion: T,
+    /// Slip ratio λp at the peak of the adhesion.
+    pub slip_at_peak: T,
+    /// Lateral over longitudinal adhesion.
+    pub lateral_factor: T,
+    /// Rolling resistance coefficient f_r.
+    pub rolling_resistance: T,
+    /// Dry friction of each side's drivetrain, N m.
+    pub coulomb: [T; 2],
+    /// Viscous friction of each side's drivetrain, N m s/rad.
+    pub viscous: [T; 2],
+    /// Rise of the dry friction of each side towards rest (Stribeck), N m.
+    pub stribeck: T,
+    /// Where a trailer is hitched, m ahead of the geometric centre.
+    pub hitch_x: T,
+    /// From command to torque.
+    pub drive: Drive<T>,
+    /// Gravity, m/s².
+    pub gravity: T,
+}
+
+impl<T: Scalar> Robot<T> {
+    /// Checks every constant.
+    ///
+    /// # Errors
+    /// The first constant that no robot can have.
+    pub fn checked(self) -> Result<Self, ModelError> {
+        let f = |x: T| nalgebra::try_convert::<T, f64>(x).unwrap_or(f64::NAN);
+        for (name, x) in [
+            ("mass", self.mass),
+            ("yaw_inertia", self.yaw_inertia),
+            ("com_height", self.com[2]),
+            ("half_wheelbase", self.half_wheelbase),
+            ("half_track", self.half_track),
+            ("wheel_radius", self.wheel_radius),
+            ("wheel_inertia", self.wheel_inertia),
+            ("adhesion", self.adhesion),
+            ("slip_at_peak", self.slip_at_peak),
+            ("lateral_factor", self.lateral_factor),
+            ("drive.gain", self.drive.gain),
+            ("drive.limit", self.drive.limit),
+            ("gravity", self.gravity),
+        ] {
+            positive(name, f(x))?;
+        }
+        for (name, x) in [
+            ("motor_inertia", self.motor_inertia),
+            ("rolling_resistance", self.rolling_resistance),
+            ("coulomb (left)", self.coulomb[0]),
+            ("coulomb (right)", self.coulomb[1]),
+            ("viscous (left)", self.viscous[0]),
+            ("viscous (right)", self.viscous[1]),
+            ("stribeck", self.stribeck),
+            ("drive.lag", self.drive.lag),
+            ("drive.extra_lag", self.drive.extra_lag),
+            ("drive.delay", self.drive.delay),
+            ("drive.dead_band", self.drive.dead_band),
+        ] {
+            not_negative(name, f(x))?;
+        }
+        let (a, b) = (f(self.half_wheelbase), f(self.half_track));
+        within("com_x", f(self.com[0]), -a, a)?;
+        within("com_y", f(self.com[1]), -b, b)?;
+        finite("hitch_x", f(self.hitch_x))?;
+        Ok(self)
+    }
+
+    /// Where the wheels stand and how they are loaded.
+    pub(crate) fn stance(&self) -> Stance<T> {
+        Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
+    }
+
+    /// What every instant begins with before effects change it.
+    pub(crate) fn world(&self) -> World<T> {
+        World {
+            adhesion: [self.adhesion; 4],
+            lateral: [self.lateral_factor; 4],
+            rolling: [self.rolling_resistance; 4],
+            radius: [self.wheel_radius; 4],
+            coulomb: self.coulomb,
+            viscous: self.viscous,
+            stribeck: [self.stribeck; 2],
+            belt_limit: [real(UNLIMITED); 2],
+            force: [T::zero(); 2],
+            moment: T::zero(),
+            tilt: [T::zero(); 2],
+        }
+    }
+
+    /// The same robot in another scalar.
+    pub fn cast<U: Scalar>(&self) -> Robot<U> {
+        let f = |x: T| real::<U>(nalgebra::try_convert::<T, f64>(x).unwrap_or(f64::NAN));
+        let d = self.drive;
+        Robot {
+            mass: f(self.mass),
+            yaw_inertia: f(self.yaw_inertia),
+            com: self.com.map(f),
+            half_wheelbase: f(self.half_wheelbase),
+            half_track: f(self.half_track),
+            wheel_radius: f(self.wheel_radius),
+            wheel_inertia: f(self.wheel_inertia),
+            motor_inertia: f(self.motor_inertia),
+            adhesion: f(self.adhesion),
+            slip_at_peak: f(self.slip_at_peak),
+            lateral_factor: f(self.lateral_factor),
+            rolling_resistance: f(self.rolling_resistance),
+            coulomb: self.coulomb.map(f),
+            viscous: self.viscous.map(f),
+            stribeck: f(self.stribeck),
+            hitch_x: f(self.hitch_x),
+            drive: Drive {
+                gain: f(d.gain),
+                lag: f(d.lag),
+                extra_lag: f(d.extra_lag),
+                delay: f(d.delay),
+                limit: f(d.limit),
+                dead_band: f(d.dead_band),
+            },
+            gravity: f(self.gravity),
+        }
+    }
+}
+
+/// A torque beyond any robot's, N m: stands for "no limit".
+pub(crate) const UNLIMITED: f64 = 1e9;

@@ -1,0 +1,29 @@
+//! The number type that all models are generic over.
+
+use nalgebra::RealField;
+
+/// A real number that a plant can be evaluated with: `f32` on a robot, `f64` on a host, a dual number for derivatives.
+pub trait Scalar: RealField + Copy {}
+impl<T: RealField + Copy> Scalar for T {}
+
+/// The constant `x` as a scalar.
+#[inline]
+pub fn real<T: Scalar>(x: f64) -> T {
+    nalgebra::convert(x)
+}
+
+/// A smooth sign: the Padé approximant `x (27 + x²) / (27 + 9 x²)` of `tanh x`, exactly ±1 beyond |x| = 3.
+///
+/// Only the four basic operations: cheap, and the same bits on every machine. Largest distance from `tanh`: 0.024.
+#[inline]
+pub(crate) fn smooth_sign<T: Scalar>(x: T) -> T {
+    let three = real::<T>(3.0);
+    if x >= three {
+        T::one()
+    } else if x <= -three {
+        -T::one()
+    } else {
+        let x2 = x * x;
+        x * (real::<T>(27.0) + x2) / (real::<T>(27.0) + real::<T>(9.0) * x2)
+    }
+}

@@ -1,0 +1,184 @@
+//! Many identifiers over one trajectory.
+
+use identifier::AngleRow;
+use nn_basis::Constant;
+use rayon::prelude::*;
+
+use crate::identification::{comparison, follow, layers};
+use crate::{Recipe, RobotSet, SimError, Trajectory, UNITS};
+
+/// Quality of one output of one identifier. Errors are x̃ = x − x̂ of a wheel speed at the samples 1..=n, rad/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputIndices {
+    /// Largest error, rad/s.
+    pub max: f64,
+    /// Root of the mean squared error, rad/s.
+    pub rmse: f64,
+    /// Largest error in each event's window, rad/s.
+    pub peak: [f64; 5],
+    /// When it occurred, s.
+    pub peak_at: [f64; 5],
+    /// Root of the mean squared error in the quiet parts, rad/s.
+    pub quiet_rms: f64,
+    /// Mean of ‖φ‖².
+    pub mean_regressor_square: f64,
+    /// Largest relative residual of the Lyapunov identity over the run, for zero and for random comparison weights.
+    pub identity_residual: f64,
+    /// Whether the mean-square bound held against both comparison weights.
+    pub mean_square_bound_holds: bool,
+}
+
+/// One draw of first layers and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Draw {
+    /// Which draw.
+    pub number: u64,
+    /// Wheels 3 and 4.
+    pub output: [OutputIndices; 2],
+}
+
+impl Draw {
+    /// The indices of Table 1 in its order: x̃3max, x̃4max, x̃3R, x̃4R, rad/s.
+    pub fn table1(&self) -> [f64; 4] {
+        let [three, four] = &self.output;
+        [three.max, four.max, three.rmse, four.rmse]
+    }
+}
+
+/// Histories of one draw, for figures. One entry per sample 1..=n.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    /// Time, s.
+    pub time: Vec<f64>,
+    /// Estimated wheel angles with the measured speed (Eq. 23 as written), rad.
+    pub angle_estimate: [Vec<f64>; 2],
+    /// Error of the wheel angles with the measured speed, rad.
+    pub angle_error: [Vec<f64>; 2],
+    /// Error of the wheel angles if rows 1 and 2 use the estimated speed, rad.
+    pub angle_error_estimated_speed: [Vec<f64>; 2],
+    /// Estimated wheel speeds, rad/s.
+    pub speed_estimate: [Vec<f64>; 2],
+    /// Error of the wheel speeds, rad/s.
+    pub speed_error: [Vec<f64>; 2],
+    /// Weights of both outputs, rad/s².
+    pub weight: [[Vec<f64>; UNITS]; 2],
+}
+
+/// The paper's experiment: one trajectory, any number of identifiers.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    recipe: Recipe,
+    trajectory: Trajectory,
+}
+
+impl Experiment {
+    /// Simulates the robot; identifiers come later.
+    ///
+    /// # Errors
+    /// [`SimError`] if the recipe cannot be used or the simulation stops.
+    pub fn new(recipe: &Recipe, set: RobotSet) -> Result<Self, SimError> {
+        Ok(Self {
+            recipe: recipe.clone(),
+            trajectory: Trajectory::simulate(recipe, set)?,
+        })
+    }
+
+    /// What the robot did.
+    pub fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    /// Runs the identifiers of one draw of first layers.
+    ///
+    /// # Errors
+    /// [`SimError`] if the identifier cannot be built or an estimate stops being finite.
+    pub fn identify(&self, seed: u64, number: u64) -> Result<Draw, SimError> {
+        let bases = layers(&self.recipe, &self.trajectory, seed, number)?;
+        let output = follow(
+            &self.recipe,
+            &self.trajectory,
+            &bases,
+            &comparison(seed, number),
+            |_, _| {},
+        )?;
+        Ok(Draw { number, output })
+    }
+
+    /// Runs the draws `0..draws` on all cores; `done` is called after each.
+    ///
+    /// The result is in the order of the draws and does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// The error of a draw that failed.
+    pub fn ensemble(
+        &self,
+        seed: u64,
+        draws: u64,
+        done: impl Fn() + Sync,
+    ) -> Result<Vec<Draw>, SimError> {
+        (0..draws)
+            .into_par_iter()
+            .map(|number| {
+                let draw = self.identify(seed, number);
+                done();
+                draw
+            })
+            .collect()
+    }
+
+    /// Runs the identifier without a network: all regressor entries 0.5 at all times.
+    ///
+    /// # Errors
+    /// As [`Experiment::identify`].
+    pub fn constant_regressor(&self) -> Result<Draw, SimError> {
+        let basis = Constant::new([0.5; UNITS])?;
+        let output = follow(
+            &self.recipe,
+            &self.trajectory,
+            &[basis; 2],
+            &comparison(0, 0),
+            |_, _| {},
+        )?;
+        Ok(Draw { number: 0, output })
+    }
+
+    /// Runs one draw and keeps its histories.
+    ///
+    /// # Errors
+    /// As [`Experiment::identify`].
+    pub fn trace(&self, seed: u64, number: u64) -> Result<Trace, SimError> {
+        let bases = layers(&self.recipe, &self.trajectory, seed, number)?;
+        let row = AngleRow::new(self.recipe.identifier.pole, 0.0)?;
+        let (mut measured, mut estimated) = ([row; 2], [row; 2]);
+        let (run, h) = (&self.trajectory, self.trajectory.step);
+        let mut trace = Trace::default();
+        follow(
+            &self.recipe,
+            run,
+            &bases,
+            &comparison(seed, number),
+            |k, steps| {
+                trace.time.push((k + 1) as f64 * h);
+                for (i, step) in steps.iter().enumerate() {
+                    let (from, to) = (run.states[k].angle[i], run.states[k + 1].angle[i]);
+                    // The mean speed over the interval, as an encoder measures it.
+                    let speed = (to - from) / h;
+                    trace.angle_error[i].push(measured[i].step(from, to, speed, h));
+                    trace.angle_estimate[i].push(measured[i].estimate());
+                    trace.angle_error_estimated_speed[i].push(estimated[i].step(
+                        from,
+                        to,
+                        speed - step.error_mid,
+                        h,
+                    ));
+                    trace.speed_estimate[i].push(step.after.output);
+                    trace.speed_error[i].push(step.error_after);
+                    for (history, w) in trace.weight[i].iter_mut().zip(step.after.weight) {
+                        history.push(w);
+                    }
+                }
+            },
+        )?;
+        Ok(trace)
+    }
+}

@@ -1,0 +1,39 @@
+//! Fixed-step simulation, scenarios and the experiment of Hendzel & Trojnacki 2014.
+//!
+//! * [`rk4`]: the integrator;
+//! * [`Stream`]: random numbers keyed by seed, purpose and draw, so that results do not depend on threads;
+//! * [`Recipe`]: everything the experiment assumes, as data;
+//! * [`Trajectory`]: the plant under its controller, simulated once;
+//! * [`Experiment`]: identifiers with many random first layers over that trajectory, since the motion does not depend
+//!   on what an identifier makes of it;
+//! * [`table1`]: the paper's indices and what counts as reproduced.
+//!
+//! Everything is deterministic: the same recipe and seed give the same bits on any machine with any thread count.
+//! A simulation stops at the first value that is not finite and names it with its time.
+//!
+//! ```
+//! use sim::{Experiment, Recipe, RobotSet};
+//!
+//! let recipe = Recipe { samples: 500, ..Recipe::default() };
+//! let experiment = Experiment::new(&recipe, RobotSet::B)?;
+//! let draw = experiment.identify(7, 0)?;
+//! assert!(draw.output[0].max > draw.output[0].rmse);
+//! # Ok::<(), sim::SimError>(())
+//! ```
+
+mod error;
+mod experiment;
+mod identification;
+mod random;
+mod recipe;
+mod rk4;
+pub mod statistics;
+pub mod table1;
+mod trajectory;
+
+pub use error::SimError;
+pub use experiment::{Draw, Experiment, OutputIndices, Trace};
+pub use random::{Purpose, Stream};
+pub use recipe::{ControllerRecipe, INPUTS, IdentifierRecipe, PathRecipe, Recipe, RobotSet, UNITS};
+pub use rk4::rk4;
+pub use trajectory::{EVENTS, Trajectory, Windows};
