@@ -24,7 +24,7 @@ fn plant(c: &mut Criterion) {
         ..State::default()
     };
     c.bench_function("plant rate", |b| {
-        b.iter(|| robot.rate(black_box(&state), black_box([-10.0, 12.0])))
+        b.iter(|| robot.rate(black_box(&state), black_box([-10.0, 12.0])));
     });
     let numbers = state.to_array();
     c.bench_function("plant step (one RK4 substep)", |b| {
@@ -50,7 +50,7 @@ fn controller_step(c: &mut Criterion) {
         speed: [4.0, 6.0],
     };
     c.bench_function("controller step", |b| {
-        b.iter(|| controller.step(black_box(&state), 1e-3))
+        b.iter(|| controller.step(black_box(&state), 1e-3));
     });
 }
 
@@ -59,7 +59,7 @@ fn identifier_step(c: &mut Criterion) {
     let input = [4.0, 6.0, -10.0, 12.0];
     let phi = basis.regressor(&input);
     c.bench_function("regressor (6 logistic units)", |b| {
-        b.iter(|| basis.regressor(black_box(&input)))
+        b.iter(|| basis.regressor(black_box(&input)));
     });
     let mut identifier =
         Identifier::new(8.0, Midpoint::new(500.0).expect("valid"), 4.0).expect("valid");
@@ -68,7 +68,7 @@ fn identifier_step(c: &mut Criterion) {
     });
     let step = identifier.step(4.0, 4.001, &phi, 1e-3);
     c.bench_function("certificate of a step", |b| {
-        b.iter(|| identifier.certificate(black_box(&step), &[1.0; 6]))
+        b.iter(|| identifier.certificate(black_box(&step), &[1.0; 6]));
     });
 }
 
@@ -77,11 +77,11 @@ fn experiment(c: &mut Criterion) {
     group.sample_size(10);
     let recipe = Recipe::default();
     group.bench_function("robot, 32 s", |b| {
-        b.iter(|| Experiment::new(&recipe, RobotSet::B))
+        b.iter(|| Experiment::new(&recipe, RobotSet::B));
     });
     let experiment = Experiment::new(&recipe, RobotSet::B).expect("runs");
     group.bench_function("one draw, 32 s, two wheels", |b| {
-        b.iter(|| experiment.identify(1, black_box(0)))
+        b.iter(|| experiment.identify(1, black_box(0)));
     });
     group.finish();
 }

@@ -96,8 +96,6 @@ pub(crate) fn tuned(robot: &Robot<f64>, sigma: &[f64; NUISANCES], theta: &[f64; 
     for ((t, s), x) in tunables::<f64>().iter().zip(sigma).zip(theta) {
         (t.apply)(&mut r, s * x);
     }
-    // A tuning may not leave what a robot can be.
-    r.stribeck = r.stribeck.max(0.0);
     r
 }
 

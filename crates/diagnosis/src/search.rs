@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Lane, Point, Problem};
 use crate::hypothesis::{Place, variants};
 use crate::screen::{Candidate, screen};
 
@@ -24,6 +24,8 @@ pub(crate) struct Found {
 
 /// Finalists that are refitted.
 const FINALISTS: usize = 6;
+/// Steps by which a disc is moved and resized, m.
+const DISC_STEPS: [f64; 3] = [0.2, 0.1, 0.05];
 /// Steps of a first refit, and more for those within `CLOSE` nats of the best.
 const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
@@ -101,6 +103,46 @@ fn scan_onsets(problem: &Problem<'_>, trial: &mut Trial) {
     }
 }
 
+/// Moves and resizes a disc by ever smaller steps: its edge makes the cost too rough for Gauss–Newton alone.
+fn scan_disc(problem: &Problem<'_>, trial: &mut Trial) {
+    let mut at = 0;
+    for (variant, _) in trial.hypothesis.parts.clone() {
+        let n = variant.free(1.0).len();
+        at += n;
+        if variant.place != Place::Disc {
+            continue;
+        }
+        for step in DISC_STEPS {
+            for _ in 0..3 {
+                let tries: Vec<Point> = (at - 3..at)
+                    .flat_map(|i| [-step, step].map(|d| (i, d)))
+                    .map(|(i, d)| {
+                        let mut p = trial.fitted.point.clone();
+                        p.effects[i] += d;
+                        p.effects[at - 1] = p.effects[at - 1].max(0.3);
+                        p
+                    })
+                    .collect();
+                let doses: Vec<_> = tries.iter().map(|p| |run: usize| trial.hypothesis.doses(&p.effects, run)).collect();
+                let lanes: Vec<Lane<'_>> =
+                    tries.iter().zip(&doses).map(|(p, d)| Lane { point: p.clone(), doses: d, part: None }).collect();
+                let best = problem
+                    .lanes(&lanes)
+                    .into_iter()
+                    .zip(&tries)
+                    .map(|(y, p)| (problem.cost(p, &y), y, p.clone()))
+                    .min_by(|a, b| a.0.total_cmp(&b.0));
+                match best {
+                    Some((cost, response, point)) if cost < trial.fitted.cost => {
+                        trial.fitted = Fitted { cost, response, point, columns: trial.fitted.columns.clone() };
+                    }
+                    _ => break,
+                }
+            }
+        }
+    }
+}
+
 fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], base: &Fitted) -> Fitted {
     let point = Point { effects: effects.to_vec(), ..point.clone() };
     problem.begin(h, point, Some(base.columns.clone()))
@@ -110,6 +152,7 @@ fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize) -> T
     let fitted = problem.refine(&h, start, steps, Some(2));
     let mut trial = Trial { hypothesis: h, fitted };
     scan_onsets(problem, &mut trial);
+    scan_disc(problem, &mut trial);
     trial
 }
 
@@ -146,6 +189,25 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), MORE_STEPS);
     }
     best_first(&mut singles);
+    if std::env::var_os("LACUNA_TRACE").is_some() {
+        eprintln!("origin {:.1} retuned {:.1} healthy {:.1}", origin.cost, retuned.cost, crate::decide::healthy_cost(problem));
+        for c in first.iter().take(12) { eprintln!("  1st {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start); }
+        for c in second.iter().take(12) { eprintln!("  2nd {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start); }
+        for t in &singles { eprintln!("  fit {:30} {:9.1} {:?}", t.hypothesis.parts[0].0.label(), retuned.cost - t.fitted.cost, t.fitted.point.effects); }
+    }
+    if let Ok(t) = std::env::var("LACUNA_TRY") {
+        let (label, vals) = t.split_once(':').unwrap();
+        let e: Vec<f64> = vals.split(',').map(|x| x.parse().unwrap()).collect();
+        let v = *all.iter().find(|v| v.label() == label).unwrap();
+        let h = Hypothesis::single(v, vec![]);
+        let b = begin(problem, &h, &origin.point, &e, &origin);
+        eprintln!("TRY at {:.1}", b.cost);
+        for (i, c) in crate::locate::findings(problem, &b.response).iter().enumerate() { eprintln!("  {i} {c:?}"); }
+        let f = problem.refine(&h, b.clone(), 8, Some(2));
+        eprintln!("TRY refined {:.1} {:?} theta {:.2?}", f.cost, f.point.effects, f.point.theta);
+        for s in 1..4 { let seg=&problem.cuts[0].segments[s]; for w in 0..seg.windows { let k=w*7; let row=seg.row+w*10; eprintln!("t {:.1} T {:.2?} obs {:.2?} pred {:.2?}", row as f64*0.01, problem.cuts[0].torque[row], &seg.observed[k..k+7], &b.response[0][s][k..k+7]); } }
+        for r in 0..problem.cuts.len() { eprintln!("{}: {:?}", problem.cuts[r].name, (0..problem.cuts[r].segments.len()).map(|s| (problem.q(r,s,&f.response)/problem.cuts[r].segments[s].count*10.0).round()/10.0).collect::<Vec<_>>()); }
+    }
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
     if let Some(top) = singles.first()
         && retuned.cost - top.fitted.cost < 25.0

@@ -1,7 +1,7 @@
 //! Robot files: TOML or JSON with value, unit, one sigma and source for each parameter.
 
 use recordings::parse_unit;
-use robot_model::robot::Drive;
+use robot_model::robot::{Drive, USUAL_SLIDING_SHARE};
 use robot_model::{ModelError, Robot};
 use serde::Deserialize;
 
@@ -152,6 +152,7 @@ parameters! {
     motor_inertia: "kg m2",
     adhesion: "-",
     slip_at_peak: "-",
+    sliding_share: "-",
     lateral_factor: "-",
     rolling_resistance: "-",
     coulomb: "N m",
@@ -251,6 +252,7 @@ impl RobotSpec {
             motor_inertia: p.or("motor_inertia", 0.0)?,
             adhesion: p.need("adhesion")?,
             slip_at_peak: p.or("slip_at_peak", 0.12)?,
+            sliding_share: p.or("sliding_share", USUAL_SLIDING_SHARE)?,
             lateral_factor: p.or("lateral_factor", 1.0)?,
             rolling_resistance: p.need("rolling_resistance")?,
             coulomb: [p.or("coulomb", 0.0)?; 2],

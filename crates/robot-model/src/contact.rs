@@ -11,22 +11,23 @@ pub fn kiencke<T: Scalar>(slip: T, slip_at_peak: T) -> T {
     real::<T>(2.0) * slip_at_peak * slip / (slip_at_peak * slip_at_peak + slip * slip)
 }
 
-/// Adhesion per slip speed under combined slip: Kiencke's law up to its peak, constant beyond, along the slip velocity.
+/// Adhesion per slip speed under combined slip: Kiencke's law up to its peak, beyond it a share `sliding` of the peak
+/// that no slip takes away, along the slip velocity.
 ///
-/// With slip speed `s = |v_slip|`, reference speed `d` and `λ = s/d`, the friction coefficient is
-/// `μ·min(K(λ), 1 beyond λp)`; returned is that coefficient without μ divided by `s`, and its derivative factor
-/// `∂K/∂s` for the implicit wheel step (zero on the plateau).
+/// With slip speed `s = |v_slip|`, reference speed `d` and `λ = s/d`: `K(λ)` for λ ≤ λp, `ρ + (1 − ρ) K(λ)` beyond;
+/// ρ = 0 is Kiencke's law, ρ = 1 a plateau. Returned are `K/s` and the slope `∂K/∂s` for the implicit wheel step,
+/// which takes the falling branch as flat.
 #[inline]
-pub fn combined<T: Scalar>(slip_speed2: T, reference_speed2: T, slip_at_peak: T) -> (T, T) {
+pub fn combined<T: Scalar>(slip_speed2: T, reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T) {
     let d2 = reference_speed2;
     let peak2 = slip_at_peak * slip_at_peak * d2;
+    // K/s = 2 λp d / (λp² d² + s²);  dK/ds = 2 λp d (λp² d² − s²)/(λp² d² + s²)²
+    let sum = peak2 + slip_speed2;
+    let per_speed = real::<T>(2.0) * slip_at_peak * d2.sqrt() / sum;
     if slip_speed2 < peak2 {
-        // K/s = 2 λp d / (λp² d² + s²);  dK/ds = 2 λp d (λp² d² − s²)/(λp² d² + s²)²
-        let sum = peak2 + slip_speed2;
-        let per_speed = real::<T>(2.0) * slip_at_peak * d2.sqrt() / sum;
         (per_speed, per_speed * (peak2 - slip_speed2) / sum)
     } else {
-        (T::one() / slip_speed2.sqrt(), T::zero())
+        (sliding / slip_speed2.sqrt() + (T::one() - sliding) * per_speed, T::zero())
     }
 }
 

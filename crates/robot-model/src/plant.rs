@@ -217,7 +217,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let rim = speed[i] * world.radius[i];
             let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
             let (sx2, s2) = (slip[0] * slip[0], slip[0] * slip[0] + slip[1] * slip[1]);
-            let (per_speed, slope) = combined(s2, rim * rim + rest2, self.robot.slip_at_peak);
+            let (per_speed, slope) = combined(s2, rim * rim + rest2, self.robot.slip_at_peak, self.robot.sliding_share);
             let mu = world.adhesion[i] * per_speed;
             k[i] = [mu * slip[0], mu * slip[1] * world.lateral[i]];
             let turned = if s2 > T::zero() { (slope - per_speed) * sx2 / s2 } else { T::zero() };
@@ -253,33 +253,33 @@ impl<'a, T: Scalar> Plant<'a, T> {
     /// `F' = ∂F_x/∂v_slip` and the last acceleration `a` of the contact point,
     /// `(J + h r² F') Δω = h (T − r F + r F' h a)`, and the body receives the same impulses as the wheels.
     pub fn step(&self, s: &mut State<T>, command: [T; 2]) {
-        let h = self.step;
+        let (h, half) = (self.step, real::<T>(0.5));
         self.step_drive(s, command);
         let world = self.world_at(s);
         let Contacts { mut force, stiffness, rolling } = self.contacts(s, &world);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
         for j in 0..2 {
             let (f, r) = (j, j + 2);
-            let sign = smooth_sign(s.wheel_speed[j] / real(FRICTION_REST));
             let mut inertia = [jw, jw + jm];
             let mut impulse = [T::zero(); 2];
             let mut ahead = [T::zero(); 2];
             for (n, i) in [f, r].into_iter().enumerate() {
                 let radius = world.radius[i];
+                let w = if n == 0 { s.front_speed[j] } else { s.wheel_speed[j] };
+                let sign = smooth_sign(w / real(FRICTION_REST));
                 ahead[n] = h * (s.rate[0] - s.rate[2] * self.stance.wheel[i][1]);
                 let stiff = h * radius * stiffness[i];
                 inertia[n] += stiff * radius;
-                impulse[n] = stiff * ahead[n] - h * radius * force[i][0];
+                // Bearings: each wheel bears half of its side's drivetrain friction, as in Eq. 8 of the paper.
+                let drag = rolling[i] * sign + half * Self::friction(&world, j, w, sign);
+                impulse[n] = stiff * ahead[n] - h * (radius * force[i][0] + drag);
             }
-            impulse[1] += h * (self.delivered(s, j) - Self::friction(&world, j, s.wheel_speed[j], sign));
-            impulse[1] -= h * rolling[r] * sign;
+            impulse[1] += h * self.delivered(s, j);
             let limit = world.belt_limit[j];
             let change = if limit >= real(UNLIMITED) {
-                impulse[0] -= h * rolling[f] * sign;
                 let dw = (impulse[0] + impulse[1]) / (inertia[0] + inertia[1]);
                 [dw, dw]
             } else {
-                impulse[0] -= h * rolling[f] * smooth_sign(s.front_speed[j] / real(FRICTION_REST));
                 let gap = s.wheel_speed[j] - s.front_speed[j] + impulse[1] / inertia[1] - impulse[0] / inertia[0];
                 let belt = gap / (T::one() / inertia[0] + T::one() / inertia[1]);
                 let belt = belt.max(-limit * h).min(limit * h);

@@ -46,6 +46,8 @@ pub struct Robot<T> {
     pub adhesion: T,
     /// Slip ratio λp at the peak of the adhesion.
     pub slip_at_peak: T,
+    /// Share of the peak adhesion that remains however much the wheel slides, 0 to 1.
+    pub sliding_share: T,
     /// Lateral over longitudinal adhesion.
     pub lateral_factor: T,
     /// Rolling resistance coefficient f_r.
@@ -104,6 +106,7 @@ impl<T: Scalar> Robot<T> {
             not_negative(name, f(x))?;
         }
         let (a, b) = (f(self.half_wheelbase), f(self.half_track));
+        within("sliding_share", f(self.sliding_share), 0.0, 1.0)?;
         within("com_x", f(self.com[0]), -a, a)?;
         within("com_y", f(self.com[1]), -b, b)?;
         finite("hitch_x", f(self.hitch_x))?;
@@ -147,6 +150,7 @@ impl<T: Scalar> Robot<T> {
             motor_inertia: f(self.motor_inertia),
             adhesion: f(self.adhesion),
             slip_at_peak: f(self.slip_at_peak),
+            sliding_share: f(self.sliding_share),
             lateral_factor: f(self.lateral_factor),
             rolling_resistance: f(self.rolling_resistance),
             coulomb: self.coulomb.map(f),
@@ -165,6 +169,9 @@ impl<T: Scalar> Robot<T> {
         }
     }
 }
+
+/// Share of the peak adhesion that remains in full sliding when nobody knows better: rubber keeps most of it.
+pub const USUAL_SLIDING_SHARE: f64 = 0.8;
 
 /// A torque beyond any robot's, N m: stands for "no limit".
 pub(crate) const UNLIMITED: f64 = 1e9;

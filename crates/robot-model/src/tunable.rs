@@ -27,7 +27,7 @@ pub struct Tunable<T> {
 }
 
 /// Number of tunable constants.
-pub const COUNT: usize = 16;
+pub const COUNT: usize = 17;
 
 /// Applies a tuning to a robot.
 type Apply<T> = fn(&mut Robot<T>, T);
@@ -42,8 +42,8 @@ fn offset<T>(id: &'static str, unit: &'static str, sigma: f64, apply: Apply<T>) 
 
 /// All tunable constants.
 ///
-/// The last two are model discrepancies: without them contact compliance reads as a motor lag and friction near
-/// rest as stiction. The lag is an offset because as a factor it could absorb a true additional lag.
+/// The last three are model discrepancies: without them contact compliance reads as a motor lag, friction near rest
+/// as stiction, and sliding wheels as other ground. The lag is an offset because as a factor it could absorb a true additional lag.
 pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
     [
         factor("adhesion", 0.10, |r, d| r.adhesion *= d.exp()),
@@ -64,6 +64,7 @@ pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
         factor("mass", 0.01, |r, d| r.mass *= d.exp()),
         factor("com_height", 0.05, |r, d| r.com[2] *= d.exp()),
         offset("motor_lag", "s", 0.012, |r, d| r.drive.lag = (r.drive.lag + d).max(real(1e-4))),
-        offset("stribeck", "N m", 0.12, |r, d| r.stribeck += d),
+        offset("stribeck", "N m", 0.12, |r, d| r.stribeck = (r.stribeck + d).max(T::zero())),
+        offset("sliding_share", "-", 0.2, |r, d| r.sliding_share = (r.sliding_share + d).max(T::zero()).min(T::one())),
     ]
 }
