@@ -16,39 +16,21 @@ fn layer<const I: usize, const N: usize>() -> SigmoidLayer<f64, I, N> {
 
 fn plant(c: &mut Criterion) {
     let robot = PaperRobot::<f64>::new(&Parameters::SET_B).expect("valid");
-    let state = State {
-        vx: 0.5,
-        vy: 0.01,
-        yaw_rate: 0.3,
-        speed: [4.0, 6.0],
-        ..State::default()
-    };
+    let state = State { vx: 0.5, vy: 0.01, yaw_rate: 0.3, speed: [4.0, 6.0], ..State::default() };
     c.bench_function("plant rate", |b| {
         b.iter(|| robot.rate(black_box(&state), black_box([-10.0, 12.0])));
     });
     let numbers = state.to_array();
     c.bench_function("plant step (one RK4 substep)", |b| {
-        b.iter(|| {
-            rk4(black_box(&numbers), 5e-5, |s| {
-                robot.rate(&State::from_array(*s), [-10.0, 12.0]).to_array()
-            })
-        });
+        b.iter(|| rk4(black_box(&numbers), 5e-5, |s| robot.rate(&State::from_array(*s), [-10.0, 12.0]).to_array()));
     });
 }
 
 fn controller_step(c: &mut Criterion) {
     let path = LoopPath::new(&Loop::default()).expect("valid");
     let gains = Gains::for_robot(&Parameters::SET_B, 100.0);
-    let mut controller =
-        Tracking::<f64, _, 8>::new(&gains, layer::<4, 8>(), PathReference::new(path))
-            .expect("valid");
-    let state = WheelState {
-        x: 0.1,
-        y: 0.0,
-        yaw: 0.0,
-        angle: [1.0; 2],
-        speed: [4.0, 6.0],
-    };
+    let mut controller = Tracking::<f64, _, 8>::new(&gains, layer::<4, 8>(), PathReference::new(path)).expect("valid");
+    let state = WheelState { x: 0.1, y: 0.0, yaw: 0.0, angle: [1.0; 2], speed: [4.0, 6.0] };
     c.bench_function("controller step", |b| {
         b.iter(|| controller.step(black_box(&state), 1e-3));
     });
@@ -61,8 +43,7 @@ fn identifier_step(c: &mut Criterion) {
     c.bench_function("regressor (6 logistic units)", |b| {
         b.iter(|| basis.regressor(black_box(&input)));
     });
-    let mut identifier =
-        Identifier::new(8.0, Midpoint::new(500.0).expect("valid"), 4.0).expect("valid");
+    let mut identifier = Identifier::new(8.0, Midpoint::new(500.0).expect("valid"), 4.0).expect("valid");
     c.bench_function("identifier step", |b| {
         b.iter(|| identifier.step(black_box(4.0), black_box(4.001), black_box(&phi), 1e-3));
     });

@@ -34,32 +34,21 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let mapping = case_folder::mapping("skid-steer-columns")?;
     let mut failed = 0;
     for folder in &folders {
-        let name = folder
-            .file_name()
-            .map(|n| n.to_string_lossy().into_owned())
-            .unwrap_or_default();
+        let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         if !args.only.is_empty() && !args.only.contains(&name) {
             continue;
         }
         let start = Instant::now();
         let outcome = (|| -> Result<diagnosis::Diagnosis> {
             let case =
-                case_folder::CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?
-                    .torque_driven()?;
-            Ok(diagnosis::diagnose(
-                &case,
-                &diagnosis::Options::default(),
-                &|_| (),
-            )?)
+                case_folder::CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
+            Ok(diagnosis::diagnose(&case, &diagnosis::Options::default(), &|_| ())?)
         })();
         let seconds = start.elapsed().as_secs_f64();
         match outcome {
             Ok(d) => {
                 answers::write(&args.answers, &name, &d, seconds)?;
-                println!(
-                    "{name}  {seconds:5.1} s  {}",
-                    d.sentences.first().map_or("", String::as_str)
-                );
+                println!("{name}  {seconds:5.1} s  {}", d.sentences.first().map_or("", String::as_str));
             }
             Err(e) => {
                 failed += 1;

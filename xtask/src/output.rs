@@ -27,8 +27,7 @@ pub(crate) fn folder(command: &str) -> anyhow::Result<PathBuf> {
         .and_then(|dir| Path::new(&dir).parent().map(Path::to_path_buf))
         .unwrap_or_default();
     let folder = root.join("target").join(command);
-    std::fs::create_dir_all(&folder)
-        .with_context(|| format!("cannot create {}", folder.display()))?;
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot create {}", folder.display()))?;
     Ok(folder)
 }
 

@@ -98,11 +98,7 @@ impl Outcome<'_> {
             text += " The tolerance is judged for set B only; this set is shown beside it.";
         }
         if self.args.draws < FULL {
-            let _ = write!(
-                text,
-                " It was stated for {FULL} draws; these are {}.",
-                self.args.draws
-            );
+            let _ = write!(text, " It was stated for {FULL} draws; these are {}.", self.args.draws);
         }
         text
     }
@@ -131,21 +127,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<bool> {
     };
     print!("{}", text(&outcome));
     let folder = output::folder("reproduce")?;
-    output::write(
-        &folder,
-        "summary.json",
-        &serde_json::to_string_pretty(&summary(&outcome))?,
-    )?;
-    output::write(
-        &folder,
-        "numbers.json",
-        &serde_json::to_string_pretty(&numbers(&outcome))?,
-    )?;
-    output::write(
-        &folder,
-        "index.html",
-        &report::reproduction::page(&page(&outcome, &experiment)?),
-    )?;
+    output::write(&folder, "summary.json", &serde_json::to_string_pretty(&summary(&outcome))?)?;
+    output::write(&folder, "numbers.json", &serde_json::to_string_pretty(&numbers(&outcome))?)?;
+    output::write(&folder, "index.html", &report::reproduction::page(&page(&outcome, &experiment)?))?;
     println!("\nPage and numbers: target/reproduce/index.html, numbers.json, summary.json");
     Ok(outcome.within() || !outcome.judged())
 }
@@ -158,17 +142,13 @@ fn progress(draws: u64) -> anyhow::Result<ProgressBar> {
 
 fn page(o: &Outcome, experiment: &Experiment) -> anyhow::Result<Reproduction> {
     let chosen = typical(&o.draws).context("no draws")?;
-    let indices = o
-        .table
-        .iter()
-        .zip(o.constant.table1())
-        .map(|(d, constant)| Index {
-            name: d.name.into(),
-            paper: d.paper,
-            quantiles: d.quantiles,
-            percentile: d.percentile,
-            constant,
-        });
+    let indices = o.table.iter().zip(o.constant.table1()).map(|(d, constant)| Index {
+        name: d.name.into(),
+        paper: d.paper,
+        quantiles: d.quantiles,
+        percentile: d.percentile,
+        constant,
+    });
     let conditions = o.checks.iter().map(|c| Condition {
         rule: c.rule,
         name: c.name.clone(),
@@ -195,10 +175,7 @@ fn signals(run: &Trajectory, trace: sim::Trace) -> Signals {
     let states = || run.states.iter().skip(1);
     let side = |f: &dyn Fn(usize) -> Vec<f64>| [f(0), f(1)];
     Signals {
-        path: [
-            states().map(|s| s.x).collect(),
-            states().map(|s| s.y).collect(),
-        ],
+        path: [states().map(|s| s.x).collect(), states().map(|s| s.y).collect()],
         desired: side(&|i| run.desired.iter().map(|p| p[i]).collect()),
         torque: side(&|i| run.torques.iter().map(|u| u[i]).collect()),
         angle: side(&|i| states().map(|s| s.angle[i]).collect()),
@@ -222,11 +199,8 @@ mod tests {
     fn the_frozen_recipe_is_the_default_one() {
         let recipe: Recipe = toml::from_str(super::RECIPE).expect("valid");
         assert!(recipe.disclosure.contains("Table 1 was in view"));
-        let default = Recipe {
-            title: recipe.title.clone(),
-            disclosure: recipe.disclosure.clone(),
-            ..Recipe::default()
-        };
+        let default =
+            Recipe { title: recipe.title.clone(), disclosure: recipe.disclosure.clone(), ..Recipe::default() };
         assert_eq!(recipe, default);
     }
 }

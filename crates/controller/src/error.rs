@@ -23,17 +23,9 @@ pub enum ControllerError {
 }
 
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), ControllerError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(ControllerError::NotPositive { name, value })
-    }
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(ControllerError::NotPositive { name, value }) }
 }
 
 pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<(), ControllerError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(ControllerError::Negative { name, value })
-    }
+    if value.is_finite() && value >= 0.0 { Ok(()) } else { Err(ControllerError::Negative { name, value }) }
 }

@@ -103,12 +103,7 @@ impl<T: Scalar> LoopPath<T> {
             Turn::Right => -1.0,
         };
         Ok(Self {
-            events: Events {
-                entry,
-                exit,
-                brake,
-                rest: brake + path.brake,
-            },
+            events: Events { entry, exit, brake, rest: brake + path.brake },
             speed: real(path.speed),
             yaw_rate: real(sign * path.speed / path.radius),
             accelerate: real(path.accelerate),
@@ -140,8 +135,7 @@ impl<T: Scalar> LoopPath<T> {
     /// Desired heading φ_d, the integral of the yaw rate, rad.
     #[inline]
     pub fn yaw(&self, t: T) -> T {
-        self.yaw_rate
-            * (ramp_area(t - self.entry_at, self.blend) - ramp_area(t - self.exit_at, self.blend))
+        self.yaw_rate * (ramp_area(t - self.entry_at, self.blend) - ramp_area(t - self.exit_at, self.blend))
     }
 }
 
@@ -191,12 +185,7 @@ pub struct PathReference<T> {
 impl<T: Scalar> PathReference<T> {
     /// A reference at the start of the path, in the origin with heading zero.
     pub fn new(path: LoopPath<T>) -> Self {
-        Self {
-            path,
-            time: T::zero(),
-            x: T::zero(),
-            y: T::zero(),
-        }
+        Self { path, time: T::zero(), x: T::zero(), y: T::zero() }
     }
 
     /// The path.
@@ -208,13 +197,7 @@ impl<T: Scalar> PathReference<T> {
     #[inline]
     pub fn now(&self) -> Reference<T> {
         let (path, t) = (&self.path, self.time);
-        Reference {
-            x: self.x,
-            y: self.y,
-            yaw: path.yaw(t),
-            speed: path.speed(t),
-            yaw_rate: path.yaw_rate(t),
-        }
+        Reference { x: self.x, y: self.y, yaw: path.yaw(t), speed: path.speed(t), yaw_rate: path.yaw_rate(t) }
     }
 
     /// Moves on by `h` seconds; the position is integrated by Simpson's rule from the closed-form heading and speed.
@@ -225,11 +208,7 @@ impl<T: Scalar> PathReference<T> {
             let v = self.path.speed(t);
             [v * cos, v * sin]
         };
-        let (a, b, c) = (
-            velocity(self.time),
-            velocity(self.time + real::<T>(0.5) * h),
-            velocity(self.time + h),
-        );
+        let (a, b, c) = (velocity(self.time), velocity(self.time + real::<T>(0.5) * h), velocity(self.time + h));
         let (four, sixth) = (real::<T>(4.0), h / real::<T>(6.0));
         self.x += sixth * (a[0] + four * b[0] + c[0]);
         self.y += sixth * (a[1] + four * b[1] + c[1]);

@@ -4,16 +4,11 @@ use nn_basis::Constant;
 use robot_model::paper::Parameters;
 
 use crate::{
-    ControllerError, Gains, Kinematic, Loop, LoopPath, PathReference, Pose, Reference, Tracking,
-    Turn, WheelState,
+    ControllerError, Gains, Kinematic, Loop, LoopPath, PathReference, Pose, Reference, Tracking, Turn, WheelState,
 };
 
 fn path(turn: Turn) -> LoopPath<f64> {
-    LoopPath::new(&Loop {
-        turn,
-        ..Loop::default()
-    })
-    .expect("valid")
+    LoopPath::new(&Loop { turn, ..Loop::default() }).expect("valid")
 }
 
 #[test]
@@ -27,12 +22,7 @@ fn the_heading_changes_by_exactly_one_turn() {
 #[test]
 fn events_fall_where_the_study_puts_them() {
     let events = *path(Turn::Left).events();
-    for (found, expected) in [
-        (events.entry, 4.0),
-        (events.exit, 22.85),
-        (events.brake, 26.35),
-        (events.rest, 28.35),
-    ] {
+    for (found, expected) in [(events.entry, 4.0), (events.exit, 22.85), (events.brake, 26.35), (events.rest, 28.35)] {
         assert!((found - expected).abs() < 1e-2, "{events:?}");
     }
 }
@@ -54,44 +44,23 @@ fn the_reference_closes_the_loop_and_stops() {
 
 #[test]
 fn a_right_turn_mirrors_a_left_turn() {
-    let (mut left, mut right) = (
-        PathReference::new(path(Turn::Left)),
-        PathReference::new(path(Turn::Right)),
-    );
+    let (mut left, mut right) = (PathReference::new(path(Turn::Left)), PathReference::new(path(Turn::Right)));
     for _ in 0..20_000 {
         left.advance(1e-3);
         right.advance(1e-3);
-        assert_eq!(
-            (left.now().x, left.now().y),
-            (right.now().x, -right.now().y)
-        );
+        assert_eq!((left.now().x, left.now().y), (right.now().x, -right.now().y));
     }
 }
 
 #[test]
 fn the_kinematic_loop_brings_ideal_wheels_to_the_path() {
-    let law = Kinematic {
-        kx: 1.0,
-        ky: 4.0,
-        k_yaw: 2.0,
-    };
-    let mut pose = Pose {
-        x: -0.2,
-        y: 0.3,
-        yaw: 0.4,
-    };
+    let law = Kinematic { kx: 1.0, ky: 4.0, k_yaw: 2.0 };
+    let mut pose = Pose { x: -0.2, y: 0.3, yaw: 0.4 };
     let mut energy = f64::INFINITY;
     for k in 0..10_000 {
-        let reference = Reference {
-            x: 0.5e-3 * f64::from(k),
-            y: 0.0,
-            yaw: 0.0,
-            speed: 0.5,
-            yaw_rate: 0.0,
-        };
+        let reference = Reference { x: 0.5e-3 * f64::from(k), y: 0.0, yaw: 0.0, speed: 0.5, yaw_rate: 0.0 };
         let (dx, dy) = (reference.x - pose.x, pose.y);
-        let now =
-            0.5 * (dx * dx + dy * dy) + (1.0 - nalgebra::ComplexField::cos(pose.yaw)) / law.ky;
+        let now = 0.5 * (dx * dx + dy * dy) + (1.0 - nalgebra::ComplexField::cos(pose.yaw)) / law.ky;
         assert!(now <= energy + 1e-6, "{now} {energy}");
         energy = now;
         let command = law.command(&pose, &reference);
@@ -105,30 +74,12 @@ fn the_kinematic_loop_brings_ideal_wheels_to_the_path() {
 
 #[test]
 fn what_cannot_be_used_is_refused_by_name() {
-    let still = LoopPath::<f64>::new(&Loop {
-        speed: 0.0,
-        ..Loop::default()
-    });
-    assert_eq!(
-        still,
-        Err(ControllerError::NotPositive {
-            name: "speed of the path",
-            value: 0.0
-        })
-    );
-    let gains = Gains {
-        leak: -1.0,
-        ..Gains::for_robot(&Parameters::SET_B, 100.0)
-    };
+    let still = LoopPath::<f64>::new(&Loop { speed: 0.0, ..Loop::default() });
+    assert_eq!(still, Err(ControllerError::NotPositive { name: "speed of the path", value: 0.0 }));
+    let gains = Gains { leak: -1.0, ..Gains::for_robot(&Parameters::SET_B, 100.0) };
     let basis = Constant::new([0.5; 8]).expect("finite");
     let built = Tracking::<f64, _, 8>::new(&gains, basis, PathReference::new(path(Turn::Left)));
-    assert_eq!(
-        built,
-        Err(ControllerError::Negative {
-            name: "leak",
-            value: -1.0
-        })
-    );
+    assert_eq!(built, Err(ControllerError::Negative { name: "leak", value: -1.0 }));
 }
 
 #[test]
@@ -144,13 +95,7 @@ fn the_leak_bounds_the_weights_whichever_way_the_wheels_err() {
         let basis = Constant::new([0.5; 8]).expect("finite");
         let reference = PathReference::new(path(Turn::Left));
         let mut controller = Tracking::<f64, _, 8>::new(&gains, basis, reference).expect("valid");
-        let stuck = WheelState {
-            x: 0.0,
-            y: 0.0,
-            yaw: 0.0,
-            angle: [0.0; 2],
-            speed: [speed; 2],
-        };
+        let stuck = WheelState { x: 0.0, y: 0.0, yaw: 0.0, angle: [0.0; 2], speed: [speed; 2] };
         for _ in 0..500 {
             let action = controller.step(&stuck, 1e-3);
             assert!(action.sliding[0] * speed < 0.0);
@@ -168,15 +113,8 @@ fn the_tracking_law_runs_in_single_precision() {
     let narrow = LoopPath::<f32>::new(&Loop::default()).expect("valid");
     let gains = Gains::for_robot(&Parameters::SET_B, 100.0);
     let basis = Constant::new([0.5_f32; 8]).expect("finite");
-    let mut controller =
-        Tracking::<f32, _, 8>::new(&gains, basis, PathReference::new(narrow)).expect("valid");
-    let still = WheelState {
-        x: 0.0,
-        y: 0.0,
-        yaw: 0.0,
-        angle: [0.0; 2],
-        speed: [0.0; 2],
-    };
+    let mut controller = Tracking::<f32, _, 8>::new(&gains, basis, PathReference::new(narrow)).expect("valid");
+    let still = WheelState { x: 0.0, y: 0.0, yaw: 0.0, angle: [0.0; 2], speed: [0.0; 2] };
     controller.step(&still, 1e-3);
     let [left, right] = controller.step(&still, 1e-3).torque;
     assert!(left > 0.0 && left == right);
@@ -194,37 +132,20 @@ fn the_yaw_rate_is_the_slope_of_the_heading() {
 
 #[test]
 fn the_command_does_not_depend_on_where_the_plane_points() {
-    let law = Kinematic {
-        kx: 1.0,
-        ky: 4.0,
-        k_yaw: 2.0,
-    };
+    let law = Kinematic { kx: 1.0, ky: 4.0, k_yaw: 2.0 };
     let command = |turn: f64| {
         let (sin, cos) = nalgebra::ComplexField::sin_cos(turn);
         let place = |x: f64, y: f64| (cos * x - sin * y, sin * x + cos * y);
         let ((x, y), (xd, yd)) = (place(0.1, 0.2), place(0.4, 0.7));
-        let reference = Reference {
-            x: xd,
-            y: yd,
-            yaw: turn + 0.1,
-            speed: 0.5,
-            yaw_rate: 0.2,
-        };
+        let reference = Reference { x: xd, y: yd, yaw: turn + 0.1, speed: 0.5, yaw_rate: 0.2 };
         law.command(&Pose { x, y, yaw: turn }, &reference)
     };
     let straight = command(0.0);
     assert!((straight.speed - (0.5 * nalgebra::ComplexField::cos(0.1_f64) + 0.3)).abs() < 1e-12);
-    assert!(
-        (straight.yaw_rate - (0.2 + 4.0 * 0.5 * 0.5 + 2.0 * nalgebra::ComplexField::sin(0.1_f64)))
-            .abs()
-            < 1e-12
-    );
+    assert!((straight.yaw_rate - (0.2 + 4.0 * 0.5 * 0.5 + 2.0 * nalgebra::ComplexField::sin(0.1_f64))).abs() < 1e-12);
     for turn in [0.7, 2.0, -2.5] {
         let turned = command(turn);
         assert!((turned.speed - straight.speed).abs() < 1e-12, "{turned:?}");
-        assert!(
-            (turned.yaw_rate - straight.yaw_rate).abs() < 1e-12,
-            "{turned:?}"
-        );
+        assert!((turned.yaw_rate - straight.yaw_rate).abs() < 1e-12, "{turned:?}");
     }
 }

@@ -127,18 +127,10 @@ impl<T: Scalar, B: Basis<T, 4, N>, const N: usize> Tracking<T, B, N> {
     ///
     /// # Errors
     /// [`ControllerError`] names the first gain that cannot be used.
-    pub fn new(
-        gains: &Gains,
-        basis: B,
-        reference: PathReference<T>,
-    ) -> Result<Self, ControllerError> {
+    pub fn new(gains: &Gains, basis: B, reference: PathReference<T>) -> Result<Self, ControllerError> {
         gains.check()?;
         Ok(Self {
-            kinematic: Kinematic {
-                kx: real(gains.kx),
-                ky: real(gains.ky),
-                k_yaw: real(gains.k_yaw),
-            },
+            kinematic: Kinematic { kx: real(gains.kx), ky: real(gains.ky), k_yaw: real(gains.k_yaw) },
             slope: real(gains.slope),
             damping: real(gains.damping),
             adaptation: real(gains.adaptation),
@@ -160,44 +152,27 @@ impl<T: Scalar, B: Basis<T, 4, N>, const N: usize> Tracking<T, B, N> {
     #[inline]
     pub fn step(&mut self, state: &WheelState<T>, h: T) -> Action<T> {
         let reference = self.reference.now();
-        let pose = Pose {
-            x: state.x,
-            y: state.y,
-            yaw: state.yaw,
-        };
+        let pose = Pose { x: state.x, y: state.y, yaw: state.yaw };
         let command = self.kinematic.command(&pose, &reference);
         let spread = command.yaw_rate * self.half_track;
-        let desired_speed = [
-            (command.speed - spread) / self.radius,
-            (command.speed + spread) / self.radius,
-        ];
+        let desired_speed = [(command.speed - spread) / self.radius, (command.speed + spread) / self.radius];
         let mut torque = [T::zero(); 2];
         let mut sliding = [T::zero(); 2];
         for i in 0..2 {
             let other = 1 - i;
-            let phi = self.basis.regressor(&[
-                state.speed[i],
-                state.speed[other],
-                desired_speed[i],
-                desired_speed[other],
-            ]);
+            let phi =
+                self.basis.regressor(&[state.speed[i], state.speed[other], desired_speed[i], desired_speed[other]]);
             let error = self.desired_angle[i] - state.angle[i];
             let s = desired_speed[i] - state.speed[i] + self.slope * error;
             let saturated = (s / self.boundary).max(-T::one()).min(T::one());
             torque[i] = self.damping * s + self.net.output(&phi)[i] + self.robust * saturated;
             let rate = h * self.adaptation;
-            self.net
-                .adapt(i, &phi, rate * s, rate * self.leak * s.abs());
+            self.net.adapt(i, &phi, rate * s, rate * self.leak * s.abs());
             self.desired_angle[i] += h * desired_speed[i];
             sliding[i] = s;
         }
         self.reference.advance(h);
-        Action {
-            torque,
-            sliding,
-            desired_speed,
-            reference,
-        }
+        Action { torque, sliding, desired_speed, reference }
     }
 
     /// The network: one output per side.

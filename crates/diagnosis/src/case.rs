@@ -84,7 +84,9 @@ impl HeldOut {
                 row[j] = *v;
             }
         }
-        let lookup = |s: Signal| -> std::collections::BTreeMap<i64, f64> { recording.get(s).map(|c| c.samples().collect()).unwrap_or_default() };
+        let lookup = |s: Signal| -> std::collections::BTreeMap<i64, f64> {
+            recording.get(s).map(|c| c.samples().collect()).unwrap_or_default()
+        };
         let signals = [
             Signal::PoseX,
             Signal::PoseY,
@@ -117,7 +119,10 @@ impl HeldOut {
             })
             .collect();
         if restarts.is_empty() {
-            return Err(DiagnosisError::MissingSignal { recording: name, what: "state (pose, body velocity, gyro, wheels) in any row" });
+            return Err(DiagnosisError::MissingSignal {
+                recording: name,
+                what: "state (pose, body velocity, gyro, wheels) in any row",
+            });
         }
         Ok(Self { name, period: period_ns as f64 * 1e-9, first_time: start as f64 * 1e-9, torque, restarts })
     }

@@ -98,7 +98,8 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found) -> Decision {
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / healthy.max(1e-9)).ln();
     let left = (best - healthy) / (base.cost - healthy).max(LEAST_MISMATCH);
-    let unknown = logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
+    let unknown =
+        logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
     for s in &mut scored {
         s.probability = (1.0 - unknown) * weight(s.score) / sum;
     }

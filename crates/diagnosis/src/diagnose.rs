@@ -63,14 +63,21 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
             return Err(DiagnosisError::TooShort { recording: c.name.clone(), rows, needed });
         }
     }
-    let largest = case.recordings.iter().chain(&case.references).flat_map(|r| &r.torque).flatten().fold(0.0_f64, |a, t| a.max(t.abs()));
+    let largest = case
+        .recordings
+        .iter()
+        .chain(&case.references)
+        .flat_map(|r| &r.torque)
+        .flatten()
+        .fold(0.0_f64, |a, t| a.max(t.abs()));
     progress("calibrating on the references");
     let calibration = calibrate(&robot, &case.sigma, &references, largest, options)?;
     let problem = problem(&robot, case, &recordings, &calibration, largest, options);
     let found = search(&problem, progress);
     let decision = decide(&problem, &found);
     progress("comparing on data that was not fitted");
-    let answer = Answer { case, options, problem: &problem, calibration: &calibration, sensors: &sensors, decision: &decision };
+    let answer =
+        Answer { case, options, problem: &problem, calibration: &calibration, sensors: &sensors, decision: &decision };
     Ok(answer.diagnosis(&found.retuned, found.screened.clone()))
 }
 
@@ -114,7 +121,9 @@ impl Answer<'_> {
         let best = d.scored.first().map_or(0.0, |s| s.probability);
         if d.unknown > 0.5 {
             Verdict::Unknown
-        } else if !self.sensors.faults.is_empty() || d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none && best > 0.0 {
+        } else if !self.sensors.faults.is_empty()
+            || d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none && best > 0.0
+        {
             Verdict::Explained
         } else {
             Verdict::NoMismatch
@@ -229,7 +238,12 @@ impl Answer<'_> {
         }
         let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
         let free = h.free(p.largest_torque);
-        Some(free.iter().enumerate().map(|(i, f)| inverse[(NUISANCES + i, NUISANCES + i)].max(0.0).sqrt() * f.unit).collect())
+        Some(
+            free.iter()
+                .enumerate()
+                .map(|(i, f)| inverse[(NUISANCES + i, NUISANCES + i)].max(0.0).sqrt() * f.unit)
+                .collect(),
+        )
     }
 
     /// When any wheel was inside the disc, in each recording.
@@ -347,7 +361,8 @@ impl Answer<'_> {
                     Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0)
                 });
                 let corrected = predict(h, &tuned(p.robot, &p.sigma, &theta), &doses, gyro, self.options.step);
-                let plain = predict(h, &tuned(p.robot, &p.sigma, &p.centre), &[], GyroError::default(), self.options.step);
+                let plain =
+                    predict(h, &tuned(p.robot, &p.sigma, &p.centre), &[], GyroError::default(), self.options.step);
                 (corrected, plain)
             })
             .collect();
@@ -387,7 +402,11 @@ impl Answer<'_> {
         // Alternatives to the best hypothesis, not its own second member.
         let members: Vec<&str> =
             self.winner().map_or(Vec::new(), |w| w.trial.hypothesis.parts.iter().map(|(v, _)| v.card().id).collect());
-        let best = members.iter().filter_map(|m| ranked.iter().find(|c| c.effect == *m)).map(|c| c.probability).fold(0.0, f64::max);
+        let best = members
+            .iter()
+            .filter_map(|m| ranked.iter().find(|c| c.effect == *m))
+            .map(|c| c.probability)
+            .fold(0.0, f64::max);
         let rivals: Vec<String> = ranked
             .iter()
             .filter(|c| c.effect != "none" && c.effect != "unknown" && !members.contains(&c.effect.as_str()))
@@ -401,7 +420,10 @@ impl Answer<'_> {
         let mut out = Vec::new();
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
-            out.push("no pose: slip and places on the ground cannot be told, gyro faults cannot be told from turning".to_owned());
+            out.push(
+                "no pose: slip and places on the ground cannot be told, gyro faults cannot be told from turning"
+                    .to_owned(),
+            );
         }
         if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
             out.push("no gyro: turning is only known from the wheels".to_owned());

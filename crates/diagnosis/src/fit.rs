@@ -20,6 +20,9 @@ const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
 const DEVIATION: [f64; 5] = [0.004, 0.01, 0.01, 0.01, 0.005];
 /// Standard deviation of the offsets between runs before the common factor: rad/s, m/s², m/s².
 const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
+/// Damping of a step that is tried in turn, and the gain below which a fit has arrived, nats.
+const DAMPING: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 100.0];
+const LEAST_GAIN: f64 = 0.05;
 /// Numbers that a run has to itself.
 pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
 /// Finite step of a nuisance parameter, in its sigma.
@@ -320,7 +323,9 @@ impl Problem<'_> {
             gram += a.transpose() * &a;
         }
         // A run's own numbers: deviations move like θ, scaled; offsets are columns of their own.
-        let expand = |u: usize| if u < DEVIATING.len() { (DEVIATING[u], self.run_scale(u)) } else { (n + u - DEVIATING.len(), 1.0) };
+        let expand = |u: usize| {
+            if u < DEVIATING.len() { (DEVIATING[u], self.run_scale(u)) } else { (n + u - DEVIATING.len(), 1.0) }
+        };
         let residual = all - 1;
         let own = Mat::from_fn(PER_RUN, PER_RUN, |i, j| {
             let ((a, x), (b, y)) = (expand(i), expand(j));
@@ -350,7 +355,7 @@ impl Problem<'_> {
         }
     }
 
-    /// Gauss–Newton from `start`: at most `steps`, each halved up to four times until the cost falls.
+    /// Gauss–Newton from `start`: at most `steps`, each damped (Levenberg–Marquardt) until the cost falls.
     ///
     /// The columns of θ are those given; they are renewed before step `renew` if that is reached.
     pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
@@ -368,44 +373,69 @@ impl Problem<'_> {
                 // A whiff of a prior on strengths keeps what the data do not determine where it is.
                 normal.matrix[(i, i)] += 1e-3;
             }
-            let Some((delta, _)) = solve_spd(&normal.matrix, &normal.gradient) else { break };
-            let predicted: f64 = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
-            let mut share = 1.0;
             let mut moved = false;
-            for _ in 0..5 {
-                let point = Self::advanced(&at.point, &delta, &normal, &free, share);
+            let mut promised = 0.0;
+            for damping in DAMPING {
+                let Some(delta) = self.bounded_step(&at.point, &normal, &free, damping) else { break };
+                promised = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
+                let point = Self::advanced(&at.point, &delta, &normal, &free);
                 let response = self.response(&point, h);
                 let cost = self.cost(&point, &response);
                 if cost < at.cost {
-                    let gain = at.cost - cost;
+                    moved = at.cost - cost > LEAST_GAIN;
                     at = Fitted { point, response, cost, columns: at.columns.clone() };
-                    moved = gain > 0.05;
                     break;
                 }
-                share *= 0.5;
             }
-            if !moved || predicted < 0.05 {
+            if !moved || promised < LEAST_GAIN {
                 break;
             }
         }
         at
     }
 
-    fn advanced(point: &Point, delta: &Mat<f64>, normal: &Normal, free: &[Free], share: f64) -> Point {
+    /// Levenberg–Marquardt step: a free value at a bound that the step would cross is held.
+    fn bounded_step(&self, point: &Point, normal: &Normal, free: &[Free], damping: f64) -> Option<Mat<f64>> {
+        let n = normal.matrix.nrows();
+        let mut held = vec![false; free.len()];
+        loop {
+            let fixed = |i: usize| i >= NUISANCES && held[i - NUISANCES];
+            let m = Mat::from_fn(n, n, |i, j| {
+                let diagonal = i == j;
+                if fixed(i) || fixed(j) {
+                    f64::from(diagonal)
+                } else {
+                    normal.matrix[(i, j)] * if diagonal { 1.0 + damping } else { 1.0 }
+                }
+            });
+            let g = Mat::from_fn(n, 1, |i, _| if fixed(i) { 0.0 } else { normal.gradient[(i, 0)] });
+            let delta = solve_spd(&m, &g)?.0;
+            let crossing = free.iter().enumerate().find(|(i, f)| {
+                let (e, d) = (point.effects[*i], delta[(NUISANCES + i, 0)]);
+                !held[*i] && ((e <= f.bounds[0] && d < 0.0) || (e >= f.bounds[1] && d > 0.0))
+            });
+            match crossing {
+                Some((i, _)) => held[i] = true,
+                None => return Some(delta),
+            }
+        }
+    }
+
+    fn advanced(point: &Point, delta: &Mat<f64>, normal: &Normal, free: &[Free]) -> Point {
         let mut p = point.clone();
         for (k, t) in p.theta.iter_mut().enumerate() {
-            *t = (*t + share * delta[(k, 0)]).clamp(-6.0, 6.0);
+            *t = (*t + delta[(k, 0)]).clamp(-6.0, 6.0);
         }
         for (i, f) in free.iter().enumerate() {
             // At most two units at once: a linear column says nothing beyond.
-            let d = (share * delta[(NUISANCES + i, 0)]).clamp(-2.0, 2.0) * f.unit;
+            let d = delta[(NUISANCES + i, 0)].clamp(-2.0, 2.0) * f.unit;
             p.effects[i] = (p.effects[i] + d).clamp(f.bounds[0], f.bounds[1]);
         }
         let n = delta.nrows();
         for (u, solved) in p.run.iter_mut().zip(&normal.eliminated) {
             for (i, u) in u.iter_mut().enumerate() {
                 let back: f64 = (0..n).map(|j| solved[(i, j)] * delta[(j, 0)]).sum();
-                *u += share * (solved[(i, n)] - back);
+                *u += solved[(i, n)] - back;
             }
         }
         p

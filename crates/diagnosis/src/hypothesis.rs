@@ -131,7 +131,8 @@ pub(crate) fn variants() -> Vec<Variant> {
         if card.redundancy != Redundancy::None {
             continue;
         }
-        let axes: Vec<Option<usize>> = if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
+        let axes: Vec<Option<usize>> =
+            if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
         for axis in axes {
             let wears = card.wears;
             if wears.side {

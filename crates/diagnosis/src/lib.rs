@@ -35,4 +35,5 @@ pub use error::DiagnosisError;
 pub use options::Options;
 pub use predict::Prediction;
 pub use run::Run;
+pub use steady::{SteadyCase, diagnose_steady};
 pub use verdict::{Cause, Cell, Diagnosis, Finding, FreeRun, Verdict};

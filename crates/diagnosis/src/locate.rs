@@ -92,7 +92,8 @@ pub(crate) fn cells(problem: &Problem<'_>, response: &Response) -> Vec<Cell> {
 pub(crate) fn rms(problem: &Problem<'_>, response: &Response, run: usize) -> [f64; 2] {
     let mut sum = [(0.0, 0.0); 2];
     for (s, segment) in problem.cuts[run].segments.iter().enumerate() {
-        for (i, (o, p)) in segment.observed.iter().zip(&response[run][s]).enumerate().filter(|(i, _)| segment.valid[*i]) {
+        for (i, (o, p)) in segment.observed.iter().zip(&response[run][s]).enumerate().filter(|(i, _)| segment.valid[*i])
+        {
             let slot = match i % CHANNELS {
                 0 | 1 => &mut sum[0],
                 2 => &mut sum[1],

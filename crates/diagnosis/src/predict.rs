@@ -29,7 +29,8 @@ pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: 
     let shown = |yaw_rate: f64| yaw_rate * (1.0 + gyro.scale) + gyro.bias;
     let mut s = State::default();
     let mut next = held.restarts.iter().peekable();
-    let mut out = Prediction { name: held.name.clone(), time: Vec::new(), wheel_speed: Vec::new(), yaw_rate: Vec::new() };
+    let mut out =
+        Prediction { name: held.name.clone(), time: Vec::new(), wheel_speed: Vec::new(), yaw_rate: Vec::new() };
     for k in 0..held.torque.len() {
         if let Some(r) = next.next_if(|r| r.row == k) {
             let (sin, cos) = r.pose[2].sin_cos();

@@ -81,7 +81,8 @@ pub(crate) fn check(runs: &[Run]) -> Redundant {
         out.gyro.scale = scale;
         out.faults.push(Fault { card, magnitude: scale, sigma, side: None });
     }
-    if let (Some(card), Some((bias, sigma))) = (card(Redundancy::GyroOffset), median(found.iter().map(|f| f.0).collect()))
+    if let (Some(card), Some((bias, sigma))) =
+        (card(Redundancy::GyroOffset), median(found.iter().map(|f| f.0).collect()))
         && bias.abs() > interest(Redundancy::GyroOffset)
     {
         out.gyro.bias = bias;

@@ -96,7 +96,12 @@ struct Ground<'a> {
 
 /// Ranks every variant by its evidence over re-tuning at the point of `base`, where `beside` is present already and
 /// its sizes are re-tuned too.
-pub(crate) fn screen(problem: &Problem<'_>, base: &Fitted, variants: &[Variant], beside: &Hypothesis) -> Vec<Candidate> {
+pub(crate) fn screen(
+    problem: &Problem<'_>,
+    base: &Fitted,
+    variants: &[Variant],
+    beside: &Hypothesis,
+) -> Vec<Candidate> {
     let ground = Ground { problem, base, beside: problem.effect_columns(&base.point, beside, &base.response) };
     let largest = problem.largest_torque;
     let mut list: Vec<Probe> = Vec::new();
@@ -135,8 +140,11 @@ pub(crate) fn screen(problem: &Problem<'_>, base: &Fitted, variants: &[Variant],
             }
         })
         .collect();
-    let lanes: Vec<Lane<'_>> =
-        doses.iter().zip(&makers).map(|((_, part), m)| Lane { point: base.point.clone(), doses: m, part: *part }).collect();
+    let lanes: Vec<Lane<'_>> = doses
+        .iter()
+        .zip(&makers)
+        .map(|((_, part), m)| Lane { point: base.point.clone(), doses: m, part: *part })
+        .collect();
     let raw: Vec<Response> = problem.lanes(&lanes).iter().map(|y| difference(y, &base.response, 1.0)).collect();
     let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
     for (n, id) in part_of.iter().enumerate() {
@@ -305,10 +313,8 @@ fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -> Option<C
     if grid.is_empty() {
         return None;
     }
-    let columns = grid
-        .iter()
-        .map(|&(r, s, q)| superpose(parts, |r2, s2, q2| f64::from(r2 == r && (s2, q2) >= (s, q))))
-        .collect();
+    let columns =
+        grid.iter().map(|&(r, s, q)| superpose(parts, |r2, s2, q2| f64::from(r2 == r && (s2, q2) >= (s, q)))).collect();
     let (a, b) = reduced(ground, Columns(columns))?;
     let runs = problem.cuts.len();
     // One strength for all runs; each run's onset in turn is the best given the others. `None`: it does not set in.

@@ -123,7 +123,8 @@ fn scan_disc(problem: &Problem<'_>, trial: &mut Trial) {
                         p
                     })
                     .collect();
-                let doses: Vec<_> = tries.iter().map(|p| |run: usize| trial.hypothesis.doses(&p.effects, run)).collect();
+                let doses: Vec<_> =
+                    tries.iter().map(|p| |run: usize| trial.hypothesis.doses(&p.effects, run)).collect();
                 let lanes: Vec<Lane<'_>> =
                     tries.iter().zip(&doses).map(|(p, d)| Lane { point: p.clone(), doses: d, part: None }).collect();
                 let best = problem
@@ -190,10 +191,26 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     }
     best_first(&mut singles);
     if std::env::var_os("LACUNA_TRACE").is_some() {
-        eprintln!("origin {:.1} retuned {:.1} healthy {:.1}", origin.cost, retuned.cost, crate::decide::healthy_cost(problem));
-        for c in first.iter().take(12) { eprintln!("  1st {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start); }
-        for c in second.iter().take(12) { eprintln!("  2nd {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start); }
-        for t in &singles { eprintln!("  fit {:30} {:9.1} {:?}", t.hypothesis.parts[0].0.label(), retuned.cost - t.fitted.cost, t.fitted.point.effects); }
+        eprintln!(
+            "origin {:.1} retuned {:.1} healthy {:.1}",
+            origin.cost,
+            retuned.cost,
+            crate::decide::healthy_cost(problem)
+        );
+        for c in first.iter().take(12) {
+            eprintln!("  1st {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start);
+        }
+        for c in second.iter().take(12) {
+            eprintln!("  2nd {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start);
+        }
+        for t in &singles {
+            eprintln!(
+                "  fit {:30} {:9.1} {:?}",
+                t.hypothesis.parts[0].0.label(),
+                retuned.cost - t.fitted.cost,
+                t.fitted.point.effects
+            );
+        }
     }
     if let Ok(t) = std::env::var("LACUNA_TRY") {
         let (label, vals) = t.split_once(':').unwrap();
@@ -202,11 +219,34 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         let h = Hypothesis::single(v, vec![]);
         let b = begin(problem, &h, &origin.point, &e, &origin);
         eprintln!("TRY at {:.1}", b.cost);
-        for (i, c) in crate::locate::findings(problem, &b.response).iter().enumerate() { eprintln!("  {i} {c:?}"); }
+        for (i, c) in crate::locate::findings(problem, &b.response).iter().enumerate() {
+            eprintln!("  {i} {c:?}");
+        }
         let f = problem.refine(&h, b.clone(), 8, Some(2));
         eprintln!("TRY refined {:.1} {:?} theta {:.2?}", f.cost, f.point.effects, f.point.theta);
-        for s in 1..4 { let seg=&problem.cuts[0].segments[s]; for w in 0..seg.windows { let k=w*7; let row=seg.row+w*10; eprintln!("t {:.1} T {:.2?} obs {:.2?} pred {:.2?}", row as f64*0.01, problem.cuts[0].torque[row], &seg.observed[k..k+7], &b.response[0][s][k..k+7]); } }
-        for r in 0..problem.cuts.len() { eprintln!("{}: {:?}", problem.cuts[r].name, (0..problem.cuts[r].segments.len()).map(|s| (problem.q(r,s,&f.response)/problem.cuts[r].segments[s].count*10.0).round()/10.0).collect::<Vec<_>>()); }
+        for s in 1..4 {
+            let seg = &problem.cuts[0].segments[s];
+            for w in 0..seg.windows {
+                let k = w * 7;
+                let row = seg.row + w * 10;
+                eprintln!(
+                    "t {:.1} T {:.2?} obs {:.2?} pred {:.2?}",
+                    row as f64 * 0.01,
+                    problem.cuts[0].torque[row],
+                    &seg.observed[k..k + 7],
+                    &b.response[0][s][k..k + 7]
+                );
+            }
+        }
+        for r in 0..problem.cuts.len() {
+            eprintln!(
+                "{}: {:?}",
+                problem.cuts[r].name,
+                (0..problem.cuts[r].segments.len())
+                    .map(|s| (problem.q(r, s, &f.response) / problem.cuts[r].segments[s].count * 10.0).round() / 10.0)
+                    .collect::<Vec<_>>()
+            );
+        }
     }
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
     if let Some(top) = singles.first()
@@ -220,7 +260,8 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     }
     progress("looking for a second effect");
     let pairs = pairs(problem, &singles, &origin);
-    let mut screened: Vec<(String, f64)> = by_id(&first).iter().map(|c| (c.variant.card().id.to_owned(), c.evidence)).collect();
+    let mut screened: Vec<(String, f64)> =
+        by_id(&first).iter().map(|c| (c.variant.card().id.to_owned(), c.evidence)).collect();
     for c in by_id(&second) {
         if let Some(s) = screened.iter_mut().find(|s| s.0 == c.variant.card().id) {
             s.1 = s.1.max(c.evidence);

@@ -70,7 +70,13 @@ pub(crate) fn free_run(cut: &Cut, robot: &Robot<f64>, doses: &[Dose], part: Opti
             let border = |q: usize| (segment.row as f64 + rows * q as f64 / PARTS as f64) * cut.period;
             local = doses
                 .iter()
-                .map(|d| Active::new(d.effect, &d.values, Presence { from: border(q) - 1e-6, until: border(q + 1) - 1e-6, ..d.presence }))
+                .map(|d| {
+                    Active::new(
+                        d.effect,
+                        &d.values,
+                        Presence { from: border(q) - 1e-6, until: border(q + 1) - 1e-6, ..d.presence },
+                    )
+                })
                 .collect();
             &local
         } else {

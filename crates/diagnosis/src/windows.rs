@@ -101,7 +101,8 @@ pub(crate) fn frozen_rows(angle: &[Option<f64>]) -> Vec<bool> {
         }
         // present[first..=k] are equal; the jump that ends them is steps[k].
         let usual = {
-            let mut near: Vec<f64> = (0..first).rev().take(5).chain(k + 1..(k + 6).min(steps.len())).map(|i| steps[i]).collect();
+            let mut near: Vec<f64> =
+                (0..first).rev().take(5).chain(k + 1..(k + 6).min(steps.len())).map(|i| steps[i]).collect();
             near.sort_by(f64::total_cmp);
             near.get(near.len() / 2).copied().unwrap_or(0.0)
         };
@@ -140,7 +141,9 @@ pub(crate) fn pose_yaw(run: &Run) -> Vec<(usize, f64)> {
     let mut last: Option<f64> = None;
     Run::present(&run.pose[2])
         .map(|(k, y)| {
-            let z = last.map_or(y, |l: f64| l + (y - l + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI);
+            let z = last.map_or(y, |l: f64| {
+                l + (y - l + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
+            });
             last = Some(z);
             (k, z)
         })
@@ -178,7 +181,10 @@ impl Smoothed {
                 let det = n * stt - st * st;
                 let slope = if n > 10.0 && det > 0.0 { (n * stz - st * sz) / det } else { 0.0 };
                 let offset = (sz - slope * st) / n;
-                t.iter().enumerate().map(|(k, y)| y + offset + slope * ((k as f64) * run.period / NODE - middle)).collect()
+                t.iter()
+                    .enumerate()
+                    .map(|(k, y)| y + offset + slope * ((k as f64) * run.period / NODE - middle))
+                    .collect()
             }
             (None, true) => vec![0.0; rows],
             (None, false) => {
@@ -245,7 +251,14 @@ pub(crate) fn cut(run: &Run, o: &CutOptions) -> Cut {
             [x, y, interpolate(&smoothed.yaw, t / run.period)]
         })
         .collect();
-    Cut { name: run.name.clone(), period: run.period, rows_per_window: per_window, torque: run.torque.clone(), segments, path }
+    Cut {
+        name: run.name.clone(),
+        period: run.period,
+        rows_per_window: per_window,
+        torque: run.torque.clone(),
+        segments,
+        path,
+    }
 }
 
 fn segment(
@@ -274,7 +287,10 @@ fn segment(
         };
         for j in 0..2 {
             let near = |k: usize| frozen[j][k.saturating_sub(2)..(k + 3).min(run.rows())].iter().any(|&f| f);
-            let v = (!near(a) && !near(b)).then_some(()).and(run.angle[j][b].zip(run.angle[j][a])).map(|(x, y)| (x - y) / length);
+            let v = (!near(a) && !near(b))
+                .then_some(())
+                .and(run.angle[j][b].zip(run.angle[j][a]))
+                .map(|(x, y)| (x - y) / length);
             if let Some(v) = v {
                 extremes = (extremes.0.min(v), extremes.1.max(v));
             }
@@ -316,7 +332,8 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
         let h = (half / run.period).round().max(1.0) as usize;
         row.saturating_sub(h)..(row + h + 1).min(run.rows())
     };
-    let mut start = Start { position: smoothed.position(t), yaw: interpolate(&smoothed.yaw, t / run.period), ..Start::default() };
+    let mut start =
+        Start { position: smoothed.position(t), yaw: interpolate(&smoothed.yaw, t / run.period), ..Start::default() };
     for j in 0..2 {
         // Wider when the encoder is frozen here, so that there is something to fit.
         let fit = [0.05, 0.15, 0.4].into_iter().find_map(|half| {
@@ -332,7 +349,9 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
         }
     }
     let points: Vec<(f64, f64)> = around(0.07)
-        .filter_map(|k| run.gyro[k].map(|g| ((k as f64 - 0.5 - row as f64) * run.period, (g - o.gyro.bias) / (1.0 + o.gyro.scale))))
+        .filter_map(|k| {
+            run.gyro[k].map(|g| ((k as f64 - 0.5 - row as f64) * run.period, (g - o.gyro.bias) / (1.0 + o.gyro.scale)))
+        })
         .collect();
     start.yaw_rate = local_fit(&points).map_or(0.0, |f| f.0);
     // Without a pose, the wheels tell the forward velocity up to their slip.
@@ -340,9 +359,12 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
     start.velocity = smoothed.velocity(t, run.period).unwrap_or([rolled, 0.0]);
     // A robot whose wheels do not turn at the first row stands.
     if row == 0 {
-        let still = |a: &[Option<f64>]| a.iter().flatten().take(3).all(|x| (x - a.iter().flatten().next().unwrap_or(x)).abs() < 1e-3);
+        let still = |a: &[Option<f64>]| {
+            a.iter().flatten().take(3).all(|x| (x - a.iter().flatten().next().unwrap_or(x)).abs() < 1e-3)
+        };
         if still(&run.angle[0]) && still(&run.angle[1]) {
-            start = Start { position: start.position, yaw: start.yaw, wheel_angle: start.wheel_angle, ..Start::default() };
+            start =
+                Start { position: start.position, yaw: start.yaw, wheel_angle: start.wheel_angle, ..Start::default() };
         }
     }
     start

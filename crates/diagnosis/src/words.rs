@@ -61,13 +61,19 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
         }
         Verdict::Explained => {
             for c in causes.iter().filter(|c| c.probability > 0.5) {
-                let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
+                let place =
+                    c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
                 out.push(format!("Missing: {}, {}{place} (probability {:.2}).", c.name, quantity(c), c.probability));
             }
             if out.is_empty()
                 && let Some(c) = causes.first()
             {
-                out.push(format!("Most likely missing: {}, {} (probability {:.2}).", c.name, quantity(c), c.probability));
+                out.push(format!(
+                    "Most likely missing: {}, {} (probability {:.2}).",
+                    c.name,
+                    quantity(c),
+                    c.probability
+                ));
             }
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
@@ -80,3 +86,73 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     }
     out
 }
+
+/// The answer of a speed-driven case in sentences.
+pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bool) -> Vec<String> {
+    let mut out = Vec::new();
+    match d.verdict {
+        Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
+        Verdict::NoMismatch => out.push("No mismatch that these loads could name.".to_owned()),
+        Verdict::Unknown => {
+            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned())
+        }
+        Verdict::Explained => {
+            let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
+            if d.indistinguishable.is_empty() {
+                if let Some(c) = d.ranked.first() {
+                    out.push(format!("Missing: {}, {} (probability {:.2}).", c.name, quantity(c), c.probability));
+                }
+            } else {
+                let names: Vec<String> = d.indistinguishable.iter().map(|i| name(i)).collect();
+                out.push(format!("Missing: {}; these recordings cannot tell them apart.", names.join(" or ")));
+            }
+        }
+    }
+    let pooled = |r: &&crate::steady::Ratio| {
+        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.contains(&r.recording))
+    };
+    for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
+        out.push(load(r));
+    }
+    if set_points && !loads.ratios.is_empty() {
+        out.push("All figures compare set speeds, not measured ones.".to_owned());
+    }
+    out
+}
+
+fn load(r: &crate::steady::Ratio) -> String {
+    use crate::steady::Quantity;
+    let [l, v] = r.speed;
+    let at = match r.quantity {
+        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", 0.5 * (l + v).abs()),
+        _ => String::new(),
+    };
+    let what = r.quantity.name();
+    let [a, b] = r.interval;
+    if r.quantity == Quantity::EffectiveTrack {
+        return format!(
+            "{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of the references'.",
+            r.recording, r.value, r.half, r.ratio
+        );
+    }
+    if r.quantity == Quantity::Asymmetry {
+        return format!("{}: {what}{at} {:+.2} beyond the references' [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
+    }
+    let judgement = if a > 1.0 || b < 1.0 {
+        if r.quantity == Quantity::StraightLoad && a < UNNAMED && b > 1.0 / UNNAMED {
+            ": differs, but cold drive trains vary as much: unexplained"
+        } else {
+            ""
+        }
+    } else {
+        ": no difference"
+    };
+    let firm = if r.firm { "" } else { ", tentative" };
+    format!(
+        "{}: {what}{at} {:.2} times the references' [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
+        r.recording, r.ratio, r.seconds
+    )
+}
+
+/// Straight loads vary by up to this factor between days for reasons that these signals do not show.
+const UNNAMED: f64 = 1.45;

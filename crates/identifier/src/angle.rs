@@ -21,10 +21,7 @@ impl<T: Scalar> AngleRow<T> {
     /// # Errors
     /// [`IdentifierError`] if the pole is not positive or the start value not finite.
     pub fn new(pole: T, estimate: T) -> Result<Self, IdentifierError> {
-        Ok(Self {
-            pole: positive("pole a", pole)?,
-            estimate: finite("start value of the angle", estimate)?,
-        })
+        Ok(Self { pole: positive("pole a", pole)?, estimate: finite("start value of the angle", estimate)? })
     }
 
     /// Advances over `h` seconds in which the angle went from `start` to `end` (rad) at the mean rate `speed` (rad/s).

@@ -54,14 +54,7 @@ impl<T: Scalar> Ledger<T> {
     /// An empty ledger for an identifier with pole a, 1/s.
     pub fn new(pole: T) -> Self {
         let zero = T::zero();
-        Self {
-            pole,
-            start: None,
-            error_energy: zero,
-            epsilon_energy: zero,
-            worst_residual: zero,
-            rises: 0,
-        }
+        Self { pole, start: None, error_energy: zero, epsilon_energy: zero, worst_residual: zero, rises: 0 }
     }
 
     /// Adds the certificate of the next step. All must be against the same W*.
@@ -72,9 +65,7 @@ impl<T: Scalar> Ledger<T> {
         self.error_energy += c.h * c.error * c.error;
         self.epsilon_energy += c.h * c.epsilon * c.epsilon;
         // A residual that is not a number is kept, not lost.
-        if self.worst_residual.is_finite()
-            && (c.residual > self.worst_residual || !c.residual.is_finite())
-        {
+        if self.worst_residual.is_finite() && (c.residual > self.worst_residual || !c.residual.is_finite()) {
             self.worst_residual = c.residual;
         }
         if c.change > T::zero() {
@@ -110,12 +101,7 @@ impl<T: Scalar> Ledger<T> {
 }
 
 /// `½ x̃² + ‖W* − Ŵ‖²/(2γ)`.
-pub(crate) fn lyapunov<T: Scalar, const N: usize>(
-    error: T,
-    weight: &[T; N],
-    comparison: &[T; N],
-    gain: T,
-) -> T {
+pub(crate) fn lyapunov<T: Scalar, const N: usize>(error: T, weight: &[T; N], comparison: &[T; N], gain: T) -> T {
     let mut distance = T::zero();
     for (w, c) in weight.iter().zip(comparison) {
         distance += (*c - *w) * (*c - *w);
@@ -124,19 +110,9 @@ pub(crate) fn lyapunov<T: Scalar, const N: usize>(
 }
 
 /// The change of L as differences times sums, which keeps the digits that subtracting two large L would lose.
-pub(crate) fn difference_of_squares<T: Scalar, const N: usize>(
-    step: &Step<T, N>,
-    comparison: &[T; N],
-    gain: T,
-) -> T {
+pub(crate) fn difference_of_squares<T: Scalar, const N: usize>(step: &Step<T, N>, comparison: &[T; N], gain: T) -> T {
     let mut weights = T::zero();
-    for ((old, new), c) in step
-        .before
-        .weight
-        .iter()
-        .zip(&step.after.weight)
-        .zip(comparison)
-    {
+    for ((old, new), c) in step.before.weight.iter().zip(&step.after.weight).zip(comparison) {
         weights += (*old - *new) * ((*c - *new) + (*c - *old));
     }
     let error = (step.error_after - step.error_before) * (step.error_after + step.error_before);

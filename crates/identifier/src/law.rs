@@ -79,10 +79,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Identifier<T, N, L> {
         Ok(Self {
             pole: positive("pole a", pole)?,
             law,
-            model: Model {
-                output: finite("start value of the estimate", output)?,
-                weight: [T::zero(); N],
-            },
+            model: Model { output: finite("start value of the estimate", output)?, weight: [T::zero(); N] },
         })
     }
 
@@ -91,12 +88,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Identifier<T, N, L> {
     /// Never panics; input that is not finite gives a step that is not finite.
     #[inline]
     pub fn step(&mut self, x_k: T, x_k1: T, phi: &[T; N], h: T) -> Step<T, N> {
-        let sample = Sample {
-            start: x_k,
-            end: x_k1,
-            regressor: *phi,
-            h,
-        };
+        let sample = Sample { start: x_k, end: x_k1, regressor: *phi, h };
         let step = self.law.advance(self.pole, &self.model, &sample);
         self.model = step.after;
         step

@@ -25,9 +25,7 @@ impl<T: Scalar> Midpoint<T> {
     /// # Errors
     /// [`IdentifierError::NotPositive`] if the gain is not a finite number above zero.
     pub fn new(gain: T) -> Result<Self, IdentifierError> {
-        Ok(Self {
-            gain: positive("gain gamma", gain)?,
-        })
+        Ok(Self { gain: positive("gain gamma", gain)? })
     }
 }
 
@@ -35,12 +33,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Midpoint<T> {
     #[inline]
     fn advance(&self, pole: T, model: &Model<T, N>, sample: &Sample<T, N>) -> Step<T, N> {
         let (half, two) = (real::<T>(0.5), real::<T>(2.0));
-        let Sample {
-            start,
-            end,
-            regressor: phi,
-            h,
-        } = *sample;
+        let Sample { start, end, regressor: phi, h } = *sample;
         let q = real::<T>(0.25) * h * h * self.gain * dot(&phi, &phi);
         let damping = T::one() + half * pole * h;
         let mid = half * (start + end);
@@ -67,45 +60,20 @@ impl<T: Scalar, const N: usize> Law<T, N> for Midpoint<T> {
 
     #[inline]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
-        let Sample {
-            start,
-            end,
-            regressor: phi,
-            h,
-        } = step.sample;
+        let Sample { start, end, regressor: phi, h } = step.sample;
         let error = step.error_mid;
-        let epsilon =
-            (end - start) / h + pole * real::<T>(0.5) * (start + end) - dot(comparison, &phi);
+        let epsilon = (end - start) / h + pole * real::<T>(0.5) * (start + end) - dot(comparison, &phi);
         let dissipated = pole * h * error * error;
         let injected = h * epsilon * error;
-        let before = lyapunov(
-            step.error_before,
-            &step.before.weight,
-            comparison,
-            self.gain,
-        );
+        let before = lyapunov(step.error_before, &step.before.weight, comparison, self.gain);
         let after = lyapunov(step.error_after, &step.after.weight, comparison, self.gain);
         let change = difference_of_squares(step, comparison, self.gain);
         let predicted = injected - dissipated;
         let size = before + after + dissipated + injected.abs();
         // Not `size > 0`: a size that is not a number must give a residual that is not a number.
-        let residual = if size == T::zero() {
-            T::zero()
-        } else {
-            (change - predicted).abs() / size
-        };
+        let residual = if size == T::zero() { T::zero() } else { (change - predicted).abs() / size };
         let bound = h * epsilon * epsilon / (real::<T>(4.0) * pole);
-        Certificate {
-            before,
-            after,
-            change,
-            predicted,
-            bound,
-            residual,
-            epsilon,
-            error,
-            h,
-        }
+        Certificate { before, after, change, predicted, bound, residual, epsilon, error, h }
     }
 
     fn gain(&self) -> T {

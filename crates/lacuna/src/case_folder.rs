@@ -1,105 +1,21 @@
-//! Case folders: a robot, `reference/`, `recordings/`, and perhaps `heldout/`.
+//! Cases: a robot, references, recordings, and perhaps held-out drives.
 
-use std::fs;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use recordings::{Input, Loss, Mapping, Read, ReadOptions, Source};
+use recordings::{Mapping, Read, ReadOptions};
 
+use crate::inputs::load;
+pub use crate::inputs::{Loaded, mapping, robot};
 use crate::robot_file::RobotSpec;
 
-/// Recordings read from files, with what was lost.
-#[derive(Debug, Default)]
-pub struct Loaded {
-    /// Recordings in the order of their names.
-    pub reads: Vec<Read>,
-    /// What could not be read.
-    pub losses: Vec<Loss>,
-    /// Files and their SHA-256.
-    pub sources: Vec<Source>,
-    /// Files that no entry of the mapping fits.
-    pub unmatched: Vec<String>,
-}
-
-/// A mapping: a built-in one by name, or a TOML file.
-///
-/// # Errors
-/// When it can be neither found nor parsed.
-pub fn mapping(name: &str) -> Result<Mapping> {
-    let path = Path::new(name);
-    if path.exists() {
-        let text = fs::read_to_string(path).with_context(|| format!("cannot read mapping '{name}'"))?;
-        return Ok(Mapping::parse(name, &text)?);
-    }
-    Ok(Mapping::built_in(name)?)
-}
-
-/// A robot: a file, or a built-in one by name.
-///
-/// # Errors
-/// When it can be neither found nor parsed.
-pub fn robot(name: &str) -> Result<RobotSpec> {
-    let path = Path::new(name);
-    if path.exists() {
-        let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return Ok(RobotSpec::parse(name, &text)?);
-    }
-    Ok(RobotSpec::built_in(name)?)
-}
-
-/// All files below `paths` (a folder's files, or a file itself), sorted.
-fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    let mut out = Vec::new();
-    for p in paths {
-        if p.is_dir() {
-            let mut inside: Vec<PathBuf> = fs::read_dir(p)
-                .with_context(|| format!("cannot list '{}'", p.display()))?
-                .filter_map(|e| e.ok().map(|e| e.path()))
-                .filter(|f| f.is_file() && f.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")))
-                .collect();
-            inside.sort();
-            out.extend(inside);
-        } else {
-            ensure!(p.exists(), "there is no file or folder '{}'", p.display());
-            out.push(p.clone());
-        }
-    }
-    Ok(out)
-}
-
-/// Reads every recording in files and folders.
-///
-/// # Errors
-/// The first file that cannot be read, or none at all.
-pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Loaded> {
-    let files = files(paths)?;
-    let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
-    let grouping = mapping.group(&names);
-    let mut out = Loaded { unmatched: grouping.unmatched, ..Loaded::default() };
-    for group in &grouping.groups {
-        let bytes = group
-            .files
-            .iter()
-            .map(|f| fs::read(&f.name).with_context(|| format!("cannot read '{}'", f.name)))
-            .collect::<Result<Vec<_>>>()?;
-        let inputs: Vec<Input<'_>> = group.files.iter().zip(&bytes).map(|(f, b)| Input { name: &f.name, bytes: b }).collect();
-        // The run's name is the file's alone: labels in folder names are not evidence.
-        let run = Path::new(&group.run).file_name().map_or(group.run.clone(), |n| n.to_string_lossy().into_owned());
-        let read = recordings::read(mapping, &run, &inputs, options)?;
-        out.losses.extend(read.losses.iter().cloned());
-        out.sources.extend(read.sources.iter().cloned());
-        out.reads.push(read);
-    }
-    if out.reads.is_empty() {
-        bail!(
-            "no file in {} fits the mapping '{}'; its patterns are: {}",
-            paths.iter().map(|p| format!("'{}'", p.display())).collect::<Vec<_>>().join(", "),
-            mapping.name,
-            mapping.files.iter().map(|f| f.pattern.as_str()).collect::<Vec<_>>().join(", ")
-        );
-    }
-    Ok(out)
-}
+/// Folders of a case with what belongs into them.
+const FOLDERS: [(&str, &str); 3] = [
+    ("reference", "drives in which the simulation was right"),
+    ("recordings", "drives in which it was not"),
+    ("heldout", "inputs whose response is to be predicted"),
+];
 
 /// A case with what was lost in reading it.
 #[derive(Debug)]
@@ -121,24 +37,76 @@ impl CaseFolder {
     /// # Errors
     /// What is missing or cannot be read.
     pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
-        ensure!(folder.is_dir(), "there is no case folder '{}'", folder.display());
-        let robot = if let Some(name) = robot_name {
-            robot(name)?
-        } else {
-            let file = ["robot.json", "robot.toml"]
-                .iter()
-                .map(|f| folder.join(f))
-                .find(|f| f.exists())
-                .with_context(|| format!("'{}' holds no robot.json or robot.toml; add one, or name a robot with --robot", folder.display()))?;
-            self::robot(&file.display().to_string())?
+        let shown = folder.display();
+        ensure!(
+            folder.is_dir(),
+            "there is no case folder '{shown}'; \
+             make one with robot.toml, reference/ and recordings/, or give files with --reference and --recordings"
+        );
+        let robot = match robot_name {
+            Some(name) => robot(name)?,
+            None => robot(&robot_of(folder)?.display().to_string())?,
         };
-        let part = |name: &str| -> Result<Loaded> {
-            let dir = folder.join(name);
-            ensure!(dir.is_dir(), "'{}' has no folder '{name}/'", folder.display());
-            load(mapping, &[dir], options)
+        for (name, what) in &FOLDERS[..2] {
+            ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
+        }
+        let held_out = folder.join(FOLDERS[2].0);
+        let held_out = if held_out.is_dir() { vec![held_out] } else { vec![] };
+        let [reference, recordings] = [0, 1].map(|i| vec![folder.join(FOLDERS[i].0)]);
+        Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
+    }
+
+    /// A case from files and folders: references, recordings, held-out drives.
+    ///
+    /// # Errors
+    /// What cannot be read, and a recording that is given twice.
+    pub fn from_paths(
+        robot: RobotSpec,
+        [reference, recordings, held_out]: [&[PathBuf]; 3],
+        mapping: &Mapping,
+        options: &ReadOptions,
+    ) -> Result<Self> {
+        let case = Self {
+            robot,
+            reference: load(mapping, reference, options)?,
+            recordings: load(mapping, recordings, options)?,
+            held_out: if held_out.is_empty() { Loaded::default() } else { load(mapping, held_out, options)? },
         };
-        let held_out = if folder.join("heldout").is_dir() { part("heldout")? } else { Loaded::default() };
-        Ok(Self { robot, reference: part("reference")?, recordings: part("recordings")?, held_out })
+        case.refuse_twins()?;
+        Ok(case)
+    }
+
+    /// The three parts by the names of their folders.
+    pub fn parts(&self) -> [(&'static str, &Loaded); 3] {
+        let loaded = [&self.reference, &self.recordings, &self.held_out];
+        std::array::from_fn(|i| (FOLDERS[i].0, loaded[i]))
+    }
+
+    /// What was lost, in sentences.
+    pub fn lost(&self) -> Vec<String> {
+        self.parts().iter().flat_map(|(_, l)| l.lost()).collect()
+    }
+
+    /// Refuses a file whose bytes are those of another: it cannot be both right and wrong, and counts once.
+    fn refuse_twins(&self) -> Result<()> {
+        let mut seen: HashMap<&str, (&str, &str)> = HashMap::new();
+        for (role, loaded) in self.parts() {
+            for source in &loaded.sources {
+                let Some((other, name)) = seen.insert(&source.sha256, (role, &source.name)) else {
+                    continue;
+                };
+                bail!(
+                    "'{name}' ({other}) and '{}' ({role}) are the same recording (SHA-256 {}...); \
+                     give it once, as what it is: reference = {}, recordings = {}, heldout = {}",
+                    source.name,
+                    &source.sha256[..12],
+                    FOLDERS[0].1,
+                    FOLDERS[1].1,
+                    FOLDERS[2].1
+                );
+            }
+        }
+        Ok(())
     }
 
     /// The case as the diagnosis takes it, for a torque-driven robot.
@@ -147,10 +115,14 @@ impl CaseFolder {
     /// Recordings without the signals that are needed.
     pub fn torque_driven(&self) -> Result<diagnosis::Case> {
         let runs = |l: &Loaded| -> Result<Vec<diagnosis::Run>> {
-            Ok(l.reads.iter().map(|r| diagnosis::Run::new(&r.recording)).collect::<Result<Vec<_>, _>>()?)
+            l.reads.iter().map(|r| diagnosis::Run::new(&r.recording).with_context(|| file_names(r))).collect()
         };
-        let held_out =
-            self.held_out.reads.iter().map(|r| diagnosis::HeldOut::new(&r.recording)).collect::<Result<Vec<_>, _>>()?;
+        let held_out = self
+            .held_out
+            .reads
+            .iter()
+            .map(|r| diagnosis::HeldOut::new(&r.recording).with_context(|| file_names(r)))
+            .collect::<Result<Vec<_>>>()?;
         Ok(diagnosis::Case {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
@@ -159,5 +131,24 @@ impl CaseFolder {
             recordings: runs(&self.recordings)?,
             held_out,
         })
+    }
+}
+
+/// The files of a recording, for messages.
+pub fn file_names(read: &Read) -> String {
+    let names: Vec<&str> = read.sources.iter().map(|s| s.name.as_str()).collect();
+    names.join(" + ")
+}
+
+/// The robot file of a case folder.
+fn robot_of(folder: &Path) -> Result<PathBuf> {
+    let found: Vec<PathBuf> =
+        ["robot.json", "robot.toml"].iter().map(|f| folder.join(f)).filter(|f| f.exists()).collect();
+    match found.as_slice() {
+        [one] => Ok(one.clone()),
+        [] => bail!("'{}' holds no robot.json or robot.toml; add one, or name a robot with --robot", folder.display()),
+        _ => {
+            bail!("'{}' holds both robot.json and robot.toml; keep one, or name a robot with --robot", folder.display())
+        }
     }
 }

@@ -3,9 +3,11 @@
 use robot_model::Robot;
 use robot_model::robot::{Drive, USUAL_SLIDING_SHARE};
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
-use crate::robot_file::{Causality, RobotFileError, RobotSpec};
+use crate::robot_file::USUAL_POSE_SIGMA;
+use crate::robot_parameters::refused;
+use crate::robot_text::RobotText;
+use crate::{Causality, RobotFileError, RobotSpec};
 
 /// A robot with one key per value. Keys that nothing here needs are named too, so that a misspelt one is refused.
 #[derive(Debug, Deserialize)]
@@ -83,15 +85,54 @@ struct Uncertainty {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(default)]
+#[serde(deny_unknown_fields, default)]
+#[allow(dead_code, reason = "keys that are read only to be known")]
 struct Sensors {
     pose_xy_std_m: Option<f64>,
-    #[serde(flatten)]
-    _others: std::collections::BTreeMap<String, IgnoredAny>,
+    pose_yaw_std_rad: Option<f64>,
+    #[serde(rename = "pose_rate_Hz")]
+    pose_rate: Option<f64>,
+    encoder_counts_per_wheel_rev: Option<f64>,
+    gyro_std_rad_s: Option<f64>,
+    gyro_bias_std_rad_s: Option<f64>,
+    accel_std_m_s2: Option<f64>,
+    accel_bias_std_m_s2: Option<f64>,
+    #[serde(rename = "imu_rate_Hz")]
+    imu_rate: Option<f64>,
+    #[serde(rename = "torque_std_Nm")]
+    torque_std: Option<f64>,
+    #[serde(rename = "torque_step_Nm")]
+    torque_step: Option<f64>,
+    #[serde(rename = "row_rate_Hz")]
+    row_rate: Option<f64>,
+    note: Option<String>,
 }
 
+/// The file's keys of the model's quantities.
+const KEYS: [(&str, &str); 18] = [
+    ("mass", "mass_kg"),
+    ("yaw_inertia", "yaw_inertia_kg_m2"),
+    ("com_height", "com_height_m"),
+    ("com_x", "com_x_m"),
+    ("com_y", "com_y_m"),
+    ("half_wheelbase", "half_wheelbase_m"),
+    ("half_track", "half_track_m"),
+    ("wheel_radius", "wheel_radius_m"),
+    ("wheel_inertia", "wheel_inertia_kg_m2"),
+    ("motor_inertia", "motor_inertia_at_wheel_kg_m2_per_side"),
+    ("adhesion", "adhesion_coefficient"),
+    ("slip_at_peak", "slip_ratio_at_peak_guess"),
+    ("rolling_resistance", "rolling_resistance_coefficient"),
+    ("coulomb (left)", "drivetrain_coulomb_Nm_per_side"),
+    ("viscous (left)", "drivetrain_viscous_Nms_per_rad_per_side"),
+    ("drive.lag", "current_loop_time_constant_s"),
+    ("drive.limit", "torque_limit_Nm_per_side"),
+    ("gravity", "gravity_m_s2"),
+];
+
 impl FlatRobot {
-    pub(crate) fn spec(self, file: &str) -> Result<RobotSpec, RobotFileError> {
+    /// The robot of this file.
+    pub(crate) fn spec(self, source: RobotText<'_>) -> Result<RobotSpec, RobotFileError> {
         let robot = Robot {
             mass: self.mass_kg,
             yaw_inertia: self.yaw_inertia_kg_m2,
@@ -121,7 +162,12 @@ impl FlatRobot {
             gravity: self.gravity_m_s2,
         }
         .checked()
-        .map_err(|source| RobotFileError::Model { file: file.to_owned(), source })?;
+        .map_err(|error| {
+            let name = refused(&error);
+            let key = KEYS.iter().find(|k| k.0 == name).map_or(name, |k| k.1);
+            RobotFileError::Model { place: source.at(key), key: key.to_owned(), source: error }
+        })?;
+        self.check_spreads(source)?;
         // A file's sigma widens by what the model itself gets wrong: never below the usual one.
         let u = &self.relative_uncertainty_1sigma;
         let coulomb = u.drivetrain_coulomb.map(|c| c.hypot(u.drivetrain_coulomb_left_right_difference.unwrap_or(0.0)));
@@ -143,12 +189,46 @@ impl FlatRobot {
             *s = given(t.id).map_or(*s, |g| g.max(*s));
         }
         Ok(RobotSpec {
-            name: file.to_owned(),
+            name: source.file.to_owned(),
             causality: Causality::TorqueDriven,
             robot,
             sigma,
-            pose_sigma: self.sensors.pose_xy_std_m.unwrap_or(0.004),
+            pose_sigma: self.sensors.pose_xy_std_m.unwrap_or(USUAL_POSE_SIGMA),
             torque_per_current: None,
         })
+    }
+
+    /// Refuses a spread that is not larger than zero, where one is given.
+    fn check_spreads(&self, source: RobotText<'_>) -> Result<(), RobotFileError> {
+        let u = &self.relative_uncertainty_1sigma;
+        // Keys that stand twice in a file (a value and its spread) are found at the value: the key says which is meant.
+        let spreads = [
+            ("adhesion_coefficient", u.adhesion_coefficient),
+            ("rolling_resistance_coefficient", u.rolling_resistance_coefficient),
+            ("drivetrain_coulomb_Nm_per_side", u.drivetrain_coulomb),
+            ("drivetrain_viscous_Nms_per_rad_per_side", u.drivetrain_viscous),
+            ("yaw_inertia_kg_m2", u.yaw_inertia_kg_m2),
+            ("com_x_y_m_absolute", u.com_x_y_m_absolute),
+            ("motor_inertia_at_wheel_kg_m2_per_side", u.motor_inertia_at_wheel_kg_m2_per_side),
+            ("torque_constant_Nm_per_A", u.torque_constant),
+            ("mass_kg", u.mass_kg),
+            ("com_height_m", u.com_height_m),
+        ];
+        let bad = |key: &str, value: f64, of: &str| RobotFileError::Value {
+            place: source.at(of),
+            key: format!("{of}.{key}"),
+            what: "the number",
+            value,
+            must: "larger than zero",
+        };
+        for (key, value) in spreads {
+            if let Some(value) = value.filter(|v| *v <= 0.0) {
+                return Err(bad(key, value, "relative_uncertainty_1sigma"));
+            }
+        }
+        match self.sensors.pose_xy_std_m {
+            Some(value) if value <= 0.0 => Err(bad("pose_xy_std_m", value, "sensors")),
+            _ => Ok(()),
+        }
     }
 }

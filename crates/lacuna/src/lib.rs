@@ -1,8 +1,19 @@
-//! The parts of the command line that other programs use too: robot files and case folders.
+//! The parts of the command line that other programs use too: robot files, case folders, predictions.
+//!
+//! ```text
+//! paths --inputs::load--> Loaded --CaseFolder--> diagnosis::Case --diagnosis::diagnose--> Diagnosis
+//! ```
 
 pub mod answers;
 pub mod case_folder;
 mod flat_robot;
+pub mod inputs;
+pub mod predictions;
+mod robot_error;
 pub mod robot_file;
+mod robot_parameters;
+mod robot_text;
+pub mod suggest;
 
-pub use robot_file::{Causality, RobotFileError, RobotSpec};
+pub use robot_error::RobotFileError;
+pub use robot_file::{Causality, RobotSpec};

@@ -26,10 +26,7 @@ impl<T: Scalar, const I: usize, const N: usize> SigmoidLayer<T, I, N> {
         scale: [T; I],
         activation: Activation,
     ) -> Result<Self, BasisError> {
-        if let Some(input) = scale
-            .iter()
-            .position(|s| !(s.is_finite() && *s > T::zero()))
-        {
+        if let Some(input) = scale.iter().position(|s| !(s.is_finite() && *s > T::zero())) {
             return Err(BasisError::Scale { input });
         }
         for unit in 0..N {
@@ -43,11 +40,7 @@ impl<T: Scalar, const I: usize, const N: usize> SigmoidLayer<T, I, N> {
                 }
             }
         }
-        Ok(Self {
-            threshold,
-            weight,
-            activation,
-        })
+        Ok(Self { threshold, weight, activation })
     }
 }
 

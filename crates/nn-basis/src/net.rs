@@ -12,9 +12,7 @@ pub struct LinearNet<T, const N: usize, const R: usize> {
 impl<T: Scalar, const N: usize, const R: usize> Default for LinearNet<T, N, R> {
     /// All weights zero: nothing learned yet, as in the paper.
     fn default() -> Self {
-        Self {
-            weight: [[T::zero(); N]; R],
-        }
+        Self { weight: [[T::zero(); N]; R] }
     }
 }
 

@@ -5,50 +5,31 @@ use crate::{Activation, Basis, BasisError, Constant, LinearNet, SigmoidLayer};
 #[test]
 fn logistic_and_tanh_have_their_known_values_and_limits() {
     let logistic = |z: f64| Activation::Logistic.apply(z);
-    assert_eq!(
-        (logistic(0.0), logistic(1e4), logistic(-1e4)),
-        (0.5, 1.0, 0.0)
-    );
+    assert_eq!((logistic(0.0), logistic(1e4), logistic(-1e4)), (0.5, 1.0, 0.0));
     assert!((logistic(1.0) - 0.731_058_578_630_004_9).abs() < 1e-15);
     assert!((Activation::Tanh.apply(1.0_f64) - 0.761_594_155_955_764_9).abs() < 1e-15);
 }
 
 #[test]
 fn inputs_are_scaled() {
-    let layer =
-        SigmoidLayer::new([0.25], [[2.0, -1.0]], [10.0, 4.0], Activation::Tanh).expect("valid");
+    let layer = SigmoidLayer::new([0.25], [[2.0, -1.0]], [10.0, 4.0], Activation::Tanh).expect("valid");
     let phi = layer.regressor(&[5.0_f64, 2.0]);
     assert!((phi[0] - 0.75_f64.tanh()).abs() < 1e-15);
 }
 
 #[test]
 fn single_precision_works() {
-    let layer = SigmoidLayer::new([0.1_f32; 2], [[1.0], [2.0]], [3.0], Activation::Logistic)
-        .expect("valid");
+    let layer = SigmoidLayer::new([0.1_f32; 2], [[1.0], [2.0]], [3.0], Activation::Logistic).expect("valid");
     assert!(layer.regressor(&[1.0]).iter().all(|p| *p > 0.5 && *p < 1.0));
 }
 
 #[test]
 fn what_is_not_finite_is_refused_with_its_place() {
-    let build = |threshold, weight, scale| {
-        SigmoidLayer::<f64, 2, 1>::new(threshold, weight, scale, Activation::Tanh)
-    };
-    assert_eq!(
-        build([f64::NAN], [[1.0; 2]], [1.0; 2]),
-        Err(BasisError::Threshold { unit: 0 })
-    );
-    assert_eq!(
-        build([0.0], [[1.0, f64::INFINITY]], [1.0; 2]),
-        Err(BasisError::Weight { unit: 0, input: 1 })
-    );
-    assert_eq!(
-        build([0.0], [[1.0; 2]], [1.0, 0.0]),
-        Err(BasisError::Scale { input: 1 })
-    );
-    assert_eq!(
-        Constant::new([0.5, f64::NAN]),
-        Err(BasisError::Threshold { unit: 1 })
-    );
+    let build = |threshold, weight, scale| SigmoidLayer::<f64, 2, 1>::new(threshold, weight, scale, Activation::Tanh);
+    assert_eq!(build([f64::NAN], [[1.0; 2]], [1.0; 2]), Err(BasisError::Threshold { unit: 0 }));
+    assert_eq!(build([0.0], [[1.0, f64::INFINITY]], [1.0; 2]), Err(BasisError::Weight { unit: 0, input: 1 }));
+    assert_eq!(build([0.0], [[1.0; 2]], [1.0, 0.0]), Err(BasisError::Scale { input: 1 }));
+    assert_eq!(Constant::new([0.5, f64::NAN]), Err(BasisError::Threshold { unit: 1 }));
 }
 
 #[test]

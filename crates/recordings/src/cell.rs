@@ -12,9 +12,7 @@ pub(crate) enum CellError {
 /// The cell without blanks and enclosing quotes.
 pub(crate) fn bare(cell: &[u8]) -> &[u8] {
     let cell = cell.trim_ascii();
-    let inner = cell
-        .strip_prefix(b"\"")
-        .and_then(|rest| rest.strip_suffix(b"\""));
+    let inner = cell.strip_prefix(b"\"").and_then(|rest| rest.strip_suffix(b"\""));
     inner.map_or(cell, <[u8]>::trim_ascii)
 }
 
@@ -26,11 +24,7 @@ pub(crate) fn number(cell: &[u8]) -> Result<Option<f64>, CellError> {
     }
     let text = str::from_utf8(cell).map_err(|_| CellError::NotANumber)?;
     let value: f64 = text.parse().map_err(|_| CellError::NotANumber)?;
-    if value.is_finite() {
-        Ok(Some(value))
-    } else {
-        Err(CellError::NotFinite)
-    }
+    if value.is_finite() { Ok(Some(value)) } else { Err(CellError::NotFinite) }
 }
 
 /// The instant in a cell whose unit is `ns_per_unit` nanoseconds, rounded to the nearest nanosecond; `None` for an
@@ -40,13 +34,9 @@ pub(crate) fn instant_ns(cell: &[u8], ns_per_unit: i64) -> Result<Option<i64>, C
         return Ok(None);
     };
     if let Some(exact) = decimal_ns(bare(cell), ns_per_unit) {
-        return i64::try_from(exact)
-            .map(Some)
-            .map_err(|_| CellError::NotFinite);
+        return i64::try_from(exact).map(Some).map_err(|_| CellError::NotFinite);
     }
-    rounded_ns(value * ns_per_unit as f64)
-        .map(Some)
-        .ok_or(CellError::NotFinite)
+    rounded_ns(value * ns_per_unit as f64).map(Some).ok_or(CellError::NotFinite)
 }
 
 /// A number of nanoseconds rounded to i64, when it fits.
@@ -60,17 +50,12 @@ pub(crate) fn rounded_ns(ns: f64) -> Option<i64> {
 /// `sign digits [. digits]` times `ns_per_unit`, rounded half away from zero; `None` when written otherwise or too long.
 fn decimal_ns(cell: &[u8], ns_per_unit: i64) -> Option<i128> {
     let negative = cell.first() == Some(&b'-');
-    let digits = cell
-        .strip_prefix(b"-")
-        .or_else(|| cell.strip_prefix(b"+"))
-        .unwrap_or(cell);
+    let digits = cell.strip_prefix(b"-").or_else(|| cell.strip_prefix(b"+")).unwrap_or(cell);
     let (mut mantissa, mut divisor, mut after_point) = (0_i128, 1_i128, false);
     for &byte in digits {
         match byte {
             b'0'..=b'9' => {
-                mantissa = mantissa
-                    .checked_mul(10)?
-                    .checked_add(i128::from(byte - b'0'))?;
+                mantissa = mantissa.checked_mul(10)?.checked_add(i128::from(byte - b'0'))?;
                 if after_point {
                     divisor = divisor.checked_mul(10)?;
                 }
@@ -79,10 +64,7 @@ fn decimal_ns(cell: &[u8], ns_per_unit: i64) -> Option<i128> {
             _ => return None,
         }
     }
-    let ns = mantissa
-        .checked_mul(i128::from(ns_per_unit))?
-        .checked_add(divisor / 2)?
-        / divisor;
+    let ns = mantissa.checked_mul(i128::from(ns_per_unit))?.checked_add(divisor / 2)? / divisor;
     Some(if negative { -ns } else { ns })
 }
 
@@ -108,19 +90,13 @@ mod tests {
     #[test]
     fn instants_are_exact_where_the_text_is() {
         let s = 1_000_000_000;
-        assert_eq!(
-            instant_ns(b"1700000000.123456789", s),
-            Ok(Some(1_700_000_000_123_456_789))
-        );
+        assert_eq!(instant_ns(b"1700000000.123456789", s), Ok(Some(1_700_000_000_123_456_789)));
         assert_eq!(instant_ns(b"0.15384615384615385", s), Ok(Some(153_846_154)));
         assert_eq!(instant_ns(b"-0.0000000005", s), Ok(Some(-1)));
         assert_eq!(instant_ns(b"1e-3", s), Ok(Some(1_000_000)));
         assert_eq!(instant_ns(b"12", 1_000_000), Ok(Some(12_000_000)));
         assert_eq!(instant_ns(b"1e30", s), Err(CellError::NotFinite));
-        assert_eq!(
-            instant_ns(b"99999999999999999999", s),
-            Err(CellError::NotFinite)
-        );
+        assert_eq!(instant_ns(b"99999999999999999999", s), Err(CellError::NotFinite));
         assert_eq!(instant_ns(b"", s), Ok(None));
         assert_eq!(instant_ns(b"-.", s), Err(CellError::NotANumber));
     }

@@ -31,12 +31,7 @@ impl Channel {
     ///
     /// # Errors
     /// When lengths differ, stamps do not rise strictly or a value is not finite.
-    pub fn new(
-        signal: Signal,
-        clock: usize,
-        t_ns: Vec<i64>,
-        values: Vec<f64>,
-    ) -> Result<Self, RecordingError> {
+    pub fn new(signal: Signal, clock: usize, t_ns: Vec<i64>, values: Vec<f64>) -> Result<Self, RecordingError> {
         let channel = || signal.name().to_owned();
         if t_ns.len() != values.len() {
             return Err(RecordingError::UnequalLengths {
@@ -47,31 +42,13 @@ impl Channel {
         }
         if let Some(index) = (1..t_ns.len()).find(|&i| t_ns[i] <= t_ns[i - 1]) {
             let (before_ns, now_ns) = (t_ns[index - 1], t_ns[index]);
-            return Err(RecordingError::StampsNotRising {
-                channel: channel(),
-                index,
-                before_ns,
-                now_ns,
-            });
+            return Err(RecordingError::StampsNotRising { channel: channel(), index, before_ns, now_ns });
         }
         if let Some(index) = values.iter().position(|value| !value.is_finite()) {
-            return Err(RecordingError::ValueNotFinite {
-                channel: channel(),
-                index,
-            });
+            return Err(RecordingError::ValueNotFinite { channel: channel(), index });
         }
-        let attributes = Attributes {
-            set_point: signal.is_set_point(),
-            ..Attributes::default()
-        };
-        Ok(Self {
-            signal,
-            column: signal.column_name(),
-            clock,
-            attributes,
-            t_ns,
-            values,
-        })
+        let attributes = Attributes { set_point: signal.is_set_point(), ..Attributes::default() };
+        Ok(Self { signal, column: signal.column_name(), clock, attributes, t_ns, values })
     }
 
     /// The same channel with other attributes.

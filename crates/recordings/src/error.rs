@@ -22,153 +22,77 @@ pub enum RecordingError {
 
     /// A column that the mapping asks for.
     #[error("{file}: line {line}: no column `{column}` (needed for {key}); {hint}")]
-    MissingColumn {
-        file: String,
-        line: u64,
-        column: String,
-        key: String,
-        hint: String,
-    },
+    MissingColumn { file: String, line: u64, column: String, key: String, hint: String },
 
     /// A mapped column name that occurs twice in the header.
     #[error(
         "{file}: line {line}: column `{column}` occurs more than once; rename one so that it is clear which is meant"
     )]
-    DuplicateColumn {
-        file: String,
-        line: u64,
-        column: String,
-    },
+    DuplicateColumn { file: String, line: u64, column: String },
 
     /// None of the optional columns is there.
     #[error("{file}: line {line}: none of the columns of mapping {mapping} is here; {hint}")]
-    NoSignals {
-        file: String,
-        line: u64,
-        mapping: String,
-        hint: String,
-    },
+    NoSignals { file: String, line: u64, mapping: String, hint: String },
 
     /// Rows, but not one sample that could be used.
-    #[error(
-        "{file}: not one sample could be read ({losses}); check the file and the columns of the mapping"
-    )]
+    #[error("{file}: not one sample could be read ({losses}); check the file and the columns of the mapping")]
     NoSamples { file: String, losses: String },
 
     /// Too many or too few fields (strict reading).
-    #[error(
-        "{file}: line {line}: {found} fields where the header has {expected}; repair or delete the line"
-    )]
-    WrongFieldCount {
-        file: String,
-        line: u64,
-        found: usize,
-        expected: usize,
-    },
+    #[error("{file}: line {line}: {found} fields where the header has {expected}; repair or delete the line")]
+    WrongFieldCount { file: String, line: u64, found: usize, expected: usize },
 
     /// A row with an empty time cell (strict reading).
     #[error("{file}: line {line}, column {column}: the time is empty; give it or delete the line")]
-    NoTime {
-        file: String,
-        line: u64,
-        column: String,
-    },
+    NoTime { file: String, line: u64, column: String },
 
     /// Text where a number is expected.
     #[error(
         "{file}: line {line}, column {column}: `{text}` is not a number; \
          correct it, leave the cell empty, or read in tolerant mode to skip it"
     )]
-    NotANumber {
-        file: String,
-        line: u64,
-        column: String,
-        text: String,
-    },
+    NotANumber { file: String, line: u64, column: String, text: String },
 
     /// NaN, infinity, or too large for the arithmetic.
     #[error(
         "{file}: line {line}, column {column}: `{text}` is not a finite number in range; \
          a missing sample is an empty cell (or read in tolerant mode to skip it)"
     )]
-    NotFinite {
-        file: String,
-        line: u64,
-        column: String,
-        text: String,
-    },
+    NotFinite { file: String, line: u64, column: String, text: String },
 
     /// A negative number in a column that the mapping declares to be without sign.
     #[error(
         "{file}: line {line}, column {column}: {text} is negative, but the mapping says magnitude_only; \
          correct the mapping (magnitude_only = false)"
     )]
-    NegativeMagnitude {
-        file: String,
-        line: u64,
-        column: String,
-        text: String,
-    },
+    NegativeMagnitude { file: String, line: u64, column: String, text: String },
 
     /// A stamp before the one above it.
     #[error(
         "{file}: line {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
          sort the rows, split the file there, or read in tolerant mode to skip them"
     )]
-    TimeBackwards {
-        file: String,
-        line: u64,
-        column: String,
-        before_s: f64,
-        now_s: f64,
-    },
+    TimeBackwards { file: String, line: u64, column: String, before_s: f64, now_s: f64 },
 
     /// The same stamp twice (strict reading).
-    #[error(
-        "{file}: line {line}, column {column}: the stamp {now_s} s occurs twice; delete one of the lines"
-    )]
-    DuplicateStamp {
-        file: String,
-        line: u64,
-        column: String,
-        now_s: f64,
-    },
+    #[error("{file}: line {line}, column {column}: the stamp {now_s} s occurs twice; delete one of the lines")]
+    DuplicateStamp { file: String, line: u64, column: String, now_s: f64 },
 
     /// TOML that does not parse, an unknown key, a wrong type.
     #[error("{mapping}: line {line}: {message}")]
-    MappingSyntax {
-        mapping: String,
-        line: usize,
-        message: String,
-    },
+    MappingSyntax { mapping: String, line: usize, message: String },
 
     /// A key with a value that makes no sense.
     #[error("{mapping}: line {line}: {key}: {message}")]
-    MappingValue {
-        mapping: String,
-        line: usize,
-        key: String,
-        message: String,
-    },
+    MappingValue { mapping: String, line: usize, key: String, message: String },
 
     /// A signal id outside the vocabulary.
     #[error("{mapping}: line {line}: no signal is called `{name}`; {hint}")]
-    UnknownSignal {
-        mapping: String,
-        line: usize,
-        name: String,
-        hint: String,
-    },
+    UnknownSignal { mapping: String, line: usize, name: String, hint: String },
 
     /// A unit name that is not understood.
     #[error("{mapping}: line {line}: {key}: no unit is called `{unit}`; {hint}")]
-    UnknownUnit {
-        mapping: String,
-        line: usize,
-        key: String,
-        unit: String,
-        hint: String,
-    },
+    UnknownUnit { mapping: String, line: usize, key: String, unit: String, hint: String },
 
     /// A unit of another quantity than the key's.
     #[error(
@@ -176,29 +100,15 @@ pub enum RecordingError {
          give a unit of that kind, such as {expected}{hint}",
         is.quantity(), expected.quantity()
     )]
-    WrongUnit {
-        mapping: String,
-        line: usize,
-        key: String,
-        unit: String,
-        is: Unit,
-        expected: Unit,
-        hint: String,
-    },
+    WrongUnit { mapping: String, line: usize, key: String, unit: String, is: Unit, expected: Unit, hint: String },
 
     /// No built-in mapping has this name.
     #[error("no built-in mapping is called `{name}`; {hint}")]
     UnknownMapping { name: String, hint: String },
 
     /// A file that fits none of the mapping's patterns.
-    #[error(
-        "{file}: fits no pattern of mapping {mapping} ({patterns}); rename the file or add a pattern"
-    )]
-    UnmatchedFile {
-        file: String,
-        mapping: String,
-        patterns: String,
-    },
+    #[error("{file}: fits no pattern of mapping {mapping} ({patterns}); rename the file or add a pattern")]
+    UnmatchedFile { file: String, mapping: String, patterns: String },
 
     /// Two files of one run for the same entry of the mapping.
     #[error("{file}: a second file for the pattern {pattern} of one run; read them as two runs")]
@@ -210,35 +120,18 @@ pub enum RecordingError {
 
     /// A signal that a caller cannot do without.
     #[error("recording {recording}: no signal {signal} ({}); map a column to it; mapped are: {mapped}", signal.unit())]
-    MissingSignal {
-        recording: String,
-        signal: Signal,
-        mapped: String,
-    },
+    MissingSignal { recording: String, signal: Signal, mapped: String },
 
     /// A channel whose stamps and values do not pair up.
     #[error("channel {channel}: {stamps} stamps but {values} values; give one stamp per value")]
-    UnequalLengths {
-        channel: String,
-        stamps: usize,
-        values: usize,
-    },
+    UnequalLengths { channel: String, stamps: usize, values: usize },
 
     /// A channel whose stamps do not rise.
-    #[error(
-        "channel {channel}: stamp {index} is {now_ns} ns, not after {before_ns} ns; stamps must rise"
-    )]
-    StampsNotRising {
-        channel: String,
-        index: usize,
-        before_ns: i64,
-        now_ns: i64,
-    },
+    #[error("channel {channel}: stamp {index} is {now_ns} ns, not after {before_ns} ns; stamps must rise")]
+    StampsNotRising { channel: String, index: usize, before_ns: i64, now_ns: i64 },
 
     /// A channel with NaN or infinity.
-    #[error(
-        "channel {channel}: value {index} is not finite; leave the sample out: a gap is a missing sample"
-    )]
+    #[error("channel {channel}: value {index} is not finite; leave the sample out: a gap is a missing sample")]
     ValueNotFinite { channel: String, index: usize },
 
     /// A recording with two channels for one signal.
@@ -247,10 +140,5 @@ pub enum RecordingError {
 
     /// A channel that names a clock that its recording does not have.
     #[error("recording {recording}: channel {channel} is on clock {clock}, but there are {clocks}")]
-    NoSuchClock {
-        recording: String,
-        channel: String,
-        clock: usize,
-        clocks: usize,
-    },
+    NoSuchClock { recording: String, channel: String, clock: usize, clocks: usize },
 }

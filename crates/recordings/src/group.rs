@@ -51,9 +51,7 @@ impl Mapping {
         for name in names.iter().map(AsRef::as_ref) {
             let slot = self.entry_of(name).map(|(entry, id)| {
                 let folder = &name[..name.len() - base_name(name).len()];
-                let files = runs
-                    .entry((folder, parts(id)))
-                    .or_insert_with(|| vec![None; self.files.len()]);
+                let files = runs.entry((folder, parts(id))).or_insert_with(|| vec![None; self.files.len()]);
                 &mut files[entry]
             });
             match slot {
@@ -63,32 +61,18 @@ impl Mapping {
         }
         let groups = runs.into_iter().map(|((folder, id), files)| {
             let id: String = id.iter().map(|part| part.text).collect();
-            let absent = self
-                .files
-                .iter()
-                .zip(&files)
-                .filter(|(_, file)| file.is_none());
+            let absent = self.files.iter().zip(&files).filter(|(_, file)| file.is_none());
             Group {
                 run: format!("{folder}{id}"),
-                missing: absent
-                    .map(|(entry, _)| format!("{folder}{}", entry.file_of(&id)))
-                    .collect(),
+                missing: absent.map(|(entry, _)| format!("{folder}{}", entry.file_of(&id))).collect(),
                 files: files
                     .iter()
                     .enumerate()
-                    .filter_map(|(entry, name)| {
-                        name.map(|name| GroupFile {
-                            entry,
-                            name: name.to_owned(),
-                        })
-                    })
+                    .filter_map(|(entry, name)| name.map(|name| GroupFile { entry, name: name.to_owned() }))
                     .collect(),
             }
         });
-        Grouping {
-            groups: groups.collect(),
-            unmatched,
-        }
+        Grouping { groups: groups.collect(), unmatched }
     }
 }
 
@@ -108,14 +92,7 @@ fn parts(id: &str) -> Vec<Part<'_>> {
             *start += chunk.len();
             let plain = text.trim_start_matches('0');
             let digits = chunk[0].is_ascii_digit();
-            Some(Part {
-                rank: if digits {
-                    (false, plain.len(), plain)
-                } else {
-                    (true, 0, text)
-                },
-                text,
-            })
+            Some(Part { rank: if digits { (false, plain.len(), plain) } else { (true, 0, text) }, text })
         })
         .collect()
 }
@@ -127,20 +104,9 @@ mod tests {
     #[test]
     fn runs_are_sorted_as_people_count_and_kept_apart_by_folder() {
         let mapping = Mapping::built_in("skid-steer-columns").unwrap();
-        let names = [
-            "b/run_10.csv",
-            "b/run_2.csv",
-            "a/run_2.csv",
-            "b/run_02.csv",
-            "b/robot.json",
-            "a/run_2.csv",
-        ];
+        let names = ["b/run_10.csv", "b/run_2.csv", "a/run_2.csv", "b/run_02.csv", "b/robot.json", "a/run_2.csv"];
         let sorted = mapping.group(&names);
-        let runs: Vec<&str> = sorted
-            .groups
-            .iter()
-            .map(|group| group.run.as_str())
-            .collect();
+        let runs: Vec<&str> = sorted.groups.iter().map(|group| group.run.as_str()).collect();
         assert_eq!(runs, ["a/run_2", "b/run_02", "b/run_2", "b/run_10"]);
         assert_eq!(sorted.unmatched, ["b/robot.json", "a/run_2.csv"]);
     }
@@ -148,17 +114,9 @@ mod tests {
     #[test]
     fn a_missing_file_is_named_with_its_folder() {
         let mapping = Mapping::built_in("husky-open").unwrap();
-        let sorted = mapping.group(&[
-            "FLOORING/pro_04.csv",
-            "FLOORING/imu_01.csv",
-            "FLOORING/pro_01.csv",
-        ]);
+        let sorted = mapping.group(&["FLOORING/pro_04.csv", "FLOORING/imu_01.csv", "FLOORING/pro_01.csv"]);
         assert_eq!(sorted.groups[0].run, "FLOORING/01");
-        let names: Vec<&str> = sorted.groups[0]
-            .files
-            .iter()
-            .map(|file| file.name.as_str())
-            .collect();
+        let names: Vec<&str> = sorted.groups[0].files.iter().map(|file| file.name.as_str()).collect();
         assert_eq!(names, ["FLOORING/pro_01.csv", "FLOORING/imu_01.csv"]);
         assert!(sorted.groups[0].missing.is_empty());
         assert_eq!(sorted.groups[1].missing, ["FLOORING/imu_04.csv"]);

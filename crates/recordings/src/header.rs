@@ -30,32 +30,17 @@ pub(crate) struct Found<'a> {
 
 impl<'a> Header<'a> {
     /// Finds the mapped columns in the first line that is not blank.
-    pub(crate) fn find(
-        input: &Input<'a>,
-        file: &'a FileMapping,
-        mapping: &str,
-    ) -> Result<Self, RecordingError> {
+    pub(crate) fn find(input: &Input<'a>, file: &'a FileMapping, mapping: &str) -> Result<Self, RecordingError> {
         let name = || input.name.to_owned();
-        let bytes = input
-            .bytes
-            .strip_prefix(b"\xef\xbb\xbf")
-            .unwrap_or(input.bytes);
+        let bytes = input.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(input.bytes);
         let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
         let start = start.ok_or_else(|| RecordingError::EmptyFile { file: name() })?;
         let line = 1 + line_ends(&bytes[..start]);
         let rest = &bytes[start..];
-        let end = rest
-            .iter()
-            .position(|byte| b"\r\n".contains(byte))
-            .unwrap_or(rest.len());
+        let end = rest.iter().position(|byte| b"\r\n".contains(byte)).unwrap_or(rest.len());
         let (head, body) = rest.split_at(end);
-        let body = body
-            .strip_prefix(b"\r\n")
-            .or_else(|| body.get(1..))
-            .unwrap_or_default();
-        let head = str::from_utf8(head)
-            .ok()
-            .filter(|head| !head.contains('\0'));
+        let body = body.strip_prefix(b"\r\n").or_else(|| body.get(1..)).unwrap_or_default();
+        let head = str::from_utf8(head).ok().filter(|head| !head.contains('\0'));
         let head = head.ok_or_else(|| RecordingError::NotText { file: name(), line })?;
         let names = split(head, file.delimiter);
 
@@ -64,35 +49,23 @@ impl<'a> Header<'a> {
             hint(column, &known, file.delimiter)
         };
         let position = |column: &str| {
-            let mut places = names
-                .iter()
-                .enumerate()
-                .filter(|(_, name)| *name == column.trim());
+            let mut places = names.iter().enumerate().filter(|(_, name)| *name == column.trim());
             match (places.next(), places.next()) {
-                (Some(_), Some(_)) => Err(RecordingError::DuplicateColumn {
-                    file: name(),
-                    line,
-                    column: column.to_owned(),
-                }),
+                (Some(_), Some(_)) => {
+                    Err(RecordingError::DuplicateColumn { file: name(), line, column: column.to_owned() })
+                }
                 (found, _) => Ok(found.map(|(position, _)| position)),
             }
         };
         let missing = |column: &str, key: String| {
             let (column, hint) = (column.to_owned(), hint(column));
-            RecordingError::MissingColumn {
-                file: name(),
-                line,
-                column,
-                key,
-                hint,
-            }
+            RecordingError::MissingColumn { file: name(), line, column, key, hint }
         };
 
         let time = match &file.time.column {
-            Some(column) => Some(
-                position(column)?
-                    .ok_or_else(|| missing(column, "the time of mapping ".to_owned() + mapping))?,
-            ),
+            Some(column) => {
+                Some(position(column)?.ok_or_else(|| missing(column, "the time of mapping ".to_owned() + mapping))?)
+            }
             None => None,
         };
         let mut columns = Vec::new();
@@ -101,52 +74,24 @@ impl<'a> Header<'a> {
                 Some(position) => columns.push(Found { position, mapped }),
                 None if mapped.optional => {}
                 None => {
-                    return Err(missing(
-                        &mapped.column,
-                        format!("{} of mapping {mapping}", mapped.signal),
-                    ));
+                    return Err(missing(&mapped.column, format!("{} of mapping {mapping}", mapped.signal)));
                 }
             }
         }
         if columns.is_empty() {
-            let first = file
-                .columns
-                .first()
-                .map_or("", |mapped| mapped.column.as_str());
+            let first = file.columns.first().map_or("", |mapped| mapped.column.as_str());
             let (mapping, hint) = (mapping.to_owned(), hint(first));
-            return Err(RecordingError::NoSignals {
-                file: name(),
-                line,
-                mapping,
-                hint,
-            });
+            return Err(RecordingError::NoSignals { file: name(), line, mapping, hint });
         }
-        let used = |index: &usize| {
-            time == Some(*index) || columns.iter().any(|found| found.position == *index)
-        };
-        let unused = (0..names.len())
-            .filter(|index| !used(index))
-            .map(|index| names[index].clone())
-            .collect();
-        Ok(Self {
-            line,
-            body,
-            width: names.len(),
-            time,
-            columns,
-            unused,
-        })
+        let used = |index: &usize| time == Some(*index) || columns.iter().any(|found| found.position == *index);
+        let unused = (0..names.len()).filter(|index| !used(index)).map(|index| names[index].clone()).collect();
+        Ok(Self { line, body, width: names.len(), time, columns, unused })
     }
 
     /// The line (from 1) of the row at this byte of the body, blank lines before it skipped.
     pub(crate) fn line_at(&self, offset: u64) -> u64 {
-        let offset = usize::try_from(offset)
-            .unwrap_or(usize::MAX)
-            .min(self.body.len());
-        let blank = self.body[offset..]
-            .iter()
-            .take_while(|byte| b"\r\n".contains(byte))
-            .count();
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.body.len());
+        let blank = self.body[offset..].iter().take_while(|byte| b"\r\n".contains(byte)).count();
         self.line + 1 + line_ends(&self.body[..offset + blank])
     }
 }
@@ -164,27 +109,18 @@ fn line_ends(bytes: &[u8]) -> u64 {
 /// The names in a header line, quotes and blanks around them removed.
 fn split(head: &str, delimiter: u8) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new();
-    let mut reader = reader
-        .has_headers(false)
-        .delimiter(delimiter)
-        .from_reader(head.as_bytes());
+    let mut reader = reader.has_headers(false).delimiter(delimiter).from_reader(head.as_bytes());
     let mut record = csv::ByteRecord::new();
     // Reading from memory cannot fail; an error leaves the record empty, and every column is missing.
     let _ = reader.read_byte_record(&mut record);
-    record
-        .iter()
-        .map(|name| String::from_utf8_lossy(bare(name)).into_owned())
-        .collect()
+    record.iter().map(|name| String::from_utf8_lossy(bare(name)).into_owned()).collect()
 }
 
 /// What to do about a column that is not there.
 fn hint(column: &str, names: &[&str], delimiter: u8) -> String {
     if let (1, Some(only)) = (names.len(), names.first()) {
         let others = [b',', b';', b'\t', b'|'];
-        if let Some(&other) = others
-            .iter()
-            .find(|&&other| other != delimiter && only.contains(char::from(other)))
-        {
+        if let Some(&other) = others.iter().find(|&&other| other != delimiter && only.contains(char::from(other))) {
             let other = char::from(other).escape_default();
             return format!("the header is one field; set delimiter = \"{other}\" in the mapping");
         }

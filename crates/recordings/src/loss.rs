@@ -33,36 +33,20 @@ impl LossKind {
     /// What happened, for one and for many.
     const fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::FieldCount => (
-                "row skipped: wrong number of fields",
-                "rows skipped: wrong number of fields",
-            ),
+            Self::FieldCount => ("row skipped: wrong number of fields", "rows skipped: wrong number of fields"),
             Self::NoTime => ("row skipped: empty time", "rows skipped: empty time"),
-            Self::BadTime => (
-                "row skipped: time is not a number",
-                "rows skipped: time is not a number",
-            ),
-            Self::TimeBackwards => (
-                "row skipped: time runs backwards",
-                "rows skipped: time runs backwards",
-            ),
-            Self::DuplicateStamp => (
-                "row repeats a stamp: first sample kept",
-                "rows repeat a stamp: first samples kept",
-            ),
-            Self::BadCell => (
-                "cell read as a gap: not a finite number",
-                "cells read as gaps: not finite numbers",
-            ),
+            Self::BadTime => ("row skipped: time is not a number", "rows skipped: time is not a number"),
+            Self::TimeBackwards => ("row skipped: time runs backwards", "rows skipped: time runs backwards"),
+            Self::DuplicateStamp => {
+                ("row repeats a stamp: first sample kept", "rows repeat a stamp: first samples kept")
+            }
+            Self::BadCell => ("cell read as a gap: not a finite number", "cells read as gaps: not finite numbers"),
             Self::NegativeMagnitude => (
                 "cell read as a gap: negative although magnitude_only",
                 "cells read as gaps: negative although magnitude_only",
             ),
             Self::EmptyColumn => ("column without a sample", "columns without a sample"),
-            Self::MissingFile => (
-                "file is missing; its signals are absent",
-                "files are missing",
-            ),
+            Self::MissingFile => ("file is missing; its signals are absent", "files are missing"),
         }
     }
 }
@@ -85,13 +69,7 @@ pub struct Loss {
 impl fmt::Display for Loss {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (one, many) = self.kind.words();
-        write!(
-            f,
-            "{}: {} {}",
-            self.file,
-            self.count,
-            if self.count == 1 { one } else { many }
-        )?;
+        write!(f, "{}: {} {}", self.file, self.count, if self.count == 1 { one } else { many })?;
         if let Some(column) = &self.column {
             write!(f, ", column {column}")?;
         }
@@ -120,29 +98,15 @@ pub(crate) struct Ledger<'a> {
 impl<'a> Ledger<'a> {
     /// An empty ledger for a file.
     pub(crate) const fn new(file: &'a str) -> Self {
-        Self {
-            file,
-            losses: Vec::new(),
-        }
+        Self { file, losses: Vec::new() }
     }
 
     /// Counts one loss; `line` is asked only while places are still named.
-    pub(crate) fn add(
-        &mut self,
-        kind: LossKind,
-        column: Option<&str>,
-        line: impl FnOnce() -> Option<u64>,
-    ) {
+    pub(crate) fn add(&mut self, kind: LossKind, column: Option<&str>, line: impl FnOnce() -> Option<u64>) {
         let same = |loss: &Loss| loss.kind == kind && loss.column.as_deref() == column;
         let index = self.losses.iter().position(same).unwrap_or_else(|| {
             let column = column.map(str::to_owned);
-            self.losses.push(Loss {
-                kind,
-                file: self.file.to_owned(),
-                column,
-                lines: Vec::new(),
-                count: 0,
-            });
+            self.losses.push(Loss { kind, file: self.file.to_owned(), column, lines: Vec::new(), count: 0 });
             self.losses.len() - 1
         });
         let loss = &mut self.losses[index];
@@ -168,11 +132,7 @@ pub(crate) fn in_words(losses: &[Loss]) -> String {
     if losses.is_empty() {
         return "every mapped cell is empty".to_owned();
     }
-    losses
-        .iter()
-        .map(ToString::to_string)
-        .collect::<Vec<_>>()
-        .join("; ")
+    losses.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]

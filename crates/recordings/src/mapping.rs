@@ -7,10 +7,7 @@ use crate::suggest;
 
 /// The mappings that are built in, by name, as the TOML text that a user can copy and change.
 pub const BUILT_IN_MAPPINGS: &[(&str, &str)] = &[
-    (
-        "skid-steer-columns",
-        include_str!("../mappings/skid-steer-columns.toml"),
-    ),
+    ("skid-steer-columns", include_str!("../mappings/skid-steer-columns.toml")),
     ("husky-open", include_str!("../mappings/husky-open.toml")),
 ];
 
@@ -77,27 +74,17 @@ impl Mapping {
         }
         let known: Vec<&str> = BUILT_IN_MAPPINGS.iter().map(|(known, _)| *known).collect();
         let hint = suggest::hint(name, &known);
-        Err(RecordingError::UnknownMapping {
-            name: name.to_owned(),
-            hint,
-        })
+        Err(RecordingError::UnknownMapping { name: name.to_owned(), hint })
     }
 
     /// All patterns, for messages.
     pub(crate) fn patterns(&self) -> String {
-        self.files
-            .iter()
-            .map(|file| file.pattern.as_str())
-            .collect::<Vec<_>>()
-            .join(", ")
+        self.files.iter().map(|file| file.pattern.as_str()).collect::<Vec<_>>().join(", ")
     }
 
     /// The first entry that a file name fits, and the run's id in it.
     pub(crate) fn entry_of<'n>(&self, file: &'n str) -> Option<(usize, &'n str)> {
-        self.files
-            .iter()
-            .enumerate()
-            .find_map(|(index, entry)| Some((index, entry.run_id(file)?)))
+        self.files.iter().enumerate().find_map(|(index, entry)| Some((index, entry.run_id(file)?)))
     }
 }
 
@@ -139,10 +126,7 @@ mod tests {
             assert_eq!(Mapping::built_in(name).unwrap().name, *name);
         }
         let message = Mapping::built_in("husky_open").unwrap_err().to_string();
-        assert_eq!(
-            message,
-            "no built-in mapping is called `husky_open`; did you mean `husky-open`?"
-        );
+        assert_eq!(message, "no built-in mapping is called `husky_open`; did you mean `husky-open`?");
     }
 
     #[test]
@@ -168,11 +152,7 @@ mod tests {
         };
         let current = find(Signal::CurrentLeft);
         assert_eq!(current.column, "curL");
-        let expected = Attributes {
-            magnitude_only: true,
-            dead_band: Some(0.59),
-            set_point: false,
-        };
+        let expected = Attributes { magnitude_only: true, dead_band: Some(0.59), set_point: false };
         assert_eq!(current.attributes, expected);
         let speed = find(Signal::CommandSpeedRight);
         assert!(speed.attributes.set_point);

@@ -14,21 +14,11 @@ pub(crate) struct Text<'a> {
 impl Text<'_> {
     /// The line (from 1) of a byte.
     pub(crate) fn line(&self, offset: usize) -> usize {
-        1 + self
-            .text
-            .bytes()
-            .take(offset)
-            .filter(|&byte| byte == b'\n')
-            .count()
+        1 + self.text.bytes().take(offset).filter(|&byte| byte == b'\n').count()
     }
 
     /// The complaint about a value at a byte.
-    pub(crate) fn value(
-        &self,
-        offset: usize,
-        key: &str,
-        message: impl Into<String>,
-    ) -> RecordingError {
+    pub(crate) fn value(&self, offset: usize, key: &str, message: impl Into<String>) -> RecordingError {
         RecordingError::MappingValue {
             mapping: self.source.to_owned(),
             line: self.line(offset),
@@ -49,13 +39,7 @@ impl Text<'_> {
         let (key, name) = (key.to_owned(), unit.get_ref().clone());
         let Some(scale) = parse_unit(&name) else {
             let hint = unit_hint(&name);
-            return Err(RecordingError::UnknownUnit {
-                mapping,
-                line,
-                key,
-                unit: name,
-                hint,
-            });
+            return Err(RecordingError::UnknownUnit { mapping, line, key, unit: name, hint });
         };
         let hint = match bridge(scale.unit) {
             _ if scale.unit == expected => return Ok(scale),
@@ -63,14 +47,6 @@ impl Text<'_> {
             Some(Err(needed)) => format!(", or add `scale` ({needed})"),
             None => String::new(),
         };
-        Err(RecordingError::WrongUnit {
-            mapping,
-            line,
-            key,
-            unit: name,
-            is: scale.unit,
-            expected,
-            hint,
-        })
+        Err(RecordingError::WrongUnit { mapping, line, key, unit: name, is: scale.unit, expected, hint })
     }
 }

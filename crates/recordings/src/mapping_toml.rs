@@ -21,12 +21,11 @@ impl Mapping {
     /// names the line and the key.
     pub fn parse(source: &str, text: &str) -> Result<Self, RecordingError> {
         let text_of = Text { source, text };
-        let raw: RawMapping =
-            toml::from_str(text).map_err(|error| RecordingError::MappingSyntax {
-                mapping: source.to_owned(),
-                line: text_of.line(error.span().map_or(0, |span| span.start)),
-                message: error.message().replace('\n', "; "),
-            })?;
+        let raw: RawMapping = toml::from_str(text).map_err(|error| RecordingError::MappingSyntax {
+            mapping: source.to_owned(),
+            line: text_of.line(error.span().map_or(0, |span| span.start)),
+            message: error.message().replace('\n', "; "),
+        })?;
         let place = raw.files.span().start;
         let mut files: Vec<FileMapping> = Vec::new();
         for file in raw.files.into_inner() {
@@ -34,16 +33,9 @@ impl Mapping {
             files.push(file);
         }
         if files.is_empty() {
-            return Err(text_of.value(
-                place,
-                "files",
-                "no file is described; give at least one [[files]]",
-            ));
+            return Err(text_of.value(place, "files", "no file is described; give at least one [[files]]"));
         }
-        Ok(Self {
-            name: raw.name.unwrap_or_else(|| source.to_owned()),
-            files,
-        })
+        Ok(Self { name: raw.name.unwrap_or_else(|| source.to_owned()), files })
     }
 }
 
@@ -52,8 +44,7 @@ impl Text<'_> {
         let pattern_at = raw.pattern.span().start;
         let pattern = raw.pattern.into_inner();
         if pattern.matches('*').count() != 1 || pattern.contains(['/', '\\']) {
-            let message =
-                format!("`{pattern}` needs one `*` in the place of the run's id and no folder");
+            let message = format!("`{pattern}` needs one `*` in the place of the run's id and no folder");
             return Err(self.value(pattern_at, "pattern", message));
         }
         if before.iter().any(|file| file.pattern == pattern) {
@@ -61,71 +52,37 @@ impl Text<'_> {
         }
         let delimiter = match raw.delimiter.as_ref().map(|text| text.get_ref().as_bytes()) {
             None => b',',
-            Some(&[byte])
-                if byte.is_ascii()
-                    && !byte.is_ascii_alphanumeric()
-                    && !b"\"\r\n.+-".contains(&byte) =>
-            {
-                byte
-            }
+            Some(&[byte]) if byte.is_ascii() && !byte.is_ascii_alphanumeric() && !b"\"\r\n.+-".contains(&byte) => byte,
             Some(_) => {
                 let at = raw.delimiter.map_or(0, |text| text.span().start);
-                return Err(self.value(
-                    at,
-                    "delimiter",
-                    "give one character such as \",\" \";\" or \"\\t\"",
-                ));
+                return Err(self.value(at, "delimiter", "give one character such as \",\" \";\" or \"\\t\""));
             }
         };
         let time = self.time(raw.time)?;
         let mut columns = Vec::new();
         for (key, signal) in raw.signals {
             let column = self.column(&key, signal)?;
-            let twice = before.iter().find(|file| {
-                file.columns
-                    .iter()
-                    .any(|other| other.signal == column.signal)
-            });
+            let twice = before.iter().find(|file| file.columns.iter().any(|other| other.signal == column.signal));
             if let Some(file) = twice {
-                let message = format!(
-                    "already read from `{}`; a run has each signal once",
-                    file.pattern
-                );
+                let message = format!("already read from `{}`; a run has each signal once", file.pattern);
                 return Err(self.value(key.span().start, key.get_ref(), message));
             }
             columns.push(column);
         }
         if columns.is_empty() {
-            return Err(self.value(
-                pattern_at,
-                "signals",
-                format!("`{pattern}` has no signal; give at least one"),
-            ));
+            return Err(self.value(pattern_at, "signals", format!("`{pattern}` has no signal; give at least one")));
         }
         columns.sort_by_key(|column| column.signal);
-        Ok(FileMapping {
-            pattern,
-            delimiter,
-            time,
-            columns,
-        })
+        Ok(FileMapping { pattern, delimiter, time, columns })
     }
 
     fn time(&self, raw: Spanned<RawTime>) -> Result<TimeMapping, RecordingError> {
         let at = raw.span().start;
-        let RawTime {
-            column,
-            unit,
-            rate_hz,
-        } = raw.into_inner();
+        let RawTime { column, unit, rate_hz } = raw.into_inner();
         let rate_at = rate_hz.as_ref().map_or(at, |rate| rate.span().start);
         let rate_hz = rate_hz.map(Spanned::into_inner);
         if rate_hz.is_some_and(|rate| !rate.is_finite() || rate <= 0.0) {
-            return Err(self.value(
-                rate_at,
-                "time.rate_hz",
-                "the rate must be finite and above zero",
-            ));
+            return Err(self.value(rate_at, "time.rate_hz", "the rate must be finite and above zero"));
         }
         let ns_per_unit = match (&column, unit) {
             (Some(_), Some(unit)) => {
@@ -133,33 +90,17 @@ impl Text<'_> {
                 (scale.factor * NS_PER_S).round() as i64
             }
             (Some(_), None) => {
-                return Err(self.value(
-                    at,
-                    "time",
-                    "the column's `unit` is missing, such as \"s\"",
-                ));
+                return Err(self.value(at, "time", "the column's `unit` is missing, such as \"s\""));
             }
             (None, None) if rate_hz.is_some() => 1,
             (None, _) => {
-                return Err(self.value(
-                    at,
-                    "time",
-                    "give `column` and `unit`, or only `rate_hz` to count rows",
-                ));
+                return Err(self.value(at, "time", "give `column` and `unit`, or only `rate_hz` to count rows"));
             }
         };
-        Ok(TimeMapping {
-            column,
-            ns_per_unit,
-            rate_hz,
-        })
+        Ok(TimeMapping { column, ns_per_unit, rate_hz })
     }
 
-    fn column(
-        &self,
-        key: &Spanned<String>,
-        raw: RawSignal,
-    ) -> Result<ColumnMapping, RecordingError> {
+    fn column(&self, key: &Spanned<String>, raw: RawSignal) -> Result<ColumnMapping, RecordingError> {
         let name = key.get_ref().as_str();
         let key_at = key.span().start;
         let signal = Signal::from_name(name).ok_or_else(|| RecordingError::UnknownSignal {
@@ -170,38 +111,25 @@ impl Text<'_> {
         })?;
         let has_scale = raw.scale.is_some();
         let unit = self.unit(&raw.unit, &format!("{name}.unit"), signal.unit(), |is| {
-            is.bridge_to(signal.unit())
-                .map(|needed| if has_scale { Ok(()) } else { Err(needed) })
+            is.bridge_to(signal.unit()).map(|needed| if has_scale { Ok(()) } else { Err(needed) })
         })?;
         let scale = match raw.scale {
             None => 1.0,
-            Some(scale) if scale.get_ref().is_finite() && *scale.get_ref() > 0.0 => {
-                scale.into_inner()
-            }
+            Some(scale) if scale.get_ref().is_finite() && *scale.get_ref() > 0.0 => scale.into_inner(),
             Some(scale) => {
-                let message =
-                    "the scale must be finite and above zero; a turned sign is `sign = -1`";
+                let message = "the scale must be finite and above zero; a turned sign is `sign = -1`";
                 return Err(self.value(scale.span().start, &format!("{name}.scale"), message));
             }
         };
-        let sign = match raw
-            .sign
-            .as_ref()
-            .map(|sign| (*sign.get_ref(), sign.span().start))
-        {
+        let sign = match raw.sign.as_ref().map(|sign| (*sign.get_ref(), sign.span().start)) {
             None | Some((1, _)) => 1.0,
             Some((-1, at)) if raw.magnitude_only => {
-                let message =
-                    "a magnitude has no sign to turn; leave out `sign` or `magnitude_only`";
+                let message = "a magnitude has no sign to turn; leave out `sign` or `magnitude_only`";
                 return Err(self.value(at, &format!("{name}.sign"), message));
             }
             Some((-1, _)) => -1.0,
             Some((other, at)) => {
-                return Err(self.value(
-                    at,
-                    &format!("{name}.sign"),
-                    format!("{other} is neither 1 nor -1"),
-                ));
+                return Err(self.value(at, &format!("{name}.sign"), format!("{other} is neither 1 nor -1")));
             }
         };
         let dead_band = match raw.dead_band {
@@ -216,30 +144,14 @@ impl Text<'_> {
                 let message = "this signal is a set-point by its nature; map a measurement to a measured signal";
                 return Err(self.value(kind.span().start, &format!("{name}.kind"), message));
             }
-            kind => {
-                signal.is_set_point() || kind.is_some_and(|kind| *kind.get_ref() == Kind::SetPoint)
-            }
+            kind => signal.is_set_point() || kind.is_some_and(|kind| *kind.get_ref() == Kind::SetPoint),
         };
-        let attributes = Attributes {
-            magnitude_only: raw.magnitude_only,
-            dead_band,
-            set_point,
-        };
+        let attributes = Attributes { magnitude_only: raw.magnitude_only, dead_band, set_point };
         let column_at = raw.column.span().start;
         let column = raw.column.into_inner();
         if column.trim().is_empty() {
-            return Err(self.value(
-                column_at,
-                &format!("{name}.column"),
-                "give the column's name",
-            ));
+            return Err(self.value(column_at, &format!("{name}.column"), "give the column's name"));
         }
-        Ok(ColumnMapping {
-            signal,
-            column,
-            factor: sign * scale * unit.factor,
-            optional: raw.optional,
-            attributes,
-        })
+        Ok(ColumnMapping { signal, column, factor: sign * scale * unit.factor, optional: raw.optional, attributes })
     }
 }

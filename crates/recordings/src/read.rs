@@ -78,34 +78,21 @@ pub struct Read {
 /// # Errors
 /// When a file fits no pattern or is given twice, is empty, is no text, lacks a column, or holds what
 /// [`ReadOptions::policy`] does not let pass.
-pub fn read(
-    mapping: &Mapping,
-    run: &str,
-    inputs: &[Input<'_>],
-    options: &ReadOptions,
-) -> Result<Read, RecordingError> {
+pub fn read(mapping: &Mapping, run: &str, inputs: &[Input<'_>], options: &ReadOptions) -> Result<Read, RecordingError> {
     let mut by_entry: Vec<Option<(&Input<'_>, &str)>> = vec![None; mapping.files.len()];
     for input in inputs {
-        let (entry, id) =
-            mapping
-                .entry_of(input.name)
-                .ok_or_else(|| RecordingError::UnmatchedFile {
-                    file: input.name.to_owned(),
-                    mapping: mapping.name.clone(),
-                    patterns: mapping.patterns(),
-                })?;
+        let (entry, id) = mapping.entry_of(input.name).ok_or_else(|| RecordingError::UnmatchedFile {
+            file: input.name.to_owned(),
+            mapping: mapping.name.clone(),
+            patterns: mapping.patterns(),
+        })?;
         if by_entry[entry].replace((input, id)).is_some() {
             let pattern = mapping.files[entry].pattern.clone();
-            return Err(RecordingError::FileTwice {
-                file: input.name.to_owned(),
-                pattern,
-            });
+            return Err(RecordingError::FileTwice { file: input.name.to_owned(), pattern });
         }
     }
     let Some((first, id)) = by_entry.iter().flatten().next().copied() else {
-        return Err(RecordingError::NoFiles {
-            run: run.to_owned(),
-        });
+        return Err(RecordingError::NoFiles { run: run.to_owned() });
     };
     let folder = &first.name[..first.name.len() - base_name(first.name).len()];
 
@@ -114,47 +101,19 @@ pub fn read(
     for (file, slot) in mapping.files.iter().zip(&by_entry) {
         let Some((input, _)) = slot else {
             let file = format!("{folder}{}", file.file_of(id));
-            losses.push(Loss {
-                kind: LossKind::MissingFile,
-                file,
-                column: None,
-                lines: Vec::new(),
-                count: 1,
-            });
+            losses.push(Loss { kind: LossKind::MissingFile, file, column: None, lines: Vec::new(), count: 1 });
             continue;
         };
         let header = Header::find(input, file, &mapping.name)?;
         let mut ledger = Ledger::new(input.name);
-        channels.extend(read_rows(
-            input,
-            file,
-            &header,
-            clocks.len(),
-            options.policy,
-            &mut ledger,
-        )?);
+        channels.extend(read_rows(input, file, &header, clocks.len(), options.policy, &mut ledger)?);
         losses.extend(ledger.into_losses());
         let name = input.name.to_owned();
-        clocks.push(Clock {
-            name: name.clone(),
-            nominal_rate_hz: file.time.rate_hz,
-        });
-        unused.extend(header.unused.into_iter().map(|column| UnusedColumn {
-            file: name.clone(),
-            column,
-        }));
-        sources.push(Source {
-            name,
-            bytes: input.bytes.len(),
-            sha256: sha256(input.bytes),
-        });
+        clocks.push(Clock { name: name.clone(), nominal_rate_hz: file.time.rate_hz });
+        unused.extend(header.unused.into_iter().map(|column| UnusedColumn { file: name.clone(), column }));
+        sources.push(Source { name, bytes: input.bytes.len(), sha256: sha256(input.bytes) });
     }
-    Ok(Read {
-        recording: Recording::new(run, clocks, channels)?,
-        losses,
-        sources,
-        unused,
-    })
+    Ok(Read { recording: Recording::new(run, clocks, channels)?, losses, sources, unused })
 }
 
 /// The SHA-256 of bytes as hexadecimal digits.
@@ -174,9 +133,6 @@ mod tests {
 
     #[test]
     fn sha256_is_that_of_fips_180() {
-        assert_eq!(
-            sha256(b"abc"),
-            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-        );
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 }

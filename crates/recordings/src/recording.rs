@@ -36,16 +36,10 @@ impl Recording {
         for pair in channels.windows(2) {
             if pair[0].signal() == pair[1].signal() {
                 let channel = pair[0].name().to_owned();
-                return Err(RecordingError::ChannelTwice {
-                    recording: name,
-                    channel,
-                });
+                return Err(RecordingError::ChannelTwice { recording: name, channel });
             }
         }
-        if let Some(lost) = channels
-            .iter()
-            .find(|channel| channel.clock() >= clocks.len())
-        {
+        if let Some(lost) = channels.iter().find(|channel| channel.clock() >= clocks.len()) {
             return Err(RecordingError::NoSuchClock {
                 recording: name,
                 channel: lost.name().to_owned(),
@@ -53,11 +47,7 @@ impl Recording {
                 clocks: clocks.len(),
             });
         }
-        Ok(Self {
-            name,
-            clocks,
-            channels,
-        })
+        Ok(Self { name, clocks, channels })
     }
 
     /// The run's name.
@@ -77,9 +67,7 @@ impl Recording {
 
     /// The channel of a signal, where there is one.
     pub fn get(&self, signal: Signal) -> Option<&Channel> {
-        self.channels
-            .iter()
-            .find(|channel| channel.signal() == signal)
+        self.channels.iter().find(|channel| channel.signal() == signal)
     }
 
     /// The channel of a signal by its id.
@@ -92,26 +80,16 @@ impl Recording {
     /// # Errors
     /// When the recording has no such channel; the message lists what it has.
     pub fn require(&self, signal: Signal) -> Result<&Channel, RecordingError> {
-        self.get(signal)
-            .ok_or_else(|| RecordingError::MissingSignal {
-                recording: self.name.clone(),
-                signal,
-                mapped: self
-                    .channels
-                    .iter()
-                    .map(Channel::name)
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            })
+        self.get(signal).ok_or_else(|| RecordingError::MissingSignal {
+            recording: self.name.clone(),
+            signal,
+            mapped: self.channels.iter().map(Channel::name).collect::<Vec<_>>().join(", "),
+        })
     }
 
     /// First and last instant over all channels of one clock, in ns.
     pub fn span_ns(&self, clock: usize) -> Option<(i64, i64)> {
-        let spans = self
-            .channels
-            .iter()
-            .filter(|channel| channel.clock() == clock)
-            .filter_map(Channel::span_ns);
+        let spans = self.channels.iter().filter(|channel| channel.clock() == clock).filter_map(Channel::span_ns);
         spans.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 }
@@ -121,41 +99,22 @@ mod tests {
     use super::*;
 
     fn clocks() -> Vec<Clock> {
-        vec![Clock {
-            name: "a.csv".to_owned(),
-            nominal_rate_hz: None,
-        }]
+        vec![Clock { name: "a.csv".to_owned(), nominal_rate_hz: None }]
     }
 
     #[test]
     fn constructors_refuse_what_breaks_the_promises() {
         let new = |t: &[i64], v: &[f64]| Channel::new(Signal::GyroZ, 0, t.to_vec(), v.to_vec());
-        assert!(matches!(
-            new(&[0, 1], &[0.0]),
-            Err(RecordingError::UnequalLengths {
-                stamps: 2,
-                values: 1,
-                ..
-            })
-        ));
-        assert!(matches!(
-            new(&[1, 1], &[0.0, 0.0]),
-            Err(RecordingError::StampsNotRising { index: 1, .. })
-        ));
-        assert!(matches!(
-            new(&[0, 1], &[0.0, f64::NAN]),
-            Err(RecordingError::ValueNotFinite { index: 1, .. })
-        ));
+        assert!(matches!(new(&[0, 1], &[0.0]), Err(RecordingError::UnequalLengths { stamps: 2, values: 1, .. })));
+        assert!(matches!(new(&[1, 1], &[0.0, 0.0]), Err(RecordingError::StampsNotRising { index: 1, .. })));
+        assert!(matches!(new(&[0, 1], &[0.0, f64::NAN]), Err(RecordingError::ValueNotFinite { index: 1, .. })));
         let good = new(&[0, 1], &[0.0, 1.0]).unwrap();
         let twice = Recording::new("r", clocks(), vec![good.clone(), good.clone()]);
         assert_eq!(
             twice.unwrap_err().to_string(),
             "recording r: two channels are called gyro_z; give each signal once"
         );
-        assert!(matches!(
-            Recording::new("r", vec![], vec![good]),
-            Err(RecordingError::NoSuchClock { .. })
-        ));
+        assert!(matches!(Recording::new("r", vec![], vec![good]), Err(RecordingError::NoSuchClock { .. })));
     }
 
     #[test]

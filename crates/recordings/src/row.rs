@@ -32,11 +32,7 @@ pub(crate) struct Row<'r, 'l> {
 
 impl Row<'_, '_> {
     /// Adds the row's samples, or counts why not.
-    pub(crate) fn take(
-        &mut self,
-        last_ns: &mut Option<i64>,
-        gathered: &mut [Gathered],
-    ) -> Result<(), RecordingError> {
+    pub(crate) fn take(&mut self, last_ns: &mut Option<i64>, gathered: &mut [Gathered]) -> Result<(), RecordingError> {
         if self.record.len() != self.header.width {
             return self.lose(LossKind::FieldCount, None, self.unless_strict(), |row| {
                 RecordingError::WrongFieldCount {
@@ -51,14 +47,12 @@ impl Row<'_, '_> {
             return Ok(());
         };
         if let Some(before_ns) = last_ns.filter(|&before_ns| now_ns < before_ns) {
-            return self.lose(LossKind::TimeBackwards, None, self.if_tolerant(), |row| {
-                RecordingError::TimeBackwards {
-                    file: row.file_name(),
-                    line: row.line(),
-                    column: row.time_column(),
-                    before_s: seconds(before_ns),
-                    now_s: seconds(now_ns),
-                }
+            return self.lose(LossKind::TimeBackwards, None, self.if_tolerant(), |row| RecordingError::TimeBackwards {
+                file: row.file_name(),
+                line: row.line(),
+                column: row.time_column(),
+                before_s: seconds(before_ns),
+                now_s: seconds(now_ns),
             });
         }
         *last_ns = Some(now_ns);
@@ -77,38 +71,27 @@ impl Row<'_, '_> {
         if !repeated {
             return Ok(());
         }
-        self.lose(
-            LossKind::DuplicateStamp,
-            None,
-            self.unless_strict(),
-            |row| RecordingError::DuplicateStamp {
-                file: row.file_name(),
-                line: row.line(),
-                column: row.time_column(),
-                now_s: seconds(now_ns),
-            },
-        )
+        self.lose(LossKind::DuplicateStamp, None, self.unless_strict(), |row| RecordingError::DuplicateStamp {
+            file: row.file_name(),
+            line: row.line(),
+            column: row.time_column(),
+            now_s: seconds(now_ns),
+        })
     }
 
     /// When the row was taken; `None` when that is lost.
     fn instant(&mut self) -> Result<Option<i64>, RecordingError> {
-        let TimeMapping {
-            ns_per_unit,
-            rate_hz,
-            ..
-        } = self.file.time;
+        let TimeMapping { ns_per_unit, rate_hz, .. } = self.file.time;
         let Some(position) = self.header.time else {
             let period_ns = 1e9 / rate_hz.unwrap_or(1.0);
             return Ok(cell::rounded_ns(self.number as f64 * period_ns));
         };
         let lost = match cell::instant_ns(&self.record[position], ns_per_unit) {
             Ok(Some(now_ns)) => return Ok(Some(now_ns)),
-            Ok(None) => self.lose(LossKind::NoTime, None, self.unless_strict(), |row| {
-                RecordingError::NoTime {
-                    file: row.file_name(),
-                    line: row.line(),
-                    column: row.time_column(),
-                }
+            Ok(None) => self.lose(LossKind::NoTime, None, self.unless_strict(), |row| RecordingError::NoTime {
+                file: row.file_name(),
+                line: row.line(),
+                column: row.time_column(),
             }),
             Err(problem) => self.lose(LossKind::BadTime, None, self.if_tolerant(), |row| {
                 row.cell_error(problem, position, row.time_column())
@@ -125,17 +108,14 @@ impl Row<'_, '_> {
             Ok(None) => return Ok(None),
             Ok(Some(value)) if value < 0.0 && mapped.attributes.magnitude_only => {
                 let column = Some(mapped.column.as_str());
-                let lost = self.lose(
-                    LossKind::NegativeMagnitude,
-                    column,
-                    self.if_tolerant(),
-                    |row| RecordingError::NegativeMagnitude {
+                let lost = self.lose(LossKind::NegativeMagnitude, column, self.if_tolerant(), |row| {
+                    RecordingError::NegativeMagnitude {
                         file: row.file_name(),
                         line: row.line(),
                         column: mapped.column.clone(),
                         text: row.text(position),
-                    },
-                );
+                    }
+                });
                 return lost.map(|()| None);
             }
             Ok(Some(value)) => {
@@ -147,12 +127,9 @@ impl Row<'_, '_> {
             }
             Err(problem) => problem,
         };
-        let lost = self.lose(
-            LossKind::BadCell,
-            Some(&mapped.column),
-            self.if_tolerant(),
-            |row| row.cell_error(problem, position, mapped.column.clone()),
-        );
+        let lost = self.lose(LossKind::BadCell, Some(&mapped.column), self.if_tolerant(), |row| {
+            row.cell_error(problem, position, mapped.column.clone())
+        });
         lost.map(|()| None)
     }
 
@@ -168,8 +145,7 @@ impl Row<'_, '_> {
             return Err(error(self));
         }
         let (header, offset) = (self.header, self.offset);
-        self.ledger
-            .add(kind, column, || Some(header.line_at(offset)));
+        self.ledger.add(kind, column, || Some(header.line_at(offset)));
         Ok(())
     }
 
@@ -184,18 +160,8 @@ impl Row<'_, '_> {
     fn cell_error(&self, problem: CellError, position: usize, column: String) -> RecordingError {
         let (file, line, text) = (self.file_name(), self.line(), self.text(position));
         match problem {
-            CellError::NotANumber => RecordingError::NotANumber {
-                file,
-                line,
-                column,
-                text,
-            },
-            CellError::NotFinite => RecordingError::NotFinite {
-                file,
-                line,
-                column,
-                text,
-            },
+            CellError::NotANumber => RecordingError::NotANumber { file, line, column, text },
+            CellError::NotFinite => RecordingError::NotFinite { file, line, column, text },
         }
     }
 
@@ -208,11 +174,7 @@ impl Row<'_, '_> {
     }
 
     fn time_column(&self) -> String {
-        self.file
-            .time
-            .column
-            .clone()
-            .unwrap_or_else(|| "(row number)".to_owned())
+        self.file.time.column.clone().unwrap_or_else(|| "(row number)".to_owned())
     }
 
     /// A cell as a message shows it: its first characters, none that a terminal would obey.
@@ -220,11 +182,7 @@ impl Row<'_, '_> {
         /// Characters shown of a cell.
         const SHOWN: usize = 40;
         let text = String::from_utf8_lossy(cell::bare(&self.record[position])).into_owned();
-        let mut shown: String = text
-            .chars()
-            .take(SHOWN)
-            .flat_map(char::escape_debug)
-            .collect();
+        let mut shown: String = text.chars().take(SHOWN).flat_map(char::escape_debug).collect();
         if text.chars().count() > SHOWN {
             shown.push('…');
         }

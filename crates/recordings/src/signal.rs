@@ -78,16 +78,12 @@ signals! {
 impl Signal {
     /// The signal with this id.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL
-            .iter()
-            .copied()
-            .find(|signal| signal.name() == name)
+        Self::ALL.iter().copied().find(|signal| signal.name() == name)
     }
 
     /// The signal whose id is most like `name`, when one is like enough.
     pub fn nearest(name: &str) -> Option<Self> {
-        suggest::nearest(name, Self::ALL.iter().map(|signal| signal.name()))
-            .and_then(Self::from_name)
+        suggest::nearest(name, Self::ALL.iter().map(|signal| signal.name())).and_then(Self::from_name)
     }
 
     /// True for what is a set-point by its nature, whatever a mapping says.
@@ -123,10 +119,7 @@ mod tests {
             assert_eq!(Signal::from_name(signal.name()), Some(signal));
         }
         assert_eq!(Signal::from_name("gyro"), None);
-        assert_eq!(
-            Signal::nearest("wheel_sped_left"),
-            Some(Signal::WheelSpeedLeft)
-        );
+        assert_eq!(Signal::nearest("wheel_sped_left"), Some(Signal::WheelSpeedLeft));
         assert_eq!(Signal::nearest("banana"), None);
     }
 

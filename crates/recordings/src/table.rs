@@ -33,24 +33,12 @@ pub(crate) fn read_rows(
     // Reading from memory without UTF-8 checks and with any number of fields cannot fail; an error ends the rows.
     while rows.read_byte_record(&mut record).unwrap_or(false) {
         let offset = record.position().map_or(0, csv::Position::byte);
-        let mut row = Row {
-            input,
-            header,
-            file,
-            policy,
-            record: &record,
-            number,
-            offset,
-            ledger,
-        };
+        let mut row = Row { input, header, file, policy, record: &record, number, offset, ledger };
         row.take(&mut last_ns, &mut gathered)?;
         number += 1;
     }
     if number == 0 {
-        return Err(RecordingError::NoRows {
-            file: input.name.to_owned(),
-            line: header.line,
-        });
+        return Err(RecordingError::NoRows { file: input.name.to_owned(), line: header.line });
     }
     let (mut channels, mut empty) = (Vec::new(), Vec::new());
     for (found, samples) in header.columns.iter().zip(gathered) {
@@ -60,18 +48,11 @@ pub(crate) fn read_rows(
             continue;
         }
         let channel = Channel::new(mapped.signal, clock, samples.t_ns, samples.values)?;
-        channels.push(
-            channel
-                .with_attributes(mapped.attributes)
-                .with_column(&mapped.column),
-        );
+        channels.push(channel.with_attributes(mapped.attributes).with_column(&mapped.column));
     }
     if channels.is_empty() {
         let losses = in_words(ledger.losses());
-        return Err(RecordingError::NoSamples {
-            file: input.name.to_owned(),
-            losses,
-        });
+        return Err(RecordingError::NoSamples { file: input.name.to_owned(), losses });
     }
     for mapped in empty.iter().filter(|mapped| !mapped.optional) {
         ledger.add(LossKind::EmptyColumn, Some(&mapped.column), || None);

@@ -170,9 +170,7 @@ pub(crate) fn unit_hint(name: &str) -> String {
 
 /// The name without what people write differently.
 fn plain(name: &str) -> String {
-    let kept = name
-        .chars()
-        .filter(|c| !c.is_whitespace() && !"*.·^".contains(*c));
+    let kept = name.chars().filter(|c| !c.is_whitespace() && !"*.·^".contains(*c));
     // U+03BC (Greek mu) and U+00B5 (micro sign) look the same.
     kept.map(|c| match c {
         '²' => '2',
@@ -221,10 +219,7 @@ mod tests {
     #[test]
     fn every_symbol_and_name_is_unique_and_reads_back() {
         for (index, &(name, unit, factor)) in NAMES.iter().enumerate() {
-            assert!(
-                NAMES[..index].iter().all(|(other, ..)| *other != name),
-                "{name}"
-            );
+            assert!(NAMES[..index].iter().all(|(other, ..)| *other != name), "{name}");
             assert!(factor.is_finite() && factor > 0.0);
             assert_eq!(parse_unit(unit.symbol()), Some(Scale { unit, factor: 1.0 }));
         }

@@ -20,16 +20,8 @@ use crate::recording::Recording;
 /// # Ok::<(), recordings::RecordingError>(())
 /// ```
 pub fn write_csv(recording: &Recording, clock: usize) -> String {
-    let channels: Vec<&Channel> = recording
-        .channels()
-        .iter()
-        .filter(|channel| channel.clock() == clock)
-        .collect();
-    let mut stamps: Vec<i64> = channels
-        .iter()
-        .flat_map(|channel| channel.t_ns())
-        .copied()
-        .collect();
+    let channels: Vec<&Channel> = recording.channels().iter().filter(|channel| channel.clock() == clock).collect();
+    let mut stamps: Vec<i64> = channels.iter().flat_map(|channel| channel.t_ns()).copied().collect();
     stamps.sort_unstable();
     stamps.dedup();
 
@@ -43,12 +35,7 @@ pub fn write_csv(recording: &Recording, clock: usize) -> String {
     for t_ns in stamps {
         let (sign, ns) = (if t_ns < 0 { "-" } else { "" }, t_ns.unsigned_abs());
         // Writing to a string cannot fail.
-        let _ = write!(
-            text,
-            "{sign}{}.{:09}",
-            ns / 1_000_000_000,
-            ns % 1_000_000_000
-        );
+        let _ = write!(text, "{sign}{}.{:09}", ns / 1_000_000_000, ns % 1_000_000_000);
         for (channel, next) in channels.iter().zip(&mut next) {
             text.push(',');
             if channel.t_ns().get(*next) == Some(&t_ns) {

@@ -1,8 +1,6 @@
 //! Every kind of bad file gets one sentence with file, line, column and what to do.
 
-use recordings::{
-    Input, LossKind, Mapping, Policy, Read, ReadOptions, RecordingError, Signal, read,
-};
+use recordings::{Input, LossKind, Mapping, Policy, Read, ReadOptions, RecordingError, Signal, read};
 
 const MAPPING: &str = r#"
 [[files]]
@@ -15,21 +13,11 @@ current_left = { column = "curL", unit = "A", magnitude_only = true, dead_band =
 
 fn read_with(policy: Policy, bytes: &[u8]) -> Result<Read, RecordingError> {
     let mapping = Mapping::parse("m.toml", MAPPING).unwrap();
-    read(
-        &mapping,
-        "a",
-        &[Input {
-            name: "a.csv",
-            bytes,
-        }],
-        &ReadOptions { policy },
-    )
+    read(&mapping, "a", &[Input { name: "a.csv", bytes }], &ReadOptions { policy })
 }
 
 fn message(text: &str) -> String {
-    read_with(Policy::Normal, text.as_bytes())
-        .unwrap_err()
-        .to_string()
+    read_with(Policy::Normal, text.as_bytes()).unwrap_err().to_string()
 }
 
 /// Refused when normal; the loss and what is left of wz when tolerant.
@@ -43,10 +31,7 @@ fn tolerated(text: &str) -> (LossKind, Vec<u64>, Vec<f64>) {
 #[test]
 fn nothing_in_the_file() {
     for text in ["", "  \n\n", "\u{feff}"] {
-        assert_eq!(
-            message(text),
-            "a.csv: the file is empty; give a CSV file with a header line and rows"
-        );
+        assert_eq!(message(text), "a.csv: the file is empty; give a CSV file with a header line and rows");
     }
     let header_only = "a.csv: line 1 is a header but no row follows it; was the recording cut off?";
     assert_eq!(message("t,wz,curL\n"), header_only);
@@ -57,10 +42,7 @@ fn nothing_in_the_file() {
 fn a_header_that_is_no_text() {
     for bytes in [&b"\xff\xfet\0,\0w\0"[..], b"t\0,\0w\0\n", b"\x89PNG\r\n"] {
         let error = read_with(Policy::Tolerant, bytes).unwrap_err();
-        assert!(
-            matches!(error, RecordingError::NotText { line: 1, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, RecordingError::NotText { line: 1, .. }), "{error}");
     }
 }
 
@@ -76,32 +58,20 @@ fn a_missing_column_with_the_nearest_name() {
         "a.csv: line 1: no column `curL` (needed for current_left of mapping m.toml); \
          did you mean `CURL`?; correct the mapping or the file"
     );
-    assert!(
-        message("time,wz,curL\n0,1,1\n")
-            .contains("no column `t` (needed for the time of mapping m.toml)")
-    );
-    assert!(
-        message("t;wz;curL\n0;1;1\n")
-            .ends_with("the header is one field; set delimiter = \";\" in the mapping")
-    );
+    assert!(message("time,wz,curL\n0,1,1\n").contains("no column `t` (needed for the time of mapping m.toml)"));
+    assert!(message("t;wz;curL\n0;1;1\n").ends_with("the header is one field; set delimiter = \";\" in the mapping"));
     assert!(message("t\twz\n0\t1\n").ends_with("set delimiter = \"\\t\" in the mapping"));
 }
 
 #[test]
 fn a_column_twice() {
-    assert!(
-        message("t,wz,wz,curL\n0,1,1,1\n")
-            .starts_with("a.csv: line 1: column `wz` occurs more than once")
-    );
+    assert!(message("t,wz,wz,curL\n0,1,1,1\n").starts_with("a.csv: line 1: column `wz` occurs more than once"));
 }
 
 #[test]
 fn an_optional_mapping_of_which_nothing_is_there() {
     let mapping = Mapping::built_in("skid-steer-columns").unwrap();
-    let input = Input {
-        name: "a.csv",
-        bytes: b"time_s,foo\n0,1\n",
-    };
+    let input = Input { name: "a.csv", bytes: b"time_s,foo\n0,1\n" };
     let error = read(&mapping, "a", &[input], &ReadOptions::default()).unwrap_err();
     assert!(matches!(error, RecordingError::NoSignals { .. }), "{error}");
 }
@@ -114,24 +84,16 @@ fn text_in_a_number() {
         "a.csv: line 3, column wz: `oops` is not a number; \
          correct it, leave the cell empty, or read in tolerant mode to skip it"
     );
-    assert_eq!(
-        tolerated(text),
-        (LossKind::BadCell, vec![3], vec![1.0, 3.0])
-    );
+    assert_eq!(tolerated(text), (LossKind::BadCell, vec![3], vec![1.0, 3.0]));
     let in_time = "t,wz,curL\n0,1,1\nnoon,2,1\n0.2,3,1\n";
     assert!(message(in_time).starts_with("a.csv: line 3, column t: `noon` is not a number"));
-    assert_eq!(
-        tolerated(in_time),
-        (LossKind::BadTime, vec![3], vec![1.0, 3.0])
-    );
+    assert_eq!(tolerated(in_time), (LossKind::BadTime, vec![3], vec![1.0, 3.0]));
 }
 
 #[test]
 fn text_is_shown_without_what_a_terminal_would_obey() {
     let long = "x".repeat(60);
-    assert!(
-        message(&format!("t,wz,curL\n0,{long},1\n")).contains(&format!("`{}…`", "x".repeat(40)))
-    );
+    assert!(message(&format!("t,wz,curL\n0,{long},1\n")).contains(&format!("`{}…`", "x".repeat(40))));
     assert!(message("t,wz,curL\n0,\u{1b}[31m,1\n").contains("`\\u{1b}[31m`"));
 }
 
@@ -143,23 +105,14 @@ fn numbers_that_are_not_finite() {
         assert!(message(&text).starts_with(&expected));
         assert_eq!(tolerated(&text), (LossKind::BadCell, vec![3], vec![1.0]));
     }
-    assert!(
-        message("t,wz,curL\n1e300,1,1\n")
-            .contains("column t: `1e300` is not a finite number in range")
-    );
+    assert!(message("t,wz,curL\n1e300,1,1\n").contains("column t: `1e300` is not a finite number in range"));
 }
 
 #[test]
 fn a_negative_magnitude() {
     let text = "t,wz,curL\n0,1,1\n0.1,2,-1\n";
-    assert!(
-        message(text)
-            .starts_with("a.csv: line 3, column curL: -1 is negative, but the mapping says")
-    );
-    assert_eq!(
-        tolerated(text),
-        (LossKind::NegativeMagnitude, vec![3], vec![1.0, 2.0])
-    );
+    assert!(message(text).starts_with("a.csv: line 3, column curL: -1 is negative, but the mapping says"));
+    assert_eq!(tolerated(text), (LossKind::NegativeMagnitude, vec![3], vec![1.0, 2.0]));
 }
 
 #[test]
@@ -170,24 +123,13 @@ fn time_running_backwards() {
         "a.csv: line 4, column t: time runs backwards, from 0.2 s to 0.1 s; \
          sort the rows, split the file there, or read in tolerant mode to skip them"
     );
-    assert_eq!(
-        tolerated(text),
-        (LossKind::TimeBackwards, vec![4], vec![1.0, 2.0, 4.0])
-    );
+    assert_eq!(tolerated(text), (LossKind::TimeBackwards, vec![4], vec![1.0, 2.0, 4.0]));
 }
 
 #[test]
 fn lines_are_right_with_blank_lines_and_any_line_end() {
-    for text in [
-        "t,wz,curL\r\n0,1,1\r\n\r\n0.1,x,1\r\n",
-        "t,wz,curL\r0,1,1\r\r0.1,x,1\r",
-        "\n\nt,wz,curL\n0.1,x,1\n",
-    ] {
-        assert!(
-            message(text).starts_with("a.csv: line 4, column wz"),
-            "{text:?} {}",
-            message(text)
-        );
+    for text in ["t,wz,curL\r\n0,1,1\r\n\r\n0.1,x,1\r\n", "t,wz,curL\r0,1,1\r\r0.1,x,1\r", "\n\nt,wz,curL\n0.1,x,1\n"] {
+        assert!(message(text).starts_with("a.csv: line 4, column wz"), "{text:?} {}", message(text));
     }
 }
 
@@ -195,22 +137,13 @@ fn lines_are_right_with_blank_lines_and_any_line_end() {
 fn files_that_do_not_fit_the_mapping() {
     let mapping = Mapping::built_in("husky-open").unwrap();
     let options = ReadOptions::default();
-    let input = |name| Input {
-        name,
-        bytes: b"time,curL,curR,velL,velR\n0,1,1,0.1,0.1\n",
-    };
-    let error = |inputs: &[Input<'_>]| {
-        read(&mapping, "01", inputs, &options)
-            .unwrap_err()
-            .to_string()
-    };
+    let input = |name| Input { name, bytes: b"time,curL,curR,velL,velR\n0,1,1,0.1,0.1\n" };
+    let error = |inputs: &[Input<'_>]| read(&mapping, "01", inputs, &options).unwrap_err().to_string();
     assert_eq!(
         error(&[input("bag.csv")]),
         "bag.csv: fits no pattern of mapping husky-open (pro_*.csv, imu_*.csv); rename the file or add a pattern"
     );
-    assert!(
-        error(&[input("pro_1.csv"), input("pro_2.csv")]).starts_with("pro_2.csv: a second file")
-    );
+    assert!(error(&[input("pro_1.csv"), input("pro_2.csv")]).starts_with("pro_2.csv: a second file"));
     assert_eq!(error(&[]), "run 01: no file was given; give at least one");
 }
 

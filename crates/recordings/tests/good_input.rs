@@ -2,25 +2,15 @@
 
 use proptest::prelude::*;
 use recordings::{
-    Channel, Clock, Input, LossKind, Mapping, Policy, Read, ReadOptions, Recording, RecordingError,
-    Signal, read, write_csv,
+    Channel, Clock, Input, LossKind, Mapping, Policy, Read, ReadOptions, Recording, RecordingError, Signal, read,
+    write_csv,
 };
 
-const STRICT: ReadOptions = ReadOptions {
-    policy: Policy::Strict,
-};
+const STRICT: ReadOptions = ReadOptions { policy: Policy::Strict };
 
 fn read_one(mapping: &str, bytes: &[u8]) -> Result<Read, RecordingError> {
     let mapping = Mapping::parse("m.toml", mapping).unwrap();
-    read(
-        &mapping,
-        "a",
-        &[Input {
-            name: "a.csv",
-            bytes,
-        }],
-        &STRICT,
-    )
+    read(&mapping, "a", &[Input { name: "a.csv", bytes }], &STRICT)
 }
 
 #[test]
@@ -40,20 +30,11 @@ fn units_signs_gaps_and_unused_columns() {
     assert_eq!(gyro.t_ns(), [0, 5_000_000]);
     assert!((gyro.values()[0] + std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     assert!((gyro.values()[1] - std::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(
-        (gyro.column(), gyro.clock(), gyro.unit().symbol()),
-        ("yaw rate", 0, "rad/s")
-    );
+    assert_eq!((gyro.column(), gyro.clock(), gyro.unit().symbol()), ("yaw rate", 0, "rad/s"));
     let accel = read.recording.by_name("accel_x").unwrap();
-    assert_eq!(
-        accel.samples().collect::<Vec<_>>(),
-        [(2_500_000, 9.80665), (5_000_000, -9.80665)]
-    );
+    assert_eq!(accel.samples().collect::<Vec<_>>(), [(2_500_000, 9.80665), (5_000_000, -9.80665)]);
     assert_eq!(read.unused.len(), 1);
-    assert_eq!(
-        (read.unused[0].file.as_str(), read.unused[0].column.as_str()),
-        ("a.csv", "note")
-    );
+    assert_eq!((read.unused[0].file.as_str(), read.unused[0].column.as_str()), ("a.csv", "note"));
     assert!(read.losses.is_empty());
 }
 
@@ -70,75 +51,31 @@ fn a_file_without_stamps_counts_rows() {
 #[test]
 fn two_files_on_two_clocks() {
     let mapping = Mapping::built_in("husky-open").unwrap();
-    let pro = Input {
-        name: "x/pro_01.csv",
-        bytes: b"time,curL,curR,velL,velR\n0.0,3.61,0.0,0.1651,0.3302\n",
-    };
-    let imu = Input {
-        name: "x/imu_01.csv",
-        bytes: b"time,wx,wy,wz,ax,ay,az\n0.0,1,2,3,4,5,6\n0.01,1,2,3,4,5,6\n",
-    };
+    let pro = Input { name: "x/pro_01.csv", bytes: b"time,curL,curR,velL,velR\n0.0,3.61,0.0,0.1651,0.3302\n" };
+    let imu = Input { name: "x/imu_01.csv", bytes: b"time,wx,wy,wz,ax,ay,az\n0.0,1,2,3,4,5,6\n0.01,1,2,3,4,5,6\n" };
     let run = read(&mapping, "01", &[imu, pro], &STRICT).unwrap();
     let speed = run.recording.require(Signal::CommandSpeedRight).unwrap();
     assert!((speed.values()[0] - 2.0).abs() < 1e-12);
     assert!(speed.attributes().set_point);
-    assert_eq!(
-        (
-            speed.clock(),
-            run.recording.require(Signal::GyroZ).unwrap().clock()
-        ),
-        (0, 1)
-    );
-    assert_eq!(
-        run.recording.clocks()[1],
-        Clock {
-            name: "x/imu_01.csv".to_owned(),
-            nominal_rate_hz: Some(100.0)
-        }
-    );
+    assert_eq!((speed.clock(), run.recording.require(Signal::GyroZ).unwrap().clock()), (0, 1));
+    assert_eq!(run.recording.clocks()[1], Clock { name: "x/imu_01.csv".to_owned(), nominal_rate_hz: Some(100.0) });
     assert_eq!(run.recording.span_ns(1), Some((0, 10_000_000)));
-    let current = run
-        .recording
-        .require(Signal::CurrentLeft)
-        .unwrap()
-        .attributes();
+    let current = run.recording.require(Signal::CurrentLeft).unwrap().attributes();
     assert!(current.magnitude_only);
-    assert_eq!(
-        run.sources
-            .iter()
-            .map(|source| source.name.as_str())
-            .collect::<Vec<_>>(),
-        [pro.name, imu.name]
-    );
-    assert_eq!(
-        (run.sources[0].bytes, run.sources[0].sha256.len()),
-        (pro.bytes.len(), 64)
-    );
+    assert_eq!(run.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>(), [pro.name, imu.name]);
+    assert_eq!((run.sources[0].bytes, run.sources[0].sha256.len()), (pro.bytes.len(), 64));
 
     let alone = read(&mapping, "01", &[pro], &STRICT).unwrap();
     assert_eq!(alone.losses[0].kind, LossKind::MissingFile);
-    assert_eq!(
-        alone.losses[0].to_string(),
-        "x/imu_01.csv: 1 file is missing; its signals are absent"
-    );
+    assert_eq!(alone.losses[0].to_string(), "x/imu_01.csv: 1 file is missing; its signals are absent");
     assert_eq!(alone.recording.channels().len(), 4);
 }
 
 /// Channels with gaps of their own, on one clock, with stamps since 1970 among them.
 fn recordings() -> impl Strategy<Value = Recording> {
-    let value = prop_oneof![
-        -1e3..1e3_f64,
-        any::<f64>().prop_filter("finite", |v| v.is_finite())
-    ];
-    let row = (
-        1..2_000_000_000_i64,
-        proptest::collection::vec(proptest::option::of(value), 3),
-    );
-    let start = prop_oneof![
-        Just(0),
-        Just(-5_000_000_000),
-        Just(1_700_000_000_123_456_789_i64)
-    ];
+    let value = prop_oneof![-1e3..1e3_f64, any::<f64>().prop_filter("finite", |v| v.is_finite())];
+    let row = (1..2_000_000_000_i64, proptest::collection::vec(proptest::option::of(value), 3));
+    let start = prop_oneof![Just(0), Just(-5_000_000_000), Just(1_700_000_000_123_456_789_i64)];
     (start, proptest::collection::vec(row, 1..20)).prop_map(|(start, rows)| {
         let signals = [Signal::WheelSpeedLeft, Signal::TorqueRight, Signal::PoseYaw];
         let channels = signals.iter().enumerate().filter_map(|(index, &signal)| {
@@ -150,10 +87,7 @@ fn recordings() -> impl Strategy<Value = Recording> {
             let (t_ns, values): (Vec<_>, Vec<_>) = samples.unzip();
             (!values.is_empty()).then(|| Channel::new(signal, 0, t_ns, values).unwrap())
         });
-        let clock = Clock {
-            name: "a.csv".to_owned(),
-            nominal_rate_hz: None,
-        };
+        let clock = Clock { name: "a.csv".to_owned(), nominal_rate_hz: None };
         Recording::new("a", vec![clock], channels.collect()).unwrap()
     })
 }

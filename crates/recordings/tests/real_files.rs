@@ -18,30 +18,14 @@ fn husky() -> Option<PathBuf> {
 fn runs(folder: &Path) -> Vec<Read> {
     let mapping = Mapping::built_in("husky-open").unwrap();
     let entries = fs::read_dir(folder).unwrap();
-    let names: Vec<String> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     let sorted = mapping.group(&names);
     assert!(sorted.unmatched.is_empty(), "{:?}", sorted.unmatched);
     let read_group = |group: &recordings::Group| {
-        let files: Vec<_> = group
-            .files
-            .iter()
-            .map(|file| (&file.name, fs::read(folder.join(&file.name)).unwrap()))
-            .collect();
-        let inputs: Vec<_> = files
-            .iter()
-            .map(|(name, bytes)| Input { name, bytes })
-            .collect();
-        read(
-            &mapping,
-            &group.run,
-            &inputs,
-            &ReadOptions {
-                policy: Policy::Strict,
-            },
-        )
-        .unwrap()
+        let files: Vec<_> =
+            group.files.iter().map(|file| (&file.name, fs::read(folder.join(&file.name)).unwrap())).collect();
+        let inputs: Vec<_> = files.iter().map(|(name, bytes)| Input { name, bytes }).collect();
+        read(&mapping, &group.run, &inputs, &ReadOptions { policy: Policy::Strict }).unwrap()
     };
     sorted.groups.iter().map(read_group).collect()
 }
@@ -63,22 +47,13 @@ fn every_husky_run_reads_whole_but_for_the_missing_imu() {
             assert!(run.losses.is_empty(), "{ground} {name}: {:?}", run.losses);
             assert_eq!((run.recording.channels().len(), run.sources.len()), (10, 2));
             let current = run.recording.require(Signal::CurrentLeft).unwrap();
-            assert!(
-                current
-                    .values()
-                    .iter()
-                    .all(|&amps| amps == 0.0 || amps >= 0.59),
-                "{ground} {name}"
-            );
+            assert!(current.values().iter().all(|&amps| amps == 0.0 || amps >= 0.59), "{ground} {name}");
             let gravity = run.recording.require(Signal::AccelZ).unwrap().values();
             let mean = gravity.iter().sum::<f64>() / gravity.len() as f64;
             assert!((mean - 9.81).abs() < 0.5, "{ground} {name}: {mean}");
             let seconds = run.recording.span_ns(0).unwrap().1 as f64 / 1e9;
             let other = run.recording.span_ns(1).unwrap().1 as f64 / 1e9;
-            assert!(
-                (seconds - other).abs() < 1.5,
-                "{ground} {name}: {seconds} s, {other} s"
-            );
+            assert!((seconds - other).abs() < 1.5, "{ground} {name}: {seconds} s, {other} s");
         }
     }
 }

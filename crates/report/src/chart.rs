@@ -23,21 +23,13 @@ pub struct Line {
 impl Line {
     /// A solid line.
     pub fn new(name: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
-        Self {
-            name: name.into(),
-            x: x.to_vec(),
-            y: y.to_vec(),
-            dashed: false,
-        }
+        Self { name: name.into(), x: x.to_vec(), y: y.to_vec(), dashed: false }
     }
 
     /// The same line, dashed.
     #[must_use]
     pub fn dashed(self) -> Self {
-        Self {
-            dashed: true,
-            ..self
-        }
+        Self { dashed: true, ..self }
     }
 }
 
@@ -64,45 +56,15 @@ impl Chart {
         let mut plot = Plot::new();
         for line in &self.lines {
             // A path may return to the same abscissa, so extremes per interval of x mean nothing there.
-            let kept = if self.equal_scales {
-                every_nth(&line.y)
-            } else {
-                extremes(&line.y)
-            };
-            let pick = |v: &[f64]| {
-                kept.iter()
-                    .filter_map(|i| v.get(*i))
-                    .map(|v| six_digits(*v))
-                    .collect::<Vec<_>>()
-            };
-            let stroke = Stroke::new().width(1.4).dash(if line.dashed {
-                DashType::Dash
-            } else {
-                DashType::Solid
-            });
-            plot.add_trace(
-                Scatter::new(pick(&line.x), pick(&line.y))
-                    .mode(Mode::Lines)
-                    .name(&line.name)
-                    .line(stroke),
-            );
+            let kept = if self.equal_scales { every_nth(&line.y) } else { extremes(&line.y) };
+            let pick = |v: &[f64]| kept.iter().filter_map(|i| v.get(*i)).map(|v| six_digits(*v)).collect::<Vec<_>>();
+            let stroke = Stroke::new().width(1.4).dash(if line.dashed { DashType::Dash } else { DashType::Solid });
+            plot.add_trace(Scatter::new(pick(&line.x), pick(&line.y)).mode(Mode::Lines).name(&line.name).line(stroke));
         }
-        let axis = |label: &str| {
-            Axis::new()
-                .title(Title::with_text(label))
-                .zero_line(false)
-                .auto_margin(true)
-        };
-        let y_axis = if self.equal_scales {
-            axis(&self.y_label).scale_anchor("x")
-        } else {
-            axis(&self.y_label)
-        };
-        let marks = self
-            .marks
-            .iter()
-            .map(|(x, y, text)| Annotation::new().x(*x).y(*y).text(text).arrow_size(0.6))
-            .collect();
+        let axis = |label: &str| Axis::new().title(Title::with_text(label)).zero_line(false).auto_margin(true);
+        let y_axis = if self.equal_scales { axis(&self.y_label).scale_anchor("x") } else { axis(&self.y_label) };
+        let marks =
+            self.marks.iter().map(|(x, y, text)| Annotation::new().x(*x).y(*y).text(text).arrow_size(0.6)).collect();
         plot.set_layout(
             Layout::new()
                 .x_axis(axis(&self.x_label))
@@ -137,9 +99,7 @@ fn extremes(y: &[f64]) -> Vec<usize> {
 }
 
 fn every_nth(y: &[f64]) -> Vec<usize> {
-    (0..y.len())
-        .step_by(y.len().div_ceil(POINTS).max(1))
-        .collect()
+    (0..y.len()).step_by(y.len().div_ceil(POINTS).max(1)).collect()
 }
 
 /// Six significant digits: more are not seen in a figure.
@@ -153,9 +113,7 @@ mod tests {
 
     #[test]
     fn thinning_keeps_ends_peaks_and_order() {
-        let mut y: Vec<f64> = (0..32_000)
-            .map(|i| (f64::from(i) * 1e-3).sin() * 0.1)
-            .collect();
+        let mut y: Vec<f64> = (0..32_000).map(|i| (f64::from(i) * 1e-3).sin() * 0.1).collect();
         y[12_345] = 5.0;
         let kept = extremes(&y);
         assert!(kept.len() <= POINTS + 2 && kept.contains(&12_345));

@@ -27,10 +27,7 @@ pub struct Cell {
 
 impl<S: Into<String>> From<S> for Cell {
     fn from(text: S) -> Self {
-        Self {
-            text: text.into(),
-            tone: Tone::Plain,
-        }
+        Self { text: text.into(), tone: Tone::Plain }
     }
 }
 
@@ -65,11 +62,7 @@ paint();dark.addEventListener('change',paint);";
 impl Page {
     /// An empty page.
     pub fn new(title: &str) -> Self {
-        Self {
-            title: title.into(),
-            body: String::new(),
-            charts: 0,
-        }
+        Self { title: title.into(), body: String::new(), charts: 0 }
     }
 
     /// Adds a section heading.
@@ -127,11 +120,7 @@ impl Page {
     /// The finished page. With charts it carries plotly.js (4.6 MB) once and needs no network.
     pub fn render(&self) -> String {
         let title = escape(&self.title);
-        let (library, theme) = if self.charts > 0 {
-            (plotly_js(), THEME)
-        } else {
-            (String::new(), "")
-        };
+        let (library, theme) = if self.charts > 0 { (plotly_js(), THEME) } else { (String::new(), "") };
         let body = &self.body;
         format!(
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
@@ -184,19 +173,13 @@ mod tests {
         page.table(&["<i>"], &[vec!["\"&'".into()]]);
         let html = page.render();
         assert!(html.contains("<title>a&lt;b&gt;</title>") && html.contains("&quot;&amp;&#39;"));
-        assert!(
-            !html.contains("Plotly"),
-            "a page without charts carries no library"
-        );
+        assert!(!html.contains("Plotly"), "a page without charts carries no library");
     }
 
     #[test]
     fn the_library_is_embedded_once_and_names_cannot_end_the_script() {
         let line = Line::new("</script><b>", &[0.0, 1.0], &[0.0, 1.0]);
-        let chart = Chart {
-            lines: vec![line],
-            ..Chart::default()
-        };
+        let chart = Chart { lines: vec![line], ..Chart::default() };
         let mut page = Page::new("t");
         page.charts(&[chart.clone(), chart]);
         let html = page.render();

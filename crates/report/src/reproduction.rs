@@ -91,9 +91,7 @@ pub fn page(r: &Reproduction) -> String {
     page.paragraph(&r.verdict);
     page.note(&r.setting);
     page.heading("Table 1, rad/s");
-    let header: Vec<&str> = std::iter::once("")
-        .chain(r.indices.iter().map(|i| i.name.as_str()))
-        .collect();
+    let header: Vec<&str> = std::iter::once("").chain(r.indices.iter().map(|i| i.name.as_str())).collect();
     page.table(&header, &table1(&r.indices));
     page.note(
         "The last row uses no network at all: a constant regressor. Indices this near to it cannot tell learning from \
@@ -104,21 +102,9 @@ pub fn page(r: &Reproduction) -> String {
         .conditions
         .iter()
         .map(|c| {
-            let (text, tone) = if c.pass {
-                ("met", Tone::Good)
-            } else {
-                ("missed", Tone::Bad)
-            };
+            let (text, tone) = if c.pass { ("met", Tone::Good) } else { ("missed", Tone::Bad) };
             let name = format!("({}) {}", c.rule, c.name);
-            vec![
-                name.into(),
-                c.found.clone().into(),
-                c.target.clone().into(),
-                Cell {
-                    text: text.into(),
-                    tone,
-                },
-            ]
+            vec![name.into(), c.found.clone().into(), c.target.clone().into(), Cell { text: text.into(), tone }]
         })
         .collect();
     page.table(&["condition", "found", "asked", ""], &rows);
@@ -136,40 +122,23 @@ pub fn page(r: &Reproduction) -> String {
 
 fn table1(indices: &[Index]) -> Vec<Vec<Cell>> {
     let row = |name: &str, value: &dyn Fn(&Index) -> String| {
-        std::iter::once(Cell::from(name))
-            .chain(indices.iter().map(|i| value(i).into()))
-            .collect()
+        std::iter::once(Cell::from(name)).chain(indices.iter().map(|i| value(i).into())).collect()
     };
     let mut rows: Vec<Vec<Cell>> = vec![row("paper", &|i| format!("{:.4}", i.paper))];
-    for (n, name) in ["smallest", "5 %", "median", "95 %", "largest"]
-        .into_iter()
-        .enumerate()
-    {
+    for (n, name) in ["smallest", "5 %", "median", "95 %", "largest"].into_iter().enumerate() {
         rows.push(row(name, &|i| format!("{:.4}", i.quantiles[n])));
     }
-    rows.push(row("percentile of the paper's value", &|i| {
-        format!("{:.1} %", i.percentile)
-    }));
+    rows.push(row("percentile of the paper's value", &|i| format!("{:.1} %", i.percentile)));
     rows.push(row("constant regressor", &|i| format!("{:.4}", i.constant)));
     rows
 }
 
 fn chart(caption: &str, y_label: &str, lines: Vec<Line>) -> Chart {
-    Chart {
-        caption: caption.into(),
-        x_label: "t, s".into(),
-        y_label: y_label.into(),
-        lines,
-        ..Chart::default()
-    }
+    Chart { caption: caption.into(), x_label: "t, s".into(), y_label: y_label.into(), lines, ..Chart::default() }
 }
 
 fn pair(time: &[f64], names: [&str; 2], y: &[Vec<f64>; 2]) -> Vec<Line> {
-    names
-        .into_iter()
-        .zip(y)
-        .map(|(name, y)| Line::new(name, time, y))
-        .collect()
+    names.into_iter().zip(y).map(|(name, y)| Line::new(name, time, y)).collect()
 }
 
 fn figure5(s: &Signals) -> Vec<Chart> {
@@ -187,21 +156,9 @@ fn figure5(s: &Signals) -> Vec<Chart> {
     };
     vec![
         path,
-        chart(
-            "5b: torques of the driven wheels",
-            "τ, N m",
-            pair(t, ["τ3", "τ4"], &s.torque),
-        ),
-        chart(
-            "5c: wheel angles",
-            "θ, rad",
-            pair(t, ["θ3", "θ4"], &s.angle),
-        ),
-        chart(
-            "5d: wheel speeds",
-            "dθ/dt, rad/s",
-            pair(t, ["dθ3/dt", "dθ4/dt"], &s.speed),
-        ),
+        chart("5b: torques of the driven wheels", "τ, N m", pair(t, ["τ3", "τ4"], &s.torque)),
+        chart("5c: wheel angles", "θ, rad", pair(t, ["θ3", "θ4"], &s.angle)),
+        chart("5d: wheel speeds", "dθ/dt, rad/s", pair(t, ["dθ3/dt", "dθ4/dt"], &s.speed)),
     ]
 }
 
@@ -209,20 +166,11 @@ fn figure6(s: &Signals) -> Vec<Chart> {
     let t = &s.time;
     let with_estimates = |names: [&str; 4], actual: &[Vec<f64>; 2], estimate: &[Vec<f64>; 2]| {
         let mut lines = pair(t, [names[0], names[1]], actual);
-        lines.extend(
-            pair(t, [names[2], names[3]], estimate)
-                .into_iter()
-                .map(Line::dashed),
-        );
+        lines.extend(pair(t, [names[2], names[3]], estimate).into_iter().map(Line::dashed));
         lines
     };
     let angle_errors = with_estimates(
-        [
-            "error of x1",
-            "error of x2",
-            "x1, estimated speed",
-            "x2, estimated speed",
-        ],
+        ["error of x1", "error of x2", "x1, estimated speed", "x2, estimated speed"],
         &s.angle_error,
         &s.angle_error_estimated_speed,
     );
@@ -231,26 +179,13 @@ fn figure6(s: &Signals) -> Vec<Chart> {
         "rad/s",
         pair(t, ["error of x3", "error of x4"], &s.speed_error),
     );
-    let top = s
-        .speed_error
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |m, e| m.max(e.abs()));
-    errors.marks = s
-        .events
-        .iter()
-        .enumerate()
-        .map(|(i, at)| (*at, 0.6 * top, (i + 1).to_string()))
-        .collect();
+    let top = s.speed_error.iter().flatten().fold(0.0_f64, |m, e| m.max(e.abs()));
+    errors.marks = s.events.iter().enumerate().map(|(i, at)| (*at, 0.6 * top, (i + 1).to_string())).collect();
     vec![
         chart(
             "6a: wheel angles and their estimates",
             "rad",
-            with_estimates(
-                ["x1", "x2", "estimate of x1", "estimate of x2"],
-                &s.angle,
-                &s.angle_estimate,
-            ),
+            with_estimates(["x1", "x2", "estimate of x1", "estimate of x2"], &s.angle, &s.angle_estimate),
         ),
         chart(
             "6b: errors of the wheel angles; with the measured speed (Eq. 23 as written) they vanish, \
@@ -261,11 +196,7 @@ fn figure6(s: &Signals) -> Vec<Chart> {
         chart(
             "6c: wheel speeds and their estimates",
             "rad/s",
-            with_estimates(
-                ["x3", "x4", "estimate of x3", "estimate of x4"],
-                &s.speed,
-                &s.speed_estimate,
-            ),
+            with_estimates(["x3", "x4", "estimate of x3", "estimate of x4"], &s.speed, &s.speed_estimate),
         ),
         errors,
     ]
@@ -273,15 +204,8 @@ fn figure6(s: &Signals) -> Vec<Chart> {
 
 fn figure7(s: &Signals) -> Vec<Chart> {
     let weights = |caption: &str, histories: &[Vec<f64>]| {
-        let lines = histories
-            .iter()
-            .enumerate()
-            .map(|(j, w)| Line::new(format!("W{}", j + 1), &s.time, w))
-            .collect();
+        let lines = histories.iter().enumerate().map(|(j, w)| Line::new(format!("W{}", j + 1), &s.time, w)).collect();
         chart(caption, "rad/s²", lines)
     };
-    vec![
-        weights("7a: weights of g3", &s.weight[0]),
-        weights("7b: weights of g4", &s.weight[1]),
-    ]
+    vec![weights("7a: weights of g3", &s.weight[0]), weights("7b: weights of g4", &s.weight[1])]
 }

@@ -60,8 +60,11 @@ impl<T: Scalar> Stance<T> {
         let mut wheel = [[T::zero(); 2]; 4];
         for i in 0..4 {
             let (front, left) = (real::<T>(FRONT[i]), real::<T>(LEFT[i]));
-            static_load[i] =
-                mass * gravity * quarter * (T::one() + front * com[0] / half_wheelbase) * (T::one() + left * com[1] / half_track);
+            static_load[i] = mass
+                * gravity
+                * quarter
+                * (T::one() + front * com[0] / half_wheelbase)
+                * (T::one() + left * com[1] / half_track);
             wheel[i] = [front * half_wheelbase - com[0], left * half_track - com[1]];
         }
         Self {

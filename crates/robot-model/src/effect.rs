@@ -139,6 +139,7 @@ pub enum Scale {
 
 /// Presences that make sense for an effect beyond "always and everywhere".
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools, reason = "four questions that are answered one by one")]
 pub struct Wears {
     /// Everywhere and always.
     pub everywhere: bool,

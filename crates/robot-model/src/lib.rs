@@ -32,3 +32,8 @@ pub use plant::{Active, Plant, State};
 pub use presence::{Disc, Presence};
 pub use robot::Robot;
 pub use scalar::{Scalar, real};
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -365,10 +365,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
             wheel_speed: s.wheel_speed,
             gyro: w,
             velocity: self.velocity(s),
-            accel: [
-                s.specific[0] + dw * com[1] + w * w * com[0],
-                s.specific[1] - dw * com[0] + w * w * com[1],
-            ],
+            accel: [s.specific[0] + dw * com[1] + w * w * com[0], s.specific[1] - dw * com[0] + w * w * com[1]],
             torque: s.needed,
         }
     }

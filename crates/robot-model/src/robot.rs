@@ -3,6 +3,7 @@
 use crate::contact::Stance;
 use crate::effect::World;
 use crate::error::{ModelError, finite, not_negative, positive, within};
+use crate::paper;
 use crate::scalar::{Scalar, real};
 
 /// From the commanded to the delivered torque of a side:
@@ -46,7 +47,7 @@ pub struct Robot<T> {
     pub adhesion: T,
     /// Slip ratio λp at the peak of the adhesion.
     pub slip_at_peak: T,
-    /// Share of the peak adhesion that remains however much the wheel slides, 0 to 1.
+    /// Share of the peak adhesion that remains however much the wheel slides; 1 is a plateau.
     pub sliding_share: T,
     /// Lateral over longitudinal adhesion.
     pub lateral_factor: T,
@@ -106,7 +107,7 @@ impl<T: Scalar> Robot<T> {
             not_negative(name, f(x))?;
         }
         let (a, b) = (f(self.half_wheelbase), f(self.half_track));
-        within("sliding_share", f(self.sliding_share), 0.0, 1.0)?;
+        within("sliding_share", f(self.sliding_share), 0.0, 1.3)?;
         within("com_x", f(self.com[0]), -a, a)?;
         within("com_y", f(self.com[1]), -b, b)?;
         finite("hitch_x", f(self.hitch_x))?;
@@ -170,8 +171,37 @@ impl<T: Scalar> Robot<T> {
     }
 }
 
-/// Share of the peak adhesion that remains in full sliding when nobody knows better: rubber keeps most of it.
-pub const USUAL_SLIDING_SHARE: f64 = 0.8;
+impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
+    /// The paper's robot with an ideal drive and Kiencke's law unchanged (no share of the adhesion survives all slip).
+    fn from(p: &paper::Parameters) -> Self {
+        let (o, half) = (T::zero(), 0.5);
+        Self {
+            mass: real(p.mass),
+            yaw_inertia: real(p.yaw_inertia),
+            com: [real(half * p.wheelbase - p.com_to_front_axle), o, real(p.com_height)],
+            half_wheelbase: real(half * p.wheelbase),
+            half_track: real(half * p.track),
+            wheel_radius: real(p.wheel_radius),
+            // The paper's a1 already holds half of the motor.
+            wheel_inertia: real(p.wheel_inertia),
+            motor_inertia: o,
+            adhesion: real(p.adhesion),
+            slip_at_peak: real(p.slip_at_peak),
+            sliding_share: o,
+            lateral_factor: T::one(),
+            rolling_resistance: real(p.rolling_resistance),
+            coulomb: [real(2.0 * p.coulomb_torque); 2],
+            viscous: [o; 2],
+            stribeck: o,
+            hitch_x: real(-half * p.wheelbase),
+            drive: Drive { gain: T::one(), lag: o, extra_lag: o, delay: o, limit: real(UNLIMITED), dead_band: o },
+            gravity: real(p.gravity),
+        }
+    }
+}
+
+/// Share of the peak adhesion that remains in full sliding when nobody knows better: a plateau.
+pub const USUAL_SLIDING_SHARE: f64 = 1.0;
 
 /// A torque beyond any robot's, N m: stands for "no limit".
 pub(crate) const UNLIMITED: f64 = 1e9;

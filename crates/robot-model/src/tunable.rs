@@ -26,6 +26,9 @@ pub struct Tunable<T> {
     pub apply: Apply<T>,
 }
 
+/// Time constant below which a lag goes on as a lead, s.
+const LEAST_LAG: f64 = 1e-3;
+
 /// Number of tunable constants.
 pub const COUNT: usize = 17;
 
@@ -63,8 +66,13 @@ pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
         factor("torque_constant", 0.015, |r, d| r.drive.gain *= d.exp()),
         factor("mass", 0.01, |r, d| r.mass *= d.exp()),
         factor("com_height", 0.05, |r, d| r.com[2] *= d.exp()),
-        offset("motor_lag", "s", 0.012, |r, d| r.drive.lag = (r.drive.lag + d).max(real(1e-4))),
-        offset("stribeck", "N m", 0.12, |r, d| r.stribeck = (r.stribeck + d).max(T::zero())),
-        offset("sliding_share", "-", 0.2, |r, d| r.sliding_share = (r.sliding_share + d).max(T::zero()).min(T::one())),
+        offset("motor_lag", "s", 0.012, |r, d| {
+            // Below zero a lag goes on as a lead: a small lag and a delay are the same to first order.
+            let (lag, least) = (r.drive.lag + d, real(LEAST_LAG));
+            r.drive.lag = lag.max(least);
+            r.drive.delay += (lag - least).min(T::zero());
+        }),
+        offset("stribeck", "N m", 0.12, |r, d| r.stribeck += d),
+        offset("sliding_share", "-", 0.1, |r, d| r.sliding_share = (r.sliding_share + d).max(T::zero()).min(real(1.3))),
     ]
 }

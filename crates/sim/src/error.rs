@@ -20,9 +20,7 @@ pub enum SimError {
     #[error("the recipe: {0}")]
     Recipe(String),
     /// A value stopped being a finite number.
-    #[error(
-        "{quantity} is no longer a finite number at t = {time} s; more substeps or a smaller step may help"
-    )]
+    #[error("{quantity} is no longer a finite number at t = {time} s; more substeps or a smaller step may help")]
     NotFinite {
         /// Which quantity.
         quantity: &'static str,
@@ -30,9 +28,7 @@ pub enum SimError {
         time: f64,
     },
     /// A wheel lifted: the model holds for four wheels on the ground only.
-    #[error(
-        "wheel {wheel} lifts off the ground at t = {time} s; drive slower or lower the centre of mass"
-    )]
+    #[error("wheel {wheel} lifts off the ground at t = {time} s; drive slower or lower the centre of mass")]
     Lifted {
         /// The paper's number of the wheel, from 1.
         wheel: usize,

@@ -77,10 +77,7 @@ impl Experiment {
     /// # Errors
     /// [`SimError`] if the recipe cannot be used or the simulation stops.
     pub fn new(recipe: &Recipe, set: RobotSet) -> Result<Self, SimError> {
-        Ok(Self {
-            recipe: recipe.clone(),
-            trajectory: Trajectory::simulate(recipe, set)?,
-        })
+        Ok(Self { recipe: recipe.clone(), trajectory: Trajectory::simulate(recipe, set)? })
     }
 
     /// What the robot did.
@@ -94,13 +91,7 @@ impl Experiment {
     /// [`SimError`] if the identifier cannot be built or an estimate stops being finite.
     pub fn identify(&self, seed: u64, number: u64) -> Result<Draw, SimError> {
         let bases = layers(&self.recipe, &self.trajectory, seed, number)?;
-        let output = follow(
-            &self.recipe,
-            &self.trajectory,
-            &bases,
-            &comparison(seed, number),
-            |_, _| {},
-        )?;
+        let output = follow(&self.recipe, &self.trajectory, &bases, &comparison(seed, number), |_, _| {})?;
         Ok(Draw { number, output })
     }
 
@@ -110,12 +101,7 @@ impl Experiment {
     ///
     /// # Errors
     /// The error of a draw that failed.
-    pub fn ensemble(
-        &self,
-        seed: u64,
-        draws: u64,
-        done: impl Fn() + Sync,
-    ) -> Result<Vec<Draw>, SimError> {
+    pub fn ensemble(&self, seed: u64, draws: u64, done: impl Fn() + Sync) -> Result<Vec<Draw>, SimError> {
         (0..draws)
             .into_par_iter()
             .map(|number| {
@@ -132,13 +118,7 @@ impl Experiment {
     /// As [`Experiment::identify`].
     pub fn constant_regressor(&self) -> Result<Draw, SimError> {
         let basis = Constant::new([0.5; UNITS])?;
-        let output = follow(
-            &self.recipe,
-            &self.trajectory,
-            &[basis; 2],
-            &comparison(0, 0),
-            |_, _| {},
-        )?;
+        let output = follow(&self.recipe, &self.trajectory, &[basis; 2], &comparison(0, 0), |_, _| {})?;
         Ok(Draw { number: 0, output })
     }
 
@@ -152,33 +132,22 @@ impl Experiment {
         let (mut measured, mut estimated) = ([row; 2], [row; 2]);
         let (run, h) = (&self.trajectory, self.trajectory.step);
         let mut trace = Trace::default();
-        follow(
-            &self.recipe,
-            run,
-            &bases,
-            &comparison(seed, number),
-            |k, steps| {
-                trace.time.push((k + 1) as f64 * h);
-                for (i, step) in steps.iter().enumerate() {
-                    let (from, to) = (run.states[k].angle[i], run.states[k + 1].angle[i]);
-                    // The mean speed over the interval, as an encoder measures it.
-                    let speed = (to - from) / h;
-                    trace.angle_error[i].push(measured[i].step(from, to, speed, h));
-                    trace.angle_estimate[i].push(measured[i].estimate());
-                    trace.angle_error_estimated_speed[i].push(estimated[i].step(
-                        from,
-                        to,
-                        speed - step.error_mid,
-                        h,
-                    ));
-                    trace.speed_estimate[i].push(step.after.output);
-                    trace.speed_error[i].push(step.error_after);
-                    for (history, w) in trace.weight[i].iter_mut().zip(step.after.weight) {
-                        history.push(w);
-                    }
+        follow(&self.recipe, run, &bases, &comparison(seed, number), |k, steps| {
+            trace.time.push((k + 1) as f64 * h);
+            for (i, step) in steps.iter().enumerate() {
+                let (from, to) = (run.states[k].angle[i], run.states[k + 1].angle[i]);
+                // The mean speed over the interval, as an encoder measures it.
+                let speed = (to - from) / h;
+                trace.angle_error[i].push(measured[i].step(from, to, speed, h));
+                trace.angle_estimate[i].push(measured[i].estimate());
+                trace.angle_error_estimated_speed[i].push(estimated[i].step(from, to, speed - step.error_mid, h));
+                trace.speed_estimate[i].push(step.after.output);
+                trace.speed_error[i].push(step.error_after);
+                for (history, w) in trace.weight[i].iter_mut().zip(step.after.weight) {
+                    history.push(w);
                 }
-            },
-        )?;
+            }
+        })?;
         Ok(trace)
     }
 }

@@ -24,14 +24,8 @@ pub(crate) fn layers(
     let mut stream = Stream::new(seed, Purpose::IdentifierLayer, draw);
     let mut layer = || {
         let threshold = std::array::from_fn(|_| stream.uniform(-range, range));
-        let weight =
-            std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-range, range)));
-        SigmoidLayer::new(
-            threshold,
-            weight,
-            [speed, speed, torque, torque],
-            Activation::Logistic,
-        )
+        let weight = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-range, range)));
+        SigmoidLayer::new(threshold, weight, [speed, speed, torque, torque], Activation::Logistic)
     };
     Ok([layer()?, layer()?])
 }
@@ -39,9 +33,7 @@ pub(crate) fn layers(
 /// Comparison weights for the certificates of a draw.
 pub(crate) fn comparison(seed: u64, draw: u64) -> [[f64; UNITS]; 2] {
     let mut stream = Stream::new(seed, Purpose::Comparison, draw);
-    std::array::from_fn(|_| {
-        std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE))
-    })
+    std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)))
 }
 
 /// Follows both wheel speeds with the given bases; `watch` sees every step of both outputs.
@@ -57,10 +49,7 @@ pub(crate) fn follow<B: Basis<f64, INPUTS, UNITS>>(
 ) -> Result<[OutputIndices; 2], SimError> {
     let (pole, h) = (recipe.identifier.pole, trajectory.step);
     let law = Midpoint::new(recipe.identifier.gain)?;
-    let mut identifiers = [
-        Identifier::new(pole, law, 0.0)?,
-        Identifier::new(pole, law, 0.0)?,
-    ];
+    let mut identifiers = [Identifier::new(pole, law, 0.0)?, Identifier::new(pole, law, 0.0)?];
     let mut tallies = [Tally::new(pole), Tally::new(pole)];
     for (k, torque) in trajectory.torques.iter().enumerate() {
         let (now, next) = (&trajectory.states[k].speed, &trajectory.states[k + 1].speed);
@@ -69,21 +58,14 @@ pub(crate) fn follow<B: Basis<f64, INPUTS, UNITS>>(
             let other = 1 - i;
             let phi = bases[i].regressor(&[mean[i], mean[other], torque[i], torque[other]]);
             let step = identifiers[i].step(now[i], next[i], &phi, h);
-            tallies[i]
-                .chosen
-                .add(&identifiers[i].certificate(&step, &comparison[i]));
-            tallies[i]
-                .zero
-                .add(&identifiers[i].certificate(&step, &[0.0; UNITS]));
+            tallies[i].chosen.add(&identifiers[i].certificate(&step, &comparison[i]));
+            tallies[i].zero.add(&identifiers[i].certificate(&step, &[0.0; UNITS]));
             step
         });
         let time = (k + 1) as f64 * h;
         for (i, step) in steps.iter().enumerate() {
             if !step.error_after.is_finite() {
-                return Err(SimError::NotFinite {
-                    quantity: ["estimate of x3", "estimate of x4"][i],
-                    time,
-                });
+                return Err(SimError::NotFinite { quantity: ["estimate of x3", "estimate of x4"][i], time });
             }
             tallies[i].add(trajectory, time, step);
         }
@@ -174,10 +156,7 @@ mod tests {
 
     #[test]
     fn outputs_have_their_own_layers_and_thresholds() {
-        let recipe = Recipe {
-            samples: 1,
-            ..Recipe::default()
-        };
+        let recipe = Recipe { samples: 1, ..Recipe::default() };
         let run = Trajectory::simulate(&recipe, RobotSet::B).expect("runs");
         let [three, four] = layers(&recipe, &run, 1, 0).expect("valid");
         assert_ne!(three, four);
@@ -195,20 +174,14 @@ mod tests {
 
     #[test]
     fn each_output_sees_its_own_wheel_first() {
-        let recipe = Recipe {
-            samples: 5000,
-            ..Recipe::default()
-        };
+        let recipe = Recipe { samples: 5000, ..Recipe::default() };
         let run = Trajectory::simulate(&recipe, RobotSet::B).expect("runs");
         let probes = [Probe::default(), Probe::default()];
         follow(&recipe, &run, &probes, &[[0.0; UNITS]; 2], |_, _| {}).expect("finite");
         let k = 4800;
         let mean = |i: usize| 0.5 * (run.states[k].speed[i] + run.states[k + 1].speed[i]);
         let u = run.torques[k];
-        assert!(
-            (u[0] - u[1]).abs() > 1.0,
-            "the robot turns here, so the sides differ"
-        );
+        assert!((u[0] - u[1]).abs() > 1.0, "the robot turns here, so the sides differ");
         assert_eq!(probes[0].0.borrow()[k], [mean(0), mean(1), u[0], u[1]]);
         assert_eq!(probes[1].0.borrow()[k], [mean(1), mean(0), u[1], u[0]]);
     }

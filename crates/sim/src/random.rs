@@ -31,9 +31,7 @@ impl Stream {
         };
         let state = (word() << 64) | word();
         let stream = (word() << 64) | word();
-        Self {
-            rng: Pcg64::new(state, stream),
-        }
+        Self { rng: Pcg64::new(state, stream) }
     }
 
     /// The next number, uniform in `low..high`.
@@ -68,14 +66,9 @@ mod tests {
     #[test]
     fn first_numbers_of_neighbouring_draws_are_uniform() {
         let n = 4000;
-        let values: Vec<f64> = (0..n)
-            .map(|d| Stream::new(0, Purpose::IdentifierLayer, d).uniform(-1.0, 1.0))
-            .collect();
+        let values: Vec<f64> = (0..n).map(|d| Stream::new(0, Purpose::IdentifierLayer, d).uniform(-1.0, 1.0)).collect();
         let mean = values.iter().sum::<f64>() / n as f64;
         let neighbours = values.windows(2).map(|p| p[0] * p[1]).sum::<f64>() / n as f64;
-        assert!(
-            mean.abs() < 0.05 && neighbours.abs() < 0.03,
-            "{mean} {neighbours}"
-        );
+        assert!(mean.abs() < 0.05 && neighbours.abs() < 0.03, "{mean} {neighbours}");
     }
 }

@@ -133,13 +133,7 @@ impl Default for Recipe {
             substeps: 20,
             disturbance_at: 12.0,
             disturbance: 0.3,
-            path: PathRecipe {
-                accelerate: 1.0,
-                lead_in: 3.0,
-                blend: 0.5,
-                lead_out: 3.0,
-                brake: 2.0,
-            },
+            path: PathRecipe { accelerate: 1.0, lead_in: 3.0, blend: 0.5, lead_out: 3.0, brake: 2.0 },
             controller: ControllerRecipe {
                 bandwidth: 100.0,
                 kx: 1.0,
@@ -174,23 +168,16 @@ impl Recipe {
             if value.is_finite() && value > 0.0 {
                 Ok(())
             } else {
-                Err(SimError::Recipe(format!(
-                    "{name} is {value}, but it must be a finite number larger than zero"
-                )))
+                Err(SimError::Recipe(format!("{name} is {value}, but it must be a finite number larger than zero")))
             }
         };
         positive("step", self.step)?;
-        positive(
-            "identifier.first_layer_range",
-            self.identifier.first_layer_range,
-        )?;
+        positive("identifier.first_layer_range", self.identifier.first_layer_range)?;
         positive("identifier.speed_scale", self.identifier.speed_scale)?;
         positive("identifier.torque_scale", self.identifier.torque_scale)?;
         positive("disturbance_at", self.disturbance_at)?;
         if self.samples == 0 || self.substeps == 0 {
-            return Err(SimError::Recipe(
-                "samples and substeps must be at least 1".into(),
-            ));
+            return Err(SimError::Recipe("samples and substeps must be at least 1".into()));
         }
         if self.identifier.units != UNITS {
             let found = self.identifier.units;

@@ -5,11 +5,7 @@
 /// Explicit: stable while `h` times the fastest rate stays below 2.78. Slip reaches 10⁴ 1/s at low speed.
 #[inline]
 #[must_use]
-pub fn rk4<const N: usize>(
-    state: &[f64; N],
-    h: f64,
-    rate: impl Fn(&[f64; N]) -> [f64; N],
-) -> [f64; N] {
+pub fn rk4<const N: usize>(state: &[f64; N], h: f64, rate: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     let moved = |k: &[f64; N], h: f64| -> [f64; N] { std::array::from_fn(|i| state[i] + h * k[i]) };
     let k1 = rate(state);
     let k2 = rate(&moved(&k1, 0.5 * h));

@@ -33,10 +33,7 @@ mod tests {
     fn known_order_statistics() {
         let v = sorted([3.0, 1.0, 2.0, 4.0]);
         assert_eq!(quantile(&v, 0.5), Some(2.5));
-        assert_eq!(
-            (quantile(&v, 0.0), quantile(&v, 1.0)),
-            (Some(1.0), Some(4.0))
-        );
+        assert_eq!((quantile(&v, 0.0), quantile(&v, 1.0)), (Some(1.0), Some(4.0)));
         assert_eq!(percentile_of(&v, 2.5), 50.0);
         assert_eq!(share(&v, |x| *x > 1.0), 75.0);
         assert_eq!(quantile(&[], 0.5), None);

@@ -82,21 +82,12 @@ pub fn judge(draws: &[Draw], windows: &Windows) -> Vec<Check> {
             let peak = &d.output[wheel].peak;
             peak[1..].iter().all(|p| *p < peak[0])
         });
-        checks.push(at_least(
-            'b',
-            format!("{name}: start peak largest"),
-            value,
-            "%",
-            SHARE_START,
-        ));
+        checks.push(at_least('b', format!("{name}: start peak largest"), value, "%", SHARE_START));
     }
-    let residual = draws
-        .iter()
-        .flat_map(|d| d.output.iter().map(|o| o.identity_residual))
-        .fold(0.0_f64, |worst, r| {
-            // `f64::max` would drop a residual that is not a number.
-            if r.is_nan() || r > worst { r } else { worst }
-        });
+    let residual = draws.iter().flat_map(|d| d.output.iter().map(|o| o.identity_residual)).fold(0.0_f64, |worst, r| {
+        // `f64::max` would drop a residual that is not a number.
+        if r.is_nan() || r > worst { r } else { worst }
+    });
     checks.push(Check {
         rule: 'c',
         name: "Lyapunov identity, largest relative residual".into(),
@@ -105,16 +96,8 @@ pub fn judge(draws: &[Draw], windows: &Windows) -> Vec<Check> {
         target: format!("<= {IDENTITY_TOLERANCE:.0e}"),
         pass: residual <= IDENTITY_TOLERANCE,
     });
-    let bound = share(draws, |d| {
-        d.output.iter().all(|o| o.mean_square_bound_holds)
-    });
-    checks.push(at_least(
-        'c',
-        "mean-square bound held".into(),
-        bound,
-        "%",
-        100.0,
-    ));
+    let bound = share(draws, |d| d.output.iter().all(|o| o.mean_square_bound_holds));
+    checks.push(at_least('c', "mean-square bound held".into(), bound, "%", 100.0));
     for d in distributions(draws) {
         let ratio = d.quantiles[2] / d.paper;
         checks.push(Check {
@@ -136,39 +119,22 @@ pub fn judge(draws: &[Draw], windows: &Windows) -> Vec<Check> {
             });
         }
     }
-    let within = share(draws, |d| {
-        d.table1().iter().zip(PAPER).all(|(v, p)| near(v / p))
-    });
-    checks.push(at_least(
-        'e',
-        format!("all four within x{FACTOR}"),
-        within,
-        "%",
-        SHARE_WITHIN,
-    ));
+    let within = share(draws, |d| d.table1().iter().zip(PAPER).all(|(v, p)| near(v / p)));
+    checks.push(at_least('e', format!("all four within x{FACTOR}"), within, "%", SHARE_WITHIN));
     checks
 }
 
 fn events(draws: &[Draw], windows: &Windows, checks: &mut Vec<Check>) {
     for (wheel, name) in ["x3", "x4"].into_iter().enumerate() {
-        let median = |f: &dyn Fn(&Draw) -> f64| {
-            quantile(&sorted(draws.iter().map(f)), 0.5).unwrap_or(f64::NAN)
-        };
+        let median = |f: &dyn Fn(&Draw) -> f64| quantile(&sorted(draws.iter().map(f)), 0.5).unwrap_or(f64::NAN);
         let quiet = median(&|d| d.output[wheel].quiet_rms);
         for (i, event) in EVENTS.iter().enumerate() {
             let contrast = median(&|d| d.output[wheel].peak[i]) / quiet;
             let at = median(&|d| d.output[wheel].peak_at[i]);
-            let mut check = at_least(
-                'a',
-                format!("{name}: {event}, peak / quiet"),
-                contrast,
-                "",
-                CONTRAST,
-            );
+            let mut check = at_least('a', format!("{name}: {event}, peak / quiet"), contrast, "", CONTRAST);
             if !(windows.start[i]..=windows.peak_until[i]).contains(&at) {
                 check.pass = false;
-                check.target =
-                    format!("{}, but its peak at {at:.2} s is not in time", check.target);
+                check.target = format!("{}, but its peak at {at:.2} s is not in time", check.target);
             }
             checks.push(check);
         }
@@ -180,30 +146,12 @@ fn near(ratio: f64) -> bool {
 }
 
 fn at_least(rule: char, name: String, value: f64, unit: &'static str, target: f64) -> Check {
-    Check {
-        rule,
-        name,
-        value,
-        unit,
-        target: format!(">= {target}"),
-        pass: value >= target,
-    }
+    Check { rule, name, value, unit, target: format!(">= {target}"), pass: value >= target }
 }
 
 /// The draw whose four indices lie nearest to the medians: a typical one for figures, not a favourable one.
 pub fn typical<'a>(draws: &'a [Draw]) -> Option<&'a Draw> {
-    let medians: Vec<f64> = distributions(draws)
-        .iter()
-        .map(|d| d.quantiles[2])
-        .collect();
-    let distance = |d: &'a Draw| {
-        d.table1()
-            .iter()
-            .zip(&medians)
-            .map(|(v, m)| (v - m).abs() / m)
-            .sum::<f64>()
-    };
-    draws
-        .iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    let medians: Vec<f64> = distributions(draws).iter().map(|d| d.quantiles[2]).collect();
+    let distance = |d: &'a Draw| d.table1().iter().zip(&medians).map(|(v, m)| (v - m).abs() / m).sum::<f64>();
+    draws.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

@@ -9,13 +9,7 @@ use crate::recipe::CONTROLLER_UNITS;
 use crate::{Recipe, RobotSet, SimError, rk4};
 
 /// The five disturbances of the paper's Fig. 6d, in order.
-pub const EVENTS: [&str; 5] = [
-    "start",
-    "loop entry",
-    "rolling resistance",
-    "loop exit",
-    "braking",
-];
+pub const EVENTS: [&str; 5] = ["start", "loop entry", "rolling resistance", "loop exit", "braking"];
 
 /// Length of the quiet part at the end of a window, s.
 const QUIET: f64 = 0.5;
@@ -75,8 +69,7 @@ impl Trajectory {
     pub fn of(recipe: &Recipe, parameters: &Parameters, path: &Loop) -> Result<Self, SimError> {
         recipe.check()?;
         let nominal = PaperRobot::<f64>::new(parameters)?;
-        let disturbed =
-            nominal.with_rolling_resistance(parameters.rolling_resistance + recipe.disturbance)?;
+        let disturbed = nominal.with_rolling_resistance(parameters.rolling_resistance + recipe.disturbance)?;
         let checked = LoopPath::new(path)?;
         let windows = windows(recipe, path, &checked)?;
         let mut controller = tracking(recipe, parameters, path, checked)?;
@@ -98,41 +91,25 @@ impl Trajectory {
         run.states.push(state);
         for k in 0..recipe.samples {
             let robot = if k < switch { &nominal } else { &disturbed };
-            let measured = WheelState {
-                x: state.x,
-                y: state.y,
-                yaw: state.yaw,
-                angle: state.angle,
-                speed: state.speed,
-            };
+            let measured =
+                WheelState { x: state.x, y: state.y, yaw: state.yaw, angle: state.angle, speed: state.speed };
             let action = controller.step(&measured, recipe.step);
             let torque = action.torque;
             let mut numbers = state.to_array();
             for _ in 0..recipe.substeps {
-                numbers = rk4(&numbers, h, |s| {
-                    robot.rate(&State::from_array(*s), torque).to_array()
-                });
+                numbers = rk4(&numbers, h, |s| robot.rate(&State::from_array(*s), torque).to_array());
             }
             let time = (k + 1) as f64 * recipe.step;
             if let Some(i) = numbers.iter().position(|v| !v.is_finite()) {
-                return Err(SimError::NotFinite {
-                    quantity: State::<f64>::NAMES[i],
-                    time,
-                });
+                return Err(SimError::NotFinite { quantity: State::<f64>::NAMES[i], time });
             }
             state = State::from_array(numbers);
             let load = robot.evaluate(&state, torque).1.load;
             if let Some(wheel) = load.iter().position(|n| *n <= 0.0) {
-                return Err(SimError::Lifted {
-                    wheel: wheel + 1,
-                    time,
-                });
+                return Err(SimError::Lifted { wheel: wheel + 1, time });
             }
             run.smallest_load = load.into_iter().fold(run.smallest_load, f64::min);
-            let [dx, dy] = [
-                action.reference.x - measured.x,
-                action.reference.y - measured.y,
-            ];
+            let [dx, dy] = [action.reference.x - measured.x, action.reference.y - measured.y];
             run.largest_path_error = run.largest_path_error.max(length(dx, dy));
             run.states.push(state);
             run.torques.push(torque);
@@ -188,10 +165,5 @@ fn windows(recipe: &Recipe, path: &Loop, checked: &LoopPath<f64>) -> Result<Wind
     let last = recipe.samples as f64 * recipe.step;
     let end = [start[1], start[2], start[3], start[4], last];
     let peak_until = std::array::from_fn(|i| start[i] + duration[i] + RING);
-    Ok(Windows {
-        start,
-        peak_until,
-        quiet: end.map(|t| t - QUIET),
-        end,
-    })
+    Ok(Windows { start, peak_until, quiet: end.map(|t| t - QUIET), end })
 }

@@ -20,52 +20,21 @@ pub(super) fn text(o: &Outcome) -> String {
     let digits = |v: f64| format!("{v:.4}");
     row("", NAMES.map(String::from));
     row("paper", PAPER.map(digits));
-    for (n, name) in [
-        "ours, smallest",
-        "      5 %",
-        "      median",
-        "      95 %",
-        "      largest",
-    ]
-    .into_iter()
-    .enumerate()
+    for (n, name) in
+        ["ours, smallest", "      5 %", "      median", "      95 %", "      largest"].into_iter().enumerate()
     {
-        row(
-            name,
-            std::array::from_fn(|i| {
-                o.table
-                    .get(i)
-                    .map_or_else(String::new, |d| digits(d.quantiles[n]))
-            }),
-        );
+        row(name, std::array::from_fn(|i| o.table.get(i).map_or_else(String::new, |d| digits(d.quantiles[n]))));
     }
     row(
         "percentile of the paper's, %",
-        std::array::from_fn(|i| {
-            o.table
-                .get(i)
-                .map_or_else(String::new, |d| format!("{:.1}", d.percentile))
-        }),
+        std::array::from_fn(|i| o.table.get(i).map_or_else(String::new, |d| format!("{:.1}", d.percentile))),
     );
-    row(
-        "constant regressor, no network",
-        o.constant.table1().map(digits),
-    );
-    let _ = writeln!(
-        out,
-        "\n\nTolerance (the unit and property tests belong to it: cargo test --workspace)"
-    );
+    row("constant regressor, no network", o.constant.table1().map(digits));
+    let _ = writeln!(out, "\n\nTolerance (the unit and property tests belong to it: cargo test --workspace)");
     for c in &o.checks {
         let mark = if c.pass { "met   " } else { "MISSED" };
-        let _ = writeln!(
-            out,
-            "  ({}) {mark} {:<46} {:>12} {:<1}  asked {}",
-            c.rule,
-            c.name,
-            found(c),
-            c.unit,
-            c.target
-        );
+        let _ =
+            writeln!(out, "  ({}) {mark} {:<46} {:>12} {:<1}  asked {}", c.rule, c.name, found(c), c.unit, c.target);
     }
     let _ = writeln!(
         out,
@@ -79,22 +48,13 @@ pub(super) fn text(o: &Outcome) -> String {
 /// A value with as many digits as are worth reading.
 pub(super) fn found(check: &Check) -> String {
     let value = check.value;
-    if value != 0.0 && !(1e-3..1e4).contains(&value.abs()) {
-        format!("{value:.1e}")
-    } else {
-        format!("{value:.3}")
-    }
+    if value != 0.0 && !(1e-3..1e4).contains(&value.abs()) { format!("{value:.1e}") } else { format!("{value:.3}") }
 }
 
 /// The flat list of `summary.json`.
 pub(super) fn summary(o: &Outcome) -> Vec<Figure> {
-    let free = |name: String, value: f64, unit: &str| Figure {
-        name,
-        value,
-        unit: unit.into(),
-        target: None,
-        pass: None,
-    };
+    let free =
+        |name: String, value: f64, unit: &str| Figure { name, value, unit: unit.into(), target: None, pass: None };
     let mut list: Vec<Figure> = o
         .checks
         .iter()
@@ -107,28 +67,13 @@ pub(super) fn summary(o: &Outcome) -> Vec<Figure> {
         })
         .collect();
     for (d, constant) in o.table.iter().zip(o.constant.table1()) {
-        for (q, value) in ["min", "5%", "median", "95%", "max"]
-            .into_iter()
-            .zip(d.quantiles)
-        {
+        for (q, value) in ["min", "5%", "median", "95%", "max"].into_iter().zip(d.quantiles) {
             list.push(free(format!("{} {q}", d.name), value, "rad/s"));
         }
-        list.push(free(
-            format!("{} percentile of the paper's value", d.name),
-            d.percentile,
-            "%",
-        ));
-        list.push(free(
-            format!("{} constant regressor", d.name),
-            constant,
-            "rad/s",
-        ));
+        list.push(free(format!("{} percentile of the paper's value", d.name), d.percentile, "%"));
+        list.push(free(format!("{} constant regressor", d.name), constant, "rad/s"));
     }
-    list.push(free(
-        "largest path error".into(),
-        o.run.largest_path_error,
-        "m",
-    ));
+    list.push(free("largest path error".into(), o.run.largest_path_error, "m"));
     list.push(free("smallest wheel load".into(), o.run.smallest_load, "N"));
     list.push(free("time of the plant".into(), o.seconds[0], "s"));
     list.push(free("time of the identifiers".into(), o.seconds[1], "s"));

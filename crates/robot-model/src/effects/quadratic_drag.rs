@@ -32,8 +32,12 @@ impl<T: Scalar> Effect<T> for Law {
 
     fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
         let [x, y] = at.velocity;
-        let drag = v[0] * (x * x + y * y).sqrt();
-        w.force[0] -= drag * x;
-        w.force[1] -= drag * y;
+        let speed2 = x * x + y * y;
+        // At rest the square root has no derivative, the drag has.
+        if speed2 > T::zero() {
+            let drag = v[0] * speed2.sqrt();
+            w.force[0] -= drag * x;
+            w.force[1] -= drag * y;
+        }
     }
 }

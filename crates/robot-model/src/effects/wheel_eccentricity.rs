@@ -3,14 +3,14 @@
 use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, World};
 use crate::scalar::Scalar;
 
-/// r + e_c cos θ + e_s sin θ on one side
+/// r(θ) = r + e_c cos θ + e_s sin θ on one side
 pub struct Law;
 
 const CARD: Card = Card {
     id: "wheel_eccentricity",
     name: "wheels of one side out of true",
     kind: Kind::Physics,
-    law: "r + e_c cos θ + e_s sin θ on one side",
+    law: "r(θ) = r + e_c cos θ + e_s sin θ on one side",
     seen: "Speed and heading ripple once per turn of the wheel.",
     parameters: &[
         Parameter { name: "cosine", unit: "m", role: Role::Strength, bounds: [-0.05, 0.05], neutral: 0.0, probes: &[0.003], scale: Scale::Own },

@@ -34,51 +34,21 @@ impl<T: Scalar> Default for State<T> {
 
 impl<T: Scalar> State<T> {
     /// Names of the entries of [`State::to_array`].
-    pub const NAMES: [&'static str; 10] = [
-        "x",
-        "y",
-        "yaw",
-        "vx",
-        "vy",
-        "yaw rate",
-        "wheel angle 3",
-        "wheel angle 4",
-        "wheel speed 3",
-        "wheel speed 4",
-    ];
+    pub const NAMES: [&'static str; 10] =
+        ["x", "y", "yaw", "vx", "vy", "yaw rate", "wheel angle 3", "wheel angle 4", "wheel speed 3", "wheel speed 4"];
 
     /// The state as numbers, in the order of [`State::NAMES`].
     #[inline]
     pub fn to_array(&self) -> [T; 10] {
         let ([a3, a4], [s3, s4]) = (self.angle, self.speed);
-        [
-            self.x,
-            self.y,
-            self.yaw,
-            self.vx,
-            self.vy,
-            self.yaw_rate,
-            a3,
-            a4,
-            s3,
-            s4,
-        ]
+        [self.x, self.y, self.yaw, self.vx, self.vy, self.yaw_rate, a3, a4, s3, s4]
     }
 
     /// The state from numbers in the order of [`State::NAMES`].
     #[inline]
     pub fn from_array(v: [T; 10]) -> Self {
         let [x, y, yaw, vx, vy, yaw_rate, a3, a4, s3, s4] = v;
-        Self {
-            x,
-            y,
-            yaw,
-            vx,
-            vy,
-            yaw_rate,
-            angle: [a3, a4],
-            speed: [s3, s4],
-        }
+        Self { x, y, yaw, vx, vy, yaw_rate, angle: [a3, a4], speed: [s3, s4] }
     }
 }
 
@@ -146,10 +116,7 @@ impl<T: Scalar> PaperRobot<T> {
     /// # Errors
     /// [`ModelError`] if `rolling_resistance` is negative or not finite.
     pub fn with_rolling_resistance(&self, rolling_resistance: f64) -> Result<Self, ModelError> {
-        Self::new(&Parameters {
-            rolling_resistance,
-            ..self.parameters
-        })
+        Self::new(&Parameters { rolling_resistance, ..self.parameters })
     }
 
     /// The parameters that the plant was built from.
@@ -171,10 +138,7 @@ impl<T: Scalar> PaperRobot<T> {
     pub fn slip(&self, state: &State<T>) -> [[T; 2]; 4] {
         core::array::from_fn(|i| {
             let [px, py] = self.stance.wheel[i];
-            let (vx, vy) = (
-                state.vx - state.yaw_rate * py,
-                state.vy + state.yaw_rate * px,
-            );
+            let (vx, vy) = (state.vx - state.yaw_rate * py, state.vy + state.yaw_rate * px);
             let rim = self.radius * state.speed[i % 2];
             let d = ((rim * rim).max(vx * vx + vy * vy) + self.floor2).sqrt();
             [(rim - vx) / d, -vy / d]
@@ -189,9 +153,7 @@ impl<T: Scalar> PaperRobot<T> {
     pub fn evaluate(&self, state: &State<T>, torque: [T; 2]) -> (State<T>, Outputs<T>) {
         let slip = self.slip(state);
         let peak = self.constants.slip_at_peak;
-        let balance = self
-            .stance
-            .settle(&slip.map(|s| s.map(|s| self.adhesion * kiencke(s, peak))));
+        let balance = self.stance.settle(&slip.map(|s| s.map(|s| self.adhesion * kiencke(s, peak))));
         let acceleration = balance.total.map(|f| f / self.mass);
         let [ax, ay] = acceleration;
         let (sin, cos) = state.yaw.sin_cos();
@@ -203,21 +165,9 @@ impl<T: Scalar> PaperRobot<T> {
             vy: ay - state.yaw_rate * state.vx,
             yaw_rate: balance.yaw_moment / self.yaw_inertia,
             angle: state.speed,
-            speed: self.constants.wheel_acceleration(
-                torque,
-                state.speed,
-                [slip[2][0], slip[3][0]],
-                acceleration,
-            ),
+            speed: self.constants.wheel_acceleration(torque, state.speed, [slip[2][0], slip[3][0]], acceleration),
         };
-        (
-            rate,
-            Outputs {
-                load: balance.load,
-                slip,
-                acceleration,
-            },
-        )
+        (rate, Outputs { load: balance.load, slip, acceleration })
     }
 
     /// Rate of the state under the torques τ3, τ4 in N m.

@@ -74,9 +74,7 @@ impl<T: Scalar> Constants<T> {
         let side = |i: usize, lateral: T| {
             let sign = (speed[i] / self.sign_width).tanh();
             two * self.a2 * sign
-                + two
-                    * kiencke(slip[i], self.slip_at_peak)
-                    * (self.a3 + self.a4 * ax + self.a5 * lateral)
+                + two * kiencke(slip[i], self.slip_at_peak) * (self.a3 + self.a4 * ax + self.a5 * lateral)
                 + two * (self.a6 + self.a7 * ax + self.a8 * lateral) * sign
         };
         [side(0, -ay), side(1, ay)]
@@ -86,13 +84,7 @@ impl<T: Scalar> Constants<T> {
     ///
     /// `torque`: τ3, τ4 in N m; the rest as in [`Constants::resisting_torque`].
     #[inline]
-    pub fn wheel_acceleration(
-        &self,
-        torque: [T; 2],
-        speed: [T; 2],
-        slip: [T; 2],
-        acceleration: [T; 2],
-    ) -> [T; 2] {
+    pub fn wheel_acceleration(&self, torque: [T; 2], speed: [T; 2], slip: [T; 2], acceleration: [T; 2]) -> [T; 2] {
         let c = self.resisting_torque(speed, slip, acceleration);
         let inertia = real::<T>(2.0) * self.a1;
         [(torque[0] - c[0]) / inertia, (torque[1] - c[1]) / inertia]

@@ -100,12 +100,7 @@ impl Parameters {
         positive("wheelbase", self.wheelbase)?;
         positive("track", self.track)?;
         not_negative("height of the centre of mass", self.com_height)?;
-        within(
-            "distance of the centre of mass behind the front axle",
-            self.com_to_front_axle,
-            0.0,
-            self.wheelbase,
-        )?;
+        within("distance of the centre of mass behind the front axle", self.com_to_front_axle, 0.0, self.wheelbase)?;
         positive("wheel inertia", self.wheel_inertia)?;
         not_negative("Coulomb torque", self.coulomb_torque)?;
         positive("adhesion", self.adhesion)?;

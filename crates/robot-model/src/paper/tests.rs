@@ -12,12 +12,7 @@ fn near(a: f64, b: f64, tolerance: f64) -> bool {
 }
 
 /// Explicit midpoint with small steps is accurate enough for these tests.
-fn drive<T: Scalar>(
-    robot: &PaperRobot<T>,
-    mut state: State<T>,
-    torque: [T; 2],
-    seconds: f64,
-) -> State<T> {
+fn drive<T: Scalar>(robot: &PaperRobot<T>, mut state: State<T>, torque: [T; 2], seconds: f64) -> State<T> {
     let h = 5e-5;
     let step = |s: &State<T>, r: &State<T>, h: f64| {
         let (s, r) = (s.to_array(), r.to_array());
@@ -36,18 +31,13 @@ fn constants_of_set_b() {
     let c = robot.constants();
     let expected = [0.03, 0.3, 7.848, 0.686, 0.600, 0.294, 0.0257, 0.0225];
     let found = [c.a1, c.a2, c.a3, c.a4, c.a5, c.a6, c.a7, c.a8];
-    assert!(
-        found.iter().zip(expected).all(|(f, e)| near(*f, e, 6e-4)),
-        "{found:?}"
-    );
+    assert!(found.iter().zip(expected).all(|(f, e)| near(*f, e, 6e-4)), "{found:?}");
 }
 
 #[test]
 fn resistance_is_to_traction_as_rolling_resistance_to_adhesion() {
     for p in [Parameters::SET_A, Parameters::SET_B, Parameters::SET_C] {
-        let robot = robot::<f64>(&p)
-            .with_rolling_resistance(0.33)
-            .expect("valid");
+        let robot = robot::<f64>(&p).with_rolling_resistance(0.33).expect("valid");
         let c = robot.constants();
         for (resistance, traction) in [(c.a6, c.a3), (c.a7, c.a4), (c.a8, c.a5)] {
             assert!(near(resistance / traction, 0.33 / p.adhesion, 1e-14));
@@ -61,11 +51,7 @@ fn steady_straight_line_takes_only_bearing_and_rolling_resistance() {
     let c = robot.constants();
     let torque = 2.0 * c.a2 + 2.0 * c.a6;
     assert!(near(torque, 1.1884, 3e-4), "{torque}");
-    let start = State {
-        vx: 0.5,
-        speed: [5.0; 2],
-        ..State::default()
-    };
+    let start = State { vx: 0.5, speed: [5.0; 2], ..State::default() };
     let end = drive(&robot, start, [torque; 2], 2.0);
     assert!(near(end.vx, 0.5, 1e-9) && near(end.x, 1.0, 1e-6), "{end:?}");
 }
@@ -75,16 +61,7 @@ fn constant_acceleration_balances_wheels_and_body() {
     let robot = robot::<f64>(&Parameters::SET_B);
     let (c, p) = (robot.constants(), robot.parameters());
     let torque = 2.5464;
-    let moving = drive(
-        &robot,
-        State {
-            vx: 0.3,
-            speed: [3.0; 2],
-            ..State::default()
-        },
-        [torque; 2],
-        1.0,
-    );
+    let moving = drive(&robot, State { vx: 0.3, speed: [3.0; 2], ..State::default() }, [torque; 2], 1.0);
     let (rate, out) = robot.evaluate(&moving, [torque; 2]);
     let ax = out.acceleration[0];
     let needed = 2.0 * c.a1 * rate.speed[0]
@@ -98,24 +75,14 @@ fn constant_acceleration_balances_wheels_and_body() {
 #[test]
 fn loads_are_positive_carry_the_weight_and_follow_eq_8() {
     for p in [Parameters::SET_A, Parameters::SET_B, Parameters::SET_C] {
-        let robot = robot::<f64>(&Parameters {
-            com_to_front_axle: 0.4 * p.wheelbase,
-            ..p
-        });
-        let turning = State {
-            vx: 0.5,
-            vy: 0.02,
-            yaw_rate: 0.4,
-            speed: [4.0, 7.0],
-            ..State::default()
-        };
+        let robot = robot::<f64>(&Parameters { com_to_front_axle: 0.4 * p.wheelbase, ..p });
+        let turning = State { vx: 0.5, vy: 0.02, yaw_rate: 0.4, speed: [4.0, 7.0], ..State::default() };
         let (_, out) = robot.evaluate(&turning, [2.0; 2]);
         let (c, q) = (robot.constants(), robot.parameters());
         assert!(out.load.iter().all(|n| *n > 0.0), "{out:?}");
         assert!(near(out.load.iter().sum::<f64>(), p.mass * p.gravity, 1e-9));
         let [ax, ay] = out.acceleration;
-        let rear =
-            |lateral: f64| (c.a3 + c.a4 * ax + c.a5 * lateral) / (q.wheel_radius * q.adhesion);
+        let rear = |lateral: f64| (c.a3 + c.a4 * ax + c.a5 * lateral) / (q.wheel_radius * q.adhesion);
         assert!(near(out.load[2], rear(-ay), 1e-9) && near(out.load[3], rear(ay), 1e-9));
     }
 }
@@ -147,14 +114,11 @@ fn wheels_accelerate_by_the_forces_that_move_the_body() {
         for (side, torque) in [3.0, -2.0].into_iter().enumerate() {
             let rear = 2 + side;
             let slip = out.slip[rear][0];
-            let share =
-                2.0 * p.slip_at_peak * slip / (p.slip_at_peak * p.slip_at_peak + slip * slip);
+            let share = 2.0 * p.slip_at_peak * slip / (p.slip_at_peak * p.slip_at_peak + slip * slip);
             let force = out.load[rear] * p.adhesion * share;
             let sign = nalgebra::ComplexField::tanh(state.speed[side] / p.sign_width);
-            let resistance =
-                p.coulomb_torque + p.wheel_radius * p.rolling_resistance * out.load[rear];
-            let expected = (torque - 2.0 * resistance * sign - 2.0 * p.wheel_radius * force)
-                / (2.0 * p.wheel_inertia);
+            let resistance = p.coulomb_torque + p.wheel_radius * p.rolling_resistance * out.load[rear];
+            let expected = (torque - 2.0 * resistance * sign - 2.0 * p.wheel_radius * force) / (2.0 * p.wheel_inertia);
             assert!(near(rate.speed[side], expected, 1e-9), "{state:?}");
         }
     }
@@ -166,25 +130,15 @@ fn contacts_never_add_energy_to_a_body_on_locked_wheels() {
     let p = robot.parameters();
     for state in sliding().filter(|s| s.speed == [0.0; 2]) {
         let rate = robot.rate(&state, [0.0; 2]);
-        let power = p.mass * (state.vx * rate.vx + state.vy * rate.vy)
-            + p.yaw_inertia * state.yaw_rate * rate.yaw_rate;
+        let power = p.mass * (state.vx * rate.vx + state.vy * rate.vy) + p.yaw_inertia * state.yaw_rate * rate.yaw_rate;
         assert!(power < 0.0, "{power} W at {state:?}");
     }
 }
 
 #[test]
 fn a_body_without_grip_goes_straight_on_while_it_spins() {
-    let robot = robot::<f64>(&Parameters {
-        adhesion: 1e-12,
-        rolling_resistance: 0.0,
-        ..Parameters::SET_B
-    });
-    let start = State {
-        vx: 1.0,
-        vy: -0.4,
-        yaw_rate: 1.5,
-        ..State::default()
-    };
+    let robot = robot::<f64>(&Parameters { adhesion: 1e-12, rolling_resistance: 0.0, ..Parameters::SET_B });
+    let start = State { vx: 1.0, vy: -0.4, yaw_rate: 1.5, ..State::default() };
     let end = drive(&robot, start, [0.0; 2], 1.0);
     assert!(near(end.yaw, 1.5, 1e-6), "{end:?}");
     assert!(near(end.x, 1.0, 1e-6) && near(end.y, -0.4, 1e-6), "{end:?}");
@@ -202,16 +156,8 @@ fn a_mirrored_state_has_the_mirrored_rate() {
         speed: [s.speed[1], s.speed[0]],
         ..*s
     };
-    let state = State {
-        x: 0.0,
-        y: 0.3,
-        yaw: 0.2,
-        vx: 0.5,
-        vy: -0.03,
-        yaw_rate: 0.5,
-        angle: [1.0, 2.0],
-        speed: [4.0, 6.5],
-    };
+    let state =
+        State { x: 0.0, y: 0.3, yaw: 0.2, vx: 0.5, vy: -0.03, yaw_rate: 0.5, angle: [1.0, 2.0], speed: [4.0, 6.5] };
     let direct = mirror(&robot.rate(&state, [1.0, 3.0]));
     let mirrored = robot.rate(&mirror(&state), [3.0, 1.0]);
     for (a, b) in direct.to_array().into_iter().zip(mirrored.to_array()) {
@@ -221,17 +167,9 @@ fn a_mirrored_state_has_the_mirrored_rate() {
 
 #[test]
 fn single_precision_agrees_with_double() {
-    let start = State {
-        vx: 0.1,
-        speed: [1.0; 2],
-        ..State::default()
-    };
+    let start = State { vx: 0.1, speed: [1.0; 2], ..State::default() };
     let wide = drive(&robot::<f64>(&Parameters::SET_B), start, [2.0, 2.2], 0.5);
-    let start = State {
-        vx: 0.1,
-        speed: [1.0; 2],
-        ..State::default()
-    };
+    let start = State { vx: 0.1, speed: [1.0; 2], ..State::default() };
     let narrow = drive(&robot::<f32>(&Parameters::SET_B), start, [2.0, 2.2], 0.5);
     for (a, b) in wide.to_array().into_iter().zip(narrow.to_array()) {
         assert!(near(a, f64::from(b), 2e-3), "{wide:?} {narrow:?}");
@@ -248,17 +186,8 @@ fn rest_stays_at_rest() {
 fn impossible_robots_are_refused_by_name() {
     let b = Parameters::SET_B;
     let negative = PaperRobot::<f64>::new(&Parameters { mass: -1.0, ..b });
-    assert_eq!(
-        negative,
-        Err(ModelError::NotPositive {
-            name: "mass",
-            value: -1.0
-        })
-    );
-    let outside = PaperRobot::<f64>::new(&Parameters {
-        com_to_front_axle: 0.36,
-        ..b
-    });
+    assert_eq!(negative, Err(ModelError::NotPositive { name: "mass", value: -1.0 }));
+    let outside = PaperRobot::<f64>::new(&Parameters { com_to_front_axle: 0.36, ..b });
     assert!(matches!(outside, Err(ModelError::OutOfRange { .. })));
     assert!(robot::<f64>(&b).with_rolling_resistance(f64::NAN).is_err());
 }

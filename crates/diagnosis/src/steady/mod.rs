@@ -1,0 +1,306 @@
+//! Diagnosis of a speed-driven robot from the loads of its steady driving.
+//!
+//! A drive imposes the wheel speeds; what it takes to do so is the output. Real recordings of this kind are slow,
+//! unsigned and on wandering clocks, so only steady stretches are compared: [`extract`](self) loads, compare them with
+//! the references', name the effects that could make the difference, and forecast recordings that were not used.
+
+mod clock;
+mod compare;
+mod extract;
+mod model;
+mod name;
+mod run;
+
+use std::collections::BTreeMap;
+
+use robot_model::Robot;
+use robot_model::tunable::{COUNT as NUISANCES, tunables};
+use serde::Serialize;
+
+use crate::diagnose::FORMAT;
+use crate::fit::tuned;
+use crate::hypothesis::Place;
+use crate::simulate::Dose;
+use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
+use crate::{DiagnosisError, words};
+
+use compare::{Reference, matching, references, scaled, typical};
+use model::{Measured, Operating, Tuned, forecast, tune};
+use name::{Difference, Named, Naming, name};
+
+pub use compare::Ratio;
+pub use extract::{Load, Quantity, Withheld};
+pub use run::SpeedRun;
+
+/// A speed-driven case.
+#[derive(Debug, Clone)]
+pub struct SteadyCase {
+    /// The user's robot model.
+    pub robot: Robot<f64>,
+    /// One sigma of each tunable constant.
+    pub sigma: [f64; NUISANCES],
+    /// Recordings in which the simulation is right.
+    pub references: Vec<SpeedRun>,
+    /// Recordings in which it is not.
+    pub recordings: Vec<SpeedRun>,
+}
+
+/// Loads of a speed-driven case.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Loads {
+    /// Each recording's loads over the references'.
+    pub ratios: Vec<Ratio>,
+    /// Pooled over recordings that agree.
+    pub pooled: Vec<Ratio>,
+    /// Loads of the references.
+    pub references: Vec<Load>,
+    /// Answers that recordings do not permit.
+    pub withheld: Vec<Withheld>,
+}
+
+/// Effects within this many nats of the best cannot be told from it.
+const INDISTINGUISHABLE: f64 = 3.0;
+/// Causes below this probability are not listed.
+const LISTED: f64 = 1e-3;
+
+/// Diagnoses a speed-driven case. `progress` is told the stage that begins.
+///
+/// # Errors
+/// When references or recordings are missing, or permit no answer at all.
+pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+    if case.references.is_empty() {
+        return Err(DiagnosisError::Empty { what: "reference" });
+    }
+    if case.recordings.is_empty() {
+        return Err(DiagnosisError::Empty { what: "recording" });
+    }
+    let robot = case.robot.checked()?;
+    progress("measuring steady loads");
+    let (reference_loads, mut withheld) = all_loads(&case.references);
+    let (loads, not_given) = all_loads(&case.recordings);
+    let refs = references(&reference_loads);
+    if refs.is_empty() {
+        let reason =
+            withheld.first().map_or_else(String::new, |w| format!("reference '{}': {}", w.recording, w.reason));
+        return Err(DiagnosisError::TooCalm { reason });
+    }
+    let (ratios, pooled) = compare::ratios(&loads, &refs);
+    progress("calibrating on the references");
+    let known: Vec<Measured> = refs.iter().map(of_reference).collect();
+    let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
+    progress("weighing the effects");
+    let differences = differences(&loads, &refs);
+    let naming = if differences.is_empty() { None } else { name(&differences, &robot, &case.sigma, &calibrated) };
+    progress("forecasting recordings that were not used");
+    let free_runs =
+        naming.as_ref().map_or_else(Vec::new, |n| free_runs(case, &robot, &known, &differences, &calibrated, n));
+    withheld.extend(not_given);
+    let mut out = verdict(case, naming.as_ref(), Loads { ratios, pooled, references: reference_loads, withheld });
+    out.free_runs = free_runs;
+    out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
+    out.limits = limits(case, &out);
+    Ok(out)
+}
+
+fn all_loads(runs: &[SpeedRun]) -> (Vec<Load>, Vec<Withheld>) {
+    let mut loads = Vec::new();
+    let mut withheld = Vec::new();
+    for r in runs {
+        let (l, w) = extract::extract(r);
+        loads.extend(l);
+        withheld.extend(w);
+    }
+    (loads, withheld)
+}
+
+fn of_reference(r: &Reference) -> Measured {
+    Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
+}
+
+/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
+fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
+    loads
+        .iter()
+        .filter(|l| {
+            l.quantity != Quantity::ArcSum
+                || !loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad)
+        })
+        .filter_map(|l| {
+            let (r, _) = matching(l, refs)?;
+            let (value, error) = scaled(l);
+            let (inner, outer) = typical(l);
+            let at = Operating { quantity: l.quantity, speed: [inner, outer] };
+            Some(Difference {
+                recording: l.recording.clone(),
+                here: Measured { at, value, error },
+                reference: of_reference(r),
+            })
+        })
+        .collect()
+}
+
+fn dose(n: &Named) -> Vec<Dose> {
+    vec![n.variant.dose(&n.values, None)]
+}
+
+/// Torques of each recording forecast from its speeds, with everything fitted on the others.
+fn free_runs(
+    case: &SteadyCase,
+    robot: &Robot<f64>,
+    known: &[Measured],
+    differences: &[Difference],
+    calibrated: &Tuned,
+    naming: &Naming,
+) -> Vec<FreeRun> {
+    let Some(best) = naming.effects.first().filter(|e| e.score > 0.0) else { return Vec::new() };
+    let mut out = Vec::new();
+    for run in &case.recordings {
+        let others: Vec<Difference> = differences.iter().filter(|d| d.recording != run.name).cloned().collect();
+        if others.is_empty() {
+            continue;
+        }
+        let data: Vec<Measured> = known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
+        let Some(retuned) = tune(robot, &case.sigma, &data) else { continue };
+        let refitted = name(&others, robot, &case.sigma, calibrated)
+            .and_then(|n| n.effects.into_iter().find(|e| e.variant.label() == best.variant.label()));
+        let model = tuned(robot, &case.sigma, &calibrated.theta);
+        let corrected = refitted.map_or_else(|| forecast(run, &model, &[]), |e| forecast(run, &model, &dose(&e)));
+        out.push(FreeRun {
+            recording: run.name.clone(),
+            quantity: "torque of a side, N m".to_owned(),
+            nominal: forecast(run, robot, &[]),
+            retuned: forecast(run, &tuned(robot, &case.sigma, &retuned.theta), &[]),
+            corrected,
+        });
+    }
+    out
+}
+
+fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosis {
+    let mut out = Diagnosis {
+        format: FORMAT,
+        verdict: Verdict::Withheld,
+        sentences: Vec::new(),
+        ranked: Vec::new(),
+        indistinguishable: Vec::new(),
+        findings: Vec::new(),
+        cells: Vec::new(),
+        free_runs: Vec::new(),
+        unexplained: None,
+        limits: Vec::new(),
+        screened: Vec::new(),
+        tuning: BTreeMap::new(),
+        steady: None,
+        predictions: Vec::new(),
+    };
+    if let Some(naming) = naming {
+        // Left and right are one cause here: keep the better side of each effect.
+        let mut effects: Vec<&Named> = Vec::new();
+        for e in &naming.effects {
+            if !effects.iter().any(|o| o.variant.card().id == e.variant.card().id) {
+                effects.push(e);
+            }
+        }
+        let top = effects.first().map_or(0.0, |e| e.score).max(naming.unknown).max(0.0);
+        let weight = |s: f64| (s - top).exp();
+        let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
+        out.screened = effects.iter().map(|e| (e.variant.card().id.to_owned(), e.score)).collect();
+        out.ranked =
+            effects.iter().map(|e| cause(e, weight(e.score) / sum)).filter(|c| c.probability > LISTED).collect();
+        out.ranked.push(plain("none", "nothing is missing", weight(0.0) / sum));
+        out.ranked.push(plain("unknown", "something that is not in the catalogue", weight(naming.unknown) / sum));
+        out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        let named: f64 = out.ranked.iter().filter(|c| c.magnitude.is_some()).map(|c| c.probability).sum();
+        let none = weight(0.0) / sum;
+        let unknown = weight(naming.unknown) / sum;
+        out.verdict = if none >= named.max(unknown) {
+            Verdict::NoMismatch
+        } else if unknown > named {
+            Verdict::Unknown
+        } else {
+            Verdict::Explained
+        };
+        if out.verdict == Verdict::Explained
+            && let Some(best) = effects.first()
+        {
+            let near: Vec<&&Named> = effects.iter().filter(|e| e.score > best.score - INDISTINGUISHABLE).collect();
+            if near.len() > 1 {
+                out.indistinguishable = near.iter().map(|e| e.variant.card().id.to_owned()).collect();
+            }
+        }
+    }
+    out.sentences = words::steady(&out, &loads, case.recordings.iter().any(|r| r.set_points));
+    out.steady = Some(loads);
+    out
+}
+
+fn plain(effect: &str, name: &str, probability: f64) -> Cause {
+    Cause {
+        effect: effect.to_owned(),
+        name: name.to_owned(),
+        probability,
+        magnitude: None,
+        sigma: None,
+        unit: "-",
+        parameters: BTreeMap::new(),
+        side: None,
+        place: None,
+        intervals: None,
+    }
+}
+
+fn cause(e: &Named, probability: f64) -> Cause {
+    let card = e.variant.card();
+    let parameters = e
+        .variant
+        .free(1.0)
+        .iter()
+        .zip(&e.values)
+        .filter_map(|(f, v)| f.parameter.map(|i| (card.parameters[i].name.to_owned(), *v)))
+        .collect();
+    Cause {
+        magnitude: Some(e.variant.magnitude(&e.values)),
+        sigma: e.sigma.is_finite().then_some(e.sigma),
+        unit: words::unit(card),
+        parameters,
+        side: if let Place::Side(s) = e.variant.place { Some(words::side(s)) } else { None },
+        ..plain(card.id, &words::variant(&e.variant), probability)
+    }
+}
+
+/// What the data's defects do to the answer.
+fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
+    let mut out = Vec::new();
+    let all = || case.references.iter().chain(&case.recordings);
+    if all().any(|r| r.set_points) {
+        out.push(
+            "speeds are set-points, not measured: slip and speed errors of the drive cannot be told apart".to_owned(),
+        );
+    }
+    if all().any(|r| r.magnitude_only) {
+        out.push(
+            "currents carry no sign and have a dead band: a side that is dragged or brakes shows only a bound, so \
+             straight loads come from stretches in which both sides read"
+                .to_owned(),
+        );
+    }
+    let lag =
+        all().filter_map(|r| r.lag.as_ref()).flatten().fold((0.0_f64, 0.0_f64), |m, l| (m.0.min(*l), m.1.max(*l)));
+    if lag.1 - lag.0 > 0.0 {
+        out.push(format!(
+            "the gyro runs on another clock: aligned by the turns, lag from {:.2} s to {:.2} s",
+            lag.0, lag.1
+        ));
+    }
+    let blind: Vec<&str> = all().filter(|r| r.yaw_rate.is_none()).map(|r| r.name.as_str()).collect();
+    if !blind.is_empty() {
+        out.push(format!("no gyro in {}: no effective track from there", blind.join(", ")));
+    }
+    if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
+        out.push("some straight loads are compared with references driven at another speed".to_owned());
+    }
+    out.push(
+        "mass and torque per current cannot be told apart on level ground: loads are compared as ratios".to_owned(),
+    );
+    out
+}

@@ -1,0 +1,126 @@
+//! Everything a case may hide, as plain numbers; the neutral value hides nothing.
+
+/// A disc of the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Disc {
+    pub x: f64,
+    pub y: f64,
+    pub radius: f64,
+}
+
+impl Disc {
+    /// Whether a point is inside.
+    #[inline]
+    pub(crate) fn holds(&self, x: f64, y: f64) -> bool {
+        (x - self.x).powi(2) + (y - self.y).powi(2) < self.radius * self.radius
+    }
+}
+
+/// Physics and sensor faults of the vocabulary. Sides are left then right.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Hidden {
+    pub viscous: f64,
+    pub stiction: f64,
+    pub stribeck_speed: f64,
+    pub coulomb: [f64; 2],
+    pub payload: f64,
+    pub payload_inertia: f64,
+    pub payload_height: f64,
+    pub centre: [f64; 2],
+    /// Downhill direction times the sine of the slope, world axes.
+    pub slope: [f64; 2],
+    pub ice: Option<(Disc, f64)>,
+    pub mud: Option<(Disc, f64)>,
+    /// Added rolling resistance from an instant of the run on.
+    pub onset: Option<(f64, f64)>,
+    pub drag: f64,
+    pub pull: f64,
+    pub radius: [f64; 2],
+    pub torque_gain: f64,
+    pub lag: f64,
+    pub limit: f64,
+    pub delay: f64,
+    pub dead_zone: f64,
+    pub belt: [f64; 2],
+    pub lateral: f64,
+    pub runout: [f64; 2],
+    /// Angle of the runout at the index mark, front and rear wheel.
+    pub runout_phase: [f64; 2],
+    pub drift: f64,
+    pub drift_time: f64,
+    pub gyro_bias: f64,
+    pub gyro_scale: f64,
+    /// Fraction of rows with a frozen encoder.
+    pub frozen: [f64; 2],
+    pub foreign: Foreign,
+}
+
+impl Default for Hidden {
+    fn default() -> Self {
+        Self {
+            viscous: 0.0,
+            stiction: 0.0,
+            stribeck_speed: 0.5,
+            coulomb: [0.0; 2],
+            payload: 0.0,
+            payload_inertia: 0.0,
+            payload_height: 0.0,
+            centre: [0.0; 2],
+            slope: [0.0; 2],
+            ice: None,
+            mud: None,
+            onset: None,
+            drag: 0.0,
+            pull: 0.0,
+            radius: [0.0; 2],
+            torque_gain: 0.0,
+            lag: 0.0,
+            limit: f64::INFINITY,
+            delay: 0.0,
+            dead_zone: 0.0,
+            belt: [f64::INFINITY; 2],
+            lateral: 0.0,
+            runout: [0.0; 2],
+            runout_phase: [0.0; 2],
+            drift: 0.0,
+            drift_time: 6.0,
+            gyro_bias: 0.0,
+            gyro_scale: 0.0,
+            frozen: [0.0; 2],
+            foreign: Foreign::default(),
+        }
+    }
+}
+
+/// Causes that are not in the vocabulary.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Foreign {
+    /// Sideways shift of the centre of mass that follows the turning with hysteresis, metres.
+    pub cargo: f64,
+    /// Cogging torque per side and its periods per wheel turn.
+    pub cogging: f64,
+    pub cogging_order: f64,
+    /// Relative ripple of the transmitted torque and its periods per wheel turn.
+    pub ripple: f64,
+    pub ripple_order: f64,
+    /// Wheel (FL, RL, FR, RR) that loses contact, and when, by run.
+    pub lifted: Option<usize>,
+    /// Share of torque lost at the power `sag_power`.
+    pub sag: f64,
+    pub sag_power: f64,
+    /// Largest gust, newtons.
+    pub gust: f64,
+    /// Largest delay of a delay that changes at random, seconds.
+    pub jitter: f64,
+    /// Loss of friction when slipping along a direction of the ground.
+    pub grain: f64,
+    pub grain_direction: f64,
+    /// Torque dropouts of the drives, share of the time.
+    pub dropout: f64,
+    /// Elastic cable: stiffness, anchor and slack length.
+    pub cable: Option<(f64, [f64; 2], f64)>,
+    /// Extra dry friction per side when rolling backwards.
+    pub ratchet: f64,
+    /// Key of what happens at random within runs.
+    pub seed: u64,
+}

@@ -1,0 +1,221 @@
+//! The robot as its user knows it, and the true one, which differs within the stated sigmas.
+
+use crate::random::Stream;
+use crate::{RobotClass, TyreLaw};
+
+pub(crate) const GRAVITY: f64 = 9.81;
+
+/// Relative standard deviations of the user's values.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sigmas {
+    pub mass: f64,
+    pub yaw_inertia: f64,
+    pub height: f64,
+    pub adhesion: f64,
+    pub rolling: f64,
+    pub coulomb: f64,
+    pub side_difference: f64,
+    pub viscous: f64,
+    pub torque_constant: f64,
+    pub motor_inertia: f64,
+    /// Absolute, metres.
+    pub centre: f64,
+    pub run_to_run: f64,
+}
+
+pub(crate) const SIGMAS: Sigmas = Sigmas {
+    mass: 0.01,
+    yaw_inertia: 0.05,
+    height: 0.05,
+    adhesion: 0.08,
+    rolling: 0.12,
+    coulomb: 0.12,
+    side_difference: 0.06,
+    viscous: 0.12,
+    torque_constant: 0.015,
+    motor_inertia: 0.04,
+    centre: 0.004,
+    run_to_run: 0.02,
+};
+
+/// What decides the motion of a robot; front and rear wheels alike, sides left then right.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Constants {
+    pub mass: f64,
+    pub yaw_inertia: f64,
+    pub height: f64,
+    /// Centre of mass from the geometric centre, forward and left.
+    pub centre: [f64; 2],
+    pub half_base: f64,
+    pub half_track: f64,
+    pub radius: f64,
+    pub wheel_inertia: f64,
+    pub motor_inertia: f64,
+    pub adhesion: f64,
+    pub rolling: f64,
+    pub coulomb: [f64; 2],
+    pub viscous: [f64; 2],
+    /// Delivered over logged torque.
+    pub torque_gain: f64,
+    pub current_lag: f64,
+    pub torque_limit: f64,
+    pub hitch: f64,
+    /// Slip at the peak, forward; sideways it is `side_slip` times larger.
+    pub peak_slip: f64,
+    pub side_slip: f64,
+    /// Lateral over longitudinal friction.
+    pub lateral: f64,
+    /// Relative loss of friction per relative rise of load.
+    pub load_loss: f64,
+    /// Share of friction lost when sliding fast.
+    pub sliding_loss: f64,
+    pub relaxation: f64,
+    pub load_lag: f64,
+    /// Wheel angle over which dry friction builds up.
+    pub presliding: f64,
+    pub belt_stiffness: f64,
+    pub belt_damping: f64,
+    pub law: TyreLaw,
+}
+
+/// Rounded to five significant digits, as a data sheet has it.
+fn digits(x: f64) -> f64 {
+    if x == 0.0 {
+        return 0.0;
+    }
+    let scale = 10_f64.powi(4 - x.abs().log10().floor() as i32);
+    (x * scale).round() / scale
+}
+
+/// The class's middle values: mass, half base, half track, radius, height, wheel inertia, motor
+/// inertia per side, dry and viscous friction per side.
+fn middle(class: RobotClass) -> [f64; 9] {
+    match class {
+        RobotClass::Small => [5.0, 0.1, 0.125, 0.06, 0.07, 0.0006, 0.002, 0.05, 0.011],
+        RobotClass::Medium => [20.0, 0.176, 0.216, 0.097, 0.12, 0.006, 0.018, 0.33, 0.13],
+        RobotClass::Large => [62.0, 0.256, 0.2775, 0.165, 0.18, 0.05, 0.14, 1.7, 0.75],
+    }
+}
+
+impl Constants {
+    /// The user's robot.
+    pub(crate) fn nominal(seed: u64, class: RobotClass, law: TyreLaw) -> Self {
+        let mut s = Stream::new(seed, "robot", 0);
+        let [mass, base, track, radius, height, wheel, motor, dry, viscous] = middle(class);
+        let size = s.uniform(0.92, 1.08);
+        let mass = digits(mass * s.uniform(0.8, 1.22));
+        let half_base = digits(base * size);
+        let half_track = digits(track * size);
+        let radius = digits(radius * size);
+        let area = (2.0 * half_base).powi(2) + (2.0 * half_track).powi(2);
+        let coulomb = digits(dry * s.uniform(0.8, 1.2));
+        let viscous = digits(viscous * s.uniform(0.78, 1.22));
+        Self {
+            mass,
+            yaw_inertia: digits(mass * area / 12.0 * s.uniform(1.55, 1.8)),
+            height: digits(height * s.uniform(0.92, 1.09)),
+            centre: [0.0; 2],
+            half_base,
+            half_track,
+            radius,
+            wheel_inertia: wheel,
+            motor_inertia: digits(motor * s.uniform(0.68, 1.35)),
+            adhesion: digits(s.uniform(0.5, 0.75)),
+            rolling: digits(s.uniform(0.015, 0.03)),
+            coulomb: [coulomb; 2],
+            viscous: [viscous; 2],
+            torque_gain: 1.0,
+            current_lag: 0.008,
+            torque_limit: digits(0.69 * mass * GRAVITY * radius * s.uniform(0.95, 1.1)),
+            hitch: digits(-half_base * s.uniform(1.66, 1.76)),
+            peak_slip: 0.12,
+            side_slip: 1.0,
+            lateral: 1.0,
+            load_loss: 0.0,
+            sliding_loss: 0.04,
+            relaxation: 0.25 * radius,
+            load_lag: 0.03,
+            presliding: 0.012,
+            belt_stiffness: 3.2 * mass * GRAVITY * radius * 2.0,
+            belt_damping: 0.006 * mass * GRAVITY * radius,
+            law,
+        }
+    }
+
+    /// The true robot behind the user's values.
+    pub(crate) fn truth(&self, seed: u64) -> Self {
+        let mut s = Stream::new(seed, "truth", 0);
+        let mut off = |sigma: f64| s.normal(sigma).exp();
+        let coulomb = off(SIGMAS.coulomb);
+        let side = off(SIGMAS.side_difference / 2.0);
+        let viscous = off(SIGMAS.viscous);
+        let mut c = Self {
+            mass: self.mass * off(SIGMAS.mass),
+            yaw_inertia: self.yaw_inertia * off(SIGMAS.yaw_inertia),
+            height: self.height * off(SIGMAS.height),
+            adhesion: self.adhesion * off(SIGMAS.adhesion),
+            rolling: self.rolling * off(SIGMAS.rolling),
+            coulomb: [self.coulomb[0] * coulomb * side, self.coulomb[1] * coulomb / side],
+            viscous: self.viscous.map(|v| v * viscous),
+            torque_gain: off(SIGMAS.torque_constant),
+            motor_inertia: self.motor_inertia * off(SIGMAS.motor_inertia),
+            ..*self
+        };
+        c.centre = [s.normal(SIGMAS.centre), s.normal(SIGMAS.centre)];
+        c.peak_slip = match c.law {
+            TyreLaw::Brush => s.uniform(0.14, 0.24),
+            TyreLaw::Pacejka => s.uniform(0.12, 0.22),
+        };
+        c.side_slip = s.uniform(0.92, 1.15);
+        c.lateral = s.normal(0.04).exp();
+        c.load_loss = s.uniform(0.01, 0.04);
+        c.sliding_loss = s.uniform(0.02, 0.06);
+        c.relaxation = self.radius * s.uniform(0.1, 0.3);
+        c.load_lag = s.uniform(0.02, 0.05);
+        c.presliding = s.uniform(0.008, 0.02);
+        c
+    }
+
+    /// The same robot on another run: friction a little different each time.
+    pub(crate) fn on_run(&self, s: &mut Stream, spread: f64) -> Self {
+        let mut c = *self;
+        let mut off = |sigma: f64| s.normal(sigma * spread).exp();
+        c.adhesion *= off(0.003);
+        c.rolling *= off(0.008);
+        c.coulomb = [c.coulomb[0] * off(0.007), c.coulomb[1] * off(0.007)];
+        let viscous = off(0.004);
+        c.viscous = c.viscous.map(|v| v * viscous);
+        c
+    }
+
+    /// Half the weight times the radius: the scale of a side's torque.
+    pub(crate) fn torque_scale(&self) -> f64 {
+        0.5 * self.mass * GRAVITY * self.radius
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Constants, digits};
+    use crate::{RobotClass, TyreLaw};
+
+    #[test]
+    fn data_sheet_values_have_five_digits() {
+        assert_eq!(digits(12.345_678), 12.346);
+        assert_eq!(digits(0.001_234_567), 0.001_234_6);
+        assert_eq!(digits(-0.3), -0.3);
+    }
+
+    #[test]
+    fn the_true_robot_is_near_the_stated_one() {
+        for class in [RobotClass::Small, RobotClass::Medium, RobotClass::Large] {
+            for seed in 0..20 {
+                let n = Constants::nominal(seed, class, TyreLaw::Brush);
+                let t = n.truth(seed);
+                assert!((t.mass / n.mass).ln().abs() < 0.031);
+                assert!((t.adhesion / n.adhesion).ln().abs() < 0.241);
+                assert!(t.mass != n.mass && t.centre[0].abs() < 0.0121);
+            }
+        }
+    }
+}

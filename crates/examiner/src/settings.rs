@@ -1,0 +1,133 @@
+//! What a drawn case is to look like.
+
+use crate::{EffectId, Outsider, TyreLaw};
+
+/// The size of the robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum RobotClass {
+    /// About 5 kg.
+    Small,
+    /// About 20 kg.
+    Medium,
+    /// 50 to 75 kg, the size of a Husky.
+    Large,
+}
+
+/// How hard the case is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Setting {
+    /// Clear effects, friction steady from run to run.
+    Normal,
+    /// Effects 0.4 times as large and 2.5 times the spread from run to run.
+    Weak,
+}
+
+impl Setting {
+    /// Its name in the truth.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Weak => "weak",
+        }
+    }
+}
+
+/// Severity of an effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Severity {
+    /// Just worth knowing.
+    Mild,
+    /// Clear.
+    Medium,
+    /// Dominates the mismatch.
+    Strong,
+}
+
+impl Severity {
+    /// All, from mild to strong.
+    pub const ALL: [Self; 3] = [Self::Mild, Self::Medium, Self::Strong];
+
+    /// Its number in the truth: 0, 1 or 2.
+    pub fn number(self) -> u8 {
+        match self {
+            Self::Mild => 0,
+            Self::Medium => 1,
+            Self::Strong => 2,
+        }
+    }
+}
+
+/// What is hidden in the recordings.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Content {
+    /// Nothing.
+    Null,
+    /// These effects of the vocabulary.
+    Effects(Vec<EffectId>),
+    /// One effect of the vocabulary, whichever the seed draws.
+    AnySingle,
+    /// Two of the vocabulary, whichever the seed draws.
+    AnyPair,
+    /// Something that is not in the vocabulary.
+    Outsider(Outsider),
+    /// The same, whichever the seed draws.
+    AnyOutsider,
+}
+
+/// Everything about a case that is not drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// What is hidden.
+    pub content: Content,
+    /// Its severity; drawn if not given.
+    pub severity: Option<Severity>,
+    /// Normal or weak.
+    pub setting: Setting,
+    /// The tyre law of the true robot; drawn if not given.
+    pub law: Option<TyreLaw>,
+    /// The size of the robot.
+    pub class: RobotClass,
+    /// Rows per second: 50, 100 or 200 (any divisor of 4000 works).
+    pub row_rate_hz: f64,
+    /// Whether pose samples are there.
+    pub pose: bool,
+    /// Whether accelerometer samples are there.
+    pub accelerometer: bool,
+    /// Factor on all sensor noise but quantisation.
+    pub noise: f64,
+    /// Length of reference runs and recordings; held-out runs last 5/6 of it.
+    pub duration_s: f64,
+    /// Number of reference runs.
+    pub references: usize,
+    /// Number of recordings; three or four if not given.
+    pub recordings: Option<usize>,
+    /// Number of held-out runs.
+    pub heldout: usize,
+    /// Factor on the size of effects, beside the setting.
+    pub size: f64,
+    /// Smallest ratio of the free-run error without the effect to that with it; draws below are
+    /// drawn again. Zero admits effects below the noise.
+    pub least_excess: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            content: Content::AnySingle,
+            severity: None,
+            setting: Setting::Normal,
+            law: None,
+            class: RobotClass::Medium,
+            row_rate_hz: 100.0,
+            pose: true,
+            accelerometer: true,
+            noise: 1.0,
+            duration_s: 24.0,
+            references: 3,
+            recordings: None,
+            heldout: 2,
+            size: 1.0,
+            least_excess: 1.3,
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Forms of drawn cases, their determinism, and that every effect shows.
+
+use std::collections::BTreeMap;
+
+use examiner::{
+    Case, Content, DrawnCase, EffectId, Mix, Outsider, RobotClass, Setting, Settings, Severity, TyreLaw, set,
+};
+
+/// Settings of a short case.
+fn short(content: Content) -> Settings {
+    Settings {
+        content,
+        severity: Some(Severity::Strong),
+        duration_s: 5.0,
+        references: 1,
+        recordings: Some(1),
+        heldout: 1,
+        least_excess: 0.0,
+        law: Some(TyreLaw::Brush),
+        ..Settings::default()
+    }
+}
+
+fn draw(settings: &Settings) -> DrawnCase {
+    Case::draw("x", 11, settings).unwrap()
+}
+
+fn table(case: &DrawnCase, path: &str) -> (Vec<String>, Vec<Vec<Option<f64>>>) {
+    let all = case.files.iter().chain(&case.truth_files);
+    let bytes = &all.clone().find(|(p, _)| p.ends_with(path)).unwrap().1;
+    let text = std::str::from_utf8(bytes).unwrap();
+    let mut lines = text.lines();
+    let split = |l: &str| l.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let head = split(lines.next().unwrap());
+    let rows = lines.map(|l| split(l).iter().map(|c| c.parse().ok()).collect());
+    (head, rows.collect())
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_thread() {
+    let plans = set(3, 4, Mix::default(), &short(Content::Null));
+    let here: Vec<_> = plans.iter().map(|p| p.draw().unwrap()).collect();
+    let threads: Vec<_> = plans.into_iter().rev().map(|p| std::thread::spawn(move || p.draw().unwrap())).collect();
+    let there: Vec<_> = threads.into_iter().rev().map(|t| t.join().unwrap()).collect();
+    assert!(here == there);
+    assert!(here[0].files != here[1].files);
+}
+
+#[test]
+fn files_have_the_form_that_the_readers_expect() {
+    let case = draw(&short(Content::Null));
+    let (head, rows) = table(&case, "recordings/run_1.csv");
+    assert_eq!(head.len(), 13);
+    assert_eq!((head[0].as_str(), head[12].as_str()), ("time_s", "pose_yaw_rad"));
+    assert_eq!(rows.len(), 500);
+    assert!(rows.iter().all(|r| r.len() == 13 && r[..7].iter().all(Option::is_some)));
+    let count = |column: usize| rows.iter().filter(|r| r[column].is_some()).count();
+    assert!((484..=486).contains(&count(7)), "{}", count(7));
+    assert_eq!(count(7), count(9));
+    assert!((48..=50).contains(&count(10)) && count(10) == count(12));
+    assert_eq!((rows[0][1], rows[0][3]), (Some(0.0), Some(0.0)));
+    for pair in rows.windows(2) {
+        let moved = (pair[1][3].unwrap() - pair[0][3].unwrap()) / 0.01;
+        assert!((moved - pair[1][1].unwrap()).abs() < 0.02);
+    }
+    let (head, rows) = table(&case, "heldout/held_1.csv");
+    assert_eq!((head.len(), rows.len()), (13, 416));
+    for (k, row) in rows.iter().enumerate() {
+        let state = row[3..].iter().all(Option::is_some);
+        let none = row[3..].iter().all(Option::is_none);
+        assert!(if k % 200 == 0 { state } else { none }, "row {k}");
+        assert!(row[..3].iter().all(Option::is_some));
+    }
+    let truth = case.truth_files.iter().find(|(p, _)| p.starts_with("heldout"));
+    let text = std::str::from_utf8(&truth.unwrap().1).unwrap();
+    assert_eq!(text.lines().count(), 417);
+    assert!(text.starts_with("time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,yaw_rate_rad_s"));
+}
+
+#[test]
+fn the_truth_has_what_the_scorer_reads() {
+    let case = draw(&short(Content::Effects(vec![EffectId::Payload, EffectId::Grade])));
+    let truth: serde_json::Value = serde_json::from_str(&case.truth.json().unwrap()).unwrap();
+    assert_eq!(truth["verdict"], "explained");
+    assert_eq!(truth["effects"][1]["id"], "grade");
+    for key in ["severity", "magnitude", "side", "downhill_direction_rad"] {
+        assert!(truth["effects"][1].get(key).is_some(), "{key}");
+    }
+    for key in ["rms", "nominal", "calibrated", "oracle"] {
+        assert_eq!(truth["heldout"]["held_1"][key].as_array().unwrap().len(), 2);
+    }
+    assert!(truth["recordings"]["run_1"]["intervals_s"].is_object());
+    assert_eq!(case.truth.seal().unwrap().len(), 64);
+    let held = &case.truth.heldout["held_1"];
+    assert!(held.oracle[0] < 0.5 * held.calibrated[0], "{held:?}");
+    assert!(held.oracle[0] < 0.3, "{held:?}");
+    let outsider = draw(&short(Content::AnyOutsider));
+    assert_eq!(outsider.truth.verdict, "unknown");
+    assert_eq!(outsider.truth.effects[0].id, "out_of_library");
+}
+
+#[test]
+fn local_effects_say_when_they_were_present() {
+    let mut seen = BTreeMap::new();
+    for seed in 0..6 {
+        let mut settings = short(Content::Effects(vec![EffectId::RollingResistance]));
+        settings.heldout = 1;
+        let case = Case::draw("x", seed, &settings).unwrap();
+        let effect = &case.truth.effects[0];
+        let found = &case.truth.recordings["run_1"].intervals_s["rolling_resistance"];
+        assert!(found.iter().all(|i| 0.0 <= i[0] && i[0] < i[1] && i[1] <= 5.0));
+        let place = effect.place.clone().unwrap();
+        assert_eq!(place == "patch", effect.coverage_heldout.is_some());
+        assert!(place == "patch" || found.len() == 1);
+        *seen.entry(place).or_insert(0) += 1;
+    }
+    assert_eq!(seen.len(), 2, "{seen:?}");
+}
+
+#[test]
+fn every_cause_changes_the_recordings_and_none_the_references() {
+    let text = |case: &DrawnCase, folder: &str| {
+        let of = |p: &(std::path::PathBuf, Vec<u8>)| p.0.starts_with(folder);
+        case.files.iter().filter(|f| of(f)).cloned().collect::<Vec<_>>()
+    };
+    let healthy = draw(&short(Content::Null));
+    let causes = EffectId::ALL.map(|e| Content::Effects(vec![e]));
+    let causes = causes.into_iter().chain(Outsider::ALL.map(Content::Outsider));
+    for content in causes {
+        let case = draw(&Settings {
+            // A short drive may miss a disc or a limit: then it is drawn again.
+            least_excess: 1.05,
+            ..short(content.clone())
+        });
+        // Compared outside of assert_eq, which would print the files.
+        let same = |folder| text(&case, folder) == text(&healthy, folder);
+        assert!(same("reference"), "{content:?}");
+        assert!(!same("recordings"), "{content:?}");
+        let rows = table(&case, "recordings/run_1.csv").1;
+        assert!(rows.iter().flatten().flatten().all(|x| x.is_finite()), "{content:?}");
+        let effect = &case.truth.effects[0];
+        // Two visits that place a disc need more than one short drive.
+        let shown = effect.excess > 1.02 || effect.x.is_some();
+        assert!(shown, "{content:?} {}", effect.excess);
+    }
+    let settings = Settings {
+        duration_s: 12.0,
+        recordings: Some(2),
+        least_excess: 1.3,
+        ..short(Content::Effects(vec![EffectId::AdhesionPatch]))
+    };
+    let patch = draw(&settings);
+    assert!(patch.truth.effects[0].excess >= 1.3 && !patch.truth.below_noise);
+}
+
+#[test]
+fn rates_classes_and_missing_sensors_are_as_asked() {
+    for (rate, class) in [(50.0, RobotClass::Small), (200.0, RobotClass::Large)] {
+        let settings = Settings {
+            row_rate_hz: rate,
+            class,
+            pose: false,
+            accelerometer: false,
+            setting: Setting::Weak,
+            duration_s: 8.0,
+            ..short(Content::Null)
+        };
+        let case = draw(&settings);
+        let (_, rows) = table(&case, "recordings/run_1.csv");
+        assert_eq!(rows.len(), (8.0 * rate) as usize);
+        assert!(rows.iter().all(|r| r[8..].iter().all(Option::is_none)));
+        assert!(rows.iter().any(|r| r[7].is_some()));
+        let held = &case.truth.heldout["held_1"];
+        assert!(held.oracle[0] < 0.6 && held.rms[0] > 1.0, "{class:?} {held:?}");
+    }
+    let odd = Settings { row_rate_hz: 333.0, ..Settings::default() };
+    assert!(Case::draw("x", 1, &odd).is_err());
+}

@@ -1,0 +1,130 @@
+//! `lacuna diagnose`: names what a simulation lacks.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use clap::Args as ClapArgs;
+use diagnosis::{Diagnosis, Options};
+use lacuna::case_folder::{self, CaseFolder};
+use lacuna::{Causality, predictions};
+
+use super::{Outcome, Reading};
+use crate::console::{Progress, emit, emit_json, warning};
+
+mod as_json;
+mod as_text;
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna diagnose case/
+  lacuna diagnose case/ --json verdict.json --predictions out/
+  lacuna diagnose --robot robot.toml --mapping my-robot.toml \\
+         --reference monday/ --recordings tuesday/run_3.csv tuesday/run_4.csv
+  lacuna diagnose --robot husky-a200 --mapping husky-open --reference FLOORING --recordings SANDY_LOAM
+
+A case folder:
+  robot.toml    or robot.json; or name a robot with --robot
+  reference/    drives in which the simulation was right, or logs of the simulator itself
+  recordings/   drives in which it was not
+  heldout/      inputs whose response is to be predicted (may be missing)
+
+Built-in robots: husky-a200, hendzel-trojnacki-2014
+Built-in mappings: skid-steer-columns, husky-open
+
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+
+const USAGE: &str = "\
+lacuna diagnose [OPTIONS] <CASE>
+       lacuna diagnose [OPTIONS] --robot <NAME|FILE> --reference <PATH>... --recordings <PATH>...";
+
+/// Arguments of `lacuna diagnose`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES, override_usage = USAGE)]
+pub(crate) struct Args {
+    /// Folder with robot.toml (or robot.json), reference/, recordings/ and perhaps heldout/.
+    #[arg(required_unless_present_all = ["robot", "reference", "recordings"])]
+    case: Option<PathBuf>,
+    /// Robot file, or name of a built-in robot.
+    #[arg(long, value_name = "NAME|FILE")]
+    robot: Option<String>,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
+    #[arg(long, value_name = "NAME|FILE", default_value = "skid-steer-columns")]
+    mapping: String,
+    /// Files or folders of drives in which the simulation was right.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    reference: Vec<PathBuf>,
+    /// Files or folders of drives in which it was not.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    recordings: Vec<PathBuf>,
+    /// Files or folders of inputs whose response is to be predicted.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    heldout: Vec<PathBuf>,
+    /// What to do with bad rows and cells of recordings.
+    #[arg(long, value_enum, default_value_t)]
+    reading: Reading,
+    /// Write everything as JSON to a file; `-` is standard output, instead of the text.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
+    /// Write the predicted responses of the held-out drives as CSV into this folder.
+    #[arg(long, value_name = "DIR")]
+    predictions: Option<PathBuf>,
+}
+
+/// Diagnoses a case.
+pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
+    let progress = Progress::new(verbose);
+    progress.stage("reading the recordings");
+    let case = read(args)?;
+    let options = Options::default();
+    let stage = |what: &str| progress.stage(what);
+    let diagnosis = match case.robot.causality {
+        Causality::TorqueDriven => torque_driven(&case, &options, &stage)?,
+        Causality::SpeedDriven => speed_driven(&case, &options, &stage)?,
+    };
+    drop(progress);
+
+    let lost = case.lost();
+    if let Some(dir) = &args.predictions {
+        if diagnosis.predictions.is_empty() {
+            warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
+        } else {
+            predictions::write(dir, &diagnosis)?;
+        }
+    }
+    if let Some(target) = &args.json {
+        let provenance = as_json::Provenance {
+            case: &case,
+            lost: &lost,
+            options: &options,
+            mapping: &args.mapping,
+            reading: args.reading,
+        };
+        emit_json(target, &as_json::render(&diagnosis, &provenance)?)?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&as_text::render(&diagnosis, &case, &lost))?;
+    }
+    Ok(Outcome::of(&lost))
+}
+
+/// The case that the arguments name.
+fn read(args: &Args) -> Result<CaseFolder> {
+    let mapping = case_folder::mapping(&args.mapping)?;
+    let options = args.reading.options();
+    if let Some(folder) = &args.case {
+        return CaseFolder::open(folder, args.robot.as_deref(), &mapping, &options);
+    }
+    let Some(robot) = &args.robot else {
+        bail!("no robot was named; do so with --robot");
+    };
+    let paths: [&[PathBuf]; 3] = [&args.reference, &args.recordings, &args.heldout];
+    CaseFolder::from_paths(case_folder::robot(robot)?, paths, &mapping, &options)
+}
+
+fn torque_driven(case: &CaseFolder, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+    Ok(diagnosis::diagnose(&case.torque_driven()?, options, progress)?)
+}
+
+fn speed_driven(_case: &CaseFolder, _options: &Options, _progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+    bail!("speed-driven robots: not wired yet")
+}

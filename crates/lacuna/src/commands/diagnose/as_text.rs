@@ -1,0 +1,141 @@
+//! A diagnosis for people: the verdict first.
+
+use diagnosis::{Cause, Cell, Diagnosis, FreeRun};
+use lacuna::case_folder::CaseFolder;
+
+use crate::commands::listed;
+use crate::console::heading;
+use crate::text_table::{TextTable, number};
+
+/// Rows of each table at most; everything is in the JSON.
+const ROWS: usize = 6;
+/// Causes less probable than this are not shown.
+const SHOWN: f64 = 0.005;
+/// Half the width of a 90 % interval in sigmas of a normal distribution.
+const NINETY: f64 = 1.645;
+/// Intervals shown per cause.
+const INTERVALS: usize = 3;
+
+/// The whole answer.
+pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String]) -> String {
+    let mut out = String::new();
+    for (i, sentence) in d.sentences.iter().enumerate() {
+        out += &if i == 0 { heading(sentence) } else { format!("{sentence}\n") };
+    }
+    out += &causes(&d.ranked);
+    out += &findings(d);
+    out += &cells(&d.cells);
+    out += &free_runs(&d.free_runs);
+    out += &listed("What limits this answer", &d.limits);
+    out += &listed("Lost input", lost);
+    out += &listed("Not used", &not_used(case));
+    out
+}
+
+fn causes(ranked: &[Cause]) -> String {
+    let mut table = TextTable::new(&["cause", ">probability", "magnitude (90 %)", "where and when"]);
+    let certain = |c: &Cause| c.effect == "none" || c.effect == "unknown";
+    let shown = ranked.iter().filter(|c| c.probability >= SHOWN || certain(c));
+    for c in shown.take(ROWS + 2) {
+        table.row([c.name.clone(), probability(c.probability), magnitude(c), place(c)]);
+    }
+    format!("\n{}{}", heading("Causes"), table.render())
+}
+
+fn probability(p: f64) -> String {
+    if p > 0.0 && p < 0.01 {
+        "< 0.01".to_owned()
+    } else if p < 1.0 && p > 0.99 {
+        "> 0.99".to_owned()
+    } else {
+        format!("{p:.2}")
+    }
+}
+
+/// Size with its 90 % interval, with as many digits as that deserves.
+fn magnitude(c: &Cause) -> String {
+    let Some(m) = c.magnitude else { return String::new() };
+    let unit = if c.unit == "-" { String::new() } else { format!(" {}", c.unit) };
+    let Some(half) = c.sigma.map(|s| NINETY * s).filter(|h| *h > 0.0 && h.is_finite()) else {
+        return number(m) + &unit;
+    };
+    let digits = (1 - half.log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{m:.digits$}{unit} [{:.digits$}, {:.digits$}]", m - half, m + half)
+}
+
+fn place(c: &Cause) -> String {
+    let mut parts = Vec::new();
+    if let Some(side) = c.side {
+        parts.push(side.to_owned());
+    }
+    if let Some([x, y, r]) = c.place {
+        parts.push(format!("within {r:.2} m of ({x:.2}, {y:.2}) m"));
+    }
+    let intervals = c.intervals.iter().flatten();
+    let spans: Vec<String> =
+        intervals.flat_map(|(run, spans)| spans.iter().map(move |[a, b]| format!("{run} {a:.1}-{b:.1} s"))).collect();
+    if !spans.is_empty() {
+        let more = spans.len().saturating_sub(INTERVALS);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        parts.push(spans[..spans.len().min(INTERVALS)].join(", ") + &more);
+    }
+    parts.join("; ")
+}
+
+fn findings(d: &Diagnosis) -> String {
+    if d.findings.is_empty() {
+        return String::new();
+    }
+    let mut table = TextTable::new(&["signal", ">ratio", "largest in", "interval"]);
+    for f in d.findings.iter().take(ROWS) {
+        let [from, until] = f.interval;
+        let interval = format!("{from:.1}-{until:.1} s");
+        table.row([f.signal.clone(), format!("{:.1}", f.ratio), f.recording.clone(), interval]);
+    }
+    let title = "Where it shows (mean squared mismatch of the calibrated model over that of the references)";
+    format!("\n{}{}", heading(title), table.render())
+}
+
+fn cells(cells: &[Cell]) -> String {
+    if cells.is_empty() {
+        return String::new();
+    }
+    let mut worst: Vec<&Cell> = cells.iter().collect();
+    worst.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    let mut table = TextTable::new(&["speed, m/s", "turning, rad/s", ">driven, s", ">ratio"]);
+    for c in worst.iter().take(ROWS) {
+        let range = |[a, b]: [f64; 2]| format!("{a} to {b}");
+        table.row([range(c.speed), range(c.turning), format!("{:.0}", c.seconds), format!("{:.1}", c.ratio)]);
+    }
+    format!("\n{}{}", heading("Worst by speed and turning (same ratio)"), table.render())
+}
+
+fn free_runs(runs: &[FreeRun]) -> String {
+    if runs.is_empty() {
+        return String::new();
+    }
+    let mut table = TextTable::new(&["left out", "quantity", ">as it is", ">re-tuned", ">corrected"]);
+    for r in runs {
+        let errors = [r.nominal, r.retuned, r.corrected].map(number);
+        table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(errors));
+    }
+    let title = "Free runs on recordings that were left out of the fit (rms error)";
+    format!("\n{}{}", heading(title), table.render())
+}
+
+/// Files and columns that were there and that nobody asked for.
+fn not_used(case: &CaseFolder) -> Vec<String> {
+    let mut out = Vec::new();
+    for (part, loaded) in case.parts() {
+        if !loaded.ignored.is_empty() {
+            out.push(format!("{part}: {}", loaded.ignored.join(", ")));
+        }
+        let mut columns: Vec<&str> = loaded.reads.iter().flat_map(|r| &r.unused).map(|u| u.column.as_str()).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        if !columns.is_empty() {
+            out.push(format!("{part}: columns {}", columns.join(", ")));
+        }
+    }
+    out
+}

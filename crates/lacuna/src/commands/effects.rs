@@ -1,0 +1,60 @@
+//! `lacuna effects`: the catalogue at a glance.
+
+use anyhow::Result;
+use clap::Args as ClapArgs;
+use robot_model::Card;
+use robot_model::effects::catalogue;
+
+use super::{Outcome, explain};
+use crate::console::{emit, emit_json};
+use crate::text_table::TextTable;
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna effects
+  lacuna effects --json -";
+
+/// Arguments of `lacuna effects`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Write the cards as JSON to a file; `-` is standard output, instead of the table.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
+}
+
+/// The cards of all effects.
+pub(crate) fn cards() -> Vec<&'static Card> {
+    catalogue::<f64>().iter().map(|e| e.card()).collect()
+}
+
+/// Lists the effects.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    if let Some(target) = &args.json {
+        let all = cards().into_iter().map(explain::as_json).collect();
+        emit_json(target, &all)?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&render())?;
+    }
+    Ok(Outcome::Done)
+}
+
+fn render() -> String {
+    let mut table = TextTable::new(&["effect", "name", "kind", "parameters", "revealed by"]);
+    for card in cards() {
+        let parameters: Vec<String> = card
+            .parameters
+            .iter()
+            .map(|p| if p.unit == "-" { p.name.to_owned() } else { format!("{} ({})", p.name, p.unit) })
+            .collect();
+        table.row([
+            card.id.to_owned(),
+            card.name.to_owned(),
+            explain::kind(card).to_owned(),
+            parameters.join(", "),
+            card.revealed_by.to_owned(),
+        ]);
+    }
+    format!("{}\n`lacuna explain EFFECT` tells all about one.\n", table.render())
+}

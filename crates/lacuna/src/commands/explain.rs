@@ -1,0 +1,149 @@
+//! `lacuna explain`: the whole card of one effect.
+
+use anyhow::Result;
+use clap::Args as ClapArgs;
+use lacuna::suggest;
+use robot_model::effect::{Parameter, Redundancy, Scale};
+use robot_model::{Card, Kind, Role};
+use serde_json::{Value, json};
+
+use super::{Outcome, Usage, effects};
+use crate::console::{emit, emit_json, heading};
+use crate::text_table::TextTable;
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna explain payload
+  lacuna explain gyro_bias --json -";
+
+/// Arguments of `lacuna explain`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Id of the effect, as `lacuna effects` lists it.
+    effect: String,
+    /// Write the card as JSON to a file; `-` is standard output, instead of the text.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
+}
+
+/// Explains an effect.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let cards = effects::cards();
+    let id = args.effect.to_lowercase().replace(['-', ' '], "_");
+    let Some(card) = cards.iter().find(|c| c.id == id) else {
+        let ids: Vec<&str> = cards.iter().map(|c| c.id).collect();
+        let hint = suggest::hint(&id, &ids);
+        return Err(Usage(format!("no effect is called `{}`; {hint}", args.effect)).into());
+    };
+    if let Some(target) = &args.json {
+        emit_json(target, &as_json(card))?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&render(card))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// Where in the chain an effect sits.
+pub(crate) const fn kind(card: &Card) -> &'static str {
+    match card.kind {
+        Kind::Physics => "physics",
+        Kind::Command => "command",
+        Kind::Sensor => "sensor",
+    }
+}
+
+const fn role(p: &Parameter) -> &'static str {
+    match p.role {
+        Role::Strength => "strength",
+        Role::Shaped => "strength, not proportional",
+        Role::Shape => "shape",
+    }
+}
+
+/// The unit that bounds and probes are counted in.
+const fn counted_in(p: &Parameter) -> &'static str {
+    match p.scale {
+        Scale::Own => p.unit,
+        Scale::LargestTorque => "largest commanded torque",
+    }
+}
+
+const fn redundancy(card: &Card) -> Option<&'static str> {
+    match card.redundancy {
+        Redundancy::None => None,
+        Redundancy::GyroOffset => Some("gyro less rate of the pose heading: its constant part"),
+        Redundancy::GyroGain => Some("gyro less rate of the pose heading: its part proportional to the rate"),
+        Redundancy::FrozenAngle => Some("wheel angle frozen while moving, then jumping"),
+    }
+}
+
+/// The forms in which the diagnosis looks for it.
+fn wears(card: &Card) -> Vec<&'static str> {
+    let w = card.wears;
+    let all = [
+        (w.everywhere && !w.side, "everywhere, always"),
+        (w.side, "on one side"),
+        (w.onset, "from an instant on"),
+        (w.disc, "at one place on the ground"),
+    ];
+    all.into_iter().filter(|f| f.0).map(|f| f.1).collect()
+}
+
+fn render(card: &Card) -> String {
+    let mut out = heading(&format!("{} ({})", card.name, card.id));
+    let mut line = |key: &str, text: &str| {
+        if !text.is_empty() {
+            out += &format!("  {key:<13}{text}\n");
+        }
+    };
+    line("kind", kind(card));
+    line("law", card.law);
+    line("one sees", card.seen);
+    line("sign", if card.signed { "either" } else { "" });
+    line("axes", &card.axes.join(", "));
+    line("looked for", &wears(card).join("; "));
+    line("revealed by", card.revealed_by);
+    line("resembles", card.resembles);
+    line("shows in", redundancy(card).unwrap_or_default());
+    let unit = card.strengths().next().map_or("-", |i| card.parameters[i].unit);
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    if card.interest > 0.0 {
+        line("matters from", &format!("{}{unit}", card.interest));
+    }
+    line("source", card.source);
+    let mut table = TextTable::new(&["parameter", "unit", ">lowest", ">highest", ">neutral", "role", "bounds in"]);
+    for p in card.parameters {
+        table.row([
+            p.name.to_owned(),
+            p.unit.to_owned(),
+            p.bounds[0].to_string(),
+            p.bounds[1].to_string(),
+            p.neutral.to_string(),
+            role(p).to_owned(),
+            counted_in(p).to_owned(),
+        ]);
+    }
+    out + "\n" + &table.render()
+}
+
+/// The card as JSON.
+pub(crate) fn as_json(card: &Card) -> Value {
+    let parameters: Vec<Value> = card
+        .parameters
+        .iter()
+        .map(|p| {
+            json!({
+                "name": p.name, "unit": p.unit, "role": role(p), "bounds": p.bounds, "neutral": p.neutral,
+                "probes": p.probes, "bounds_in": counted_in(p),
+            })
+        })
+        .collect();
+    json!({
+        "id": card.id, "name": card.name, "kind": kind(card), "law": card.law, "seen": card.seen,
+        "parameters": parameters, "signed": card.signed, "axes": card.axes, "looked_for": wears(card),
+        "redundancy": redundancy(card), "interest": card.interest, "revealed_by": card.revealed_by,
+        "resembles": card.resembles, "source": card.source,
+    })
+}

@@ -1,0 +1,90 @@
+//! The commands, one file each.
+
+use clap::ValueEnum;
+use recordings::{Policy, ReadOptions, Source};
+use serde_json::{Value, json};
+
+pub(crate) mod diagnose;
+pub(crate) mod effects;
+pub(crate) mod explain;
+pub(crate) mod identify;
+
+/// How a command that did not fail ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// All input was used.
+    Done,
+    /// Done, but some input was lost.
+    InputLost,
+}
+
+impl Outcome {
+    /// By what was lost.
+    pub(crate) fn of(lost: &[String]) -> Self {
+        if lost.is_empty() { Self::Done } else { Self::InputLost }
+    }
+}
+
+/// Arguments that make no sense: exit code 2, as for those that clap refuses.
+#[derive(Debug)]
+pub(crate) struct Usage(pub(crate) String);
+
+impl std::fmt::Display for Usage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Usage {}
+
+/// What to do with bad rows and cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Reading {
+    /// Refuse everything that would be lost inside a file.
+    Strict,
+    /// Skip and count broken rows; refuse text in numbers and time running backwards.
+    #[default]
+    Normal,
+    /// Skip and count these too.
+    Tolerant,
+}
+
+impl Reading {
+    /// As `recordings` takes it.
+    pub(crate) fn options(self) -> ReadOptions {
+        let policy = match self {
+            Self::Strict => Policy::Strict,
+            Self::Normal => Policy::Normal,
+            Self::Tolerant => Policy::Tolerant,
+        };
+        ReadOptions { policy }
+    }
+
+    /// As on the command line.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Strict => "strict",
+            Self::Normal => "normal",
+            Self::Tolerant => "tolerant",
+        }
+    }
+}
+
+/// Files with their SHA-256.
+pub(crate) fn sources(sources: &[Source]) -> Vec<Value> {
+    let one = |s: &Source| json!({ "name": s.name, "bytes": s.bytes, "sha256": s.sha256 });
+    sources.iter().map(one).collect()
+}
+
+/// Program and version that wrote a JSON.
+pub(crate) fn program() -> Value {
+    json!({ "name": "lacuna", "version": env!("CARGO_PKG_VERSION") })
+}
+
+/// A list of sentences under a heading; nothing when there are none.
+pub(crate) fn listed(heading: &str, sentences: &[String]) -> String {
+    if sentences.is_empty() {
+        return String::new();
+    }
+    format!("\n{}  - {}\n", crate::console::heading(heading), sentences.join("\n  - "))
+}

@@ -1,0 +1,201 @@
+//! Recordings, mappings and robots read from disk.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use recordings::{Group, GroupFile, Input, Loss, Mapping, Read, ReadOptions, Source};
+
+use crate::robot_file::RobotSpec;
+
+/// Recordings read from files, with what was lost.
+#[derive(Debug, Default)]
+pub struct Loaded {
+    /// Recordings in the order of their names.
+    pub reads: Vec<Read>,
+    /// What could not be read.
+    pub losses: Vec<Loss>,
+    /// Files and their SHA-256.
+    pub sources: Vec<Source>,
+    /// Files that were meant to be read and that no entry of the mapping fits: a loss.
+    pub unmatched: Vec<String>,
+    /// Other things in the folders, which were not read: no loss, worth telling.
+    pub ignored: Vec<String>,
+}
+
+impl Loaded {
+    /// What was lost, in sentences.
+    pub fn lost(&self) -> impl Iterator<Item = String> + '_ {
+        let unmatched = self
+            .unmatched
+            .iter()
+            .map(|f| format!("{f}: not read: it fits no pattern of the mapping, or stands there twice"));
+        self.losses.iter().map(ToString::to_string).chain(unmatched)
+    }
+}
+
+/// A mapping: a built-in one by name, or a TOML file.
+///
+/// # Errors
+/// When it can be neither found nor parsed.
+pub fn mapping(name: &str) -> Result<Mapping> {
+    let path = Path::new(name);
+    if path.exists() {
+        let text = fs::read_to_string(path).with_context(|| format!("cannot read mapping '{name}'"))?;
+        return Ok(Mapping::parse(name, &text)?);
+    }
+    ensure!(!is_path(name), "there is no mapping file '{name}'");
+    Ok(Mapping::built_in(name)?)
+}
+
+/// A robot: a file, or a built-in one by name.
+///
+/// # Errors
+/// When it can be neither found nor parsed.
+pub fn robot(name: &str) -> Result<RobotSpec> {
+    let path = Path::new(name);
+    if path.exists() {
+        let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
+        return Ok(RobotSpec::parse(name, &text)?);
+    }
+    ensure!(!is_path(name), "there is no robot file '{name}'");
+    Ok(RobotSpec::built_in(name)?)
+}
+
+/// Whether a name can only be meant as a file: no built-in name has a slash or ends so.
+fn is_path(name: &str) -> bool {
+    let ends = [".toml", ".json"].iter().any(|e| name.ends_with(e));
+    ends || name.contains(['/', '\\'])
+}
+
+/// What the given paths hold.
+#[derive(Default)]
+struct Files {
+    /// Files to be read.
+    meant: Vec<String>,
+    /// What else lies in the folders.
+    ignored: Vec<String>,
+}
+
+/// All files below `paths` (a folder's files, or a file itself), sorted within each folder.
+///
+/// In a folder, a file is meant when it fits the mapping or ends like something that does; notes beside are not.
+fn files(mapping: &Mapping, paths: &[PathBuf]) -> Result<Files> {
+    let endings: BTreeSet<&str> =
+        mapping.files.iter().filter_map(|f| f.pattern.rsplit_once('.').map(|(_, end)| end)).collect();
+    let mut out = Files::default();
+    for path in paths {
+        if !path.is_dir() {
+            let shown = path.display();
+            ensure!(path.exists(), "there is no file or folder '{shown}'; give a recording, or a folder of recordings");
+            out.meant.push(shown.to_string());
+            continue;
+        }
+        let mut inside = fs::read_dir(path)
+            .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
+            .with_context(|| format!("cannot list '{}'", path.display()))?;
+        inside.sort_by_key(std::fs::DirEntry::file_name);
+        for entry in inside {
+            let file = entry.path();
+            let name = file.display().to_string();
+            if entry.file_name().as_encoded_bytes().starts_with(b".") {
+                continue;
+            }
+            let ending = file.extension().and_then(|e| e.to_str()).unwrap_or_default();
+            let fits = mapping.files.iter().any(|f| f.run_id(&name).is_some());
+            let meant = fits || endings.iter().any(|e| e.eq_ignore_ascii_case(ending));
+            let list = if file.is_file() && meant { &mut out.meant } else { &mut out.ignored };
+            list.push(name);
+        }
+    }
+    Ok(out)
+}
+
+/// Adds the files of a run that were not named but lie where they should: naming one of a pair is enough.
+fn complete(group: &mut Group, mapping: &Mapping) {
+    for name in std::mem::take(&mut group.missing) {
+        let entry = mapping.files.iter().position(|f| f.run_id(&name).is_some());
+        match entry.filter(|_| Path::new(&name).is_file()) {
+            Some(entry) => group.files.push(GroupFile { entry, name }),
+            None => group.missing.push(name),
+        }
+    }
+}
+
+/// Names of the runs: the file's alone, since labels in folder names are no evidence; with the folder where two runs
+/// would be called the same.
+fn run_names(groups: &[Group]) -> Vec<String> {
+    let last = |run: &str, parts: usize| {
+        let all: Vec<&str> = run.split(['/', '\\']).filter(|p| !p.is_empty()).collect();
+        all[all.len().saturating_sub(parts)..].join("/")
+    };
+    let mut names: Vec<String> = groups.iter().map(|g| last(&g.run, 1)).collect();
+    for parts in 2..=usize::MAX {
+        let mut count: BTreeMap<&str, usize> = BTreeMap::new();
+        for name in &names {
+            *count.entry(name).or_default() += 1;
+        }
+        let longer: Vec<String> = names
+            .iter()
+            .zip(groups)
+            .map(|(name, g)| if count[name.as_str()] > 1 { last(&g.run, parts) } else { name.clone() })
+            .collect();
+        if longer == names {
+            break;
+        }
+        names = longer;
+    }
+    names
+}
+
+/// Reads every recording in files and folders.
+///
+/// # Errors
+/// The first file that cannot be read, or none at all.
+pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Loaded> {
+    let files = files(mapping, paths)?;
+    let mut grouping = mapping.group(&files.meant);
+    let mut out = Loaded { unmatched: grouping.unmatched, ignored: files.ignored, ..Loaded::default() };
+    for group in &mut grouping.groups {
+        complete(group, mapping);
+    }
+    let names = run_names(&grouping.groups);
+    for (group, run) in grouping.groups.iter().zip(&names) {
+        let bytes = group
+            .files
+            .iter()
+            .map(|f| fs::read(&f.name).with_context(|| format!("cannot read '{}'", f.name)))
+            .collect::<Result<Vec<_>>>()?;
+        let inputs: Vec<Input<'_>> =
+            group.files.iter().zip(&bytes).map(|(f, b)| Input { name: &f.name, bytes: b }).collect();
+        let read = recordings::read(mapping, run, &inputs, options)?;
+        out.losses.extend(read.losses.iter().cloned());
+        out.sources.extend(read.sources.iter().cloned());
+        out.reads.push(read);
+    }
+    if out.reads.is_empty() {
+        let quoted: Vec<String> = paths.iter().map(|p| format!("'{}'", p.display())).collect();
+        let patterns: Vec<&str> = mapping.files.iter().map(|f| f.pattern.as_str()).collect();
+        bail!(
+            "no file in {} fits the mapping '{}' ({}); put recordings there, or name another mapping with --mapping",
+            quoted.join(", "),
+            mapping.name,
+            patterns.join(", ")
+        );
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_take_as_much_of_their_path_as_tells_them_apart() {
+        let group = |run: &str| Group { run: run.to_owned(), files: vec![], missing: vec![] };
+        let names = run_names(&[group("a/x/01"), group("a/y/01"), group("a/y/02"), group("01")]);
+        assert_eq!(names, ["x/01", "y/01", "02", "01"]);
+        assert_eq!(run_names(&[group("01"), group("01")]), ["01", "01"]);
+    }
+}

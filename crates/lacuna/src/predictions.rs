@@ -1,0 +1,41 @@
+//! Predicted responses of held-out drives as CSV.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use diagnosis::{Diagnosis, Prediction};
+
+/// Writes `DIR/<drive>.csv` (corrected) and `DIR/<drive>.nominal.csv` (calibrated, without the effect).
+///
+/// # Errors
+/// When the folder or a file cannot be written.
+pub fn write(dir: &Path, diagnosis: &Diagnosis) -> Result<()> {
+    fs::create_dir_all(dir).with_context(|| format!("cannot create '{}'", dir.display()))?;
+    for (corrected, plain) in &diagnosis.predictions {
+        let stem = file_stem(&corrected.name);
+        save(&dir.join(format!("{stem}.csv")), &csv(corrected))?;
+        save(&dir.join(format!("{stem}.nominal.csv")), &csv(plain))?;
+    }
+    Ok(())
+}
+
+/// A drive's name without what would lead into another folder.
+fn file_stem(name: &str) -> String {
+    name.replace(['/', '\\'], "_")
+}
+
+fn csv(p: &Prediction) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from("time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,yaw_rate_rad_s\n");
+    for ((t, w), y) in p.time.iter().zip(&p.wheel_speed).zip(&p.yaw_rate) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{t:.4},{:.5},{:.5},{y:.6}", w[0], w[1]);
+    }
+    out
+}
+
+/// Writes a text file.
+pub(crate) fn save(path: &Path, text: &str) -> Result<()> {
+    fs::write(path, text).with_context(|| format!("cannot write '{}'", path.display()))
+}

@@ -1,0 +1,67 @@
+//! A control loop as it would run on a robot: plant, controller and identifier in single precision,
+//! without the standard library and without an allocator.
+//!
+//! A static library is a final product: if any crate below asked for `alloc`, rustc would refuse to build it
+//! ("no global memory allocator found"), and if any asked for `std`, the panic handler would be defined twice.
+#![no_std]
+
+use core::panic::PanicInfo;
+
+use controller::{Gains, Loop, LoopPath, PathReference, Tracking, WheelState};
+use identifier::{Identifier, Midpoint};
+use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
+use robot_model::paper::{self, PaperRobot, Parameters};
+use robot_model::{Active, Plant, Presence, Robot, State, effects};
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    loop {}
+}
+
+/// Kept by the linker, so that nothing below is thrown away.
+#[used]
+static KEPT: [extern "C" fn(f32) -> f32; 4] = [plant, paper_plant, identify, control];
+
+/// One step of the plant with every effect of the catalogue at its neutral value.
+extern "C" fn plant(torque: f32) -> f32 {
+    let Ok(robot) = Robot::<f32>::from(&Parameters::SET_B).checked() else { return f32::NAN };
+    let all = effects::catalogue::<f32>().map(|e| Active::new(e, &[], Presence::default()));
+    let plant = Plant::new(&robot, &all, 1e-3);
+    let mut state = State::default();
+    plant.step(&mut state, [torque; 2]);
+    plant.step_at_speed(&mut state, [torque; 2], [0.0; 2]);
+    let mut readings = plant.readings(&state);
+    plant.sense(&mut readings);
+    readings.velocity[0] + readings.torque[0]
+}
+
+/// The rate of the paper's robot.
+extern "C" fn paper_plant(torque: f32) -> f32 {
+    let Ok(robot) = PaperRobot::<f32>::new(&Parameters::SET_B) else { return f32::NAN };
+    robot.rate(&paper::State::default(), [torque; 2]).speed[0]
+}
+
+/// One step of the identifier on a sigmoid basis, with its certificate.
+extern "C" fn identify(x: f32) -> f32 {
+    let (Ok(layer), Ok(law)) = (layer::<2>(), Midpoint::new(500.0)) else { return f32::NAN };
+    let phi = layer.regressor(&[x; 2]);
+    let mut net = LinearNet::<f32, 4, 1>::default();
+    net.adapt(0, &phi, 0.1, 0.0);
+    let Ok(mut identifier) = Identifier::new(8.0, law, x) else { return f32::NAN };
+    let step = identifier.step(x, x + 1e-3, &phi, 1e-3);
+    identifier.certificate(&step, &[0.0; 4]).residual + net.output(&phi)[0]
+}
+
+/// One step of the tracking controller.
+extern "C" fn control(speed: f32) -> f32 {
+    let (Ok(layer), Ok(path)) = (layer::<4>(), LoopPath::new(&Loop::default())) else { return f32::NAN };
+    let gains = Gains::for_robot(&Parameters::SET_B, 100.0);
+    let reference = PathReference::new(path);
+    let Ok(mut controller) = Tracking::<f32, _, 4>::new(&gains, layer, reference) else { return f32::NAN };
+    let measured = WheelState { x: 0.0, y: 0.0, yaw: 0.0, angle: [0.0; 2], speed: [speed; 2] };
+    controller.step(&measured, 1e-3).torque[0]
+}
+
+fn layer<const I: usize>() -> Result<SigmoidLayer<f32, I, 4>, nn_basis::BasisError> {
+    SigmoidLayer::new([0.1, 0.2, 0.3, 0.4], [[0.5; I]; 4], [1.0; I], Activation::Logistic)
+}
