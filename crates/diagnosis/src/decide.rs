@@ -35,10 +35,6 @@ pub(crate) struct Decision {
     pub(crate) scored: Vec<Scored>,
     pub(crate) none: f64,
     pub(crate) unknown: f64,
-    /// How far the best is above the healthy misfit, ln.
-    pub(crate) excess: f64,
-    /// Share of the mismatch that the best leaves.
-    pub(crate) left: f64,
 }
 
 /// Penalty of a hypothesis.
@@ -103,5 +99,5 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found) -> Decision {
     for s in &mut scored {
         s.probability = (1.0 - unknown) * weight(s.score) / sum;
     }
-    Decision { scored, none: (1.0 - unknown) * weight(NONE) / sum, unknown, excess, left }
+    Decision { scored, none: (1.0 - unknown) * weight(NONE) / sum, unknown }
 }

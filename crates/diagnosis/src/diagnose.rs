@@ -9,7 +9,7 @@ use robot_model::tunable::{COUNT as NUISANCES, tunables};
 use crate::calibrate::{Calibration, calibrate};
 use crate::case::Case;
 use crate::decide::{Decision, Scored, decide, healthy_cost};
-use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem, tuned};
+use crate::fit::{Fitted, Hypothesis, Point, Problem, tuned};
 use crate::hypothesis::{Place, Variant};
 use crate::linalg::solve_spd;
 use crate::locate;
@@ -17,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::search;
-use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
+use crate::verdict::{Cause, Diagnosis, FreeRun, Trial, Verdict};
 use crate::windows::{Cut, CutOptions, GyroError, cut};
 use crate::words;
 use crate::{DiagnosisError, Options};
@@ -246,27 +246,21 @@ impl Answer<'_> {
         )
     }
 
-    /// When any wheel was inside the disc, in each recording.
+    /// When the geometric centre was inside the disc, in each recording.
     fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
-        let robot = self.problem.robot;
-        let (a, b) = (robot.half_wheelbase, robot.half_track);
+        /// Parts of a window in which the path is straight enough.
+        const FINE: usize = 5;
         let mut out = BTreeMap::new();
         for cut in self.problem.cuts {
             let window = cut.rows_per_window as f64 * cut.period;
             let mut list: Vec<[f64; 2]> = Vec::new();
-            let fine = 5;
-            for w in 0..cut.path.len().saturating_sub(1) {
-                for i in 0..fine {
-                    let f = (f64::from(i) + 0.5) / f64::from(fine);
-                    let (p, q) = (cut.path[w], cut.path[w + 1]);
-                    let at: [f64; 3] = std::array::from_fn(|k| p[k] * (1.0 - f) + q[k] * f);
-                    let (s, c) = at[2].sin_cos();
-                    let touched = [[a, b], [a, -b], [-a, b], [-a, -b]].iter().any(|[x, y]| {
-                        (at[0] + c * x - s * y - disc[0]).hypot(at[1] + s * x + c * y - disc[1]) < disc[2]
-                    });
-                    if touched {
-                        let from = (w as f64 + f64::from(i) / f64::from(fine)) * window;
-                        let until = from + window / f64::from(fine);
+            for (w, ends) in cut.path.windows(2).enumerate() {
+                for i in 0..FINE {
+                    let f = (i as f64 + 0.5) / FINE as f64;
+                    let at = |k: usize| ends[0][k] * (1.0 - f) + ends[1][k] * f;
+                    if (at(0) - disc[0]).hypot(at(1) - disc[1]) < disc[2] {
+                        let from = (w as f64 + i as f64 / FINE as f64) * window;
+                        let until = from + window / FINE as f64;
                         match list.last_mut() {
                             Some(last) if from - last[1] < 1e-6 => last[1] = until,
                             _ => list.push([from, until]),
@@ -385,6 +379,8 @@ impl Answer<'_> {
             free_runs: self.free_runs(),
             unexplained,
             limits: self.limits(),
+            trials: self.trials(retuned),
+            costs: [p.misfit(&calibrated), retuned.cost, healthy],
             screened,
             tuning,
             steady: None,
@@ -394,8 +390,19 @@ impl Answer<'_> {
         out
     }
 
+    fn trials(&self, retuned: &Fitted) -> Vec<Trial> {
+        let row = |s: &Scored| Trial {
+            hypothesis: s.trial.hypothesis.parts.iter().map(|(v, _)| v.label()).collect(),
+            gain: retuned.cost - s.trial.fitted.cost,
+            score: s.score,
+            probability: s.probability,
+            values: s.trial.fitted.point.effects.clone(),
+        };
+        self.decision.scored.iter().map(row).collect()
+    }
+
     /// Effects of the same kind of probability as the best: these recordings cannot tell them apart.
-    fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<String> {
+    fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<Vec<String>> {
         if verdict != Verdict::Explained {
             return Vec::new();
         }
@@ -413,7 +420,10 @@ impl Answer<'_> {
             .filter(|c| c.probability > RIVAL * best && c.probability < SURE)
             .map(|c| c.effect.clone())
             .collect();
-        if rivals.is_empty() { rivals } else { members.iter().map(|m| (*m).to_owned()).chain(rivals).collect() }
+        if rivals.is_empty() {
+            return Vec::new();
+        }
+        vec![members.iter().map(|m| (*m).to_owned()).chain(rivals).collect()]
     }
 
     fn limits(&self) -> Vec<String> {

@@ -36,4 +36,4 @@ pub use options::Options;
 pub use predict::Prediction;
 pub use run::Run;
 pub use steady::{SteadyCase, diagnose_steady};
-pub use verdict::{Cause, Cell, Diagnosis, Finding, FreeRun, Verdict};
+pub use verdict::{Cause, Cell, Diagnosis, Finding, FreeRun, Trial, Verdict};

@@ -190,64 +190,6 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), MORE_STEPS);
     }
     best_first(&mut singles);
-    if std::env::var_os("LACUNA_TRACE").is_some() {
-        eprintln!(
-            "origin {:.1} retuned {:.1} healthy {:.1}",
-            origin.cost,
-            retuned.cost,
-            crate::decide::healthy_cost(problem)
-        );
-        for c in first.iter().take(12) {
-            eprintln!("  1st {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start);
-        }
-        for c in second.iter().take(12) {
-            eprintln!("  2nd {:30} {:9.1} {:?}", c.variant.label(), c.evidence, c.start);
-        }
-        for t in &singles {
-            eprintln!(
-                "  fit {:30} {:9.1} {:?}",
-                t.hypothesis.parts[0].0.label(),
-                retuned.cost - t.fitted.cost,
-                t.fitted.point.effects
-            );
-        }
-    }
-    if let Ok(t) = std::env::var("LACUNA_TRY") {
-        let (label, vals) = t.split_once(':').unwrap();
-        let e: Vec<f64> = vals.split(',').map(|x| x.parse().unwrap()).collect();
-        let v = *all.iter().find(|v| v.label() == label).unwrap();
-        let h = Hypothesis::single(v, vec![]);
-        let b = begin(problem, &h, &origin.point, &e, &origin);
-        eprintln!("TRY at {:.1}", b.cost);
-        for (i, c) in crate::locate::findings(problem, &b.response).iter().enumerate() {
-            eprintln!("  {i} {c:?}");
-        }
-        let f = problem.refine(&h, b.clone(), 8, Some(2));
-        eprintln!("TRY refined {:.1} {:?} theta {:.2?}", f.cost, f.point.effects, f.point.theta);
-        for s in 1..4 {
-            let seg = &problem.cuts[0].segments[s];
-            for w in 0..seg.windows {
-                let k = w * 7;
-                let row = seg.row + w * 10;
-                eprintln!(
-                    "t {:.1} T {:.2?} obs {:.2?} pred {:.2?}",
-                    row as f64 * 0.01,
-                    problem.cuts[0].torque[row],
-                    &seg.observed[k..k + 7],
-                    &b.response[0][s][k..k + 7]
-                );
-            }
-        }
-        for r in 0..problem.cuts.len() {
-            eprintln!(
-                "{}: {:?}",
-                problem.cuts[r].name,
-                (0..problem.cuts[r].segments.len())
-                    .map(|s| (problem.q(r, s, &f.response) / problem.cuts[r].segments[s].count * 10.0).round() / 10.0)
-                    .collect::<Vec<_>>()
-            );
-        }
-    }
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
     if let Some(top) = singles.first()
         && retuned.cost - top.fitted.cost < 25.0

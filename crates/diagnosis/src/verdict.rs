@@ -86,6 +86,21 @@ pub struct Cell {
     pub ratio: f64,
 }
 
+/// A hypothesis that was fitted in free run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Trial {
+    /// Its effects, with side, axis and place.
+    pub hypothesis: Vec<String>,
+    /// Fall of the cost below "re-tune only", nats.
+    pub gain: f64,
+    /// Gain less penalties, nats.
+    pub score: f64,
+    /// Its share of the probability.
+    pub probability: f64,
+    /// Fitted values in the order of the cards, then disc (x, y, radius).
+    pub values: Vec<f64>,
+}
+
 /// The answer to a case.
 #[derive(Debug, Clone, Serialize)]
 pub struct Diagnosis {
@@ -97,8 +112,8 @@ pub struct Diagnosis {
     pub sentences: Vec<String>,
     /// Causes, "none" and "unknown" by probability.
     pub ranked: Vec<Cause>,
-    /// Effects that these recordings cannot tell apart.
-    pub indistinguishable: Vec<String>,
+    /// Classes of effects that these recordings cannot tell apart, one for each missing effect; the best first.
+    pub indistinguishable: Vec<Vec<String>>,
     /// Where the mismatch shows.
     pub findings: Vec<Finding>,
     /// Mismatch by speed and turning.
@@ -109,6 +124,10 @@ pub struct Diagnosis {
     pub unexplained: Option<f64>,
     /// What limits the answer.
     pub limits: Vec<String>,
+    /// Hypotheses that were fitted, best first.
+    pub trials: Vec<Trial>,
+    /// Cost of the recordings when calibrated, when re-tuned, when healthy: nats.
+    pub costs: [f64; 3],
     /// Evidence of the screen per effect, nats.
     pub screened: Vec<(String, f64)>,
     /// Constants of the robot as re-tuned together with the named effects, relative to sigma.

@@ -78,13 +78,18 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
-    if !d.indistinguishable.is_empty() {
-        out.push(format!("These recordings cannot tell apart: {}.", d.indistinguishable.join(", ")));
+    for class in &d.indistinguishable {
+        out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
     }
     if let Some(u) = d.unexplained.filter(|_| d.verdict == Verdict::Explained) {
         out.push(format!("{:.0} % of the mismatch is still unexplained.", 100.0 * u));
     }
     out
+}
+
+/// The drive that reveals an effect best.
+fn revealed_by(id: &str) -> Option<&'static str> {
+    robot_model::effects::catalogue::<f64>().iter().map(|e| e.card()).find(|c| c.id == id).map(|c| c.revealed_by)
 }
 
 /// The answer of a speed-driven case in sentences.
@@ -98,13 +103,18 @@ pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bo
         }
         Verdict::Explained => {
             let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
-            if d.indistinguishable.is_empty() {
-                if let Some(c) = d.ranked.first() {
-                    out.push(format!("Missing: {}, {} (probability {:.2}).", c.name, quantity(c), c.probability));
+            for class in &d.indistinguishable {
+                let names: Vec<String> = class.iter().map(|i| name(i)).collect();
+                let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
+                let tail = if names.len() > 1 {
+                    "; these recordings cannot tell them apart".to_owned()
+                } else {
+                    format!(", {size}")
+                };
+                out.push(format!("Missing: {}{tail}.", names.join(" or ")));
+                if let Some(drive) = class.get(1).and_then(|id| revealed_by(id)) {
+                    out.push(format!("To tell them apart, record: {drive}."));
                 }
-            } else {
-                let names: Vec<String> = d.indistinguishable.iter().map(|i| name(i)).collect();
-                out.push(format!("Missing: {}; these recordings cannot tell them apart.", names.join(" or ")));
             }
         }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Parser, ValueEnum};
-use examiner::{Mix, RobotClass, Settings, TyreLaw, set};
+use examiner::{Mix, RobotClass, Setting, Settings, TyreLaw, set};
 
 #[derive(Parser)]
 struct Args {
@@ -35,6 +35,9 @@ struct Args {
     /// Tyre law; both in turn if not given.
     #[arg(long, value_enum)]
     law: Option<Law>,
+    /// Only normal or only weak cases; half and half if not given.
+    #[arg(long, value_enum)]
+    setting: Option<Strength>,
     /// Leave out the pose.
     #[arg(long)]
     no_pose: bool,
@@ -59,6 +62,12 @@ enum Law {
     Pacejka,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum Strength {
+    Normal,
+    Weak,
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args = Args::parse();
     let settings = Settings {
@@ -73,6 +82,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         law: args.law.map(|law| match law {
             Law::Brush => TyreLaw::Brush,
             Law::Pacejka => TyreLaw::Pacejka,
+        }),
+        setting: args.setting.map(|setting| match setting {
+            Strength::Normal => Setting::Normal,
+            Strength::Weak => Setting::Weak,
         }),
         pose: !args.no_pose,
         accelerometer: !args.no_accel,

@@ -61,7 +61,8 @@ impl Case {
             effects: hidden.effects.clone(),
             recordings: hidden.truths.clone(),
             heldout: std::collections::BTreeMap::new(),
-            setting: settings.setting.name().to_owned(),
+            setting: draw.setting.name().to_owned(),
+            robot: draw.robot.against(&draw.nominal),
             below_noise: hidden.below_noise,
         };
         for (i, run) in heldout.iter().enumerate() {

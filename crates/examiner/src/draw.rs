@@ -21,6 +21,7 @@ const ATTEMPTS: u64 = 8;
 pub(crate) struct Draw<'a> {
     pub seed: u64,
     pub law: TyreLaw,
+    pub setting: Setting,
     pub nominal: Constants,
     pub robot: Constants,
     pub sheet: Sheet,
@@ -81,12 +82,16 @@ impl<'a> Draw<'a> {
         let brush = s.unit() < 0.5;
         let drawn = if brush { TyreLaw::Brush } else { TyreLaw::Pacejka };
         let law = settings.law.unwrap_or(drawn);
+        let weak = Stream::new(seed, "setting", 0).unit() < 0.5;
+        let drawn = if weak { Setting::Weak } else { Setting::Normal };
+        let setting = settings.setting.unwrap_or(drawn);
         let nominal = Constants::nominal(seed, settings.class, law);
         let recordings = settings.recordings.unwrap_or(3 + s.index(2));
         let drives = kinds(&mut s, settings.references);
         Ok(Self {
             seed,
             law,
+            setting,
             robot: nominal.truth(seed),
             nominal,
             sheet: Sheet::new(settings),
@@ -100,7 +105,7 @@ impl<'a> Draw<'a> {
 
     fn run(&self, name: &str, i: usize, kinds: [Manoeuvre; 2], h: &Hidden, rows: usize) -> Run {
         let seed = key(self.seed, name, i as u64);
-        let spread = match self.settings.setting {
+        let spread = match self.setting {
             Setting::Normal => 1.0,
             Setting::Weak => 2.5,
         };
@@ -193,7 +198,7 @@ impl<'a> Draw<'a> {
         let sizing = Sizing {
             robot: &self.nominal,
             severity,
-            setting: self.settings.setting,
+            setting: self.setting,
             // Later draws are a little larger, so that drowned effects come up.
             factor: self.settings.size * (1.0 + 0.05 * attempt as f64),
             peak_torque,

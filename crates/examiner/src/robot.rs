@@ -1,5 +1,7 @@
 //! The robot as its user knows it, and the true one, which differs within the stated sigmas.
 
+use std::collections::BTreeMap;
+
 use crate::random::Stream;
 use crate::{RobotClass, TyreLaw};
 
@@ -164,12 +166,12 @@ impl Constants {
         c.centre = [s.normal(SIGMAS.centre), s.normal(SIGMAS.centre)];
         c.peak_slip = match c.law {
             TyreLaw::Brush => s.uniform(0.14, 0.24),
-            TyreLaw::Pacejka => s.uniform(0.12, 0.22),
+            TyreLaw::Pacejka => s.uniform(0.1, 0.18),
         };
         c.side_slip = s.uniform(0.92, 1.15);
         c.lateral = s.normal(0.04).exp();
         c.load_loss = s.uniform(0.01, 0.04);
-        c.sliding_loss = s.uniform(0.02, 0.06);
+        c.sliding_loss = s.uniform(0.02, 0.05);
         c.relaxation = self.radius * s.uniform(0.1, 0.3);
         c.load_lag = s.uniform(0.02, 0.05);
         c.presliding = s.uniform(0.008, 0.02);
@@ -186,6 +188,32 @@ impl Constants {
         let viscous = off(0.004);
         c.viscous = c.viscous.map(|v| v * viscous);
         c
+    }
+
+    /// What sets this robot apart from the one its user knows, by name.
+    pub(crate) fn against(&self, n: &Self) -> BTreeMap<&'static str, f64> {
+        BTreeMap::from([
+            ("mass", self.mass / n.mass),
+            ("yaw_inertia", self.yaw_inertia / n.yaw_inertia),
+            ("com_height", self.height / n.height),
+            ("com_x_m", self.centre[0]),
+            ("com_y_m", self.centre[1]),
+            ("adhesion", self.adhesion / n.adhesion),
+            ("rolling_resistance", self.rolling / n.rolling),
+            ("coulomb_left", self.coulomb[0] / n.coulomb[0]),
+            ("coulomb_right", self.coulomb[1] / n.coulomb[1]),
+            ("viscous", self.viscous[0] / n.viscous[0]),
+            ("torque_constant", self.torque_gain),
+            ("motor_inertia", self.motor_inertia / n.motor_inertia),
+            ("slip_at_peak", self.peak_slip),
+            ("slip_at_peak_sideways", self.peak_slip * self.side_slip),
+            ("lateral_friction", self.lateral),
+            ("friction_loss_with_load", self.load_loss),
+            ("friction_loss_sliding", self.sliding_loss),
+            ("relaxation_m", self.relaxation),
+            ("load_lag_s", self.load_lag),
+            ("presliding_rad", self.presliding),
+        ])
     }
 
     /// Half the weight times the radius: the scale of a side's torque.

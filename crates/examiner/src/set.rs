@@ -76,7 +76,7 @@ pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
             content,
             severity: Some(severity),
             law: settings.law.or(Some([TyreLaw::Brush, TyreLaw::Pacejka][i % 2])),
-            setting: [settings.setting, Setting::Weak][i / 2 % 2],
+            setting: settings.setting.or(Some([Setting::Normal, Setting::Weak][i / 2 % 2])),
             ..settings.clone()
         })
         .collect();

@@ -81,8 +81,8 @@ pub struct Settings {
     pub content: Content,
     /// Its severity; drawn if not given.
     pub severity: Option<Severity>,
-    /// Normal or weak.
-    pub setting: Setting,
+    /// Normal or weak; drawn if not given.
+    pub setting: Option<Setting>,
     /// The tyre law of the true robot; drawn if not given.
     pub law: Option<TyreLaw>,
     /// The size of the robot.
@@ -115,7 +115,7 @@ impl Default for Settings {
         Self {
             content: Content::AnySingle,
             severity: None,
-            setting: Setting::Normal,
+            setting: None,
             law: None,
             class: RobotClass::Medium,
             row_rate_hz: 100.0,

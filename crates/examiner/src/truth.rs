@@ -139,6 +139,8 @@ pub struct Truth {
     pub heldout: BTreeMap<String, HeldoutTruth>,
     /// `normal` or `weak`.
     pub setting: String,
+    /// The true robot without what is hidden; ratios to the user's value where there is one.
+    pub robot: BTreeMap<&'static str, f64>,
     /// Whether no draw reached the asked excess over the noise.
     pub below_noise: bool,
 }

@@ -17,6 +17,7 @@ fn short(content: Content) -> Settings {
         heldout: 1,
         least_excess: 0.0,
         law: Some(TyreLaw::Brush),
+        setting: Some(Setting::Normal),
         ..Settings::default()
     }
 }
@@ -161,7 +162,7 @@ fn rates_classes_and_missing_sensors_are_as_asked() {
             class,
             pose: false,
             accelerometer: false,
-            setting: Setting::Weak,
+            setting: Some(Setting::Weak),
             duration_s: 8.0,
             ..short(Content::Null)
         };

@@ -134,6 +134,34 @@ impl CaseFolder {
     }
 }
 
+impl CaseFolder {
+    /// The case as the diagnosis takes it, for a speed-driven robot.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed, or a robot file without torque per current.
+    pub fn speed_driven(&self) -> Result<diagnosis::SteadyCase> {
+        let [torque_per_current, _] = self.robot.torque_per_current.with_context(|| {
+            format!("robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it", self.robot.name)
+        })?;
+        let radius = self.robot.robot.wheel_radius;
+        let runs = |l: &Loaded| -> Result<Vec<diagnosis::steady::SpeedRun>> {
+            l.reads
+                .iter()
+                .map(|r| {
+                    diagnosis::steady::SpeedRun::new(&r.recording, radius, torque_per_current)
+                        .with_context(|| file_names(r))
+                })
+                .collect()
+        };
+        Ok(diagnosis::SteadyCase {
+            robot: self.robot.robot,
+            sigma: self.robot.sigma,
+            references: runs(&self.reference)?,
+            recordings: runs(&self.recordings)?,
+        })
+    }
+}
+
 /// The files of a recording, for messages.
 pub fn file_names(read: &Read) -> String {
     let names: Vec<&str> = read.sources.iter().map(|s| s.name.as_str()).collect();

@@ -1,7 +1,7 @@
 //! The flat JSON form of a robot: one key per value, its unit in the key's name, relative sigmas beside.
 
 use robot_model::Robot;
-use robot_model::robot::{Drive, USUAL_SLIDING_SHARE};
+use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use serde::Deserialize;
 
 use crate::robot_file::USUAL_POSE_SIGMA;
@@ -144,6 +144,7 @@ impl FlatRobot {
             motor_inertia: self.motor_inertia_at_wheel_kg_m2_per_side,
             adhesion: self.adhesion_coefficient,
             slip_at_peak: self.slip_ratio_at_peak_guess,
+            rest_speed: USUAL_REST_SPEED,
             sliding_share: USUAL_SLIDING_SHARE,
             lateral_factor: 1.0,
             rolling_resistance: self.rolling_resistance_coefficient,

@@ -1,7 +1,7 @@
 //! The form of a robot file with value, unit, one sigma and source for each parameter.
 
 use recordings::parse_unit;
-use robot_model::robot::{Drive, USUAL_SLIDING_SHARE};
+use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use robot_model::tunable::{Tuning, tunables};
 use robot_model::{ModelError, Robot};
 use serde::Deserialize;
@@ -69,6 +69,7 @@ parameters! {
     adhesion: "-",
     slip_at_peak: "-",
     sliding_share: "-",
+    rest_speed: "m/s",
     lateral_factor: "-",
     rolling_resistance: "-",
     coulomb: "N m",
@@ -218,6 +219,7 @@ fn robot(p: &Lookup<'_>) -> Result<Robot<f64>, RobotFileError> {
         motor_inertia: p.or("motor_inertia", 0.0)?,
         adhesion: p.need("adhesion")?,
         slip_at_peak: p.or("slip_at_peak", USUAL_SLIP_AT_PEAK)?,
+        rest_speed: p.or("rest_speed", USUAL_REST_SPEED)?,
         sliding_share: p.or("sliding_share", USUAL_SLIDING_SHARE)?,
         lateral_factor: p.or("lateral_factor", 1.0)?,
         rolling_resistance: p.need("rolling_resistance")?,

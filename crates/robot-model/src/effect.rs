@@ -11,11 +11,11 @@ pub trait Effect<T: Scalar>: Sync {
     /// What people and the diagnosis need to know about it.
     fn card(&self) -> &'static Card;
     /// Changes constants of the robot.
-    fn robot(&self, _values: &[T], _robot: &mut Robot<T>) {}
+    fn robot(&self, _values: &Values<T>, _robot: &mut Robot<T>) {}
     /// Changes the forces of an instant.
-    fn act(&self, _values: &[T], _at: &Situation<T>, _world: &mut World<T>) {}
+    fn act(&self, _values: &Values<T>, _at: &Situation<T>, _world: &mut World<T>) {}
     /// Changes what the sensors show.
-    fn sense(&self, _values: &[T], _readings: &mut Readings<T>) {}
+    fn sense(&self, _values: &Values<T>, _readings: &mut Readings<T>) {}
 }
 
 /// The state of the robot that a force may depend on.
@@ -50,6 +50,8 @@ pub struct Situation<T> {
 pub struct World<T> {
     /// Peak adhesion under each wheel.
     pub adhesion: [T; 4],
+    /// Slip ratio at the peak of the adhesion of each wheel.
+    pub slip_at_peak: [T; 4],
     /// Lateral over longitudinal adhesion of each wheel.
     pub lateral: [T; 4],
     /// Rolling resistance coefficient of each wheel.
@@ -216,3 +218,6 @@ impl Card {
 
 /// Most parameters an effect's law may have.
 pub const MAX_PARAMETERS: usize = 4;
+
+/// Values of an effect's parameters in the order of its card; what the card does not name is zero.
+pub type Values<T> = [T; MAX_PARAMETERS];

@@ -2,13 +2,13 @@
 //! body motion and torque out).
 
 use crate::contact::{Stance, combined};
-use crate::effect::{Effect, MAX_PARAMETERS, Readings, Situation, World};
+use crate::effect::{Effect, MAX_PARAMETERS, Readings, Situation, Values, World};
 use crate::presence::Presence;
 use crate::robot::{Drive, Robot, UNLIMITED};
 use crate::scalar::{Scalar, real, smooth_sign};
 
-/// Slip speed below which the contact behaves viscously, m/s: `λ = v_slip / sqrt((ω r)² + v0²)`.
-const SLIP_REST: f64 = 0.3;
+/// Steps of the search for a steady motion: the last one is a thousand seconds long.
+const SETTLING: usize = 25;
 /// Wheel speed over which dry friction changes its sign, rad/s.
 const FRICTION_REST: f64 = 0.15;
 /// Wheel speed over which the Stribeck rise decays, rad/s.
@@ -18,7 +18,7 @@ const STRIBECK_SPEED: f64 = 0.6;
 #[derive(Clone, Copy)]
 pub struct Active<T: Scalar> {
     effect: &'static dyn Effect<T>,
-    values: [T; MAX_PARAMETERS],
+    values: Values<T>,
     presence: Presence<T>,
     unlimited: bool,
 }
@@ -33,8 +33,8 @@ impl<T: Scalar> Active<T> {
         Self { effect, values: v, presence, unlimited: presence.is_unlimited() }
     }
 
-    fn values(&self) -> &[T] {
-        &self.values[..self.effect.card().parameters.len().min(MAX_PARAMETERS)]
+    fn values(&self) -> &Values<T> {
+        &self.values
     }
 
     fn act(&self, at: &Situation<T>, world: &mut World<T>) {
@@ -209,7 +209,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
     fn contacts(&self, s: &State<T>, world: &World<T>) -> Contacts<T> {
         let speed = Self::speeds(s);
-        let rest2 = real::<T>(SLIP_REST * SLIP_REST);
+        let rest2 = self.robot.rest_speed * self.robot.rest_speed;
         let mut k = [[T::zero(); 2]; 4];
         let mut stiffness = [T::zero(); 4];
         for i in 0..4 {
@@ -217,7 +217,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let rim = speed[i] * world.radius[i];
             let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
             let (sx2, s2) = (slip[0] * slip[0], slip[0] * slip[0] + slip[1] * slip[1]);
-            let (per_speed, slope) = combined(s2, rim * rim + rest2, self.robot.slip_at_peak, self.robot.sliding_share);
+            let (per_speed, slope) = combined(s2, rim * rim + rest2, world.slip_at_peak[i], self.robot.sliding_share);
             let mu = world.adhesion[i] * per_speed;
             k[i] = [mu * slip[0], mu * slip[1] * world.lateral[i]];
             let turned = if s2 > T::zero() { (slope - per_speed) * sx2 / s2 } else { T::zero() };
@@ -314,6 +314,44 @@ impl<'a, T: Scalar> Plant<'a, T> {
             s.wheel_angle[j] += h * speed[j];
         }
         self.move_body(s, &force, &world);
+    }
+
+    /// Body motion at which a robot whose wheels turn at `speed` stays: velocity of the centre of mass and yaw rate
+    /// for which all accelerations vanish, at the heading and place of `s`; the torque that it takes is left in
+    /// [`State::needed`].
+    ///
+    /// Pseudo-transient continuation: implicit Euler steps with ever longer steps, at most [`SETTLING`]. Returns the
+    /// largest acceleration that is left, m/s² or rad/s².
+    pub fn settle_at_speed(&self, s: &mut State<T>, speed: [T; 2]) -> T {
+        let still = Self { robot: self.robot, stance: self.stance, world: self.world, active: self.active, step: T::zero(), keep: self.keep };
+        let rate = |s: &State<T>, v: [T; 3]| {
+            let mut at = State { velocity: [v[0], v[1]], yaw_rate: v[2], ..*s };
+            still.step_at_speed(&mut at, speed, [T::zero(); 2]);
+            (nalgebra::Vector3::from(at.rate), at.needed)
+        };
+        let shift = real::<T>(1e-5);
+        let mut h = real::<T>(1e-2);
+        for _ in 0..SETTLING {
+            let v = [s.velocity[0], s.velocity[1], s.yaw_rate];
+            let (here, _) = rate(s, v);
+            let mut m = nalgebra::Matrix3::identity();
+            for k in 0..3 {
+                let mut shifted = v;
+                shifted[k] += shift;
+                m.set_column(k, &(m.column(k) - (rate(s, shifted).0 - here) * (h / shift)));
+            }
+            let Some(inverse) = m.try_inverse() else { break };
+            let change = inverse * here * h;
+            s.velocity[0] += change[0];
+            s.velocity[1] += change[1];
+            s.yaw_rate += change[2];
+            h *= real(1.6);
+        }
+        let (left, needed) = rate(s, [s.velocity[0], s.velocity[1], s.yaw_rate]);
+        s.wheel_speed = speed;
+        s.front_speed = speed;
+        s.needed = needed;
+        left.amax()
     }
 
     fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], world: &World<T>) {

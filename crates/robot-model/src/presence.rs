@@ -76,6 +76,7 @@ impl<T: Scalar> World<T> {
         let mix = |own: &mut T, with: T, part: T| *own += part * (with - *own);
         for i in 0..4 {
             mix(&mut self.adhesion[i], other.adhesion[i], share[i]);
+            mix(&mut self.slip_at_peak[i], other.slip_at_peak[i], share[i]);
             mix(&mut self.lateral[i], other.lateral[i], share[i]);
             mix(&mut self.rolling[i], other.rolling[i], share[i]);
             mix(&mut self.radius[i], other.radius[i], share[i]);

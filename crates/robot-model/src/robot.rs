@@ -49,6 +49,8 @@ pub struct Robot<T> {
     pub slip_at_peak: T,
     /// Share of the peak adhesion that remains however much the wheel slides; 1 is a plateau.
     pub sliding_share: T,
+    /// Slip speed below which a contact answers viscously, m/s: `λ = v_slip / sqrt((ω r)² + v0²)`.
+    pub rest_speed: T,
     /// Lateral over longitudinal adhesion.
     pub lateral_factor: T,
     /// Rolling resistance coefficient f_r.
@@ -84,6 +86,7 @@ impl<T: Scalar> Robot<T> {
             ("wheel_inertia", self.wheel_inertia),
             ("adhesion", self.adhesion),
             ("slip_at_peak", self.slip_at_peak),
+            ("rest_speed", self.rest_speed),
             ("lateral_factor", self.lateral_factor),
             ("drive.gain", self.drive.gain),
             ("drive.limit", self.drive.limit),
@@ -123,6 +126,7 @@ impl<T: Scalar> Robot<T> {
     pub(crate) fn world(&self) -> World<T> {
         World {
             adhesion: [self.adhesion; 4],
+            slip_at_peak: [self.slip_at_peak; 4],
             lateral: [self.lateral_factor; 4],
             rolling: [self.rolling_resistance; 4],
             radius: [self.wheel_radius; 4],
@@ -152,6 +156,7 @@ impl<T: Scalar> Robot<T> {
             adhesion: f(self.adhesion),
             slip_at_peak: f(self.slip_at_peak),
             sliding_share: f(self.sliding_share),
+            rest_speed: f(self.rest_speed),
             lateral_factor: f(self.lateral_factor),
             rolling_resistance: f(self.rolling_resistance),
             coulomb: self.coulomb.map(f),
@@ -188,6 +193,7 @@ impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
             adhesion: real(p.adhesion),
             slip_at_peak: real(p.slip_at_peak),
             sliding_share: o,
+            rest_speed: real(USUAL_REST_SPEED),
             lateral_factor: T::one(),
             rolling_resistance: real(p.rolling_resistance),
             coulomb: [real(2.0 * p.coulomb_torque); 2],
@@ -202,6 +208,9 @@ impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
 
 /// Share of the peak adhesion that remains in full sliding when nobody knows better: a plateau.
 pub const USUAL_SLIDING_SHARE: f64 = 1.0;
+
+/// Slip speed at rest when nobody knows better, m/s.
+pub const USUAL_REST_SPEED: f64 = 0.3;
 
 /// A torque beyond any robot's, N m: stands for "no limit".
 pub(crate) const UNLIMITED: f64 = 1e9;

@@ -409,10 +409,10 @@ fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
     };
     let world = World {
         adhesion: [0.7; 4],
+        slip_at_peak: [0.12; 4],
         lateral: [0.9; 4],
         rolling: [0.025; 4],
         radius: [0.09; 4],
-        climb: [0.0; 4],
         coulomb: [0.5, 0.4],
         viscous: [0.03, 0.04],
         stribeck: [0.1; 2],
@@ -425,9 +425,9 @@ fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
 }
 
 fn world_numbers(w: &World<f64>) -> Vec<f64> {
-    let World { adhesion, lateral, rolling, radius, climb, coulomb, viscous, stribeck, .. } = *w;
+    let World { adhesion, slip_at_peak, lateral, rolling, radius, coulomb, viscous, stribeck, .. } = *w;
     let World { belt_limit, force, moment, tilt, .. } = *w;
-    let wheels = [adhesion, lateral, rolling, radius, climb].into_iter().flatten();
+    let wheels = [adhesion, slip_at_peak, lateral, rolling, radius].into_iter().flatten();
     let sides = [coulomb, viscous, stribeck, belt_limit, force, tilt].into_iter().flatten();
     wheels.chain(sides).chain([moment]).collect()
 }

@@ -16,7 +16,7 @@ pub struct Ratio {
     pub recording: String,
     /// What is compared.
     pub quantity: Quantity,
-    /// Mean speeds at the tyres (left, right), m/s.
+    /// Mean speeds at the tyres of the inner and the outer side, m/s.
     pub speed: [f64; 2],
     /// Value in the unit of the quantity.
     pub value: f64,
@@ -82,21 +82,12 @@ pub(crate) fn references(loads: &[Load]) -> Vec<Reference> {
                 let weight = 1.0 / (error.powi(2) + quantity.scatter().powi(2));
                 w += weight;
                 sum += weight * centre;
-                // Directions differ between runs: what counts is how fast the outer and the inner side turn.
-                let (a, b) = typical(l);
-                speed[0] += weight * a;
-                speed[1] += weight * b;
+                speed[0] += weight * l.speed[0];
+                speed[1] += weight * l.speed[1];
             }
             Reference { quantity, class, centre: sum / w, error: w.powf(-0.5), speed: speed.map(|s| s / w) }
         })
         .collect()
-}
-
-/// Speeds of the inner and the outer side, the outer one positive.
-pub(crate) fn typical(l: &Load) -> (f64, f64) {
-    let [a, b] = l.speed;
-    let (inner, outer) = if a.abs() < b.abs() { (a, b) } else { (b, a) };
-    if outer < 0.0 { (-inner, -outer) } else { (inner, outer) }
 }
 
 /// The reference a load is compared with: of its own speed class, else of the nearest.

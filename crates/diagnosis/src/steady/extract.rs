@@ -80,7 +80,7 @@ pub struct Load {
     pub error: f64,
     /// Steady driving behind it, s.
     pub seconds: f64,
-    /// Mean speeds at the tyres (left, right) at which it was driven, m/s.
+    /// Mean speeds at the tyres of the inner and the outer side, the outer one positive, m/s; equal when straight.
     pub speed: [f64; 2],
 }
 
@@ -144,6 +144,16 @@ fn pieces(run: &SpeedRun, rows: &[usize]) -> Vec<Vec<usize>> {
     out
 }
 
+/// Speeds of the inner and the outer side at a row, the outer one positive; their mean when the drive is straight.
+fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
+    let (l, r) = (run.speed[0][i], run.speed[1][i]);
+    if (r - l).abs() <= STRAIGHT {
+        return [0.5 * (l + r).abs(); 2];
+    }
+    let (inner, outer) = if l.abs() < r.abs() { (l, r) } else { (r, l) };
+    [inner * outer.signum(), outer.abs()]
+}
+
 /// Median time between rows, s.
 fn period(run: &SpeedRun) -> f64 {
     let mut gaps: Vec<f64> = run.time.windows(2).map(|w| w[1] - w[0]).collect();
@@ -165,7 +175,7 @@ fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Op
         pieces.iter().map(|p| (p.iter().map(|&i| value(i)).sum::<f64>() - p.len() as f64 * mean).powi(2)).sum();
     let small = if effective > 1.5 { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
     let error = (scatter.sqrt() / n * small).max(PIECE_SCATTER * mean.abs() / effective.sqrt());
-    let speed = [0, 1].map(|j| rows.iter().map(|&i| run.speed[j][i]).sum::<f64>() / n);
+    let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / n);
     Some(Clustered { mean, error, seconds, speed })
 }
 
@@ -287,6 +297,6 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
         .sum();
     let random = scatter.sqrt() / dw * (effective / (effective - 1.0)).sqrt();
     let systematic = b * (GYRO_OFFSET / (ww / rows.len() as f64).sqrt()).hypot(SET_POINT_ERROR);
-    let speed = [0, 1].map(|j| rows.iter().map(|&i| run.speed[j][i].abs()).sum::<f64>() / rows.len() as f64);
+    let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
     Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
 }

@@ -24,9 +24,9 @@ use crate::simulate::Dose;
 use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
 use crate::{DiagnosisError, words};
 
-use compare::{Reference, matching, references, scaled, typical};
+use compare::{Reference, matching, references, scaled};
 use model::{Measured, Operating, Tuned, forecast, tune};
-use name::{Difference, Named, Naming, name};
+use name::{Comparison, Difference, Named, Naming, name};
 
 pub use compare::Ratio;
 pub use extract::{Load, Quantity, Withheld};
@@ -58,8 +58,11 @@ pub struct Loads {
     pub withheld: Vec<Withheld>,
 }
 
-/// Effects within this many nats of the best cannot be told from it.
-const INDISTINGUISHABLE: f64 = 3.0;
+/// Effects within this many nats of the best (odds of 200) cannot be told from it: steady loads are few numbers, and
+/// the recordings were driven at different places.
+const INDISTINGUISHABLE: f64 = 5.3;
+/// What is this much (nats) less probable than "nothing is missing" stands in for nothing.
+const LEAST_PLAUSIBLE: f64 = 2.0;
 /// Causes below this probability are not listed.
 const LISTED: f64 = 1e-3;
 
@@ -90,7 +93,8 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
-    let naming = if differences.is_empty() { None } else { name(&differences, &robot, &case.sigma, &calibrated) };
+    let comparison = if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
+    let naming = comparison.as_ref().and_then(name);
     progress("forecasting recordings that were not used");
     let free_runs =
         naming.as_ref().map_or_else(Vec::new, |n| free_runs(case, &robot, &known, &differences, &calibrated, n));
@@ -117,10 +121,12 @@ fn of_reference(r: &Reference) -> Measured {
     Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
 }
 
-/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
+/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known; the
+/// effective track is told but names nothing: loose ground shears in ways that no rigid-ground tyre law has.
 fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
     loads
         .iter()
+        .filter(|l| l.quantity != Quantity::EffectiveTrack)
         .filter(|l| {
             l.quantity != Quantity::ArcSum
                 || !loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad)
@@ -128,8 +134,7 @@ fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
         .filter_map(|l| {
             let (r, _) = matching(l, refs)?;
             let (value, error) = scaled(l);
-            let (inner, outer) = typical(l);
-            let at = Operating { quantity: l.quantity, speed: [inner, outer] };
+            let at = Operating { quantity: l.quantity, speed: l.speed };
             Some(Difference {
                 recording: l.recording.clone(),
                 here: Measured { at, value, error },
@@ -137,10 +142,6 @@ fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
             })
         })
         .collect()
-}
-
-fn dose(n: &Named) -> Vec<Dose> {
-    vec![n.variant.dose(&n.values, None)]
 }
 
 /// Torques of each recording forecast from its speeds, with everything fitted on the others.
@@ -161,10 +162,9 @@ fn free_runs(
         }
         let data: Vec<Measured> = known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
         let Some(retuned) = tune(robot, &case.sigma, &data) else { continue };
-        let refitted = name(&others, robot, &case.sigma, calibrated)
-            .and_then(|n| n.effects.into_iter().find(|e| e.variant.label() == best.variant.label()));
+        let refitted = Comparison::new(&others, robot, &case.sigma, calibrated).and_then(|c| c.fit(&best.parts, None));
         let model = tuned(robot, &case.sigma, &calibrated.theta);
-        let corrected = refitted.map_or_else(|| forecast(run, &model, &[]), |e| forecast(run, &model, &dose(&e)));
+        let corrected = refitted.map_or_else(|| forecast(run, &model, &[]), |e| forecast(run, &model, &e.doses()));
         out.push(FreeRun {
             recording: run.name.clone(),
             quantity: "torque of a side, N m".to_owned(),
@@ -188,50 +188,85 @@ fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosi
         free_runs: Vec::new(),
         unexplained: None,
         limits: Vec::new(),
+        trials: Vec::new(),
+        costs: [0.0; 3],
         screened: Vec::new(),
         tuning: BTreeMap::new(),
         steady: None,
         predictions: Vec::new(),
     };
     if let Some(naming) = naming {
-        // Left and right are one cause here: keep the better side of each effect.
-        let mut effects: Vec<&Named> = Vec::new();
-        for e in &naming.effects {
-            if !effects.iter().any(|o| o.variant.card().id == e.variant.card().id) {
-                effects.push(e);
-            }
-        }
-        let top = effects.first().map_or(0.0, |e| e.score).max(naming.unknown).max(0.0);
-        let weight = |s: f64| (s - top).exp();
-        let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
-        out.screened = effects.iter().map(|e| (e.variant.card().id.to_owned(), e.score)).collect();
-        out.ranked =
-            effects.iter().map(|e| cause(e, weight(e.score) / sum)).filter(|c| c.probability > LISTED).collect();
-        out.ranked.push(plain("none", "nothing is missing", weight(0.0) / sum));
-        out.ranked.push(plain("unknown", "something that is not in the catalogue", weight(naming.unknown) / sum));
-        out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-        let named: f64 = out.ranked.iter().filter(|c| c.magnitude.is_some()).map(|c| c.probability).sum();
-        let none = weight(0.0) / sum;
-        let unknown = weight(naming.unknown) / sum;
-        out.verdict = if none >= named.max(unknown) {
-            Verdict::NoMismatch
-        } else if unknown > named {
-            Verdict::Unknown
-        } else {
-            Verdict::Explained
-        };
-        if out.verdict == Verdict::Explained
-            && let Some(best) = effects.first()
-        {
-            let near: Vec<&&Named> = effects.iter().filter(|e| e.score > best.score - INDISTINGUISHABLE).collect();
-            if near.len() > 1 {
-                out.indistinguishable = near.iter().map(|e| e.variant.card().id.to_owned()).collect();
-            }
-        }
+        weigh(naming, &mut out);
     }
     out.sentences = words::steady(&out, &loads, case.recordings.iter().any(|r| r.set_points));
     out.steady = Some(loads);
     out
+}
+
+/// Probabilities, kind of answer and classes from the evidence.
+fn weigh(naming: &Naming, out: &mut Diagnosis) {
+    // Left and right are one cause here: keep the better side of each set of effects.
+    let mut effects: Vec<&Named> = Vec::new();
+    for e in &naming.effects {
+        let mut ids = e.ids();
+        ids.sort_unstable();
+        let same = |o: &&&Named| {
+            let mut other = o.ids();
+            other.sort_unstable();
+            other == ids
+        };
+        if !effects.iter().any(|o| same(&o)) {
+            effects.push(e);
+        }
+    }
+    let top = effects.first().map_or(0.0, |e| e.score).max(naming.unknown).max(0.0);
+    let weight = |s: f64| (s - top).exp();
+    let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
+    let (none, unknown) = (weight(0.0) / sum, weight(naming.unknown) / sum);
+    out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
+    // An effect is as probable as all hypotheses that contain it; its size is that of the best of them.
+    let mut causes: Vec<Cause> = Vec::new();
+    for e in &effects {
+        let p = weight(e.score) / sum;
+        for part in 0..e.parts.len() {
+            match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
+                Some(c) => c.probability += p,
+                None => causes.push(cause(e, part, p)),
+            }
+        }
+    }
+    causes.retain(|c| c.probability > LISTED);
+    causes.push(plain("none", "nothing is missing", none));
+    causes.push(plain("unknown", "something that is not in the catalogue", unknown));
+    causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    out.ranked = causes;
+    let named = 1.0 - none - unknown;
+    out.verdict = if none >= named.max(unknown) {
+        Verdict::NoMismatch
+    } else if unknown > named {
+        Verdict::Unknown
+    } else {
+        Verdict::Explained
+    };
+    if out.verdict == Verdict::Explained
+        && let Some(best) = effects.first()
+    {
+        out.indistinguishable = (0..best.parts.len()).map(|k| class(&effects, best, k)).collect();
+    }
+}
+
+/// Effects that could stand in for one member of the best hypothesis, itself first.
+fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
+    let rest: Vec<&str> = best.ids().into_iter().enumerate().filter(|(i, _)| *i != member).map(|(_, id)| id).collect();
+    effects
+        .iter()
+        .filter(|e| e.parts.len() == best.parts.len() && e.score > (best.score - INDISTINGUISHABLE).max(-LEAST_PLAUSIBLE))
+        .filter_map(|e| {
+            let ids = e.ids();
+            let own: Vec<&str> = ids.iter().copied().filter(|id| !rest.contains(id)).collect();
+            (own.len() == 1).then(|| own[0].to_owned())
+        })
+        .collect()
 }
 
 fn plain(effect: &str, name: &str, probability: f64) -> Cause {
@@ -249,22 +284,23 @@ fn plain(effect: &str, name: &str, probability: f64) -> Cause {
     }
 }
 
-fn cause(e: &Named, probability: f64) -> Cause {
-    let card = e.variant.card();
-    let parameters = e
-        .variant
+fn cause(e: &Named, part: usize, probability: f64) -> Cause {
+    let variant = &e.parts[part];
+    let card = variant.card();
+    let (values, sigma) = e.of(part);
+    let parameters = variant
         .free(1.0)
         .iter()
-        .zip(&e.values)
+        .zip(values)
         .filter_map(|(f, v)| f.parameter.map(|i| (card.parameters[i].name.to_owned(), *v)))
         .collect();
     Cause {
-        magnitude: Some(e.variant.magnitude(&e.values)),
-        sigma: e.sigma.is_finite().then_some(e.sigma),
+        magnitude: Some(variant.magnitude(values)),
+        sigma: sigma.first().copied().filter(|s| s.is_finite()),
         unit: words::unit(card),
         parameters,
-        side: if let Place::Side(s) = e.variant.place { Some(words::side(s)) } else { None },
-        ..plain(card.id, &words::variant(&e.variant), probability)
+        side: if let Place::Side(s) = variant.place { Some(words::side(s)) } else { None },
+        ..plain(card.id, &words::variant(variant), probability)
     }
 }
 

@@ -12,14 +12,14 @@ use crate::steady::run::SpeedRun;
 
 /// Integration step, s.
 const STEP: f64 = 2e-3;
-/// Time to settle, s.
-const SETTLE: f64 = 2.0;
-/// A straight drive is averaged over this long, s; a turn over one full turn, at most this long.
-const STRAIGHT_MEAN: f64 = 0.2;
-const LONGEST_TURN: f64 = 60.0;
+/// Headings over which a turn is averaged.
+const HEADINGS: usize = 6;
 /// Gauss–Newton steps of the calibration and the size of finite steps, in sigmas.
 const STEPS: usize = 6;
 const SHIFT: f64 = 0.2;
+
+/// Speed below which a braking side reads its braking current, without sign, m/s.
+const BRAKING_READS: f64 = 0.12;
 
 /// Where and how a load is driven.
 #[derive(Debug, Clone, Copy)]
@@ -29,28 +29,27 @@ pub(crate) struct Operating {
     pub(crate) speed: [f64; 2],
 }
 
-/// Means of a steady drive: torque of each side, yaw rate.
+/// Means of a steady drive over all headings: torque of each side, yaw rate.
 fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let plant = Plant::new(robot, &active, STEP);
     let wheel = speed.map(|v| v / robot.wheel_radius);
-    let mut s = State { wheel_speed: wheel, front_speed: wheel, ..State::default() };
+    let turning = (speed[1] - speed[0]).abs() > 1e-6;
+    // A slope pulls differently around a turn; a straight drive keeps its heading.
+    let headings = if turning { HEADINGS } else { 1 };
+    let yaw = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+    let mut s = State { yaw_rate: yaw, ..State::default() };
     plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
-    for _ in 0..(SETTLE / STEP) as usize {
-        plant.step_at_speed(&mut s, wheel, [0.0; 2]);
+    let (mut torque, mut turned) = ([0.0; 2], 0.0);
+    for k in 0..headings {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / headings as f64).sin_cos();
+        s.heading = [cos, sin];
+        plant.settle_at_speed(&mut s, wheel);
+        torque[0] += s.needed[0].abs() / headings as f64;
+        torque[1] += s.needed[1].abs() / headings as f64;
+        turned += s.yaw_rate / headings as f64;
     }
-    // The pull of a slope differs around a turn: average over all headings.
-    let turning = s.yaw_rate.abs() > 0.01;
-    let time = if turning { (std::f64::consts::TAU / s.yaw_rate.abs()).min(LONGEST_TURN) } else { STRAIGHT_MEAN };
-    let n = (time / STEP).ceil();
-    let (mut torque, mut yaw) = ([0.0; 2], 0.0);
-    for _ in 0..n as usize {
-        plant.step_at_speed(&mut s, wheel, [0.0; 2]);
-        torque[0] += s.needed[0].abs() / n;
-        torque[1] += s.needed[1].abs() / n;
-        yaw += s.yaw_rate / n;
-    }
-    (torque, yaw)
+    (torque, turned)
 }
 
 /// The load that a robot shows, on the scale on which loads are compared (logarithm, or itself for a difference).
@@ -132,38 +131,45 @@ pub(crate) fn tune(robot: &Robot<f64>, sigma: &[f64; NUISANCES], data: &[Measure
     Some(Tuned { theta, covariance })
 }
 
-/// Root mean squared error of the torques that a robot predicts from a recording's speeds alone, N m.
+/// Root mean squared error of the torques that a robot predicts from a recording's speeds alone, row by row in
+/// steady motion plus inertia, N m.
 ///
-/// What lies in the dead band on both accounts counts as right: only a bound is known.
+/// Of currents without sign, a side that brakes reads nothing (the drive feeds back), below [`BRAKING_READS`]
+/// something unknown, which is left out; what lies in the dead band on both accounts counts as right.
 pub(crate) fn forecast(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> f64 {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let plant = Plant::new(robot, &active, STEP);
     let radius = robot.wheel_radius;
-    let wheel = |i: usize| [run.speed[0][i] / radius, run.speed[1][i] / radius];
-    let mut s = State { wheel_speed: wheel(0), front_speed: wheel(0), ..State::default() };
-    plant.set_velocity(&mut s, [0.5 * (run.speed[0][0] + run.speed[1][0]), 0.0]);
+    let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
     let (mut sum, mut n) = (0.0, 0.0);
+    let mut s = State::default();
     for i in 1..run.time.len() {
         let span = run.time[i] - run.time[i - 1];
-        if span > 1.0 {
-            // A gap: begin anew behind it.
-            s = State { wheel_speed: wheel(i), front_speed: wheel(i), ..State::default() };
-            plant.set_velocity(&mut s, [0.5 * (run.speed[0][i] + run.speed[1][i]), 0.0]);
-            continue;
-        }
-        let steps = (span / STEP).ceil().max(1.0) as usize;
-        let (from, to) = (wheel(i - 1), wheel(i));
-        let rate = [(to[0] - from[0]) / span, (to[1] - from[1]) / span];
-        let mut mean = [0.0; 2];
-        for k in 0..steps {
-            let f = (k as f64 + 1.0) / steps as f64;
-            plant.step_at_speed(&mut s, [from[0] + f * (to[0] - from[0]), from[1] + f * (to[1] - from[1])], rate);
-            mean[0] += s.needed[0] / steps as f64;
-            mean[1] += s.needed[1] / steps as f64;
-        }
+        let speed = [run.speed[0][i], run.speed[1][i]];
+        // The body follows its wheels within a tenth of a second: rows are longer than that.
+        s.yaw_rate = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+        plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
+        plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
+        let forward = 0.5 * (speed[0] + speed[1] - run.speed[0][i - 1] - run.speed[1][i - 1]) / span;
+        let mean = [0, 1].map(|j| {
+            let own = (speed[j] - run.speed[j][i - 1]) / radius / span;
+            s.needed[j] + inertia * own + 0.5 * robot.mass * forward * radius
+        });
         for (j, m) in mean.into_iter().enumerate() {
-            let read = |x: f64| if run.magnitude_only { x.abs().max(run.dead_band) } else { x };
-            sum += (read(run.torque[j][i]) - read(m)).powi(2);
+            let brakes = m * speed[j] < 0.0;
+            if run.magnitude_only && brakes && speed[j].abs() < BRAKING_READS {
+                continue;
+            }
+            let shown = if !run.magnitude_only {
+                m
+            } else if brakes {
+                run.dead_band
+            } else {
+                m.abs().max(run.dead_band)
+            };
+            let measured = run.torque[j][i];
+            let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };
+            sum += (measured - shown).powi(2);
             n += 1.0;
         }
     }

@@ -1,12 +1,13 @@
 //! Which effects could make the loads differ as they do.
 
 use faer::Mat;
+use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::effect::Role;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::fit::tuned;
-use crate::hypothesis::{Place, Variant, variants};
+use crate::hypothesis::{Free, Place, Variant, variants};
 use crate::linalg::solve_spd;
 use crate::simulate::Dose;
 use crate::steady::extract::Quantity;
@@ -20,15 +21,45 @@ pub(crate) struct Difference {
     pub(crate) reference: Measured,
 }
 
-/// An effect fitted to the differences.
+/// One or two effects fitted to the differences.
 #[derive(Clone)]
 pub(crate) struct Named {
-    pub(crate) variant: Variant,
-    /// Free values of the effect.
+    pub(crate) parts: Vec<Variant>,
+    /// Free values of each effect in turn.
     pub(crate) values: Vec<f64>,
-    pub(crate) sigma: f64,
+    /// One sigma of each free value.
+    pub(crate) sigma: Vec<f64>,
     /// Log evidence over "nothing is missing", nats.
     pub(crate) score: f64,
+}
+
+impl Named {
+    /// Free values and sigmas of one of its effects.
+    pub(crate) fn of(&self, part: usize) -> (&[f64], &[f64]) {
+        let before: usize = self.parts[..part].iter().map(|v| v.free(1.0).len()).sum();
+        let n = self.parts[part].free(1.0).len();
+        (&self.values[before..before + n], &self.sigma[before..before + n])
+    }
+
+    pub(crate) fn doses(&self) -> Vec<Dose> {
+        doses(&self.parts, &self.values)
+    }
+
+    pub(crate) fn ids(&self) -> Vec<&'static str> {
+        self.parts.iter().map(|v| v.card().id).collect()
+    }
+}
+
+fn doses(parts: &[Variant], values: &[f64]) -> Vec<Dose> {
+    let mut at = 0;
+    parts
+        .iter()
+        .map(|v| {
+            let n = v.free(1.0).len();
+            at += n;
+            v.dose(&values[at - n..at], None)
+        })
+        .collect()
 }
 
 /// The comparison of all hypotheses.
@@ -37,17 +68,23 @@ pub(crate) struct Naming {
     pub(crate) effects: Vec<Named>,
     /// Evidence of free factors, one per quantity, that no effect ties together.
     pub(crate) unknown: f64,
-    /// Half the squared differences that no effect explains.
-    pub(crate) misfit: f64,
 }
 
 /// The straight load of a drive train varies by up to this factor (90 %) between days without a cause that these
 /// signals could name: cold grease, tyre pressure.
 const UNNAMED_STRAIGHT: f64 = 1.45;
+/// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
+const PLAUSIBLE: f64 = 3.0;
+/// Robot for which the cards' medium sizes are meant: mass in kg, torque m g r in N m, wheelbase in m.
+const MEDIUM_ROBOT: [f64; 3] = [20.0, 20.0, 0.36];
 /// Price of naming an effect, and of "unknown", nats.
 const PER_EFFECT: f64 = 3.0;
 const PER_UNKNOWN: f64 = 4.0;
 const STEPS: usize = 8;
+/// An effect whose response is weaker than this at a medium size does not show in steady loads.
+const LEAST_RESPONSE: f64 = 1e-3;
+/// Single effects that are tried with a second one.
+const FIRSTS: usize = 4;
 
 /// Covariance of the differences: own errors, errors of shared references, the unnamed variation of the straight
 /// load, and what re-tuning the model could change.
@@ -75,114 +112,183 @@ fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], ca
     })
 }
 
-fn dose(v: &Variant, e: &[f64]) -> Vec<Dose> {
-    vec![v.dose(e, None)]
+/// Differences, what they weigh and what the model says of them.
+pub(crate) struct Comparison<'a> {
+    differences: &'a [Difference],
+    model: Robot<f64>,
+    weight: Mat<f64>,
+    measured: Vec<f64>,
+    /// Predictions at the references' operating points.
+    there: Vec<f64>,
+    /// Residuals without any effect.
+    plain: Vec<f64>,
 }
 
-/// Weighs every effect that can be present everywhere against the differences.
-pub(crate) fn name(
-    d: &[Difference],
-    robot: &Robot<f64>,
-    sigma: &[f64; NUISANCES],
-    calibrated: &Tuned,
-) -> Option<Naming> {
-    let n = d.len();
-    let model = tuned(robot, sigma, &calibrated.theta);
-    let c = covariance(d, robot, sigma, calibrated);
-    let weight = solve_spd(&c, &Mat::identity(n, n))?.0;
-    let measured: Vec<f64> = d.iter().map(|d| d.here.value - d.reference.value).collect();
-    let there: Vec<f64> = d.iter().map(|d| predicted(&model, &[], d.reference.at)).collect();
-    let difference = |doses: &[Dose]| -> Vec<f64> {
-        d.iter().zip(&there).map(|(d, t)| predicted(&model, doses, d.here.at) - t).collect()
-    };
-    let quadratic = |a: &[f64], b: &[f64]| -> f64 {
-        (0..n).map(|i| (0..n).map(|k| a[i] * weight[(i, k)] * b[k]).sum::<f64>()).sum()
-    };
-    let plain: Vec<f64> = measured.iter().zip(difference(&[])).map(|(m, p)| m - p).collect();
-    let misfit = 0.5 * quadratic(&plain, &plain);
-    let price = 0.5 * (n as f64).max(2.0).ln();
-    let mut effects: Vec<Named> = variants()
+impl<'a> Comparison<'a> {
+    pub(crate) fn new(
+        differences: &'a [Difference],
+        robot: &Robot<f64>,
+        sigma: &[f64; NUISANCES],
+        calibrated: &Tuned,
+    ) -> Option<Self> {
+        let n = differences.len();
+        let model = tuned(robot, sigma, &calibrated.theta);
+        let c = covariance(differences, robot, sigma, calibrated);
+        let mut out = Self {
+            differences,
+            weight: solve_spd(&c, &Mat::identity(n, n))?.0,
+            measured: differences.iter().map(|d| d.here.value - d.reference.value).collect(),
+            there: differences.iter().map(|d| predicted(&model, &[], d.reference.at)).collect(),
+            plain: Vec::new(),
+            model,
+        };
+        out.plain = out.residual(&[]);
+        Some(out)
+    }
+
+    fn residual(&self, doses: &[Dose]) -> Vec<f64> {
+        let expected = self.differences.iter().zip(&self.there).map(|(d, t)| predicted(&self.model, doses, d.here.at) - t);
+        self.measured.iter().zip(expected).map(|(m, e)| m - e).collect()
+    }
+
+    fn quadratic(&self, a: &[f64], b: &[f64]) -> f64 {
+        (0..a.len()).map(|i| (0..b.len()).map(|k| a[i] * self.weight[(i, k)] * b[k]).sum::<f64>()).sum()
+    }
+
+    /// One sigma of a strength before anything is measured.
+    fn plausible(&self, v: &Variant, f: &Free) -> f64 {
+        let r = &self.model;
+        let torque = r.mass * r.gravity * r.wheel_radius / MEDIUM_ROBOT[1];
+        let size = match f.parameter.map_or("-", |i| v.card().parameters[i].unit) {
+            "kg" | "N" => r.mass / MEDIUM_ROBOT[0],
+            "m" => 2.0 * r.half_wheelbase / MEDIUM_ROBOT[2],
+            unit if unit.starts_with("N m") => torque,
+            _ => 1.0,
+        };
+        PLAUSIBLE * f.unit * size
+    }
+
+    /// Price of a free number: half the logarithm of how many differences it is fitted to.
+    fn price(&self) -> f64 {
+        0.5 * (self.differences.len() as f64).max(2.0).ln()
+    }
+
+    /// Gauss–Newton on the free values of one or two effects from their neutral values (or from `start`).
+    pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
+        let free: Vec<_> = parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
+        let neutral = |v: &Variant, f: &Free| f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
+        let mut e: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
+        if let Some(s) = start {
+            e[..s.len()].copy_from_slice(s);
+        }
+        let mut r = self.residual(&doses(parts, &e));
+        let rest: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
+        let width: Vec<f64> = free.iter().map(|(v, f)| self.plausible(v, f)).collect();
+        let prior = |e: &[f64]| -> f64 {
+            e.iter().zip(&rest).zip(&width).map(|((e, r), w)| if r.abs() < 1e6 { 0.5 * ((e - r) / w).powi(2) } else { 0.0 }).sum()
+        };
+        let mut left = 0.5 * self.quadratic(&r, &r) + prior(&e);
+        let mut sigma = vec![f64::INFINITY; e.len()];
+        let mut occam = 0.0;
+        for _ in 0..STEPS {
+            let columns: Vec<Vec<f64>> = free
+                .iter()
+                .enumerate()
+                .map(|(i, (_, f))| {
+                    let mut shifted = e.clone();
+                    let h = 0.1 * f.unit;
+                    shifted[i] += h;
+                    self.residual(&doses(parts, &shifted)).iter().zip(&r).map(|(a, b)| (b - a) / h * f.unit).collect()
+                })
+                .collect();
+            let k = columns.len();
+            let m = Mat::from_fn(k, k, |a, b| self.quadratic(&columns[a], &columns[b]) + if a == b { 1e-6 + (free[a].1.unit / width[a]).powi(2) } else { 0.0 });
+            if (0..k).all(|i| self.quadratic(&columns[i], &columns[i]) < LEAST_RESPONSE) {
+                return None;
+            }
+            let g = Mat::from_fn(k, 1, |a, _| {
+                self.quadratic(&columns[a], &r) - (e[a] - rest[a]) * free[a].1.unit / width[a].powi(2)
+            });
+            let (step, _) = solve_spd(&m, &g)?;
+            let (inverse, _) = solve_spd(&m, &Mat::identity(k, k))?;
+            // Price of the free numbers: how far the data narrow them down from what was plausible before.
+            let scaled = Mat::from_fn(k, k, |a, b| m[(a, b)] * width[a] / free[a].1.unit * width[b] / free[b].1.unit);
+            occam = solve_spd(&scaled, &Mat::zeros(k, 1)).map_or(0.0, |s| 0.5 * s.1);
+            sigma = (0..k).map(|i| inverse[(i, i)].max(0.0).sqrt() * free[i].1.unit).collect();
+            let mut share = 1.0;
+            let mut moved = false;
+            for _ in 0..6 {
+                let next: Vec<f64> = e
+                    .iter()
+                    .zip(&free)
+                    .enumerate()
+                    .map(|(i, (e, (_, f)))| {
+                        let d = (step[(i, 0)] * f.unit).clamp(-width[i], width[i]);
+                        (e + share * d).clamp(f.bounds[0], f.bounds[1])
+                    })
+                    .collect();
+                let r2 = self.residual(&doses(parts, &next));
+                let left2 = 0.5 * self.quadratic(&r2, &r2) + prior(&next);
+                if left2 < left {
+                    moved = left - left2 > 1e-2;
+                    (e, r, left) = (next, r2, left2);
+                    break;
+                }
+                share *= 0.5;
+            }
+            if !moved {
+                break;
+            }
+        }
+        let paid = occam + PER_EFFECT * parts.len() as f64;
+        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - left - paid;
+        Some(Named { parts: parts.to_vec(), values: e, sigma, score })
+    }
+
+    /// Evidence for a factor of its own for each quantity, which nothing ties together.
+    fn unknown(&self) -> Option<f64> {
+        let mut quantities: Vec<Quantity> = self.differences.iter().map(|d| d.here.at.quantity).collect();
+        quantities.sort_unstable();
+        quantities.dedup();
+        let (n, m) = (self.differences.len(), quantities.len());
+        let a = Mat::from_fn(n, m, |i, q| f64::from(self.differences[i].here.at.quantity == quantities[q]));
+        let r = Mat::from_fn(n, 1, |i, _| self.plain[i]);
+        let g = a.transpose() * &self.weight * &r;
+        let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
+        let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
+        Some(explained - (self.price() + PER_UNKNOWN) * m as f64)
+    }
+}
+
+/// Weighs every effect that can be present everywhere, and every pair with one of the best, against the differences.
+pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
+    let candidates: Vec<Variant> = variants()
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
         .filter(|v| v.card().parameters.iter().all(|p| p.role != Role::Shape))
-        .filter_map(|v| fit(&v, &measured, &plain, &difference, &quadratic).map(|(e, sigma, left)| (v, e, sigma, left)))
-        .map(|(v, e, sigma, left)| {
-            let numbers = v.free(1.0).len() as f64;
-            Named { variant: v, values: e, sigma, score: misfit - left - price * numbers - PER_EFFECT }
-        })
         .collect();
-    effects.sort_by(|a, b| b.score.total_cmp(&a.score));
-    // Unknown: each quantity has a factor of its own that nothing ties together.
-    let mut quantities: Vec<Quantity> = d.iter().map(|d| d.here.at.quantity).collect();
-    quantities.sort_unstable();
-    quantities.dedup();
-    let m = quantities.len();
-    let a = Mat::from_fn(n, m, |i, q| f64::from(d[i].here.at.quantity == quantities[q]));
-    let normal = a.transpose() * &weight * &a;
-    let r = Mat::from_fn(n, 1, |i, _| plain[i]);
-    let g = a.transpose() * &weight * &r;
-    let (x, _) = solve_spd(&normal, &g)?;
-    let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
-    Some(Naming { effects, unknown: explained - price * m as f64 - PER_UNKNOWN, misfit })
-}
-
-/// Gauss–Newton on the free values of one effect: values, sigma of the first, half the squares that are left.
-fn fit(
-    v: &Variant,
-    measured: &[f64],
-    plain: &[f64],
-    difference: &dyn Fn(&[Dose]) -> Vec<f64>,
-    quadratic: &dyn Fn(&[f64], &[f64]) -> f64,
-) -> Option<(Vec<f64>, f64, f64)> {
-    let free = v.free(1.0);
-    let mut e: Vec<f64> =
-        free.iter().map(|f| f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral)).collect();
-    let residual =
-        |e: &[f64]| -> Vec<f64> { measured.iter().zip(difference(&dose(v, e))).map(|(m, p)| m - p).collect() };
-    let mut r = plain.to_vec();
-    let mut left = 0.5 * quadratic(&r, &r);
-    let mut sigma = f64::INFINITY;
-    for _ in 0..STEPS {
-        let columns: Vec<Vec<f64>> = free
-            .iter()
-            .enumerate()
-            .map(|(i, f)| {
-                let mut shifted = e.clone();
-                let h = 0.1 * f.unit;
-                shifted[i] += h;
-                residual(&shifted).iter().zip(&r).map(|(a, b)| (b - a) / h * f.unit).collect()
-            })
-            .collect();
-        let k = columns.len();
-        let m = Mat::from_fn(k, k, |a, b| quadratic(&columns[a], &columns[b]) + if a == b { 1e-6 } else { 0.0 });
-        if m[(0, 0)] < 1e-3 {
-            return None;
-        }
-        let g = Mat::from_fn(k, 1, |a, _| quadratic(&columns[a], &r));
-        let (step, _) = solve_spd(&m, &g)?;
-        sigma = m[(0, 0)].powf(-0.5) * free[0].unit;
-        let mut share = 1.0;
-        let mut moved = false;
-        for _ in 0..6 {
-            let next: Vec<f64> = e
-                .iter()
-                .zip(&free)
-                .enumerate()
-                .map(|(i, (e, f))| (e + share * step[(i, 0)].clamp(-3.0, 3.0) * f.unit).clamp(f.bounds[0], f.bounds[1]))
-                .collect();
-            let r2 = residual(&next);
-            let left2 = 0.5 * quadratic(&r2, &r2);
-            if left2 < left {
-                moved = left - left2 > 1e-3;
-                (e, r, left) = (next, r2, left2);
-                break;
-            }
-            share *= 0.5;
-        }
-        if !moved {
-            break;
+    let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
+    best_first(&mut singles);
+    let able: Vec<Variant> = singles.iter().map(|s| s.parts[0]).collect();
+    let mut firsts: Vec<&Named> = Vec::new();
+    for s in &singles {
+        if firsts.len() < FIRSTS && !firsts.iter().any(|f| f.ids() == s.ids()) {
+            firsts.push(s);
         }
     }
-    Some((e, sigma, left))
+    let tasks: Vec<(&Named, Variant)> = firsts
+        .iter()
+        .flat_map(|f| able.iter().filter(|v| v.card().id != f.parts[0].card().id).map(|v| (*f, *v)))
+        .collect();
+    let pairs: Vec<Named> =
+        tasks.par_iter().filter_map(|(f, v)| comparison.fit(&[f.parts[0], *v], Some(&f.values))).collect();
+    let mut effects = singles.clone();
+    effects.extend(pairs);
+    best_first(&mut effects);
+    Some(Naming { effects, unknown: comparison.unknown()? })
+}
+
+fn best_first(list: &mut [Named]) {
+    list.sort_by(|a, b| b.score.total_cmp(&a.score));
 }

@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let stage = |what: &str| progress.stage(what);
     let diagnosis = match case.robot.causality {
         Causality::TorqueDriven => torque_driven(&case, &options, &stage)?,
-        Causality::SpeedDriven => speed_driven(&case, &options, &stage)?,
+        Causality::SpeedDriven => speed_driven(&case, &stage)?,
     };
     drop(progress);
 
@@ -125,6 +125,6 @@ fn torque_driven(case: &CaseFolder, options: &Options, progress: &dyn Fn(&str)) 
     Ok(diagnosis::diagnose(&case.torque_driven()?, options, progress)?)
 }
 
-fn speed_driven(_case: &CaseFolder, _options: &Options, _progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-    bail!("speed-driven robots: not wired yet")
+fn speed_driven(case: &CaseFolder, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+    Ok(diagnosis::diagnose_steady(&case.speed_driven()?, progress)?)
 }

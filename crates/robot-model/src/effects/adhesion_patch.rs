@@ -1,6 +1,6 @@
 //! Slippery or grippy ground.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Wears, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, Wears, World};
 use crate::scalar::Scalar;
 
 /// μ (1 − q)
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for mu in &mut w.adhesion {
             *mu *= T::one() - v[0];
         }

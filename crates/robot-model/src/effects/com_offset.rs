@@ -1,6 +1,6 @@
 //! Centre of mass off the middle.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, WHOLE};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
@@ -32,7 +32,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn robot(&self, v: &[T], r: &mut Robot<T>) {
+    fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {
         r.com[0] += v[0];
         r.com[1] += v[1];
     }

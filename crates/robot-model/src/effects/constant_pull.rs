@@ -1,6 +1,6 @@
 //! Constant pull at the hitch.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// F = −P along the body's x at the rear hitch
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         w.force[0] -= v[0];
         w.moment += v[0] * at.hitch[1];
     }

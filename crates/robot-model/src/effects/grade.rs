@@ -1,7 +1,7 @@
 //! Sloping ground.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
-use crate::scalar::Scalar;
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
+use crate::scalar::{Scalar, real};
 
 /// F = m g sin α along the downhill direction, fixed in the world
 pub struct Law;
@@ -31,9 +31,12 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         let [c, s] = at.heading;
-        w.tilt[0] += at.gravity * (v[0] * c + v[1] * s);
-        w.tilt[1] += at.gravity * (v[1] * c - v[0] * s);
+        // sin α along the slope's direction, to third order: 0.02 % at 0.6 rad.
+        let a2 = v[0] * v[0] + v[1] * v[1];
+        let g = at.gravity * (T::one() - a2 / real(6.0) + a2 * a2 / real(120.0));
+        w.tilt[0] += g * (v[0] * c + v[1] * s);
+        w.tilt[1] += g * (v[1] * c - v[0] * s);
     }
 }

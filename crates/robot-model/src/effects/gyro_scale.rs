@@ -1,6 +1,6 @@
 //! Gyro scale error.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Readings, Redundancy, Role, Scale, WHOLE};
+use crate::effect::{Card, Effect, Kind, Parameter, Readings, Redundancy, Role, Scale, Values, WHOLE};
 use crate::scalar::Scalar;
 
 /// ω_gyro = (1 + s) ω
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn sense(&self, v: &[T], y: &mut Readings<T>) {
+    fn sense(&self, v: &Values<T>, y: &mut Readings<T>) {
         y.gyro *= T::one() + v[0];
     }
 }

@@ -1,6 +1,6 @@
 //! Motor lag.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, WHOLE};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
@@ -31,7 +31,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn robot(&self, v: &[T], r: &mut Robot<T>) {
+    fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {
         r.drive.extra_lag += v[0];
     }
 }

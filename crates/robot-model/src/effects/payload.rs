@@ -1,6 +1,6 @@
 //! Extra mass.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, WHOLE};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
 use crate::robot::Robot;
 use crate::scalar::{Scalar, real};
 
@@ -31,7 +31,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn robot(&self, v: &[T], r: &mut Robot<T>) {
+    fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {
         let grown = r.mass + v[0];
         // The load sits 80 mm above the centre of mass it joins, spread over a square of 0.6 m.
         r.com[2] += real::<T>(0.08) * v[0] / grown;

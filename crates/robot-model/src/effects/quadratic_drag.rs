@@ -1,6 +1,6 @@
 //! Quadratic drag.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// F = −c v |v|
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         let [x, y] = at.velocity;
         let speed2 = x * x + y * y;
         // At rest the square root has no derivative, the drag has.

@@ -1,6 +1,6 @@
 //! Rolling resistance.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Wears, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, Wears, World};
 use crate::scalar::Scalar;
 
 /// T = Δf_r N r sign ω at each wheel
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for f in &mut w.rolling {
             *f += v[0];
         }

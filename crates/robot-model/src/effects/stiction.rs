@@ -1,6 +1,6 @@
 //! Stiction (Stribeck friction).
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// T = Ts exp(−(ω/ωs)²) sign ω on each side
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for t in &mut w.stribeck {
             *t += v[0];
         }

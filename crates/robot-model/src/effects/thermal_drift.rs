@@ -1,6 +1,6 @@
 //! Drift of the friction with temperature.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// T = A (1 − exp(−t/τ)) sign ω on each side, t from the start of a run
@@ -31,7 +31,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         let grown = v[0] * (T::one() - (-at.time / v[1]).exp());
         for t in &mut w.coulomb {
             *t += grown;

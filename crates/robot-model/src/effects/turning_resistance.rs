@@ -1,6 +1,6 @@
 //! Turning (lateral scrub) resistance.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// lateral adhesion times (1 + σ)
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for k in &mut w.lateral {
             *k *= T::one() + v[0];
         }

@@ -1,6 +1,6 @@
 //! Viscous drivetrain friction.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, WHOLE, World};
+use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::Scalar;
 
 /// T = c ω on each side
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for c in &mut w.viscous {
             *c += v[0];
         }

@@ -1,6 +1,6 @@
 //! Wheels of one side out of true.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, World};
+use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, Values, World};
 use crate::scalar::Scalar;
 
 /// r(θ) = r + e_c cos θ + e_s sin θ on one side
@@ -31,7 +31,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         for j in 0..2 {
             let (s, c) = at.wheel_angle[j].sin_cos();
             for r in [j, j + 2] {

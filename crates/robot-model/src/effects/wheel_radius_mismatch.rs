@@ -1,6 +1,6 @@
 //! Wheels of one side of another radius.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, World};
+use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, Values, World};
 use crate::scalar::Scalar;
 
 /// r (1 + ρ) on one side
@@ -30,7 +30,7 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &[T], _at: &Situation<T>, w: &mut World<T>) {
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
         for r in &mut w.radius {
             *r *= T::one() + v[0];
         }

@@ -17,6 +17,7 @@ pub(crate) fn robot() -> Robot<f64> {
         adhesion: 0.7,
         slip_at_peak: 0.15,
         sliding_share: 0.8,
+        rest_speed: 0.3,
         lateral_factor: 0.9,
         rolling_resistance: 0.025,
         coulomb: [0.5, 0.4],

@@ -25,7 +25,9 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String]) -> Strin
     out += &causes(&d.ranked);
     out += &findings(d);
     out += &cells(&d.cells);
+    out += &steady(d);
     out += &free_runs(&d.free_runs);
+    out += &listed("Answers that the recordings do not permit", &withheld(d));
     out += &listed("What limits this answer", &d.limits);
     out += &listed("Lost input", lost);
     out += &listed("Not used", &not_used(case));
@@ -108,6 +110,32 @@ fn cells(cells: &[Cell]) -> String {
         table.row([range(c.speed), range(c.turning), format!("{:.0}", c.seconds), format!("{:.1}", c.ratio)]);
     }
     format!("\n{}{}", heading("Worst by speed and turning (same ratio)"), table.render())
+}
+
+/// Loads of steady driving over the references'.
+fn steady(d: &Diagnosis) -> String {
+    let Some(loads) = d.steady.as_ref().filter(|l| !l.ratios.is_empty()) else { return String::new() };
+    let mut table = TextTable::new(&["recording", "load", ">inner, outer m/s", ">value (90 %)", ">over reference", "90 %", ">s"]);
+    for r in &loads.ratios {
+        let value = format!("{} ± {} {}", number(r.value), number(r.half), r.quantity.unit());
+        let [l, v] = r.speed;
+        let [a, b] = r.interval;
+        table.row([
+            r.recording.clone(),
+            r.quantity.name().to_owned(),
+            format!("{l:.2}, {v:.2}"),
+            value,
+            format!("{:.2}", r.ratio),
+            format!("[{a:.2}, {b:.2}]"),
+            format!("{:.0}", r.seconds),
+        ]);
+    }
+    format!("\n{}{}", heading("Loads of steady driving (asymmetry: as a difference)"), table.render())
+}
+
+fn withheld(d: &Diagnosis) -> Vec<String> {
+    let all = d.steady.iter().flat_map(|l| &l.withheld);
+    all.map(|w| format!("{}: {}: {}", w.recording, w.quantity.name(), w.reason)).collect()
 }
 
 fn free_runs(runs: &[FreeRun]) -> String {
