@@ -48,6 +48,9 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         match outcome {
             Ok(d) => {
                 answers::write(&args.answers, &name, &d, seconds)?;
+                let whole = args.answers.join(&name).join("diagnosis.json");
+                fs::write(&whole, serde_json::to_string_pretty(&d)?)
+                    .with_context(|| format!("cannot write '{}'", whole.display()))?;
                 println!("{name}  {seconds:5.1} s  {}", d.sentences.first().map_or("", String::as_str));
             }
             Err(e) => {

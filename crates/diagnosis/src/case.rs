@@ -127,3 +127,50 @@ impl HeldOut {
         Ok(Self { name, period: period_ns as f64 * 1e-9, first_time: start as f64 * 1e-9, torque, restarts })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{recording, samples};
+
+    fn torques() -> Vec<(Signal, Vec<(f64, f64)>)> {
+        vec![(Signal::TorqueLeft, samples(500, |t| t)), (Signal::TorqueRight, samples(500, |t| 2.0 * t))]
+    }
+
+    #[test]
+    fn rows_with_a_whole_state_are_restarts() {
+        let mut c = torques();
+        let state = [
+            Signal::PoseX,
+            Signal::PoseY,
+            Signal::PoseYaw,
+            Signal::BodyVx,
+            Signal::BodyVy,
+            Signal::GyroZ,
+            Signal::WheelSpeedLeft,
+            Signal::WheelSpeedRight,
+            Signal::WheelAngleLeft,
+            Signal::WheelAngleRight,
+        ];
+        c.extend(state.iter().zip(1..).map(|(s, i)| (*s, vec![(0.0, f64::from(i)), (2.0, 10.0 * f64::from(i))])));
+        // A row in which only some of the state is there is none.
+        c[2].1.push((4.0, 0.0));
+        let held = HeldOut::new(&recording(&c)).expect("inputs");
+        assert_eq!((held.torque.len(), held.period, held.first_time), (500, 0.01, 0.0));
+        approx::assert_relative_eq!(held.torque[100][1], 2.0);
+        assert_eq!(held.restarts.iter().map(|r| r.row).collect::<Vec<_>>(), [0, 200]);
+        let r = held.restarts[1];
+        assert_eq!((r.pose, r.velocity, r.gyro), ([10.0, 20.0, 30.0], [40.0, 50.0], 60.0));
+        assert_eq!((r.wheel_speed, r.wheel_angle), ([70.0, 80.0], [90.0, 100.0]));
+    }
+
+    #[test]
+    fn inputs_without_a_state_or_a_torque_are_refused() {
+        let e = HeldOut::new(&recording(&torques())).expect_err("no state");
+        assert!(e.to_string().contains("in any row"), "{e}");
+        let e = HeldOut::new(&recording(&torques()[..1])).expect_err("no torque");
+        assert!(e.to_string().contains("torque_right"), "{e}");
+        let short: Vec<_> = torques().into_iter().map(|(s, c)| (s, c[..1].to_vec())).collect();
+        assert!(matches!(HeldOut::new(&recording(&short)), Err(DiagnosisError::TooShort { rows: 1, .. })));
+    }
+}

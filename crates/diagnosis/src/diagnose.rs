@@ -26,6 +26,10 @@ use crate::{DiagnosisError, Options};
 pub(crate) const FORMAT: u32 = 1;
 /// Probability above which a sensor fault is taken to be there, when a redundancy shows it.
 const SURE: f64 = 0.99;
+/// One sigma of a size: so many times the curvature's, and this share of the size for what the model gets wrong. From
+/// 15 effects named on our own generator's plant, whose 90 % intervals by curvature alone held the truth 8 times.
+const CURVATURE: f64 = 2.0;
+const MODEL_ERROR: f64 = 0.02;
 /// Causes below this probability are not listed.
 const LISTED: f64 = 1e-4;
 /// A rival this likely, relative to the best, cannot be told from it.
@@ -210,7 +214,8 @@ impl Answer<'_> {
         let side = if let Place::Side(s) = variant.place { Some(s) } else { None };
         let sigma = sigmas.as_ref().map(|s| {
             let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
-            s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum::<f64>().sqrt()
+            let curvature: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();
+            (CURVATURE.powi(2) * curvature + (MODEL_ERROR * variant.magnitude(e)).powi(2)).sqrt()
         });
         Cause {
             effect: card.id.to_owned(),

@@ -376,7 +376,7 @@ impl Problem<'_> {
             let mut moved = false;
             let mut promised = 0.0;
             for damping in DAMPING {
-                let Some(delta) = self.bounded_step(&at.point, &normal, &free, damping) else { break };
+                let Some(delta) = Self::bounded_step(&at.point, &normal, &free, damping) else { break };
                 promised = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
                 let point = Self::advanced(&at.point, &delta, &normal, &free);
                 let response = self.response(&point, h);
@@ -395,7 +395,7 @@ impl Problem<'_> {
     }
 
     /// Levenberg–Marquardt step: a free value at a bound that the step would cross is held.
-    fn bounded_step(&self, point: &Point, normal: &Normal, free: &[Free], damping: f64) -> Option<Mat<f64>> {
+    fn bounded_step(point: &Point, normal: &Normal, free: &[Free], damping: f64) -> Option<Mat<f64>> {
         let n = normal.matrix.nrows();
         let mut held = vec![false; free.len()];
         loop {

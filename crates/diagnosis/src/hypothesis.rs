@@ -47,7 +47,7 @@ impl Variant {
     pub(crate) fn label(&self) -> String {
         let mut out = self.card().id.to_owned();
         if let Some(a) = self.axis {
-            out += &format!(" ({})", self.card().axes[a]);
+            out = format!("{out} ({})", self.card().axes[a]);
         }
         match self.place {
             Place::Whole => {}
@@ -56,11 +56,6 @@ impl Variant {
             Place::Onset => out += " (from an instant)",
         }
         out
-    }
-
-    /// Whether the sign of its single strength is known.
-    pub(crate) fn one_signed(&self) -> bool {
-        !self.card().signed && self.strengths().len() == 1
     }
 
     /// Indices of the strengths that are free here.

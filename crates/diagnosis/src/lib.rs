@@ -25,6 +25,8 @@ mod search;
 mod simulate;
 mod smooth;
 pub mod steady;
+#[cfg(test)]
+mod testing;
 mod verdict;
 mod windows;
 mod words;

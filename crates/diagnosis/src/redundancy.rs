@@ -103,3 +103,72 @@ pub(crate) fn check(runs: &[Run]) -> Redundant {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PERIOD, driven, robot};
+
+    /// Three runs of the plant whose gyro shows `(1 + scale) ω + bias`.
+    fn runs(bias: f64, scale: f64) -> Vec<Run> {
+        let mut run = driven(&robot(), &[], 20.0);
+        for g in run.gyro.iter_mut().flatten() {
+            *g = *g * (1.0 + scale) + bias;
+        }
+        vec![run; 3]
+    }
+
+    fn freeze(run: &mut Run, side: usize, every: usize, rows: usize) -> usize {
+        let mut lost = 0;
+        for first in (300..run.rows() - rows).step_by(every) {
+            let held = run.angle[side][first];
+            let speed =
+                (run.angle[side][first + rows].zip(held)).map_or(0.0, |(b, a)| (b - a) / (rows as f64 * PERIOD));
+            if speed.abs() > 2.0 {
+                run.angle[side][first + 1..first + rows].fill(held);
+                lost += rows - 1;
+            }
+        }
+        lost
+    }
+
+    #[test]
+    fn sound_sensors_have_no_fault() {
+        let found = check(&runs(0.0, 0.0));
+        assert!(found.faults.is_empty(), "{:?}", found.faults);
+        assert_eq!(found.gyro, GyroError::default());
+        assert!(check(&[]).faults.is_empty());
+    }
+
+    #[test]
+    fn bias_and_scale_of_the_gyro_are_recovered() {
+        for (bias, scale) in [(0.03, 0.0), (-0.02, 0.0), (0.0, 0.08), (0.04, -0.06)] {
+            let found = check(&runs(bias, scale));
+            approx::assert_abs_diff_eq!(found.gyro.bias, bias, epsilon = 1e-3);
+            approx::assert_abs_diff_eq!(found.gyro.scale, scale, epsilon = 5e-3);
+            let faults = usize::from(bias != 0.0) + usize::from(scale != 0.0);
+            assert_eq!(found.faults.len(), faults, "{:?}", found.faults);
+        }
+    }
+
+    #[test]
+    fn without_a_pose_nothing_is_said_of_the_gyro() {
+        let mut blind = runs(0.05, 0.0);
+        for run in &mut blind {
+            run.pose[2].fill(None);
+        }
+        assert!(check(&blind).faults.is_empty());
+    }
+
+    #[test]
+    fn encoder_dropouts_are_found_with_their_side_and_share() {
+        let mut dropped = runs(0.0, 0.0);
+        let lost: usize = dropped.iter_mut().map(|r| freeze(r, 1, 60, 12)).sum();
+        let share = lost as f64 / dropped.iter().map(Run::rows).sum::<usize>() as f64;
+        let found = check(&dropped);
+        assert_eq!(found.faults.len(), 1, "{:?}", found.faults);
+        let fault = &found.faults[0];
+        assert_eq!((fault.card.redundancy, fault.side), (Redundancy::FrozenAngle, Some(1)));
+        approx::assert_relative_eq!(fault.magnitude, share, max_relative = 0.1);
+    }
+}

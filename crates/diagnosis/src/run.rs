@@ -128,3 +128,71 @@ impl Run {
         channel.iter().enumerate().filter_map(|(k, v)| v.map(|v| (k, v)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{recording, samples};
+
+    const ROWS: usize = 300;
+
+    fn channels() -> Vec<(Signal, Vec<(f64, f64)>)> {
+        vec![
+            (Signal::TorqueLeft, samples(ROWS, |t| t)),
+            (Signal::TorqueRight, samples(ROWS, |t| -t)),
+            (Signal::WheelAngleLeft, samples(ROWS, |t| 2.0 * t)),
+            (Signal::WheelSpeedRight, samples(ROWS, |_| 3.0)),
+        ]
+    }
+
+    fn error(channels: &[(Signal, Vec<(f64, f64)>)]) -> DiagnosisError {
+        Run::new(&recording(channels)).expect_err("refused")
+    }
+
+    #[test]
+    fn lies_on_its_grid_with_angles_as_recorded_or_integrated() {
+        let run = Run::new(&recording(&channels())).expect("a run");
+        assert_eq!((run.rows(), run.period, run.held_torques), (ROWS, 0.01, 0));
+        approx::assert_relative_eq!(run.torque[100][1], -1.0);
+        approx::assert_relative_eq!(run.angle[0][100].expect("there"), 2.0);
+        let turned = run.angle[1][200].expect("there") - run.angle[1][100].expect("there");
+        approx::assert_relative_eq!(turned, 3.0, epsilon = 1e-9);
+        assert!(run.gyro.iter().all(Option::is_none));
+    }
+
+    #[test]
+    fn a_gap_stays_a_gap_and_a_missing_torque_holds_the_one_before() {
+        let mut c = channels();
+        c[0].1.drain(100..105);
+        c[2].1.drain(50..60);
+        let run = Run::new(&recording(&c)).expect("a run");
+        assert_eq!((run.rows(), run.held_torques), (ROWS, 5));
+        assert_eq!(run.torque[104][0], run.torque[99][0]);
+        assert!(run.angle[0][50..60].iter().all(Option::is_none));
+        assert!(run.angle[0][60].is_some());
+    }
+
+    #[test]
+    fn missing_signals_are_named() {
+        for (i, name) in [(0, "torque_left"), (1, "torque_right"), (2, "wheel_angle_left"), (3, "wheel_speed_right")] {
+            let mut c = channels();
+            c.remove(i);
+            let e = error(&c);
+            assert!(matches!(e, DiagnosisError::MissingSignal { .. }));
+            assert!(e.to_string().contains(name), "{e}");
+        }
+    }
+
+    #[test]
+    fn too_short_without_motion_or_mostly_holes_is_refused() {
+        let short: Vec<_> = channels().into_iter().map(|(s, c)| (s, c[..150].to_vec())).collect();
+        assert!(matches!(error(&short), DiagnosisError::TooShort { rows: 150, needed: 201, .. }));
+        let mut still = channels();
+        still[2].1 = samples(ROWS, |_| 0.7);
+        still[3].1 = samples(ROWS, |_| 0.0);
+        assert!(matches!(error(&still), DiagnosisError::NoMotion { .. }));
+        let mut holes = channels();
+        holes[0].1.push((1e5, 0.0));
+        assert!(matches!(error(&holes), DiagnosisError::Gaps { samples: 301, .. }));
+    }
+}

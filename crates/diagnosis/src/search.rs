@@ -30,6 +30,7 @@ const DISC_STEPS: [f64; 3] = [0.2, 0.1, 0.05];
 const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
 const CLOSE: f64 = 60.0;
+const MOST_CLOSE: usize = 4;
 /// Below this gain a finalist starts a second time, from the re-tuned point.
 const SMALL_GAIN: f64 = 30.0;
 /// Partners of a first effect that are tried, and what a partner's evidence must exceed.
@@ -186,7 +187,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         .collect();
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
-    for trial in singles.iter_mut().filter(|t| t.fitted.cost < best + CLOSE) {
+    for trial in singles.iter_mut().filter(|t| t.fitted.cost < best + CLOSE).take(MOST_CLOSE) {
         *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), MORE_STEPS);
     }
     best_first(&mut singles);

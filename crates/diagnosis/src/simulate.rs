@@ -114,3 +114,73 @@ pub(crate) fn free_run(cut: &Cut, robot: &Robot<f64>, doses: &[Dose], part: Opti
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PERIOD, cutting, driven, robot};
+    use crate::windows::cut;
+
+    const H: f64 = 1e-3;
+    const TORQUE: [[f64; 2]; 4] = [[1.0, -1.0], [3.0, -3.0], [2.0, 5.0], [0.0, 7.0]];
+
+    fn left(t: f64, delay: f64) -> f64 {
+        command(&TORQUE, PERIOD, t, H, delay)[0]
+    }
+
+    #[test]
+    fn a_command_is_held_for_the_row_that_follows() {
+        for k in 0..4 {
+            for i in 0..10 {
+                let t = k as f64 * PERIOD + f64::from(i) * H;
+                assert_eq!(command(&TORQUE, PERIOD, t, H, 0.0), TORQUE[k]);
+            }
+        }
+        // The last set-point stays; before the first there is none.
+        assert_eq!(left(1.0, 0.0), 0.0);
+        assert_eq!(left(0.0, 0.02), 0.0);
+    }
+
+    #[test]
+    fn a_delay_is_fractional_and_continuous() {
+        assert_eq!(left(0.012, 0.0035), TORQUE[0][0]);
+        approx::assert_relative_eq!(left(0.013, 0.0035), 2.0, epsilon = 0.01);
+        assert_eq!(left(0.014, 0.0035), TORQUE[1][0]);
+        let (mut last, step) = (left(0.025, -0.02), 1e-5);
+        for i in -1999..3000 {
+            let now = left(0.025, f64::from(i) * step);
+            // The largest jump between set-points is 2 N m.
+            assert!((now - last).abs() <= 2.0 * 1.01 * step / H, "delay {i}: {last} to {now}");
+            last = now;
+        }
+    }
+
+    #[test]
+    fn a_negative_delay_looks_ahead() {
+        assert_eq!(left(0.005, -PERIOD), TORQUE[1][0]);
+        assert_eq!(left(0.005, -2.0 * PERIOD), TORQUE[2][0]);
+    }
+
+    #[test]
+    fn a_free_run_reproduces_a_drive_of_the_plant_itself() {
+        let robot = robot();
+        let cut = cut(&driven(&robot, &[], 20.0), &cutting());
+        let free = free_run(&cut, &robot, &[], None, 1e-3);
+        let (mut sum, mut size, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS], 0.0);
+        for (segment, free) in cut.segments.iter().zip(&free) {
+            for (i, (o, p)) in segment.observed.iter().zip(free).enumerate() {
+                assert!(segment.valid[i] || (segment.row == 0 && i % CHANNELS >= 5));
+                sum[i % CHANNELS] += (o - p).powi(2);
+                size[i % CHANNELS] += o * o;
+                n += 1.0 / CHANNELS as f64;
+            }
+        }
+        // rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²: a tenth of typical residuals of a real drive.
+        let most = [0.03, 0.03, 0.01, 0.01, 0.01, 0.05, 0.05];
+        for c in 0..CHANNELS {
+            let rms = f64::sqrt(sum[c] / n);
+            assert!(rms < most[c], "channel {c}: rms {rms}");
+            assert!(f64::sqrt(size[c] / n) > most[c], "channel {c} is not driven");
+        }
+    }
+}

@@ -129,12 +129,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn follows_a_cubic_through_noise_free_samples() {
+    fn follows_a_parabola_through_noise_free_samples() {
         let f = |t: f64| 0.3 + 0.1 * t - 0.02 * t * t;
         let at: Vec<f64> = (0..60).map(|i| 0.3 + 1.7 * f64::from(i)).collect();
         let z: Vec<f64> = at.iter().map(|&t| f(t)).collect();
         let x = smooth(&at, &z, 104, 1e-3).expect("enough samples");
-        approx::assert_abs_diff_eq!(interpolate(&x, 50.0), f(50.0), epsilon = 2e-3);
+        // Linear between nodes: up to an eighth of the second difference is lost.
+        approx::assert_abs_diff_eq!(interpolate(&x, 50.0), f(50.0), epsilon = 0.04 / 8.0);
         approx::assert_abs_diff_eq!(slope(&x, 50.0), 0.1 - 0.04 * 50.0, epsilon = 1e-2);
     }
 

@@ -18,8 +18,6 @@ pub(crate) const CHANNEL_NAMES: [&str; CHANNELS] = [
     "forward acceleration",
     "lateral acceleration",
 ];
-/// Units of the channels.
-pub(crate) const CHANNEL_UNITS: [&str; CHANNELS] = ["rad/s", "rad/s", "rad/s", "m/s", "m/s", "m/s²", "m/s²"];
 
 /// Length of a window, s.
 pub(crate) const WINDOW: f64 = 0.1;
@@ -59,11 +57,11 @@ pub(crate) struct Segment {
 
 /// What a sensor correction found by redundancy leaves to do.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct GyroError {
+pub(crate) struct GyroError {
     /// Constant offset, rad/s.
-    pub bias: f64,
+    pub(crate) bias: f64,
     /// Relative scale error.
-    pub scale: f64,
+    pub(crate) scale: f64,
 }
 
 /// A run cut into segments.
@@ -80,8 +78,6 @@ pub(crate) struct Cut {
 
 /// Nodes of the pose smoother, s.
 const NODE: f64 = 0.05;
-/// Noise of a pose when the robot file says nothing, m.
-pub(crate) const POSE_SIGMA: f64 = 0.004;
 
 /// Rows whose angle is frozen: three or more equal counts while moving, ended by a jump above three times the
 /// usual increment.
@@ -368,4 +364,109 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
         }
     }
     start
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PERIOD, blank, cutting};
+
+    /// Wheels at 5 and 6 rad/s, gyro at 0.2 rad/s, accelerometer at (0.1, 0.3) m/s².
+    fn steady(rows: usize) -> Run {
+        let mut run = blank(rows);
+        for k in 0..rows {
+            let t = k as f64 * PERIOD;
+            run.angle[0][k] = Some(5.0 * t);
+            run.angle[1][k] = Some(6.0 * t);
+            run.gyro[k] = Some(0.2);
+            run.accel[0][k] = Some(0.1);
+            run.accel[1][k] = Some(0.3);
+        }
+        run
+    }
+
+    #[test]
+    fn an_angle_is_frozen_when_it_stands_while_moving_and_then_jumps() {
+        let mut angle: Vec<Option<f64>> = (0..40).map(|k| Some(0.1 * f64::from(k))).collect();
+        for k in 11..=13 {
+            angle[k] = angle[10];
+        }
+        let frozen = frozen_rows(&angle);
+        let at: Vec<usize> = (0..40).filter(|&k| frozen[k]).collect();
+        assert_eq!(at, [11, 12, 13]);
+    }
+
+    #[test]
+    fn standing_and_starting_are_not_frozen() {
+        let angle: Vec<Option<f64>> = (0..60).map(|k| Some(1e-3 * f64::from((k - 30).max(0)).powi(2))).collect();
+        assert!(frozen_rows(&angle).iter().all(|f| !f));
+        assert!(frozen_rows(&[None, Some(1.0), None]).iter().all(|f| !f));
+        assert!(frozen_rows(&[Some(1.0); 30]).iter().all(|f| !f));
+    }
+
+    #[test]
+    fn windows_hold_the_known_values_and_missing_channels_are_masked() {
+        let run = steady(2400);
+        let gyro = GyroError { bias: 0.05, scale: 0.5 };
+        let cut = cut(&run, &CutOptions { gyro, ..cutting() });
+        // 239 whole windows, segments of twenty, the last window kept free.
+        assert_eq!((cut.rows_per_window, cut.segments.len(), cut.path.len()), (10, 11, 240));
+        for (i, s) in cut.segments.iter().enumerate() {
+            assert_eq!((s.row, s.windows), (200 * i, 20));
+            assert_eq!(s.count, 20.0 * 5.0);
+            for w in 0..s.windows {
+                let row = w * CHANNELS..(w + 1) * CHANNELS;
+                let expected = [5.0, 6.0, (0.2 - 0.05) / 1.5, 0.0, 0.0, 0.1, 0.3];
+                for (o, e) in s.observed[row.clone()].iter().zip(expected) {
+                    approx::assert_abs_diff_eq!(*o, e, epsilon = 1e-9);
+                }
+                assert_eq!(s.valid[row], [true, true, true, false, false, true, true]);
+            }
+            approx::assert_abs_diff_eq!(s.start.wheel_speed[0], 5.0, epsilon = 1e-6);
+            approx::assert_abs_diff_eq!(s.start.wheel_speed[1], 6.0, epsilon = 1e-6);
+            approx::assert_abs_diff_eq!(s.start.wheel_angle[1], 12.0 * i as f64, epsilon = 1e-6);
+            approx::assert_abs_diff_eq!(s.start.yaw_rate, 0.1, epsilon = 1e-9);
+            // Without a pose the wheels tell how fast it drives.
+            approx::assert_abs_diff_eq!(s.start.velocity[0], 0.55, epsilon = 1e-6);
+        }
+    }
+
+    #[test]
+    fn windows_beside_frozen_rows_are_masked_on_that_side_only() {
+        let mut run = steady(1000);
+        for k in 326..336 {
+            run.angle[1][k] = run.angle[1][325];
+        }
+        let cut = cut(&run, &cutting());
+        let s = &cut.segments[1];
+        // The border at row 330 is frozen: the windows before and after it go.
+        let masked: Vec<usize> = (0..s.windows).filter(|w| !s.valid[w * CHANNELS + 1]).collect();
+        assert_eq!(masked, [12, 13]);
+        assert!((0..s.windows).all(|w| s.valid[w * CHANNELS]));
+    }
+
+    #[test]
+    fn a_pose_gives_body_velocity_and_place() {
+        let mut run = steady(1200);
+        // A circle of 2.5 m at 0.5 m/s.
+        for k in (1..1200).step_by(10) {
+            let yaw = 0.2 * (k as f64 - 0.5) * PERIOD;
+            let place = [2.5 * yaw.sin(), 2.5 * (1.0 - yaw.cos()), yaw];
+            for (channel, v) in run.pose.iter_mut().zip(place) {
+                channel[k] = Some(v);
+            }
+        }
+        let cut = cut(&run, &cutting());
+        for s in &cut.segments {
+            approx::assert_abs_diff_eq!(s.start.velocity[0], 0.5, epsilon = 0.01);
+            approx::assert_abs_diff_eq!(s.start.velocity[1], 0.0, epsilon = 0.01);
+            let yaw = 0.2 * s.row as f64 * PERIOD;
+            approx::assert_abs_diff_eq!(s.start.yaw, yaw, epsilon = 0.01);
+            approx::assert_abs_diff_eq!(s.start.position[0], 2.5 * yaw.sin(), epsilon = 0.01);
+            for w in 1..s.windows - 1 {
+                approx::assert_abs_diff_eq!(s.observed[w * CHANNELS + 3], 0.5, epsilon = 0.01);
+                approx::assert_abs_diff_eq!(s.observed[w * CHANNELS + 4], 0.0, epsilon = 0.01);
+            }
+        }
+    }
 }

@@ -22,7 +22,7 @@ pub(crate) fn variant(v: &Variant) -> String {
     let card = v.card();
     let mut out = card.name.to_owned();
     if let Some(a) = v.axis {
-        out += &format!(", along {}", card.axes[a]);
+        out = format!("{out}, along {}", card.axes[a]);
     }
     match v.place {
         Place::Whole => out,
@@ -99,7 +99,7 @@ pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bo
         Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
         Verdict::NoMismatch => out.push("No mismatch that these loads could name.".to_owned()),
         Verdict::Unknown => {
-            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned())
+            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
         }
         Verdict::Explained => {
             let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
@@ -112,14 +112,21 @@ pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bo
                     format!(", {size}")
                 };
                 out.push(format!("Missing: {}{tail}.", names.join(" or ")));
-                if let Some(drive) = class.get(1).and_then(|id| revealed_by(id)) {
-                    out.push(format!("To tell them apart, record: {drive}."));
+                // The drives that reveal the members split the class; the first three are enough to begin with.
+                let mut drives: Vec<&str> = Vec::new();
+                for drive in class.iter().filter_map(|id| revealed_by(id)) {
+                    if !drives.contains(&drive) && drives.len() < 3 {
+                        drives.push(drive);
+                    }
+                }
+                if class.len() > 1 {
+                    out.push(format!("To tell them apart, record: {}.", drives.join("; ")));
                 }
             }
         }
     }
     let pooled = |r: &&crate::steady::Ratio| {
-        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.contains(&r.recording))
+        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
     };
     for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
         out.push(load(r));
@@ -132,9 +139,10 @@ pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bo
 
 fn load(r: &crate::steady::Ratio) -> String {
     use crate::steady::Quantity;
-    let [l, v] = r.speed;
+    let [slow, fast] = r.range;
     let at = match r.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", 0.5 * (l + v).abs()),
+        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => format!(" at {slow:.2} to {fast:.2} m/s"),
+        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
         _ => String::new(),
     };
     let what = r.quantity.name();

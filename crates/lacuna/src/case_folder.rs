@@ -141,7 +141,10 @@ impl CaseFolder {
     /// Recordings without the signals that are needed, or a robot file without torque per current.
     pub fn speed_driven(&self) -> Result<diagnosis::SteadyCase> {
         let [torque_per_current, _] = self.robot.torque_per_current.with_context(|| {
-            format!("robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it", self.robot.name)
+            format!(
+                "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
+                self.robot.name
+            )
         })?;
         let radius = self.robot.robot.wheel_radius;
         let runs = |l: &Loaded| -> Result<Vec<diagnosis::steady::SpeedRun>> {

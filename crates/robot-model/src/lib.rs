@@ -11,6 +11,7 @@
 //! `f32`, `f64`, or dual numbers for derivatives.
 #![no_std]
 
+mod active;
 pub mod contact;
 pub mod effect;
 mod error;
@@ -19,6 +20,7 @@ pub mod plant;
 pub mod presence;
 pub mod robot;
 mod scalar;
+mod state;
 pub mod tunable;
 
 /// The effects a simulation may lack, one file each; found by the build script in file-name order.
@@ -26,12 +28,14 @@ pub mod effects {
     include!(concat!(env!("OUT_DIR"), "/effects.rs"));
 }
 
+pub use active::Active;
 pub use effect::{Card, Effect, Kind, Parameter, Readings, Role, Situation, World};
 pub use error::ModelError;
-pub use plant::{Active, Plant, State};
+pub use plant::Plant;
 pub use presence::{Disc, Presence};
 pub use robot::Robot;
 pub use scalar::{Scalar, real};
+pub use state::State;
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

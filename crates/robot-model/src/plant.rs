@@ -1,11 +1,12 @@
 //! The plant of a user's simulation: torque-driven (torque in, motion out) or speed-driven (wheel speeds in,
 //! body motion and torque out).
 
+use crate::active::Active;
 use crate::contact::{Stance, combined};
-use crate::effect::{Effect, MAX_PARAMETERS, Readings, Situation, Values, World};
-use crate::presence::Presence;
+use crate::effect::{Readings, Situation, World};
 use crate::robot::{Drive, Robot, UNLIMITED};
-use crate::scalar::{Scalar, real, smooth_sign};
+use crate::scalar::{Scalar, bell, real, smooth_sign};
+use crate::state::State;
 
 /// Steps of the search for a steady motion: the last one is a thousand seconds long.
 const SETTLING: usize = 25;
@@ -13,93 +14,6 @@ const SETTLING: usize = 25;
 const FRICTION_REST: f64 = 0.15;
 /// Wheel speed over which the Stribeck rise decays, rad/s.
 const STRIBECK_SPEED: f64 = 0.6;
-
-/// An effect at given values, present somewhere.
-#[derive(Clone, Copy)]
-pub struct Active<T: Scalar> {
-    effect: &'static dyn Effect<T>,
-    values: Values<T>,
-    presence: Presence<T>,
-    unlimited: bool,
-}
-
-impl<T: Scalar> Active<T> {
-    /// An effect at `values` (the card's order; missing ones at their neutral value), present where `presence` says.
-    pub fn new(effect: &'static dyn Effect<T>, values: &[T], presence: Presence<T>) -> Self {
-        let mut v = [T::zero(); MAX_PARAMETERS];
-        for (i, p) in effect.card().parameters.iter().enumerate().take(MAX_PARAMETERS) {
-            v[i] = values.get(i).copied().unwrap_or_else(|| real(p.neutral));
-        }
-        Self { effect, values: v, presence, unlimited: presence.is_unlimited() }
-    }
-
-    fn values(&self) -> &Values<T> {
-        &self.values
-    }
-
-    fn act(&self, at: &Situation<T>, world: &mut World<T>) {
-        if self.unlimited {
-            self.effect.act(self.values(), at, world);
-        } else {
-            let mut changed = *world;
-            self.effect.act(self.values(), at, &mut changed);
-            world.blend(&changed, self.presence.at(at));
-        }
-    }
-}
-
-/// The moving state of the robot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<T> {
-    /// Time since the start of the recording, s.
-    pub time: T,
-    /// Geometric centre on the ground, m.
-    pub position: [T; 2],
-    /// Cosine and sine of the yaw angle.
-    pub heading: [T; 2],
-    /// Velocity of the centre of mass in body axes, m/s.
-    pub velocity: [T; 2],
-    /// Yaw rate, rad/s.
-    pub yaw_rate: T,
-    /// Speed of the driven (rear) wheel of each side, rad/s.
-    pub wheel_speed: [T; 2],
-    /// Speed of the belt-driven front wheel of each side, rad/s.
-    pub front_speed: [T; 2],
-    /// Angle of the driven wheel of each side, rad.
-    pub wheel_angle: [T; 2],
-    /// Torque after the current loop of each side, N m.
-    pub torque: [T; 2],
-    /// Torque after the second lag of each side, N m.
-    pub lagged: [T; 2],
-    /// Specific force at the centre of mass in body axes, m/s² (of the last step).
-    pub specific: [T; 2],
-    /// Rate of change of the body velocity and yaw rate in the last step.
-    pub rate: [T; 3],
-    /// Torque needed at each side's wheels in the last step, N m (speed-driven robots).
-    pub needed: [T; 2],
-}
-
-impl<T: Scalar> Default for State<T> {
-    /// At rest at the origin, heading along x.
-    fn default() -> Self {
-        let (o, oo) = (T::zero(), [T::zero(); 2]);
-        Self {
-            time: o,
-            position: oo,
-            heading: [T::one(), o],
-            velocity: oo,
-            yaw_rate: o,
-            wheel_speed: oo,
-            front_speed: oo,
-            wheel_angle: oo,
-            torque: oo,
-            lagged: oo,
-            specific: oo,
-            rate: [o; 3],
-            needed: oo,
-        }
-    }
-}
 
 /// A robot with its active effects, ready to step.
 pub struct Plant<'a, T: Scalar> {
@@ -236,13 +150,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     fn friction(world: &World<T>, j: usize, w: T, sign: T) -> T {
         let mut dry = world.coulomb[j];
         if world.stribeck[j] != T::zero() {
-            // exp(−x²) as (1 − x²/16)¹⁶, zero beyond 4.
-            let x = w / real(STRIBECK_SPEED);
-            let mut bell = (T::one() - x * x / real(16.0)).max(T::zero());
-            for _ in 0..4 {
-                bell *= bell;
-            }
-            dry += world.stribeck[j] * bell;
+            dry += world.stribeck[j] * bell(w / real(STRIBECK_SPEED));
         }
         dry * sign + world.viscous[j] * w
     }
@@ -320,10 +228,17 @@ impl<'a, T: Scalar> Plant<'a, T> {
     /// for which all accelerations vanish, at the heading and place of `s`; the torque that it takes is left in
     /// [`State::needed`].
     ///
-    /// Pseudo-transient continuation: implicit Euler steps with ever longer steps, at most [`SETTLING`]. Returns the
+    /// Pseudo-transient continuation: implicit Euler steps with ever longer steps, at most `SETTLING`. Returns the
     /// largest acceleration that is left, m/s² or rad/s².
     pub fn settle_at_speed(&self, s: &mut State<T>, speed: [T; 2]) -> T {
-        let still = Self { robot: self.robot, stance: self.stance, world: self.world, active: self.active, step: T::zero(), keep: self.keep };
+        let still = Self {
+            robot: self.robot,
+            stance: self.stance,
+            world: self.world,
+            active: self.active,
+            step: T::zero(),
+            keep: self.keep,
+        };
         let rate = |s: &State<T>, v: [T; 3]| {
             let mut at = State { velocity: [v[0], v[1]], yaw_rate: v[2], ..*s };
             still.step_at_speed(&mut at, speed, [T::zero(); 2]);

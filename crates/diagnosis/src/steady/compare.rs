@@ -18,6 +18,8 @@ pub struct Ratio {
     pub quantity: Quantity,
     /// Mean speeds at the tyres of the inner and the outer side, m/s.
     pub speed: [f64; 2],
+    /// Slowest and fastest of the outer side's speeds that went into it, m/s.
+    pub range: [f64; 2],
     /// Value in the unit of the quantity.
     pub value: f64,
     /// Half of its 90 % interval.
@@ -132,14 +134,18 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
         let inverse: f64 = list.iter().map(|(l, ..)| scaled(l).1.powi(-2)).sum();
         let reference = list.iter().map(|(_, r, _)| r.error).fold(0.0, f64::max);
         let e = (sd * sd / n + 1.0 / inverse + reference.powi(2)).sqrt();
-        let names: Vec<&str> = list.iter().map(|(l, ..)| l.recording.as_str()).collect();
+        let mut names: Vec<&str> = list.iter().map(|(l, ..)| l.recording.as_str()).collect();
+        names.dedup();
         let mut sample = list[0].0.clone();
         sample.seconds = list.iter().map(|(l, ..)| l.seconds).sum();
         sample.speed = [0, 1].map(|j| list.iter().map(|(l, ..)| l.speed[j]).sum::<f64>() / n);
         let own = list.iter().zip(&w).map(|((l, ..), w)| scaled(l).0 * w).sum::<f64>() / total;
         sample.value = if quantity.is_difference() { own } else { own.exp() };
         sample.error = (sd * sd / n + 1.0 / inverse).sqrt() * if quantity.is_difference() { 1.0 } else { sample.value };
-        pooled.push(ratio(names.join(", "), &sample, mean, e, list.iter().any(|l| l.2)));
+        let mut joint = ratio(names.join(", "), &sample, mean, e, list.iter().any(|l| l.2));
+        let outer = || list.iter().map(|(l, ..)| l.speed[1]);
+        joint.range = [outer().fold(f64::MAX, f64::min), outer().fold(0.0, f64::max)];
+        pooled.push(joint);
     }
     (singles, pooled)
 }
@@ -150,6 +156,7 @@ fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Rati
         recording,
         quantity: l.quantity,
         speed: l.speed,
+        range: [l.speed[1]; 2],
         value: l.value,
         half: NINETY * l.error,
         ratio: of(d),
@@ -157,5 +164,68 @@ fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Rati
         seconds: l.seconds,
         firm: l.seconds >= FIRM,
         other_speed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load(recording: &str, quantity: Quantity, value: f64, speed: f64) -> Load {
+        Load { recording: recording.to_owned(), quantity, value, error: 0.02 * value, seconds: 12.0, speed: [speed; 2] }
+    }
+
+    fn pooled(values: &[f64]) -> (Vec<Ratio>, Vec<Ratio>) {
+        let reference = references(&[load("ref", Quantity::StraightLoad, 20.0, 0.5)]);
+        let loads: Vec<Load> = values
+            .iter()
+            .enumerate()
+            .map(|(i, v)| load(&format!("run_{i}"), Quantity::StraightLoad, *v, 0.5))
+            .collect();
+        ratios(&loads, &reference)
+    }
+
+    #[test]
+    fn recordings_that_agree_are_pooled_and_narrow_the_interval() {
+        let (singles, pooled) = pooled(&[40.0, 41.0, 39.0]);
+        assert_eq!((singles.len(), pooled.len()), (3, 1));
+        let p = &pooled[0];
+        approx::assert_relative_eq!(p.ratio, 2.0, max_relative = 0.01);
+        assert_eq!((p.recording.as_str(), p.seconds), ("run_0, run_1, run_2", 36.0));
+        assert!(p.firm && !p.other_speed);
+        let width = |r: &Ratio| r.interval[1] - r.interval[0];
+        assert!(p.interval[0] < 2.0 && 2.0 < p.interval[1]);
+        assert!(width(p) < width(&singles[0]));
+    }
+
+    #[test]
+    fn recordings_that_differ_are_not_one_load() {
+        // Two on the same ground, one on another: nothing is pooled.
+        let (singles, pooled) = pooled(&[40.0, 41.0, 60.0]);
+        assert_eq!((singles.len(), pooled.len()), (3, 0));
+        let scatter = Quantity::StraightLoad.scatter();
+        let (_, pooled) = self::pooled(&[40.0, 40.0 * (2.7 * scatter).exp()]);
+        assert_eq!(pooled.len(), 1, "a spread below twice the scatter of runs is one load");
+    }
+
+    #[test]
+    fn one_recording_is_not_pooled() {
+        let (singles, pooled) = pooled(&[40.0]);
+        assert_eq!((singles.len(), pooled.len()), (1, 0));
+    }
+
+    #[test]
+    fn a_load_is_compared_within_its_speed_class_where_that_is_possible() {
+        let refs = references(&[
+            load("slow", Quantity::StraightLoad, 20.0, 0.2),
+            load("fast", Quantity::StraightLoad, 30.0, 0.7),
+        ]);
+        let (same, other) = matching(&load("r", Quantity::StraightLoad, 1.0, 0.8), &refs).expect("a reference");
+        assert!(!other);
+        approx::assert_relative_eq!(same.centre, 30.0_f64.ln(), epsilon = 1e-12);
+        let alone = &refs[..1];
+        let (_, other) = matching(&load("r", Quantity::StraightLoad, 1.0, 0.8), alone).expect("a reference");
+        assert!(other);
+        assert!(matching(&load("r", Quantity::SpinSum, 1.0, 0.8), &refs).is_none());
     }
 }

@@ -300,3 +300,97 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
     Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steady::run::tests::{CONSTANT, GROUND, Ground, RADIUS, recording};
+
+    fn loads(ground: Ground, legs: &[([f64; 2], f64)], broken: Option<usize>) -> (Vec<Load>, Vec<Withheld>) {
+        extract(&SpeedRun::new(&recording(ground, legs, broken), RADIUS, CONSTANT).expect("a run"))
+    }
+
+    fn one(loads: &[Load], quantity: Quantity) -> &Load {
+        let found: Vec<&Load> = loads.iter().filter(|l| l.quantity == quantity).collect();
+        assert_eq!(found.len(), 1, "{quantity:?} in {loads:?}");
+        found[0]
+    }
+
+    /// Straight, left arc, straight, right arc, a spin each way.
+    const DRIVE: [([f64; 2], f64); 6] = [
+        ([0.5, 0.5], 20.0),
+        ([0.35, 0.65], 8.0),
+        ([0.5, 0.5], 20.0),
+        ([0.65, 0.35], 8.0),
+        ([-0.25, 0.25], 8.0),
+        ([0.25, -0.25], 8.0),
+    ];
+
+    #[test]
+    fn loads_and_track_of_a_known_ground_are_recovered() {
+        let (loads, withheld) = loads(GROUND, &DRIVE, None);
+        assert_eq!(withheld, []);
+        for (quantity, truth) in [
+            (Quantity::StraightLoad, GROUND.straight),
+            (Quantity::TurningLoad, GROUND.turning),
+            (Quantity::ArcSum, 0.5 * GROUND.straight + GROUND.turning),
+            (Quantity::SpinSum, 0.5 * GROUND.straight + GROUND.turning),
+            (Quantity::EffectiveTrack, GROUND.track),
+        ] {
+            let l = one(&loads, quantity);
+            assert!((l.value - truth).abs() <= 1e-6_f64.max(2.0 * l.error), "{l:?}, truth {truth}");
+            assert!(l.error < 0.1 * truth && l.seconds >= LEAST_SECONDS, "{l:?}");
+        }
+        assert!(one(&loads, Quantity::Asymmetry).value.abs() < 1e-9);
+        approx::assert_relative_eq!(one(&loads, Quantity::StraightLoad).speed[0], 0.5, epsilon = 1e-9);
+        let arc = one(&loads, Quantity::TurningLoad).speed;
+        approx::assert_relative_eq!(arc[0], 0.35, epsilon = 1e-9);
+        approx::assert_relative_eq!(arc[1], 0.65, epsilon = 1e-9);
+    }
+
+    #[test]
+    fn speeds_are_not_mixed() {
+        let (loads, _) = loads(GROUND, &[([0.2, 0.2], 10.0), ([0.5, 0.5], 10.0), ([0.8, 0.8], 10.0)], None);
+        let speeds: Vec<f64> =
+            loads.iter().filter(|l| l.quantity == Quantity::StraightLoad).map(|l| l.speed[0]).collect();
+        assert_eq!(speeds.len(), 3);
+        for (s, truth) in speeds.iter().zip([0.2, 0.5, 0.8]) {
+            approx::assert_relative_eq!(*s, truth, epsilon = 1e-9);
+        }
+    }
+
+    #[test]
+    fn too_little_steady_driving_is_withheld_with_the_reason() {
+        let (loads, withheld) = loads(GROUND, &[([0.5, 0.5], 3.0), ([0.35, 0.65], 2.0), ([0.2, 0.2], 2.0)], None);
+        assert_eq!(loads, []);
+        let reasons: Vec<(Quantity, &str)> = withheld.iter().map(|w| (w.quantity, w.reason.as_str())).collect();
+        assert_eq!(reasons.len(), 3, "{reasons:?}");
+        assert_eq!(reasons[0].0, Quantity::StraightLoad);
+        assert!(reasons[0].1.contains("steady straight driving") && reasons[0].1.contains("3 s are needed"));
+        assert_eq!(reasons[1].0, Quantity::TurningLoad);
+        assert!(reasons[1].1.contains("s of steady turning"), "{reasons:?}");
+        assert_eq!(reasons[2].0, Quantity::EffectiveTrack);
+        assert!(reasons[2].1.contains("with a gyro"), "{reasons:?}");
+    }
+
+    #[test]
+    fn a_side_in_the_dead_band_gives_no_straight_load() {
+        // One side shows nothing: the sum of both is not known, the outer side of a left arc is.
+        let (found, withheld) = loads(GROUND, &DRIVE, Some(0));
+        assert!(found.iter().all(|l| l.quantity != Quantity::StraightLoad && l.quantity != Quantity::TurningLoad));
+        assert!(withheld.iter().any(|w| w.quantity == Quantity::StraightLoad && w.reason.contains("both sides")));
+        // A load that is smaller than the dead band on both sides does not read as zero either.
+        let light = Ground { straight: 3.0, ..GROUND };
+        let (found, withheld) = loads(light, &[([0.5, 0.5], 30.0)], None);
+        assert_eq!(found, []);
+        assert!(withheld.iter().any(|w| w.quantity == Quantity::StraightLoad));
+    }
+
+    #[test]
+    fn one_short_turn_gives_no_track() {
+        let (found, withheld) = loads(GROUND, &[([0.5, 0.5], 10.0), ([0.35, 0.65], 5.5)], None);
+        assert!(found.iter().all(|l| l.quantity != Quantity::EffectiveTrack));
+        let track = withheld.iter().find(|w| w.quantity == Quantity::EffectiveTrack).expect("withheld");
+        assert!(track.reason.contains("one short turn"), "{track:?}");
+    }
+}

@@ -20,7 +20,6 @@ use serde::Serialize;
 use crate::diagnose::FORMAT;
 use crate::fit::tuned;
 use crate::hypothesis::Place;
-use crate::simulate::Dose;
 use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
 use crate::{DiagnosisError, words};
 
@@ -80,11 +79,13 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     let robot = case.robot.checked()?;
     progress("measuring steady loads");
     let (reference_loads, mut withheld) = all_loads(&case.references);
+    for w in &mut withheld {
+        w.recording = format!("reference {}", w.recording);
+    }
     let (loads, not_given) = all_loads(&case.recordings);
     let refs = references(&reference_loads);
     if refs.is_empty() {
-        let reason =
-            withheld.first().map_or_else(String::new, |w| format!("reference '{}': {}", w.recording, w.reason));
+        let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
     }
     let (ratios, pooled) = compare::ratios(&loads, &refs);
@@ -93,7 +94,8 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
-    let comparison = if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
+    let comparison =
+        if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
     let naming = comparison.as_ref().and_then(name);
     progress("forecasting recordings that were not used");
     let free_runs =
@@ -224,9 +226,12 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
     let (none, unknown) = (weight(0.0) / sum, weight(naming.unknown) / sum);
     out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
-    // An effect is as probable as all hypotheses that contain it; its size is that of the best of them.
+    // An effect is as probable as all hypotheses that contain it; its size is that alone.
     let mut causes: Vec<Cause> = Vec::new();
-    for e in &effects {
+    // Singles first: a size beside another effect is not the size alone.
+    let singles_first =
+        effects.iter().filter(|e| e.parts.len() == 1).chain(effects.iter().filter(|e| e.parts.len() > 1));
+    for e in singles_first {
         let p = weight(e.score) / sum;
         for part in 0..e.parts.len() {
             match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
@@ -260,7 +265,9 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
     let rest: Vec<&str> = best.ids().into_iter().enumerate().filter(|(i, _)| *i != member).map(|(_, id)| id).collect();
     effects
         .iter()
-        .filter(|e| e.parts.len() == best.parts.len() && e.score > (best.score - INDISTINGUISHABLE).max(-LEAST_PLAUSIBLE))
+        .filter(|e| {
+            e.parts.len() == best.parts.len() && e.score > (best.score - INDISTINGUISHABLE).max(-LEAST_PLAUSIBLE)
+        })
         .filter_map(|e| {
             let ids = e.ids();
             let own: Vec<&str> = ids.iter().copied().filter(|id| !rest.contains(id)).collect();
@@ -328,7 +335,10 @@ fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
             lag.0, lag.1
         ));
     }
-    let blind: Vec<&str> = all().filter(|r| r.yaw_rate.is_none()).map(|r| r.name.as_str()).collect();
+    let named = |runs: &[SpeedRun], what: &str| -> Vec<String> {
+        runs.iter().filter(|r| r.yaw_rate.is_none()).map(|r| format!("{what} {}", r.name)).collect()
+    };
+    let blind = [named(&case.references, "reference"), named(&case.recordings, "recording")].concat();
     if !blind.is_empty() {
         out.push(format!("no gyro in {}: no effective track from there", blind.join(", ")));
     }

@@ -147,7 +147,8 @@ impl<'a> Comparison<'a> {
     }
 
     fn residual(&self, doses: &[Dose]) -> Vec<f64> {
-        let expected = self.differences.iter().zip(&self.there).map(|(d, t)| predicted(&self.model, doses, d.here.at) - t);
+        let expected =
+            self.differences.iter().zip(&self.there).map(|(d, t)| predicted(&self.model, doses, d.here.at) - t);
         self.measured.iter().zip(expected).map(|(m, e)| m - e).collect()
     }
 
@@ -185,7 +186,11 @@ impl<'a> Comparison<'a> {
         let rest: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
         let width: Vec<f64> = free.iter().map(|(v, f)| self.plausible(v, f)).collect();
         let prior = |e: &[f64]| -> f64 {
-            e.iter().zip(&rest).zip(&width).map(|((e, r), w)| if r.abs() < 1e6 { 0.5 * ((e - r) / w).powi(2) } else { 0.0 }).sum()
+            e.iter()
+                .zip(&rest)
+                .zip(&width)
+                .map(|((e, r), w)| if r.abs() < 1e6 { 0.5 * ((e - r) / w).powi(2) } else { 0.0 })
+                .sum()
         };
         let mut left = 0.5 * self.quadratic(&r, &r) + prior(&e);
         let mut sigma = vec![f64::INFINITY; e.len()];
@@ -202,7 +207,10 @@ impl<'a> Comparison<'a> {
                 })
                 .collect();
             let k = columns.len();
-            let m = Mat::from_fn(k, k, |a, b| self.quadratic(&columns[a], &columns[b]) + if a == b { 1e-6 + (free[a].1.unit / width[a]).powi(2) } else { 0.0 });
+            let m = Mat::from_fn(k, k, |a, b| {
+                self.quadratic(&columns[a], &columns[b])
+                    + if a == b { 1e-6 + (free[a].1.unit / width[a]).powi(2) } else { 0.0 }
+            });
             if (0..k).all(|i| self.quadratic(&columns[i], &columns[i]) < LEAST_RESPONSE) {
                 return None;
             }

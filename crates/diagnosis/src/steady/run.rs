@@ -138,3 +138,109 @@ fn has(c: &Channel, t: i64) -> bool {
 fn at(c: &Channel, t: i64) -> f64 {
     c.t_ns().binary_search(&t).map_or(0.0, |i| c.values()[i])
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use recordings::{Attributes, Channel, Clock};
+
+    use super::*;
+
+    /// Torque per current, N m/A, and the current that shows as zero below it, A.
+    pub(crate) const CONSTANT: f64 = 2.8;
+    pub(crate) const DEAD_BAND: f64 = 0.59;
+    pub(crate) const RADIUS: f64 = 0.165;
+    const RATE: f64 = 6.5;
+
+    /// Straight load and scrub couple of a side, N m; effective track, m.
+    #[derive(Clone, Copy)]
+    pub(crate) struct Ground {
+        pub(crate) straight: f64,
+        pub(crate) turning: f64,
+        pub(crate) track: f64,
+    }
+
+    /// Samples of one channel: times in s and values.
+    type Samples = (Vec<f64>, Vec<f64>);
+
+    /// Speeds of the sides (m/s) held for some seconds each, and what a drive without signs shows of it.
+    pub(crate) fn recording(ground: Ground, legs: &[([f64; 2], f64)], broken: Option<usize>) -> Recording {
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        for (speed, seconds) in legs {
+            rows.extend(std::iter::repeat_n(*speed, (seconds * RATE).round() as usize));
+        }
+        let time: Vec<f64> = (0..rows.len()).map(|i| i as f64 / RATE).collect();
+        let torque = |[l, r]: [f64; 2], side: usize| {
+            let own = [l, r][side];
+            let scrub = if (r - l).abs() > 1e-9 { ground.turning * (r - l).signum() } else { 0.0 };
+            own.signum() * 0.5 * ground.straight + if side == 1 { scrub } else { -scrub }
+        };
+        let shown = |t: f64, v: f64| {
+            // A side that brakes feeds back and shows nothing.
+            let current = if t * v > 0.0 { t.abs() / CONSTANT } else { 0.0 };
+            if current < DEAD_BAND { 0.0 } else { current }
+        };
+        let column = |f: &dyn Fn([f64; 2]) -> f64| -> Samples { (time.clone(), rows.iter().map(|r| f(*r)).collect()) };
+        let current =
+            |side: usize| column(&|r| if broken == Some(side) { 0.0 } else { shown(torque(r, side), r[side]) });
+        let gyro_time: Vec<f64> = (0..rows.len() * 15).map(|i| i as f64 / (RATE * 15.0)).collect();
+        let gyro = gyro_time
+            .iter()
+            .map(|t| rows[((t * RATE) as usize).min(rows.len() - 1)])
+            .map(|[l, r]| (r - l) / ground.track)
+            .collect();
+        let set = Attributes { set_point: true, ..Attributes::default() };
+        let load = Attributes { magnitude_only: true, dead_band: Some(DEAD_BAND), set_point: false };
+        let channel = |signal: Signal, (t, v): Samples, a: Attributes| {
+            let t = t.iter().map(|t| (t * 1e9).round() as i64).collect();
+            Channel::new(signal, 0, t, v).expect("a channel").with_attributes(a)
+        };
+        let channels = vec![
+            channel(Signal::CommandSpeedLeft, column(&|r| r[0] / RADIUS), set),
+            channel(Signal::CommandSpeedRight, column(&|r| r[1] / RADIUS), set),
+            channel(Signal::CurrentLeft, current(0), load),
+            channel(Signal::CurrentRight, current(1), load),
+            channel(Signal::GyroZ, (gyro_time, gyro), Attributes::default()),
+        ];
+        Recording::new("run", vec![Clock { name: "one".to_owned(), nominal_rate_hz: None }], channels)
+            .expect("a recording")
+    }
+
+    pub(crate) const GROUND: Ground = Ground { straight: 24.0, turning: 9.0, track: 1.05 };
+
+    #[test]
+    fn takes_set_points_and_currents_and_says_so() {
+        let run = SpeedRun::new(&recording(GROUND, &[([0.5, 0.5], 10.0)], None), RADIUS, CONSTANT).expect("a run");
+        assert!(run.set_points && run.magnitude_only);
+        approx::assert_relative_eq!(run.speed[0][5], 0.5, epsilon = 1e-12);
+        approx::assert_relative_eq!(run.torque[1][5], 12.0, epsilon = 1e-9);
+        approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + DEAD_BAND_SLACK) * CONSTANT);
+        // Speeds and gyro share a clock: nothing is to be aligned.
+        assert!(run.lag.expect("a gyro").iter().all(|l| *l == 0.0));
+    }
+
+    #[test]
+    fn knows_how_long_speeds_have_held_and_will_hold() {
+        let legs = [([0.5, 0.5], 4.0), ([0.3, 0.6], 4.0)];
+        let run = SpeedRun::new(&recording(GROUND, &legs, None), RADIUS, CONSTANT).expect("a run");
+        let turn = run.time.partition_point(|t| *t < 4.0);
+        assert!(run.age(turn, 0.02) < 1e-9);
+        approx::assert_abs_diff_eq!(run.age(turn - 1, 0.02), run.time[turn - 1], epsilon = 1e-9);
+        assert!(run.holds(0, 0.02, 2.0) && !run.holds(turn - 2, 0.02, 2.0));
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_refused() {
+        let new = |r: &Recording| SpeedRun::new(r, RADIUS, CONSTANT).expect_err("refused");
+        let short = recording(GROUND, &[([0.5, 0.5], 2.0)], None);
+        assert!(matches!(new(&short), DiagnosisError::TooShort { rows: 13, needed: 20, .. }));
+        let still = recording(GROUND, &[([0.0, 0.0], 10.0)], None);
+        assert!(matches!(new(&still), DiagnosisError::NoMotion { .. }));
+        let full = recording(GROUND, &[([0.5, 0.5], 10.0)], None);
+        let without = |s: Signal| {
+            let rest = full.channels().iter().filter(|c| c.signal() != s).cloned().collect();
+            new(&Recording::new("r", full.clocks().to_vec(), rest).expect("a recording")).to_string()
+        };
+        assert!(without(Signal::CurrentLeft).contains("current or torque"));
+        assert!(without(Signal::CommandSpeedRight).contains("command_speed"));
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args as ClapArgs;
 use diagnosis::{Diagnosis, Options};
 use lacuna::case_folder::{self, CaseFolder};
@@ -68,6 +68,9 @@ pub(crate) struct Args {
     /// Write the predicted responses of the held-out drives as CSV into this folder.
     #[arg(long, value_name = "DIR")]
     predictions: Option<PathBuf>,
+    /// Draw the verdict as one SVG picture: probabilities of the causes, errors on drives left out of the fit.
+    #[arg(long, value_name = "FILE.svg")]
+    picture: Option<PathBuf>,
 }
 
 /// Diagnoses a case.
@@ -90,6 +93,10 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         } else {
             predictions::write(dir, &diagnosis)?;
         }
+    }
+    if let Some(file) = &args.picture {
+        let svg = report::picture::svg(&diagnosis)?;
+        std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
     }
     if let Some(target) = &args.json {
         let provenance = as_json::Provenance {

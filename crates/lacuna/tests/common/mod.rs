@@ -42,9 +42,14 @@ pub fn drive(rows: u32, phase: f64) -> String {
 pub struct Bench(TempDir);
 
 impl Bench {
+    /// A folder with nothing in it.
+    pub fn empty() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
     /// `case/` with `robot.toml`, `reference/ref_1.csv` and `recordings/run_1.csv`.
     pub fn new() -> Self {
-        let bench = Self(tempfile::tempdir().unwrap());
+        let bench = Self::empty();
         bench.write("case/robot.toml", ROBOT);
         bench.write("case/reference/ref_1.csv", &drive(300, 0.0));
         bench.write("case/recordings/run_1.csv", &drive(300, 0.5));
@@ -56,6 +61,11 @@ impl Bench {
         let path = self.0.path().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, text).unwrap();
+    }
+
+    /// Reads a file below the folder.
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.path().join(name)).unwrap()
     }
 
     /// Removes a folder.

@@ -8,7 +8,7 @@ pub struct Law;
 
 const CARD: Card = Card {
     id: "adhesion_patch",
-    name: "slippery or grippy ground",
+    name: "grip of the ground",
     kind: Kind::Physics,
     law: "μ (1 − q)",
     seen: "Wheels spin or slide earlier; turns come out wider or tighter.",

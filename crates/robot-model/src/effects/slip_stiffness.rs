@@ -8,7 +8,7 @@ pub struct Law;
 
 const CARD: Card = Card {
     id: "slip_stiffness",
-    name: "slip at which the tyres grip best",
+    name: "slip stiffness of the tyres",
     kind: Kind::Physics,
     law: "λp (1 + q)",
     seen: "Slips more (less) for the same force: the effective track grows, odometry runs ahead.",

@@ -115,9 +115,11 @@ fn cells(cells: &[Cell]) -> String {
 /// Loads of steady driving over the references'.
 fn steady(d: &Diagnosis) -> String {
     let Some(loads) = d.steady.as_ref().filter(|l| !l.ratios.is_empty()) else { return String::new() };
-    let mut table = TextTable::new(&["recording", "load", ">inner, outer m/s", ">value (90 %)", ">over reference", "90 %", ">s"]);
+    let mut table =
+        TextTable::new(&["recording", "load", ">inner, outer m/s", ">value (90 %)", ">over reference", "90 %", ">s"]);
     for r in &loads.ratios {
-        let value = format!("{} ± {} {}", number(r.value), number(r.half), r.quantity.unit());
+        let digits = (1 - r.half.log10().floor() as i32).clamp(0, 4) as usize;
+        let value = format!("{:.digits$} ± {:.digits$} {}", r.value, r.half, r.quantity.unit());
         let [l, v] = r.speed;
         let [a, b] = r.interval;
         table.row([

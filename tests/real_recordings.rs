@@ -1,0 +1,109 @@
+//! Real recordings: a Husky A200 on labelled ground, and a development case of the blind examiner.
+//!
+//! These data lie beside the repository; without them the tests say that they are skipped.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use diagnosis::steady::{Quantity, Ratio};
+use diagnosis::{Diagnosis, Options, Verdict, diagnose, diagnose_steady};
+use lacuna::case_folder::{self, CaseFolder};
+use recordings::ReadOptions;
+
+/// What lies beside the repository, or `None` after saying so.
+fn beside(what: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(what);
+    if path.exists() {
+        return Some(path);
+    }
+    eprintln!("skipped: there is no ../shared/{what} beside the repository");
+    None
+}
+
+/// The Husky's runs on a ground against those on the floor of a building.
+fn husky(ground: &str) -> Option<Diagnosis> {
+    let data = beside("data/husky-open")?;
+    let mapping = case_folder::mapping("husky-open").expect("built in");
+    let robot = case_folder::robot("husky-a200").expect("built in");
+    let paths = [vec![data.join("FLOORING")], vec![data.join(ground)], vec![]];
+    let case = CaseFolder::from_paths(robot, [&paths[0], &paths[1], &paths[2]], &mapping, &ReadOptions::default());
+    let case = case.expect("readable").speed_driven().expect("speeds and currents");
+    Some(diagnose_steady(&case, &|_| {}).expect("a diagnosis"))
+}
+
+fn pooled(d: &Diagnosis, quantity: Quantity) -> &Ratio {
+    let loads = d.steady.as_ref().expect("loads");
+    loads.pooled.iter().find(|r| r.quantity == quantity).expect("pooled")
+}
+
+fn told(d: &Diagnosis) -> String {
+    let causes: Vec<String> = d.ranked.iter().take(6).map(|c| format!("{} {:.3}", c.effect, c.probability)).collect();
+    format!("{:?}: {}; classes {:?}", d.verdict, causes.join(", "), d.indistinguishable)
+}
+
+/// What these data's defects do to any answer.
+fn tells_its_limits(d: &Diagnosis) {
+    let limits = d.limits.join("\n");
+    for part in ["set-points", "no sign", "dead band", "another clock"] {
+        assert!(limits.contains(part), "no `{part}` in: {limits}");
+    }
+    assert!(!d.steady.as_ref().expect("loads").withheld.is_empty());
+}
+
+#[test]
+fn sandy_loam_loads_straight_driving() {
+    let Some(d) = husky("SANDY_LOAM") else { return };
+    let straight = pooled(&d, Quantity::StraightLoad);
+    assert!((straight.ratio - 2.05).abs() <= 0.25, "{straight:?}");
+    let [low, high] = straight.interval;
+    assert!(low >= 0.8 * straight.ratio && high <= 1.2 * straight.ratio, "{straight:?}");
+    assert_eq!(d.verdict, Verdict::Explained, "{}", told(&d));
+    // One-way driving cannot tell rolling resistance from a slope.
+    let class = d.indistinguishable.first().expect("a class");
+    for id in ["rolling_resistance", "grade"] {
+        assert!(class.iter().any(|c| c == id), "{}", told(&d));
+    }
+    tells_its_limits(&d);
+}
+
+#[test]
+fn asphalt_loads_turning() {
+    let Some(d) = husky("ASPHALT") else { return };
+    let turning = pooled(&d, Quantity::TurningLoad);
+    assert!((turning.ratio - 1.65).abs() <= 0.35, "{turning:?}");
+    assert!(turning.interval[0] > 1.0, "{turning:?}");
+    let loads = d.steady.as_ref().expect("loads");
+    let fast: Vec<&Ratio> = loads
+        .ratios
+        .iter()
+        .filter(|r| r.quantity == Quantity::StraightLoad && (r.speed[0] - 0.79).abs() < 0.05)
+        .collect();
+    assert!(!fast.is_empty());
+    for r in &fast {
+        assert!((0.9..=1.2).contains(&r.ratio), "{r:?}");
+    }
+    let named = d.ranked.first().expect("a cause");
+    assert_ne!(named.effect, "viscous_friction", "{}", told(&d));
+    assert!(!d.indistinguishable.iter().flatten().any(|id| id == "viscous_friction"), "{}", told(&d));
+    tells_its_limits(&d);
+}
+
+#[test]
+fn a_development_case_of_the_blind_examiner_names_its_payload() {
+    let Some(archive) = beside("blind/dev/cases/d06.tar.gz") else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let unpacked = Command::new("tar").arg("-xzf").arg(&archive).arg("-C").arg(folder.path()).status();
+    if !unpacked.is_ok_and(|s| s.success()) {
+        eprintln!("skipped: `tar` cannot unpack {}", archive.display());
+        return;
+    }
+    let mapping = case_folder::mapping("skid-steer-columns").expect("built in");
+    let case = CaseFolder::open(&folder.path().join("d06"), None, &mapping, &ReadOptions::default());
+    let case = case.expect("readable");
+    assert_eq!(case.lost(), Vec::<String>::new());
+    let d = diagnose(&case.torque_driven().expect("signals"), &Options::default(), &|_| {}).expect("a diagnosis");
+    assert_eq!(d.verdict, Verdict::Explained, "{}", told(&d));
+    assert_eq!(d.ranked[0].effect, "payload", "{}", told(&d));
+    assert!(d.ranked[0].magnitude.is_some_and(|kg| kg > 0.0), "{:?}", d.ranked[0]);
+    assert_eq!(d.predictions.len(), case.held_out.reads.len());
+}
