@@ -7,6 +7,7 @@
 //!
 //! Pure functions: no files, no clock, no output. Effects are known by their cards only.
 
+mod answer;
 mod calibrate;
 pub mod case;
 mod decide;
@@ -14,8 +15,11 @@ mod diagnose;
 mod error;
 mod fit;
 mod hypothesis;
+mod leave_out;
 mod linalg;
 mod locate;
+mod motion;
+mod normal;
 mod options;
 mod predict;
 mod redundancy;

@@ -3,8 +3,8 @@
 use robot_model::{Active, Plant, Robot, State};
 
 use crate::case::HeldOut;
+use crate::motion::GyroError;
 use crate::simulate::{Dose, command};
-use crate::windows::GyroError;
 
 /// The predicted response of a held-out drive, row by row.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,8 @@
 use robot_model::effect::Redundancy;
 use robot_model::{Card, effects};
 
+use crate::motion::{GyroError, frozen_rows, integrated_yaw, pose_yaw};
 use crate::run::Run;
-use crate::windows::{GyroError, frozen_rows, integrated_yaw, pose_yaw};
 
 /// A sensor fault found by redundancy.
 #[derive(Debug, Clone)]

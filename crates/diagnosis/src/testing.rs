@@ -10,9 +10,10 @@ use robot_model::tunable::COUNT as NUISANCES;
 use crate::Options;
 use crate::case::usual_sigma;
 use crate::fit::Problem;
+use crate::motion::GyroError;
 use crate::run::Run;
 use crate::simulate::{Dose, command};
-use crate::windows::{Cut, CutOptions, GyroError};
+use crate::windows::{Cut, CutOptions};
 
 /// Time between rows, s.
 pub(crate) const PERIOD: f64 = 0.01;

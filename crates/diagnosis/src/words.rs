@@ -81,6 +81,12 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     for class in &d.indistinguishable {
         out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
     }
+    let unknown = d.ranked.iter().find(|c| c.effect == "unknown").map_or(0.0, |c| c.probability);
+    if d.verdict == Verdict::Explained && unknown > 0.5 {
+        out.push(format!(
+            "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."
+        ));
+    }
     if let Some(u) = d.unexplained.filter(|_| d.verdict == Verdict::Explained) {
         out.push(format!("{:.0} % of the mismatch is still unexplained.", 100.0 * u));
     }
