@@ -25,7 +25,24 @@ pub(crate) struct Found {
 /// Finalists that are refitted.
 const FINALISTS: usize = 6;
 /// Steps by which a disc is moved and resized, m.
-const DISC_STEPS: [f64; 3] = [0.2, 0.1, 0.05];
+const DISC_STEPS: [f64; 4] = [0.3, 0.15, 0.08, 0.04];
+/// Moves of (x, y, radius): each alone, and growing or shrinking with one edge held.
+const DISC_MOVES: [[f64; 3]; 14] = [
+    [1.0, 0.0, 0.0],
+    [-1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+    [1.0, 0.0, 1.0],
+    [-1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [0.0, -1.0, 1.0],
+    [1.0, 0.0, -1.0],
+    [-1.0, 0.0, -1.0],
+    [0.0, 1.0, -1.0],
+    [0.0, -1.0, -1.0],
+];
 /// Steps of a first refit, and more for those within `CLOSE` nats of the best.
 const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
@@ -115,11 +132,13 @@ fn scan_disc(problem: &Problem<'_>, trial: &mut Trial) {
         }
         for step in DISC_STEPS {
             for _ in 0..3 {
-                let tries: Vec<Point> = (at - 3..at)
-                    .flat_map(|i| [-step, step].map(|d| (i, d)))
-                    .map(|(i, d)| {
+                let tries: Vec<Point> = DISC_MOVES
+                    .iter()
+                    .map(|m| {
                         let mut p = trial.fitted.point.clone();
-                        p.effects[i] += d;
+                        for (e, m) in p.effects[at - 3..at].iter_mut().zip(m) {
+                            *e += step * m;
+                        }
                         p.effects[at - 1] = p.effects[at - 1].max(0.3);
                         p
                     })
