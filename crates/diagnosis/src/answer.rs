@@ -174,10 +174,11 @@ impl Answer<'_> {
         )
     }
 
-    /// When the geometric centre was inside the disc, in each recording.
+    /// When at least half of the wheels were inside the disc, in each recording.
     fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
         /// Parts of a window in which the path is straight enough.
         const FINE: usize = 5;
+        let (a, b) = (self.problem.robot.half_wheelbase, self.problem.robot.half_track);
         let mut out = BTreeMap::new();
         for cut in self.problem.cuts {
             let window = cut.rows_per_window as f64 * cut.period;
@@ -186,7 +187,15 @@ impl Answer<'_> {
                 for i in 0..FINE {
                     let f = (i as f64 + 0.5) / FINE as f64;
                     let at = |k: usize| ends[0][k] * (1.0 - f) + ends[1][k] * f;
-                    if (at(0) - disc[0]).hypot(at(1) - disc[1]) < disc[2] {
+                    let (sin, cos) = at(2).sin_cos();
+                    let inside = [[a, b], [a, -b], [-a, b], [-a, -b]]
+                        .iter()
+                        .filter(|[x, y]| {
+                            let wheel = [at(0) + cos * x - sin * y, at(1) + sin * x + cos * y];
+                            (wheel[0] - disc[0]).hypot(wheel[1] - disc[1]) < disc[2]
+                        })
+                        .count();
+                    if inside >= 2 {
                         let from = (w as f64 + i as f64 / FINE as f64) * window;
                         let until = from + window / FINE as f64;
                         match list.last_mut() {

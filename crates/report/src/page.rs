@@ -47,7 +47,7 @@ h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem}p{max-width:75ch}p.note{
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right}
 th:first-child,td:first-child{text-align:left}.good{color:var(--good)}.bad{color:var(--bad);font-weight:600}
-.grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,480px),1fr));gap:1rem}
+.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,480px),1fr));gap:1rem}
 figure{margin:0;min-width:0}figcaption{color:var(--soft);font-size:.9rem}";
 
 /// Follows the colours of the page, also when the reader changes them.
