@@ -9,6 +9,8 @@ use clap::Args as ClapArgs;
 use lacuna::{answers, case_folder};
 use recordings::ReadOptions;
 
+use crate::output::{self, Figure};
+
 /// Arguments of `cargo xtask blind`.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Args {
@@ -33,6 +35,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     folders.sort();
     let mapping = case_folder::mapping("skid-steer-columns")?;
     let mut failed = 0;
+    let mut times = Vec::new();
     for folder in &folders {
         let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         if !args.only.is_empty() && !args.only.contains(&name) {
@@ -45,6 +48,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
             Ok(diagnosis::diagnose(&case, &diagnosis::Options::default(), &|_| ())?)
         })();
         let seconds = start.elapsed().as_secs_f64();
+        times.push(seconds);
         match outcome {
             Ok(d) => {
                 answers::write(&args.answers, &name, &d, seconds)?;
@@ -59,6 +63,31 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
             }
         }
     }
-    println!("{failed} of {} cases failed", folders.len());
+    println!("{failed} of {} cases failed", times.len());
+    times.sort_by(f64::total_cmp);
+    let folder = output::folder("blind")?;
+    output::write(&folder, "summary.json", &serde_json::to_string_pretty(&summary(&times, failed))?)?;
     Ok(failed == 0)
+}
+
+/// What the run itself measured; right and wrong are the scorer's.
+fn summary(times: &[f64], failed: usize) -> Vec<Figure> {
+    let figure = |name: &str, value: f64, unit: &str| Figure {
+        name: name.to_owned(),
+        value,
+        unit: unit.to_owned(),
+        target: None,
+        pass: None,
+    };
+    let mut out = vec![figure("cases", times.len() as f64, "")];
+    out.push(Figure {
+        target: Some("0".to_owned()),
+        pass: Some(failed == 0),
+        ..figure("cases that failed", failed as f64, "")
+    });
+    if let (Some(median), Some(longest)) = (times.get(times.len() / 2), times.last()) {
+        out.push(figure("time of a case, median", *median, "s"));
+        out.push(figure("time of a case, longest", *longest, "s"));
+    }
+    out
 }
