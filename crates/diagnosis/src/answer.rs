@@ -253,7 +253,7 @@ impl Answer<'_> {
             .collect();
         let healthy = healthy_cost(p);
         let best = winner.map_or(retuned.cost, |w| w.trial.fitted.cost);
-        let unexplained = (verdict != Verdict::NoMismatch).then(|| {
+        let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| {
             let before = p.misfit(&calibrated) - healthy;
             ((best - healthy) / before.max(1.0)).clamp(0.0, 1.0)
         });
@@ -294,12 +294,9 @@ impl Answer<'_> {
 
     /// Effects of the same kind of probability as the best: these recordings cannot tell them apart.
     fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<Vec<String>> {
-        if verdict != Verdict::Explained {
-            return Vec::new();
-        }
+        let Some(winner) = self.winner().filter(|_| verdict == Verdict::Explained) else { return Vec::new() };
         // Alternatives to the best hypothesis, not its own second member.
-        let members: Vec<&str> =
-            self.winner().map_or(Vec::new(), |w| w.trial.hypothesis.parts.iter().map(|(v, _)| v.card().id).collect());
+        let members: Vec<&str> = winner.trial.hypothesis.parts.iter().map(|(v, _)| v.card().id).collect();
         let best = members
             .iter()
             .filter_map(|m| ranked.iter().find(|c| c.effect == *m))

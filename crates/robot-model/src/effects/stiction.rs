@@ -1,7 +1,7 @@
 //! Stiction (Stribeck friction).
 
 use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
-use crate::scalar::{Scalar, bell};
+use crate::scalar::Scalar;
 
 /// T = Ts exp(−(ω/ωs)²) sign ω on each side
 pub struct Law;
@@ -14,15 +14,6 @@ const CARD: Card = Card {
     seen: "Sticks at rest and jumps when it breaks loose; nothing at speed.",
     parameters: &[
         Parameter { name: "Ts", unit: "N m", role: Role::Strength, bounds: [0.0, 20.0], neutral: 0.0, probes: &[0.4], scale: Scale::Own },
-        Parameter {
-            name: "ωs",
-            unit: "rad/s",
-            role: Role::Shape,
-            bounds: [0.05, 5.0],
-            neutral: 0.6,
-            probes: &[0.6],
-            scale: Scale::Own,
-        },
     ],
     signed: false,
     axes: &[],
@@ -39,9 +30,9 @@ impl<T: Scalar> Effect<T> for Law {
         &CARD
     }
 
-    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
-        for (t, speed) in w.coulomb.iter_mut().zip(at.wheel_speed) {
-            *t += v[0] * bell(speed / v[1]);
+    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
+        for t in &mut w.stribeck {
+            *t += v[0];
         }
     }
 }
