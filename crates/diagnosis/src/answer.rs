@@ -89,21 +89,9 @@ impl Answer<'_> {
                 intervals: None,
             });
         }
-        let plain = |effect: &str, name: &str, probability: f64| Cause {
-            effect: effect.to_owned(),
-            name: name.to_owned(),
-            probability,
-            magnitude: None,
-            sigma: None,
-            unit: "-",
-            parameters: BTreeMap::new(),
-            side: None,
-            place: None,
-            intervals: None,
-        };
         let none = if fault { self.decision.none * (1.0 - SURE) } else { self.decision.none };
-        out.push(plain("none", "nothing is missing", none));
-        out.push(plain("unknown", "something that is not in the catalogue", self.decision.unknown));
+        out.push(Cause::plain("none", "nothing is missing", none));
+        out.push(Cause::plain("unknown", "something that is not in the catalogue", self.decision.unknown));
         out.retain(|c| c.probability >= LISTED || c.effect == "none" || c.effect == "unknown");
         out.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(a.effect.cmp(&b.effect)));
         out

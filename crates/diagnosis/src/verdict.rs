@@ -45,6 +45,24 @@ pub struct Cause {
     pub intervals: Option<BTreeMap<String, Vec<[f64; 2]>>>,
 }
 
+impl Cause {
+    /// A cause of which only the probability is known.
+    pub(crate) fn plain(effect: &str, name: &str, probability: f64) -> Self {
+        Self {
+            effect: effect.to_owned(),
+            name: name.to_owned(),
+            probability,
+            magnitude: None,
+            sigma: None,
+            unit: "-",
+            parameters: BTreeMap::new(),
+            side: None,
+            place: None,
+            intervals: None,
+        }
+    }
+}
+
 /// Free-run errors of a recording that was not used for the fit, rms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FreeRun {

@@ -241,8 +241,8 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
         }
     }
     causes.retain(|c| c.probability > LISTED);
-    causes.push(plain("none", "nothing is missing", none));
-    causes.push(plain("unknown", "something that is not in the catalogue", unknown));
+    causes.push(Cause::plain("none", "nothing is missing", none));
+    causes.push(Cause::plain("unknown", "something that is not in the catalogue", unknown));
     causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     out.ranked = causes;
     let named = 1.0 - none - unknown;
@@ -276,21 +276,6 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
         .collect()
 }
 
-fn plain(effect: &str, name: &str, probability: f64) -> Cause {
-    Cause {
-        effect: effect.to_owned(),
-        name: name.to_owned(),
-        probability,
-        magnitude: None,
-        sigma: None,
-        unit: "-",
-        parameters: BTreeMap::new(),
-        side: None,
-        place: None,
-        intervals: None,
-    }
-}
-
 fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
     let card = variant.card();
@@ -307,7 +292,7 @@ fn cause(e: &Named, part: usize, probability: f64) -> Cause {
         unit: words::unit(card),
         parameters,
         side: if let Place::Side(s) = variant.place { Some(words::side(s)) } else { None },
-        ..plain(card.id, &words::variant(variant), probability)
+        ..Cause::plain(card.id, &words::variant(variant), probability)
     }
 }
 
