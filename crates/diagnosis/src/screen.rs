@@ -75,14 +75,13 @@ fn probe_dose(variant: &Variant, free: &[Free], index: usize, size: f64) -> Dose
 }
 
 /// Sizes at which a free value is probed.
-fn probes(variant: &Variant, free: &Free, largest_torque: f64) -> Vec<f64> {
+fn probes(variant: &Variant, free: &Free) -> Vec<f64> {
     let Some(i) = free.parameter else { return Vec::new() };
     let p = &variant.card().parameters[i];
     if p.role == Role::Shape {
         return Vec::new();
     }
     let scale = free.unit / p.probes[p.probes.len() / 2].abs();
-    debug_assert!(scale == 1.0 || (scale - largest_torque).abs() < 1e-9 * largest_torque);
     p.probes.iter().map(|x| x * scale).collect()
 }
 
@@ -110,7 +109,7 @@ pub(crate) fn screen(
         match variant.place {
             Place::Whole | Place::Side(_) => {
                 for (index, f) in variant.free(largest).iter().enumerate() {
-                    list.extend(probes(variant, f, largest).into_iter().map(|size| Probe { variant: v, index, size }));
+                    list.extend(probes(variant, f).into_iter().map(|size| Probe { variant: v, index, size }));
                 }
             }
             Place::Disc | Place::Onset => local.push(v),

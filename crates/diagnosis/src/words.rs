@@ -3,6 +3,7 @@
 use robot_model::Card;
 
 use crate::hypothesis::{Place, Variant};
+use crate::steady::{NINETY, UNNAMED_STRAIGHT};
 use crate::verdict::{Cause, Diagnosis, Verdict};
 
 pub(crate) fn side(s: usize) -> &'static str {
@@ -39,7 +40,7 @@ pub(crate) fn quantity(c: &Cause) -> String {
     match c.sigma.filter(|s| *s > 0.0 && s.is_finite()) {
         Some(s) => {
             let digits = (1 - s.log10().floor() as i32).clamp(0, 6) as usize;
-            format!("{m:.digits$} ± {:.digits$}{unit} (90 %)", 1.645 * s)
+            format!("{m:.digits$} ± {:.digits$}{unit} (90 %)", NINETY * s)
         }
         None => format!("{m:.3}{unit}"),
     }
@@ -163,7 +164,7 @@ fn load(r: &crate::steady::Ratio) -> String {
         return format!("{}: {what}{at} {:+.2} beyond the references' [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
     }
     let judgement = if a > 1.0 || b < 1.0 {
-        if r.quantity == Quantity::StraightLoad && a < UNNAMED && b > 1.0 / UNNAMED {
+        if r.quantity == Quantity::StraightLoad && a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT {
             ": differs, but cold drive trains vary as much: unexplained"
         } else {
             ""
@@ -177,6 +178,3 @@ fn load(r: &crate::steady::Ratio) -> String {
         r.recording, r.ratio, r.seconds
     )
 }
-
-/// Straight loads vary by up to this factor between days for reasons that these signals do not show.
-const UNNAMED: f64 = 1.45;

@@ -72,7 +72,7 @@ pub(crate) struct Naming {
 
 /// The straight load of a drive train varies by up to this factor (90 %) between days without a cause that these
 /// signals could name: cold grease, tyre pressure.
-const UNNAMED_STRAIGHT: f64 = 1.45;
+pub(crate) const UNNAMED_STRAIGHT: f64 = 1.45;
 /// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
 const PLAUSIBLE: f64 = 3.0;
 /// Robot for which the cards' medium sizes are meant: mass in kg, torque m g r in N m, wheelbase in m.
