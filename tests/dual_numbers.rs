@@ -101,7 +101,7 @@ fn end<T: Scalar>(by: By, d: T) -> [T; 8] {
     }
     let ([x, y], [c, s], [left, right]) = (start.position, start.heading, start.wheel_speed);
     let [vx, vy] = plant.velocity(&start);
-    [x, y, s.atan2(c), vx, vy, plant.readings(&start).gyro, left, right]
+    [x, y, s / c, vx, vy, plant.readings(&start).gyro, left, right]
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The outer loop: from the error of the pose to a speed and a yaw rate.
 
-use robot_model::Scalar;
+use nn_basis::Scalar;
 
 use crate::Reference;
 

@@ -1,6 +1,6 @@
 //! The desired motion: straight, one loop, straight.
 
-use robot_model::{Scalar, real};
+use nn_basis::{Scalar, real};
 
 use crate::ControllerError;
 use crate::error::positive;

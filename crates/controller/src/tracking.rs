@@ -1,8 +1,7 @@
 //! The inner loop: a sliding variable per side and a network that learns the load.
 
-use nn_basis::{Basis, LinearNet};
+use nn_basis::{Basis, LinearNet, Scalar, real};
 use robot_model::paper::Parameters;
-use robot_model::{Scalar, real};
 
 use crate::error::{not_negative, positive};
 use crate::{ControllerError, Kinematic, PathReference, Pose, Reference};

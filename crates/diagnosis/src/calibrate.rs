@@ -4,8 +4,9 @@ use faer::Mat;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::fit::{Columns, Hypothesis, PER_RUN, Problem, Response};
+use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
 use crate::linalg::solve_spd;
+use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
 use crate::{DiagnosisError, Options};
 
@@ -133,7 +134,7 @@ fn regimes(problem: &Problem<'_>, response: &Response) -> Regimes {
     for (r, cut) in problem.cuts.iter().enumerate() {
         for (s, segment) in cut.segments.iter().enumerate() {
             if segment.count > 0.0 {
-                known.push((segment.regime, (problem.q(r, s, response) / segment.count).ln()));
+                known.push((segment.regime, (problem.q(r, s, &response[r][s]) / segment.count).ln()));
             }
         }
     }

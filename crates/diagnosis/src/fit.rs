@@ -1,12 +1,14 @@
 //! Gauss–Newton in free run: nuisance parameters, run-to-run deviations and the strengths and shapes of effects.
 
+use std::ops::Range;
+
 use faer::Mat;
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::hypothesis::{Free, Onsets, Variant};
-use crate::simulate::{Dose, free_run};
+use crate::simulate::{Body, Dose, Response, free_run};
 use crate::windows::{CHANNELS, Cut};
 
 /// Offsets of a run that sensors add: gyro, accelerometer x and y.
@@ -22,6 +24,8 @@ pub(crate) const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
 /// Damping of a step that is tried in turn, and the gain below which a fit has arrived, nats.
 const DAMPING: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 100.0];
 const LEAST_GAIN: f64 = 0.05;
+/// Cost of a response that is not finite.
+const HOPELESS: f64 = 1e300;
 /// Numbers that a run has to itself.
 pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
 /// Finite step of a nuisance parameter, in its sigma.
@@ -89,9 +93,6 @@ pub(crate) struct Point {
     pub(crate) effects: Vec<f64>,
 }
 
-/// Predicted windows: run, segment, number.
-pub(crate) type Response = Vec<Vec<Vec<f64>>>;
-
 /// The robot tuned by `theta` (in sigmas).
 pub(crate) fn tuned(robot: &Robot<f64>, sigma: &[f64; NUISANCES], theta: &[f64; NUISANCES]) -> Robot<f64> {
     let mut r = *robot;
@@ -126,34 +127,36 @@ impl Problem<'_> {
         tuned(self.robot, &self.sigma, &theta)
     }
 
-    fn run_response(&self, point: &Point, doses: &[Dose], run: usize, part: Option<usize>) -> Vec<Vec<f64>> {
-        let mut y = free_run(&self.cuts[run], &self.robot_of(point, run), doses, part, self.step);
-        for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
-            let offset = point.run[run][DEVIATING.len() + o] * OFFSET_SIGMA[o];
-            for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
-                *v += offset;
+    /// Response of the recordings `runs`.
+    fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
+        let body = |run| Body { robot: self.robot_of(&lane.point, run), doses: (lane.doses)(run) };
+        let bodies: Vec<Body> = runs.clone().map(body).collect();
+        let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
+        for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {
+            for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
+                let offset = own[DEVIATING.len() + o] * OFFSET_SIGMA[o];
+                for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
+                    *v += offset;
+                }
             }
         }
-        y
+        out
     }
 
-    /// Response at several points and doses at once; work is shared over (lane, run).
+    /// Response at several points and doses at once.
     pub(crate) fn lanes(&self, lanes: &[Lane<'_>]) -> Vec<Response> {
-        let runs = self.cuts.len();
-        let flat: Vec<Vec<Vec<f64>>> = (0..lanes.len() * runs)
-            .into_par_iter()
-            .map(|i| {
-                let (lane, run) = (&lanes[i / runs], i % runs);
-                let doses = (lane.doses)(run);
-                self.run_response(&lane.point, &doses, run, lane.part)
-            })
-            .collect();
-        let mut flat = flat.into_iter();
-        (0..lanes.len()).map(|_| flat.by_ref().take(runs).collect()).collect()
+        lanes.par_iter().map(|l| self.free(l, 0..self.cuts.len())).collect()
     }
 
     pub(crate) fn response(&self, point: &Point, h: &Hypothesis) -> Response {
-        self.lanes(&[Lane { point: point.clone(), doses: &|run| h.doses(&point.effects, run), part: None }]).remove(0)
+        let doses = |run: usize| h.doses(&point.effects, run);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, 0..self.cuts.len())
+    }
+
+    /// Response of one recording.
+    pub(crate) fn run_response(&self, run: usize, point: &Point, h: &Hypothesis) -> Vec<Vec<f64>> {
+        let doses = |run: usize| h.doses(&point.effects, run);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, run..run + 1).remove(0)
     }
 
     /// Response and columns of θ by finite steps of 0.3 sigma.
@@ -192,11 +195,11 @@ impl Problem<'_> {
         Columns(out.iter().zip(&shifted).zip(&free).map(|((y, (_, d)), f)| difference(y, base, f.unit / d)).collect())
     }
 
-    /// Weighted square of a segment's residual, `Σ r²/R`.
-    pub(crate) fn q(&self, run: usize, segment: usize, response: &Response) -> f64 {
+    /// Weighted square of a segment's residual, `Σ r²/R`, for its predicted windows.
+    pub(crate) fn q(&self, run: usize, segment: usize, predicted: &[f64]) -> f64 {
         let s = &self.cuts[run].segments[segment];
         let mut q = 0.0;
-        for (i, ((o, p), &valid)) in s.observed.iter().zip(&response[run][segment]).zip(&s.valid).enumerate() {
+        for (i, ((o, p), &valid)) in s.observed.iter().zip(predicted).zip(&s.valid).enumerate() {
             if valid {
                 q += (o - p).powi(2) / self.variance[i % CHANNELS];
             }
@@ -216,13 +219,14 @@ impl Problem<'_> {
 
     /// Cost of a response, without priors.
     pub(crate) fn misfit(&self, response: &Response) -> f64 {
-        let mut f = 0.0;
-        for (r, cut) in self.cuts.iter().enumerate() {
-            for s in 0..cut.segments.len() {
-                f += self.segment_cost(r, s, self.q(r, s, response));
-            }
-        }
-        if f.is_finite() { f } else { f64::MAX }
+        (0..self.cuts.len()).map(|r| self.misfit_of_run(r, &response[r])).sum()
+    }
+
+    /// Cost of one recording's response; huge if it is not finite.
+    pub(crate) fn misfit_of_run(&self, run: usize, response: &[Vec<f64>]) -> f64 {
+        let cost = |(s, y): (usize, &Vec<f64>)| self.segment_cost(run, s, self.q(run, s, y));
+        let f: f64 = response.iter().enumerate().map(cost).sum();
+        if f.is_finite() { f } else { HOPELESS }
     }
 
     fn prior(&self, point: &Point) -> f64 {

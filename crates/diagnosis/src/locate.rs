@@ -1,6 +1,7 @@
 //! Where the mismatch shows: signal, time, speed and turning.
 
-use crate::fit::{Problem, Response};
+use crate::fit::Problem;
+use crate::simulate::Response;
 use crate::verdict::{Cell, Finding};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 

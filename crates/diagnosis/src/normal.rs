@@ -4,9 +4,10 @@ use faer::Mat;
 use rayon::prelude::*;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSET_SIGMA, OFFSETS, PER_RUN, Point, Problem, Response};
+use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSET_SIGMA, OFFSETS, PER_RUN, Point, Problem};
 use crate::hypothesis::Free;
 use crate::linalg::solve_spd;
+use crate::simulate::Response;
 use crate::windows::CHANNELS;
 
 /// Normal equations reduced to θ and the effects, with what back-substitution needs.
@@ -69,7 +70,7 @@ impl Problem<'_> {
         let mut gram = Mat::<f64>::zeros(all, all);
         let root = self.variance.map(|v| 1.0 / v.sqrt());
         for (s, segment) in self.cuts[r].segments.iter().enumerate() {
-            let weight = self.weight(r, s, self.q(r, s, base)).sqrt();
+            let weight = self.weight(r, s, self.q(r, s, &base[r][s])).sqrt();
             let rows: Vec<usize> = (0..segment.observed.len()).filter(|&i| segment.valid[i]).collect();
             let a = Mat::from_fn(rows.len(), all, |i, c| {
                 let k = rows[i];

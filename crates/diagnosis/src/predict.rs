@@ -3,8 +3,9 @@
 use robot_model::{Active, Plant, Robot, State};
 
 use crate::case::HeldOut;
+use crate::hold::Hold;
 use crate::motion::GyroError;
-use crate::simulate::{Dose, command};
+use crate::simulate::Dose;
 
 /// The predicted response of a held-out drive, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +26,7 @@ pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: 
     let substeps = (held.period / step).round().max(1.0) as usize;
     let h = held.period / substeps as f64;
     let plant = Plant::new(robot, &active, h);
-    let delay = plant.drive().delay;
+    let hold = Hold::new(held.period, substeps, plant.drive().delay);
     let shown = |yaw_rate: f64| yaw_rate * (1.0 + gyro.scale) + gyro.bias;
     let mut s = State::default();
     let mut next = held.restarts.iter().peekable();
@@ -54,8 +55,7 @@ pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: 
         plant.sense(&mut readings);
         out.yaw_rate.push(shown(readings.gyro));
         for i in 0..substeps {
-            let t = k as f64 * held.period + i as f64 * h;
-            plant.step(&mut s, command(&held.torque, held.period, t, h, delay));
+            plant.step(&mut s, hold.command(&held.torque, k, i));
         }
     }
     out

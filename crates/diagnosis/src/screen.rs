@@ -6,10 +6,11 @@ use robot_model::presence::Presence;
 use robot_model::tunable::COUNT as NUISANCES;
 use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
 
-use crate::fit::{Columns, Fitted, Hypothesis, Lane, Problem, Response, difference};
+use crate::fit::{Columns, Fitted, Hypothesis, Lane, Problem, difference};
 use crate::hypothesis::{Free, Onsets, Place, Variant};
 use crate::linalg::{select, solve_spd};
-use crate::simulate::Dose;
+use crate::local;
+use crate::simulate::{Dose, Response};
 use crate::windows::PARTS;
 
 /// A form of an effect with its evidence and where a fit of it should start.
@@ -21,16 +22,6 @@ pub(crate) struct Candidate {
     /// Log Bayes factor over "re-tune only", nats.
     pub(crate) evidence: f64,
 }
-
-/// Radii of discs that are tried, m.
-const RADII: [f64; 3] = [0.8, 1.2, 1.7];
-/// Centres of discs that are tried: farthest points of the driven paths.
-const CENTRES: usize = 24;
-/// Prior cost of choosing a disc, and of an onset in a run.
-const DISC_COST: f64 = 3.4;
-const ONSET_COST: f64 = 1.24;
-/// Onsets are tried at most this many per recording.
-const MOST_ONSETS: usize = 60;
 
 /// One raw lane: a variant at one probe.
 struct Probe {
@@ -56,7 +47,7 @@ fn positive_share(mean: f64, sd: f64) -> f64 {
     if z < -30.0 { -0.5 * z * z } else { (2.0 * Gaussian::standard().cdf(z)).max(1e-300).ln() }
 }
 
-fn single(a: f64, b: f64, signed: bool) -> Option<(f64, f64)> {
+pub(crate) fn single(a: f64, b: f64, signed: bool) -> Option<(f64, f64)> {
     let (value, x, sd) = evidence(&Mat::from_fn(1, 1, |_, _| a), &Mat::from_fn(1, 1, |_, _| b))?;
     Some((value + if signed { 0.0 } else { positive_share(x[0], sd) }, x[0]))
 }
@@ -86,8 +77,8 @@ fn probes(variant: &Variant, free: &Free) -> Vec<f64> {
 }
 
 /// Where a screen stands: a point, and the columns of what is re-tuned together with every candidate.
-struct Ground<'a> {
-    problem: &'a Problem<'a>,
+pub(crate) struct Ground<'a> {
+    pub(crate) problem: &'a Problem<'a>,
     base: &'a Fitted,
     /// Columns of the effects that are there already.
     beside: Columns,
@@ -104,7 +95,7 @@ pub(crate) fn screen(
     let ground = Ground { problem, base, beside: problem.effect_columns(&base.point, beside, &base.response) };
     let largest = problem.largest_torque;
     let mut list: Vec<Probe> = Vec::new();
-    let mut local: Vec<usize> = Vec::new();
+    let mut locals: Vec<usize> = Vec::new();
     for (v, variant) in variants.iter().enumerate() {
         match variant.place {
             Place::Whole | Place::Side(_) => {
@@ -112,11 +103,11 @@ pub(crate) fn screen(
                     list.extend(probes(variant, f).into_iter().map(|size| Probe { variant: v, index, size }));
                 }
             }
-            Place::Disc | Place::Onset => local.push(v),
+            Place::Disc | Place::Onset => locals.push(v),
         }
     }
     // Local forms of the same effect share their part lanes.
-    let mut part_of: Vec<&'static str> = local.iter().map(|&v| variants[v].card().id).collect();
+    let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].card().id).collect();
     part_of.dedup();
     part_of.sort_unstable();
     part_of.dedup();
@@ -125,7 +116,7 @@ pub(crate) fn screen(
         .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(largest), p.index, p.size), None))
         .collect();
     for id in &part_of {
-        let Some(&v) = local.iter().find(|&&v| variants[v].card().id == *id) else { continue };
+        let Some(&v) = locals.iter().find(|&&v| variants[v].card().id == *id) else { continue };
         let (variant, free) = (&variants[v], variants[v].free(largest));
         doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
     }
@@ -148,10 +139,10 @@ pub(crate) fn screen(
     let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
     for (n, id) in part_of.iter().enumerate() {
         let parts = &raw[list.len() + n * PARTS..list.len() + (n + 1) * PARTS];
-        for &v in local.iter().filter(|&&v| variants[v].card().id == *id) {
+        for &v in locals.iter().filter(|&&v| variants[v].card().id == *id) {
             let found = match variants[v].place {
-                Place::Disc => disc(&ground, &variants[v], parts),
-                _ => onset(&ground, &variants[v], parts),
+                Place::Disc => local::disc(&ground, &variants[v], parts),
+                _ => local::onset(&ground, &variants[v], parts),
             };
             out.extend(found);
         }
@@ -161,7 +152,7 @@ pub(crate) fn screen(
 }
 
 /// `A` and `b` of the columns after θ, the effects that are there and the runs' own numbers are eliminated.
-fn reduced(ground: &Ground<'_>, mut columns: Columns) -> Option<(Mat<f64>, Mat<f64>)> {
+pub(crate) fn reduced(ground: &Ground<'_>, mut columns: Columns) -> Option<(Mat<f64>, Mat<f64>)> {
     let (problem, base) = (ground.problem, ground.base);
     let n = columns.0.len();
     columns.0.extend(ground.beside.0.iter().cloned());
@@ -223,139 +214,4 @@ fn whole(ground: &Ground<'_>, variants: &[Variant], list: &[Probe], raw: &[Respo
         }
     }
     out
-}
-
-/// The column of a local presence: each part's column times the share of it that is inside.
-fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> Response {
-    let runs = parts[0].len();
-    (0..runs)
-        .map(|r| {
-            (0..parts[0][r].len())
-                .map(|s| {
-                    let mut y = vec![0.0; parts[0][r][s].len()];
-                    for (q, part) in parts.iter().enumerate() {
-                        let w = share(r, s, q);
-                        if w > 0.0 {
-                            for (y, p) in y.iter_mut().zip(&part[r][s]) {
-                                *y += w * p;
-                            }
-                        }
-                    }
-                    y
-                })
-                .collect()
-        })
-        .collect()
-}
-
-fn disc(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -> Option<Candidate> {
-    let problem = ground.problem;
-    let centres = farthest_points(problem, CENTRES);
-    if centres.len() < 2 {
-        return None;
-    }
-    let discs: Vec<([f64; 2], f64)> = centres.iter().flat_map(|&c| RADII.map(|r| (c, r))).collect();
-    let columns = discs
-        .iter()
-        .map(|&(c, radius)| {
-            superpose(parts, |r, s, q| {
-                let wheels = &problem.cuts[r].segments[s].wheels[q];
-                let inside = wheels.iter().filter(|w| (w[0] - c[0]).hypot(w[1] - c[1]) < radius).count();
-                inside as f64 / 4.0
-            })
-        })
-        .collect();
-    let (a, b) = reduced(ground, Columns(columns))?;
-    let free = variant.free(problem.largest_torque);
-    let best = (0..discs.len())
-        .filter_map(|i| single(a[(i, i)], b[(i, 0)], false).map(|(value, x)| (value, x, i)))
-        .max_by(|x, y| x.0.total_cmp(&y.0))?;
-    let (value, x, i) = best;
-    let strengths = free.len() - 3;
-    let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
-    start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);
-    start[strengths] = discs[i].0[0];
-    start[strengths + 1] = discs[i].0[1];
-    start[strengths + 2] = discs[i].1;
-    Some(Candidate { variant: *variant, start, onsets: Vec::new(), evidence: value - DISC_COST })
-}
-
-/// Points of the driven paths as far from each other as can be, greedily.
-fn farthest_points(problem: &Problem<'_>, most: usize) -> Vec<[f64; 2]> {
-    let path: Vec<[f64; 2]> = problem.cuts.iter().flat_map(|c| c.path.iter().map(|p| [p[0], p[1]])).collect();
-    let Some(&first) = path.first() else { return Vec::new() };
-    let mut out = vec![first];
-    let mut far: Vec<f64> = path.iter().map(|p| (p[0] - first[0]).hypot(p[1] - first[1])).collect();
-    while out.len() < most {
-        let Some((i, d)) = far.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        if d < 0.1 {
-            break;
-        }
-        let p = path[i];
-        out.push(p);
-        for (f, q) in far.iter_mut().zip(&path) {
-            *f = f.min((q[0] - p[0]).hypot(q[1] - p[1]));
-        }
-    }
-    out
-}
-
-fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -> Option<Candidate> {
-    let problem = ground.problem;
-    // Grid of onsets: the borders of the parts, thinned for long recordings.
-    let mut grid: Vec<(usize, usize, usize)> = Vec::new();
-    for (r, cut) in problem.cuts.iter().enumerate() {
-        let all: Vec<(usize, usize)> = (0..cut.segments.len()).flat_map(|s| (0..PARTS).map(move |q| (s, q))).collect();
-        let keep = all.len().div_ceil(MOST_ONSETS).max(1);
-        grid.extend(all.into_iter().step_by(keep).map(|(s, q)| (r, s, q)));
-    }
-    if grid.is_empty() {
-        return None;
-    }
-    let columns =
-        grid.iter().map(|&(r, s, q)| superpose(parts, |r2, s2, q2| f64::from(r2 == r && (s2, q2) >= (s, q)))).collect();
-    let (a, b) = reduced(ground, Columns(columns))?;
-    let runs = problem.cuts.len();
-    // One strength for all runs; each run's onset in turn is the best given the others. `None`: it does not set in.
-    let mut chosen: Vec<Option<usize>> = vec![None; runs];
-    let value = |chosen: &[Option<usize>]| {
-        let set: Vec<usize> = chosen.iter().flatten().copied().collect();
-        let aa: f64 = set.iter().flat_map(|&i| set.iter().map(move |&j| (i, j))).map(|(i, j)| a[(i, j)]).sum();
-        let bb: f64 = set.iter().map(|&i| b[(i, 0)]).sum();
-        single(aa, bb, false).map_or((f64::MIN, 0.0), |(v, x)| (v - ONSET_COST * set.len() as f64, x))
-    };
-    for _ in 0..3 {
-        for r in 0..runs {
-            let mut best = (f64::MIN, None);
-            let options = std::iter::once(None).chain((0..grid.len()).filter(|&i| grid[i].0 == r).map(Some));
-            for option in options {
-                chosen[r] = option;
-                let v = value(&chosen).0;
-                if v > best.0 {
-                    best = (v, option);
-                }
-            }
-            chosen[r] = best.1;
-        }
-    }
-    let (best, x) = value(&chosen);
-    if chosen.iter().all(Option::is_none) {
-        return None;
-    }
-    let free = variant.free(problem.largest_torque);
-    let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
-    start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);
-    let onsets = chosen
-        .iter()
-        .map(|c| {
-            c.map(|i| {
-                let (r, s, q) = grid[i];
-                let cut = &problem.cuts[r];
-                let segment = &cut.segments[s];
-                let rows = (segment.windows * cut.rows_per_window) as f64;
-                (segment.row as f64 + rows * q as f64 / PARTS as f64) * cut.period
-            })
-        })
-        .collect();
-    Some(Candidate { variant: *variant, start, onsets, evidence: best })
 }

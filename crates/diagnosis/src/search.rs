@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::fit::{Fitted, Hypothesis, Lane, Point, Problem};
-use crate::hypothesis::{Place, variants};
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::hypothesis::variants;
 use crate::screen::{Candidate, screen};
+use crate::{disc, onset};
 
 /// A hypothesis that was fitted in free run.
 #[derive(Clone)]
@@ -24,25 +25,6 @@ pub(crate) struct Found {
 
 /// Finalists that are refitted.
 const FINALISTS: usize = 6;
-/// Steps by which a disc is moved and resized, m.
-const DISC_STEPS: [f64; 4] = [0.3, 0.15, 0.08, 0.04];
-/// Moves of (x, y, radius): each alone, and growing or shrinking with one edge held.
-const DISC_MOVES: [[f64; 3]; 14] = [
-    [1.0, 0.0, 0.0],
-    [-1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, -1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.0, 0.0, -1.0],
-    [1.0, 0.0, 1.0],
-    [-1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [0.0, -1.0, 1.0],
-    [1.0, 0.0, -1.0],
-    [-1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [0.0, -1.0, -1.0],
-];
 /// Steps of a first refit, and more for those within `CLOSE` nats of the best.
 const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
@@ -91,79 +73,6 @@ fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
     out
 }
 
-/// Moves every onset to where the cost is least: half-second steps about the start, then tenths.
-fn scan_onsets(problem: &Problem<'_>, trial: &mut Trial) {
-    for part in 0..trial.hypothesis.parts.len() {
-        if trial.hypothesis.parts[part].0.place != Place::Onset {
-            continue;
-        }
-        for run in 0..problem.cuts.len() {
-            let cut = &problem.cuts[run];
-            let end = cut.torque.len() as f64 * cut.period;
-            for step in [0.5, 0.1] {
-                let Some(now) = trial.hypothesis.parts[part].1[run] else { continue };
-                let mut best = (trial.fitted.cost, now);
-                for k in -4_i32..=4 {
-                    let t = (now + step * f64::from(k)).clamp(0.0, end);
-                    let mut h = trial.hypothesis.clone();
-                    h.parts[part].1[run] = Some(t);
-                    let response = problem.response(&trial.fitted.point, &h);
-                    let cost = problem.cost(&trial.fitted.point, &response);
-                    if cost < best.0 {
-                        best = (cost, t);
-                        trial.fitted.response = response;
-                        trial.fitted.cost = cost;
-                        trial.hypothesis = h;
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Moves and resizes a disc by ever smaller steps: its edge makes the cost too rough for Gauss–Newton alone.
-fn scan_disc(problem: &Problem<'_>, trial: &mut Trial) {
-    let mut at = 0;
-    for (variant, _) in trial.hypothesis.parts.clone() {
-        let n = variant.free(1.0).len();
-        at += n;
-        if variant.place != Place::Disc {
-            continue;
-        }
-        for step in DISC_STEPS {
-            for _ in 0..3 {
-                let tries: Vec<Point> = DISC_MOVES
-                    .iter()
-                    .map(|m| {
-                        let mut p = trial.fitted.point.clone();
-                        for (e, m) in p.effects[at - 3..at].iter_mut().zip(m) {
-                            *e += step * m;
-                        }
-                        p.effects[at - 1] = p.effects[at - 1].max(0.3);
-                        p
-                    })
-                    .collect();
-                let doses: Vec<_> =
-                    tries.iter().map(|p| |run: usize| trial.hypothesis.doses(&p.effects, run)).collect();
-                let lanes: Vec<Lane<'_>> =
-                    tries.iter().zip(&doses).map(|(p, d)| Lane { point: p.clone(), doses: d, part: None }).collect();
-                let best = problem
-                    .lanes(&lanes)
-                    .into_iter()
-                    .zip(&tries)
-                    .map(|(y, p)| (problem.cost(p, &y), y, p.clone()))
-                    .min_by(|a, b| a.0.total_cmp(&b.0));
-                match best {
-                    Some((cost, response, point)) if cost < trial.fitted.cost => {
-                        trial.fitted = Fitted { cost, response, point, columns: trial.fitted.columns.clone() };
-                    }
-                    _ => break,
-                }
-            }
-        }
-    }
-}
-
 fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], base: &Fitted) -> Fitted {
     let point = Point { effects: effects.to_vec(), ..point.clone() };
     problem.begin(h, point, Some(base.columns.clone()))
@@ -172,8 +81,16 @@ fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], 
 fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize) -> Trial {
     let fitted = problem.refine(&h, start, steps, Some(2));
     let mut trial = Trial { hypothesis: h, fitted };
-    scan_onsets(problem, &mut trial);
-    scan_disc(problem, &mut trial);
+    onset::scan(problem, &mut trial);
+    trial
+}
+
+/// Refits a trial that may win: more steps, and its place looked for by exact free runs.
+fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
+    let mut trial = trial.clone();
+    disc::scan(problem, &mut trial);
+    let mut trial = refit(problem, trial.hypothesis, trial.fitted, steps);
+    disc::scan(problem, &mut trial);
     trial
 }
 
@@ -207,7 +124,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
     for trial in singles.iter_mut().filter(|t| t.fitted.cost < best + CLOSE).take(MOST_CLOSE) {
-        *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), MORE_STEPS);
+        *trial = polish(problem, trial, MORE_STEPS);
     }
     best_first(&mut singles);
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
@@ -265,7 +182,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
     }
     best_first(&mut out);
     for trial in out.iter_mut().take(3) {
-        *trial = refit(problem, trial.hypothesis.clone(), trial.fitted.clone(), 5);
+        *trial = polish(problem, trial, MORE_STEPS);
     }
     best_first(&mut out);
     out

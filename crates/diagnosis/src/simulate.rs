@@ -1,9 +1,18 @@
-//! Free runs of the plant over the segments of a recording.
+//! Free runs of the plant over the segments of recordings, eight segments side by side.
 
-use robot_model::presence::Presence;
-use robot_model::{Active, Effect, Plant, Robot, State};
+use std::array::from_fn;
 
+use pulp::NullaryFnOnce;
+use rayon::prelude::*;
+use robot_model::presence::{Disc, Presence};
+use robot_model::{Active, Effect, Lanes, Plant, Robot, Scalar, State, effects};
+
+use crate::hold::Hold;
 use crate::windows::{CHANNELS, Cut, PARTS, Segment};
+
+/// Segments that are simulated side by side.
+const WIDTH: usize = 8;
+type Wide = Lanes<WIDTH>;
 
 /// An effect at values, present somewhere.
 #[derive(Clone)]
@@ -19,153 +28,207 @@ impl Dose {
     }
 }
 
-/// Torque command over `[t, t + h]` delayed by `delay`: the mean of the held set-points, continuous in the delay.
-pub(crate) fn command(torque: &[[f64; 2]], period: f64, t: f64, h: f64, delay: f64) -> [f64; 2] {
-    let at = |i: f64| if i < 0.0 { [0.0; 2] } else { torque[(i as usize).min(torque.len() - 1)] };
-    // A microsecond of slack: row borders are exact multiples of the step up to rounding.
-    let (a, b) = ((t - delay) / period + 1e-6, (t + h - delay) / period - 1e-6);
-    let (i, j) = (a.floor(), b.floor());
-    if i >= j {
-        return at(i);
-    }
-    let share = ((j - a) / (b - a)).clamp(0.0, 1.0);
-    let (x, y) = (at(i), at(j));
-    [x[0] * share + y[0] * (1.0 - share), x[1] * share + y[1] * (1.0 - share)]
+/// A recording's robot with what it lacks.
+pub(crate) struct Body {
+    pub(crate) robot: Robot<f64>,
+    pub(crate) doses: Vec<Dose>,
 }
 
-/// The plant's state at the start of a segment, with the drive as it was left.
-fn initial(plant: &Plant<'_, f64>, cut: &Cut, segment: &Segment, drive: &State<f64>) -> State<f64> {
-    let s = &segment.start;
-    let (sin, cos) = s.yaw.sin_cos();
-    let mut state = State {
-        time: segment.row as f64 * cut.period,
-        position: s.position,
-        heading: [cos, sin],
-        yaw_rate: s.yaw_rate,
-        wheel_speed: s.wheel_speed,
-        front_speed: s.wheel_speed,
-        wheel_angle: s.wheel_angle,
-        torque: drive.torque,
-        lagged: drive.lagged,
-        ..State::default()
-    };
-    plant.set_velocity(&mut state, s.velocity);
-    state
-}
+/// Predicted windows of every recording and segment, in the layout of [`Segment::observed`].
+pub(crate) type Response = Vec<Vec<Vec<f64>>>;
 
-/// Runs the plant freely over every segment: predicted windows in the layout of [`Segment::observed`].
+/// Runs each recording's body freely over every segment.
 ///
-/// Motor lag, delay and torque history run on across restarts. With `part` given, the doses are present only
+/// Motor lag, delay and torque history run on across restarts. With `part` given, the last dose is present only
 /// during that part of each segment. `step` is the integration step, s.
-pub(crate) fn free_run(cut: &Cut, robot: &Robot<f64>, doses: &[Dose], part: Option<usize>, step: f64) -> Vec<Vec<f64>> {
-    let always: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let substeps = (cut.period / step).round().max(1.0) as usize;
-    let h = cut.period / substeps as f64;
-    let mut drive = State::default();
-    let mut out = Vec::with_capacity(cut.segments.len());
-    for segment in &cut.segments {
-        let local: Vec<Active<f64>>;
-        let active = if let Some(q) = part {
-            let rows = (segment.windows * cut.rows_per_window) as f64;
-            let border = |q: usize| (segment.row as f64 + rows * q as f64 / PARTS as f64) * cut.period;
-            local = doses
-                .iter()
-                .map(|d| {
-                    Active::new(
-                        d.effect,
-                        &d.values,
-                        Presence { from: border(q) - 1e-6, until: border(q + 1) - 1e-6, ..d.presence },
-                    )
-                })
-                .collect();
-            &local
-        } else {
-            &always
-        };
-        let plant = Plant::new(robot, active, h);
-        let delay = plant.drive().delay;
-        let mut s = initial(&plant, cut, segment, &drive);
-        let mut y = vec![0.0; segment.windows * CHANNELS];
-        for w in 0..segment.windows {
-            let first = segment.row + w * cut.rows_per_window;
-            let before = s.wheel_angle;
-            let mut sum = [0.0; 5];
-            for k in first..first + cut.rows_per_window {
-                for i in 0..substeps {
-                    let t = k as f64 * cut.period + i as f64 * h;
-                    plant.step(&mut s, command(&cut.torque, cut.period, t, h, delay));
-                    let mut r = plant.readings(&s);
-                    plant.sense(&mut r);
-                    for (sum, v) in sum.iter_mut().zip([r.gyro, r.velocity[0], r.velocity[1], r.accel[0], r.accel[1]]) {
-                        *sum += v;
-                    }
-                }
-            }
-            let n = (cut.rows_per_window * substeps) as f64;
-            let row = &mut y[w * CHANNELS..(w + 1) * CHANNELS];
-            row[0] = (s.wheel_angle[0] - before[0]) / (n * h);
-            row[1] = (s.wheel_angle[1] - before[1]) / (n * h);
-            for (y, v) in row[2..].iter_mut().zip(sum) {
-                *y = v / n;
-            }
+pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step: f64) -> Response {
+    let grids: Vec<Grid> = cuts.iter().map(|c| Grid::new(c, step)).collect();
+    let torques: Vec<Vec<[f64; 2]>> =
+        cuts.iter().zip(bodies).zip(&grids).map(|((c, b), g)| delivered(c, b, g)).collect();
+    let stretches: Vec<Stretch<'_>> = (0..cuts.len())
+        .flat_map(|r| {
+            let (cut, body, torque, grid) = (&cuts[r], &bodies[r], &torques[r], grids[r]);
+            cut.segments.iter().map(move |segment| Stretch { cut, body, segment, torque, grid })
+        })
+        .collect();
+    let groups: Vec<&[Stretch<'_>]> = stretches
+        .chunk_by(|a, b| a.grid == b.grid && a.segment.windows == b.segment.windows)
+        .flat_map(|alike| alike.chunks(WIDTH))
+        .collect();
+    let flat: Vec<Vec<Vec<f64>>> = groups.into_par_iter().map(|g| side_by_side(g, part)).collect();
+    let mut flat = flat.into_iter().flatten();
+    cuts.iter().map(|c| flat.by_ref().take(c.segments.len()).collect()).collect()
+}
+
+/// How a recording's rows are divided into steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Grid {
+    substeps: usize,
+    h: f64,
+    rows_per_window: usize,
+}
+
+impl Grid {
+    fn new(cut: &Cut, step: f64) -> Self {
+        let substeps = (cut.period / step).round().max(1.0) as usize;
+        Self { substeps, h: cut.period / substeps as f64, rows_per_window: cut.rows_per_window }
+    }
+
+    fn steps_per_window(&self) -> usize {
+        self.rows_per_window * self.substeps
+    }
+}
+
+/// Torque that the drives deliver in every step of a recording, up to the end of its last segment.
+fn delivered(cut: &Cut, body: &Body, grid: &Grid) -> Vec<[f64; 2]> {
+    let active: Vec<Active<f64>> = body.doses.iter().map(Dose::active).collect();
+    let plant = Plant::new(&body.robot, &active, grid.h);
+    let hold = Hold::new(cut.period, grid.substeps, plant.drive().delay);
+    let rows = cut.segments.last().map_or(0, |s| s.row + s.windows * cut.rows_per_window);
+    let mut s = State::default();
+    let mut out = Vec::with_capacity(rows * grid.substeps);
+    for k in 0..rows {
+        for i in 0..grid.substeps {
+            plant.step_drive(&mut s, hold.command(&cut.torque, k, i));
+            out.push(plant.delivered(&s));
         }
-        drive = s;
-        out.push(y);
     }
     out
+}
+
+/// One segment to be run freely.
+#[derive(Clone, Copy)]
+struct Stretch<'a> {
+    cut: &'a Cut,
+    body: &'a Body,
+    segment: &'a Segment,
+    torque: &'a [[f64; 2]],
+    grid: Grid,
+}
+
+impl Stretch<'_> {
+    fn start_time(&self) -> f64 {
+        self.segment.row as f64 * self.cut.period
+    }
+
+    /// When a dose is present: as it says, and only during `part`.
+    fn times(&self, dose: &Dose, part: Option<usize>) -> [f64; 2] {
+        let Some(q) = part else { return [dose.presence.from, dose.presence.until] };
+        let length = (self.segment.windows * self.cut.rows_per_window) as f64 * self.cut.period;
+        let border = |q: usize| self.start_time() + length * q as f64 / PARTS as f64 - 1e-6;
+        [border(q), border(q + 1)]
+    }
+}
+
+/// The dose that each stretch holds at the same place of its list, side by side.
+fn wide_dose(stretches: &[Stretch<'_>; WIDTH], d: usize, part: Option<usize>) -> Option<Active<Wide>> {
+    let doses: [&Dose; WIDTH] = from_fn(|i| &stretches[i].body.doses[d]);
+    let first = doses[0];
+    let id = first.effect.card().id;
+    let effect = effects::catalogue::<Wide>().into_iter().find(|e| e.card().id == id)?;
+    let values: Vec<Wide> = (0..first.values.len()).map(|v| Lanes(doses.map(|d| d.values[v]))).collect();
+    let times: [[f64; 2]; WIDTH] = from_fn(|i| stretches[i].times(doses[i], part));
+    let disc = first.presence.disc.map(|same| {
+        let of = |read: fn(&Disc<f64>) -> f64| Lanes(doses.map(|d| read(d.presence.disc.as_ref().unwrap_or(&same))));
+        Disc { centre: [of(|d| d.centre[0]), of(|d| d.centre[1])], radius: of(|d| d.radius) }
+    });
+    let presence = Presence {
+        from: Lanes(times.map(|t| t[0])),
+        until: Lanes(times.map(|t| t[1])),
+        disc,
+        side: first.presence.side,
+    };
+    Some(Active::new(effect, &values, presence))
+}
+
+/// Runs up to eight stretches of one shape; the last one fills what is left over.
+fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> Vec<Vec<f64>> {
+    let stretches: [Stretch<'_>; WIDTH] = from_fn(|i| group[i.min(group.len() - 1)]);
+    let robot = Robot::assemble(|constant| Lanes(stretches.map(|s| constant(&s.body.robot))));
+    let count = stretches[0].body.doses.len();
+    let active: Vec<Active<Wide>> =
+        (0..count).filter_map(|d| wide_dose(&stretches, d, part.filter(|_| d + 1 == count))).collect();
+    let plant = Plant::new(&robot, &active, Lanes::real(stretches[0].grid.h));
+    let mut out = vec![vec![0.0; stretches[0].segment.windows * CHANNELS]; group.len()];
+    pulp::Arch::new().dispatch(Drive { plant: &plant, stretches: &stretches, out: &mut out });
+    out
+}
+
+/// The free run itself, compiled for every vector unit that the machine may have.
+struct Drive<'a, 'b> {
+    plant: &'a Plant<'b, Wide>,
+    stretches: &'a [Stretch<'a>; WIDTH],
+    out: &'a mut [Vec<f64>],
+}
+
+impl Drive<'_, '_> {
+    fn start(&self) -> State<Wide> {
+        let of = |read: fn(&Segment) -> f64| Lanes(self.stretches.map(|s| read(s.segment)));
+        let wheel_speed = [of(|s| s.start.wheel_speed[0]), of(|s| s.start.wheel_speed[1])];
+        let mut state = State {
+            time: Lanes(from_fn(|i| self.stretches[i].start_time())),
+            position: [of(|s| s.start.position[0]), of(|s| s.start.position[1])],
+            heading: [of(|s| s.start.yaw.cos()), of(|s| s.start.yaw.sin())],
+            yaw_rate: of(|s| s.start.yaw_rate),
+            wheel_speed,
+            front_speed: wheel_speed,
+            wheel_angle: [of(|s| s.start.wheel_angle[0]), of(|s| s.start.wheel_angle[1])],
+            ..State::default()
+        };
+        self.plant.set_velocity(&mut state, [of(|s| s.start.velocity[0]), of(|s| s.start.velocity[1])]);
+        state
+    }
+}
+
+impl NullaryFnOnce for Drive<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let grid = self.stretches[0].grid;
+        let steps = grid.steps_per_window();
+        let share = 1.0 / steps as f64;
+        let mut s = self.start();
+        let first = self.stretches.map(|s| s.segment.row * grid.substeps);
+        for w in 0..self.stretches[0].segment.windows {
+            let mut sum = [Wide::zero(); CHANNELS];
+            for k in w * steps..(w + 1) * steps {
+                let mut torque = [Wide::zero(); 2];
+                for i in 0..WIDTH {
+                    let [left, right] = self.stretches[i].torque[first[i] + k];
+                    torque[0].0[i] = left;
+                    torque[1].0[i] = right;
+                }
+                self.plant.step_under(&mut s, torque);
+                let mut r = self.plant.readings(&s);
+                self.plant.sense(&mut r);
+                let shown =
+                    [r.wheel_speed[0], r.wheel_speed[1], r.gyro, r.velocity[0], r.velocity[1], r.accel[0], r.accel[1]];
+                for (sum, v) in sum.iter_mut().zip(shown) {
+                    *sum += v;
+                }
+            }
+            for (i, y) in self.out.iter_mut().enumerate() {
+                for (y, sum) in y[w * CHANNELS..(w + 1) * CHANNELS].iter_mut().zip(&sum) {
+                    *y = sum.0[i] * share;
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{PERIOD, cutting, driven, robot};
+    use crate::testing::{cutting, driven, robot};
     use crate::windows::cut;
-
-    const H: f64 = 1e-3;
-    const TORQUE: [[f64; 2]; 4] = [[1.0, -1.0], [3.0, -3.0], [2.0, 5.0], [0.0, 7.0]];
-
-    fn left(t: f64, delay: f64) -> f64 {
-        command(&TORQUE, PERIOD, t, H, delay)[0]
-    }
-
-    #[test]
-    fn a_command_is_held_for_the_row_that_follows() {
-        for k in 0..4 {
-            for i in 0..10 {
-                let t = k as f64 * PERIOD + f64::from(i) * H;
-                assert_eq!(command(&TORQUE, PERIOD, t, H, 0.0), TORQUE[k]);
-            }
-        }
-        // The last set-point stays; before the first there is none.
-        assert_eq!(left(1.0, 0.0), 0.0);
-        assert_eq!(left(0.0, 0.02), 0.0);
-    }
-
-    #[test]
-    fn a_delay_is_fractional_and_continuous() {
-        assert_eq!(left(0.012, 0.0035), TORQUE[0][0]);
-        approx::assert_relative_eq!(left(0.013, 0.0035), 2.0, epsilon = 0.01);
-        assert_eq!(left(0.014, 0.0035), TORQUE[1][0]);
-        let (mut last, step) = (left(0.025, -0.02), 1e-5);
-        for i in -1999..3000 {
-            let now = left(0.025, f64::from(i) * step);
-            // The largest jump between set-points is 2 N m.
-            assert!((now - last).abs() <= 2.0 * 1.01 * step / H, "delay {i}: {last} to {now}");
-            last = now;
-        }
-    }
-
-    #[test]
-    fn a_negative_delay_looks_ahead() {
-        assert_eq!(left(0.005, -PERIOD), TORQUE[1][0]);
-        assert_eq!(left(0.005, -2.0 * PERIOD), TORQUE[2][0]);
-    }
 
     #[test]
     fn a_free_run_reproduces_a_drive_of_the_plant_itself() {
         let robot = robot();
         let cut = cut(&driven(&robot, &[], 20.0), &cutting());
-        let free = free_run(&cut, &robot, &[], None, 1e-3);
+        let bodies = [Body { robot, doses: Vec::new() }];
+        let free = free_run(std::slice::from_ref(&cut), &bodies, None, 1e-3).remove(0);
         let (mut sum, mut size, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS], 0.0);
         for (segment, free) in cut.segments.iter().zip(&free) {
             for (i, (o, p)) in segment.observed.iter().zip(free).enumerate() {

@@ -10,9 +10,10 @@ use robot_model::tunable::COUNT as NUISANCES;
 use crate::Options;
 use crate::case::usual_sigma;
 use crate::fit::Problem;
+use crate::hold::Hold;
 use crate::motion::GyroError;
 use crate::run::Run;
-use crate::simulate::{Dose, command};
+use crate::simulate::Dose;
 use crate::windows::{Cut, CutOptions};
 
 /// Time between rows, s.
@@ -82,15 +83,15 @@ pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
     }
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let steps = 10;
-    let h = PERIOD / f64::from(steps);
+    let h = PERIOD / steps as f64;
     let plant = Plant::new(robot, &active, h);
+    let hold = Hold::new(PERIOD, steps, plant.drive().delay);
     let mut s = State::default();
     for k in 0..rows {
         run.angle[0][k] = Some(s.wheel_angle[0]);
         run.angle[1][k] = Some(s.wheel_angle[1]);
         for i in 0..steps {
-            let t = k as f64 * PERIOD + f64::from(i) * h;
-            plant.step(&mut s, command(&run.torque, PERIOD, t, h, plant.drive().delay));
+            plant.step(&mut s, hold.command(&run.torque, k, i));
             // A sample belongs half a row before the row it is written in.
             if i + 1 == steps / 2 && k + 1 < rows {
                 let mut r = plant.readings(&s);

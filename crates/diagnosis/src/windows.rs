@@ -48,8 +48,8 @@ pub(crate) struct Segment {
     /// Window by window, channel by channel; zero where not valid.
     pub(crate) observed: Vec<f64>,
     pub(crate) valid: Vec<bool>,
-    /// Wheel positions in the middle of each part, for local presence.
-    pub(crate) wheels: [[[f64; 2]; 4]; PARTS],
+    /// Wheel positions in the middle of each window, for local presence.
+    pub(crate) wheels: Vec<[[f64; 2]; 4]>,
     /// Mean |yaw rate| and |v|, range of the wheel speeds: what kind of driving this is.
     pub(crate) regime: [f64; 3],
     /// Numbers that are valid.
@@ -162,17 +162,18 @@ fn segment(
         regime[1] += v.map_or(0.0, |v| v[0].abs()) / (0.3 * windows as f64);
     }
     regime[2] = ((extremes.1 - extremes.0) / 4.0).max(0.0);
-    let mut wheels = [[[0.0; 2]; 4]; PARTS];
-    for (q, wheels) in wheels.iter_mut().enumerate() {
-        let t = (row as f64 + (q as f64 + 0.5) / PARTS as f64 * (windows * per_window) as f64) * run.period;
-        let p = smoothed.position(t);
-        let (s, c) = interpolate(&smoothed.yaw, t / run.period).sin_cos();
-        for (i, w) in wheels.iter_mut().enumerate() {
-            let x = if i < 2 { o.half_base[0] } else { -o.half_base[0] };
-            let y = if i % 2 == 0 { o.half_base[1] } else { -o.half_base[1] };
-            *w = [p[0] + c * x - s * y, p[1] + s * x + c * y];
-        }
-    }
+    let wheels = (0..windows)
+        .map(|w| {
+            let t = (row as f64 + (w as f64 + 0.5) * per_window as f64) * run.period;
+            let p = smoothed.position(t);
+            let (s, c) = interpolate(&smoothed.yaw, t / run.period).sin_cos();
+            std::array::from_fn(|i| {
+                let x = if i < 2 { o.half_base[0] } else { -o.half_base[0] };
+                let y = if i % 2 == 0 { o.half_base[1] } else { -o.half_base[1] };
+                [p[0] + c * x - s * y, p[1] + s * x + c * y]
+            })
+        })
+        .collect();
     let count = valid.iter().filter(|&&v| v).count() as f64;
     Segment { row, windows, start, observed, valid, wheels, regime, count }
 }

@@ -1,6 +1,6 @@
 //! An effect at work: values and presence.
 
-use crate::effect::{Effect, MAX_PARAMETERS, Situation, Values, World};
+use crate::effect::{Effect, Kind, MAX_PARAMETERS, Situation, Values, World};
 use crate::presence::Presence;
 use crate::scalar::{Scalar, real};
 
@@ -11,6 +11,8 @@ pub struct Active<T: Scalar> {
     values: Values<T>,
     presence: Presence<T>,
     unlimited: bool,
+    /// Whether it changes what sensors show.
+    pub(crate) senses: bool,
 }
 
 impl<T: Scalar> Active<T> {
@@ -20,13 +22,15 @@ impl<T: Scalar> Active<T> {
         for (i, p) in effect.card().parameters.iter().enumerate().take(MAX_PARAMETERS) {
             v[i] = values.get(i).copied().unwrap_or_else(|| real(p.neutral));
         }
-        Self { effect, values: v, presence, unlimited: presence.is_unlimited() }
+        let senses = effect.card().kind == Kind::Sensor;
+        Self { effect, values: v, presence, unlimited: presence.is_unlimited(), senses }
     }
 
     pub(crate) fn values(&self) -> &Values<T> {
         &self.values
     }
 
+    #[inline(always)]
     pub(crate) fn act(&self, at: &Situation<T>, world: &mut World<T>) {
         if self.unlimited {
             self.effect.act(self.values(), at, world);

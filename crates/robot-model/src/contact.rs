@@ -6,29 +6,34 @@ use crate::scalar::{Scalar, real};
 /// `K(λ) = 2 λp λ / (λp² + λ²)`, odd in λ, with its peak ±1 at λ = ±λp.
 ///
 /// Source: Hendzel & Trojnacki 2014, the factor in Eq. 8.
-#[inline]
+#[inline(always)]
 pub fn kiencke<T: Scalar>(slip: T, slip_at_peak: T) -> T {
     real::<T>(2.0) * slip_at_peak * slip / (slip_at_peak * slip_at_peak + slip * slip)
 }
+
+/// Square of a slip speed below which a wheel does not slip, m²/s².
+const NO_SLIP: f64 = 1e-20;
 
 /// Adhesion per slip speed under combined slip: Kiencke's law up to its peak, beyond it a share `sliding` of the peak
 /// that no slip takes away, along the slip velocity.
 ///
 /// With slip speed `s = |v_slip|`, reference speed `d` and `λ = s/d`: `K(λ)` for λ ≤ λp, `ρ + (1 − ρ) K(λ)` beyond;
-/// ρ = 0 is Kiencke's law, ρ = 1 a plateau. Returned are `K/s` and the slope `∂K/∂s` for the implicit wheel step,
-/// which takes the falling branch as flat.
-#[inline]
-pub fn combined<T: Scalar>(slip_speed2: T, reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T) {
-    let d2 = reference_speed2;
+/// ρ = 0 is Kiencke's law, ρ = 1 a plateau. Returned are `K/s` and the longitudinal stiffness `∂(K s_x/s)/∂s_x` for the
+/// implicit wheel step, which takes the falling branch as flat.
+#[inline(always)]
+pub fn combined<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T) {
+    let (sx2, d2) = (slip[0] * slip[0], reference_speed2);
+    let s2 = sx2 + slip[1] * slip[1] + real(NO_SLIP);
     let peak2 = slip_at_peak * slip_at_peak * d2;
-    // K/s = 2 λp d / (λp² d² + s²);  dK/ds = 2 λp d (λp² d² − s²)/(λp² d² + s²)²
-    let sum = peak2 + slip_speed2;
-    let per_speed = real::<T>(2.0) * slip_at_peak * d2.sqrt() / sum;
-    if slip_speed2 < peak2 {
-        (per_speed, per_speed * (peak2 - slip_speed2) / sum)
-    } else {
-        (sliding / slip_speed2.sqrt() + (T::one() - sliding) * per_speed, T::zero())
-    }
+    // K/s = 2 λp d / (λp² d² + s²);  dK/ds = 2 λp d (λp² d² − s²)/(λp² d² + s²)²; one division for 1/(λp² d² + s²) and 1/s².
+    let sum = peak2 + s2;
+    let inverse = T::one() / (sum * s2);
+    let (inverse_sum, inverse_s2) = (s2 * inverse, sum * inverse);
+    let rising = real::<T>(2.0) * slip_at_peak * d2.sqrt() * inverse_sum;
+    let beyond = sliding * s2.sqrt() * inverse_s2 + (T::one() - sliding) * rising;
+    let per_speed = s2.if_less(peak2, rising, beyond);
+    let slope = s2.if_less(peak2, rising * (peak2 - s2) * inverse_sum, T::zero());
+    (per_speed, (per_speed + (slope - per_speed) * sx2 * inverse_s2).max(T::zero()))
 }
 
 /// What the loads depend on: mass, height of the centre of mass and where the wheels stand relative to it.
@@ -81,7 +86,7 @@ impl<T: Scalar> Stance<T> {
     /// Given each wheel's force per unit load `k = F/N`, the loads depend linearly on the specific force
     /// `s = ΣF/m` and the forces linearly on the loads: `m s = Σ (N⁰ + N' s) k`, a 2×2 system, no iteration.
     /// A wheel never pulls on the ground: negative loads are set to zero.
-    #[inline]
+    #[inline(always)]
     pub fn settle(&self, k: &[[T; 2]; 4]) -> Balance<T> {
         let (m, p, r) = (self.mass, self.pitch, self.roll);
         let mut b = [T::zero(); 2];

@@ -8,18 +8,20 @@
 //! (the paper's 1, 2, 3, 4). Sides: 0 left, 1 right. All quantities in SI units and radians.
 //!
 //! The crate needs neither the standard library nor an allocator, and is generic over the scalar:
-//! `f32`, `f64`, or dual numbers for derivatives.
-#![no_std]
+//! `f32`, `f64`, dual numbers for derivatives, or [`Lanes`] for several robots at once.
+#![cfg_attr(not(feature = "std"), no_std)]
 
 mod active;
 pub mod contact;
 pub mod effect;
 mod error;
+mod lanes;
 pub mod paper;
 pub mod plant;
 pub mod presence;
 pub mod robot;
 mod scalar;
+mod settle;
 mod state;
 pub mod tunable;
 
@@ -31,6 +33,7 @@ pub mod effects {
 pub use active::Active;
 pub use effect::{Card, Effect, Kind, Parameter, Readings, Role, Situation, World};
 pub use error::ModelError;
+pub use lanes::Lanes;
 pub use plant::Plant;
 pub use presence::{Disc, Presence};
 pub use robot::Robot;

@@ -4,12 +4,10 @@
 use crate::active::Active;
 use crate::contact::{Stance, combined};
 use crate::effect::{Readings, Situation, World};
-use crate::robot::{Drive, Robot, UNLIMITED};
+use crate::robot::{Drive, Robot};
 use crate::scalar::{Scalar, bell, real, smooth_sign};
 use crate::state::State;
 
-/// Steps of the search for a steady motion: the last one is a thousand seconds long.
-const SETTLING: usize = 25;
 /// Wheel speed over which dry friction changes its sign, rad/s.
 const FRICTION_REST: f64 = 0.15;
 /// Wheel speed over which the Stribeck rise decays, rad/s.
@@ -23,6 +21,8 @@ pub struct Plant<'a, T: Scalar> {
     active: &'a [Active<T>],
     step: T,
     keep: [T; 2],
+    inverse_mass: T,
+    inverse_yaw_inertia: T,
 }
 
 /// Forces of an instant, before any speed has moved.
@@ -39,9 +39,23 @@ impl<'a, T: Scalar> Plant<'a, T> {
         for a in active {
             a.effect.robot(a.values(), &mut robot);
         }
-        let decay = |tau: T| if tau > T::zero() { (-step / tau).exp() } else { T::zero() };
+        let decay = |tau: T| T::zero().if_less(tau, (-step / tau).exp(), T::zero());
         let keep = [decay(robot.drive.lag), decay(robot.drive.extra_lag)];
-        Self { stance: robot.stance(), world: robot.world(), robot, active, step, keep }
+        Self {
+            stance: robot.stance(),
+            world: robot.world(),
+            inverse_mass: T::one() / robot.mass,
+            inverse_yaw_inertia: T::one() / robot.yaw_inertia,
+            robot,
+            active,
+            step,
+            keep,
+        }
+    }
+
+    /// The same plant that steps by `step` seconds, its drive as it is.
+    pub(crate) fn stepping(&self, step: T) -> Self {
+        Self { step, ..*self }
     }
 
     /// The drive, as the active effects left it: its delay is for whoever looks the command up.
@@ -63,12 +77,14 @@ impl<'a, T: Scalar> Plant<'a, T> {
         }
     }
 
+    #[inline(always)]
     fn limited(&self, command: T) -> T {
         let d = &self.robot.drive;
         (command * d.gain).max(-d.limit).min(d.limit)
     }
 
     /// Advances the drive alone by one step, for the history before a restart.
+    #[inline(always)]
     pub fn step_drive(&self, s: &mut State<T>, command: [T; 2]) {
         for (j, &c) in command.iter().enumerate() {
             let x = self.limited(c);
@@ -77,17 +93,14 @@ impl<'a, T: Scalar> Plant<'a, T> {
         }
     }
 
-    fn delivered(&self, s: &State<T>, j: usize) -> T {
-        let (x, d) = (s.lagged[j], self.robot.drive.dead_band);
-        if x > d {
-            x - d
-        } else if x < -d {
-            x + d
-        } else {
-            T::zero()
-        }
+    /// Torque that a side's drive delivers, N m: what is left of the lagged torque after the dead band.
+    #[inline(always)]
+    pub fn delivered(&self, s: &State<T>) -> [T; 2] {
+        let d = self.robot.drive.dead_band;
+        s.lagged.map(|x| (x - d).max(T::zero()) + (x + d).min(T::zero()))
     }
 
+    #[inline(always)]
     fn situation(&self, s: &State<T>) -> Situation<T> {
         let r = &self.robot;
         Situation {
@@ -105,22 +118,24 @@ impl<'a, T: Scalar> Plant<'a, T> {
         }
     }
 
+    /// What the active effects make of the world at an instant.
+    #[inline(always)]
     fn world_at(&self, s: &State<T>) -> World<T> {
         let mut world = self.world;
-        if !self.active.is_empty() {
-            let at = self.situation(s);
-            for a in self.active {
-                a.act(&at, &mut world);
-            }
+        let at = self.situation(s);
+        for a in self.active {
+            a.act(&at, &mut world);
         }
         world
     }
 
+    #[inline(always)]
     fn speeds(s: &State<T>) -> [T; 4] {
         [s.front_speed[0], s.front_speed[1], s.wheel_speed[0], s.wheel_speed[1]]
     }
 
     /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
+    #[inline(always)]
     fn contacts(&self, s: &State<T>, world: &World<T>) -> Contacts<T> {
         let speed = Self::speeds(s);
         let rest2 = self.robot.rest_speed * self.robot.rest_speed;
@@ -130,12 +145,10 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let [x, y] = self.stance.wheel[i];
             let rim = speed[i] * world.radius[i];
             let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
-            let (sx2, s2) = (slip[0] * slip[0], slip[0] * slip[0] + slip[1] * slip[1]);
-            let (per_speed, slope) = combined(s2, rim * rim + rest2, world.slip_at_peak[i], self.robot.sliding_share);
+            let (per_speed, stiff) = combined(slip, rim * rim + rest2, world.slip_at_peak[i], self.robot.sliding_share);
             let mu = world.adhesion[i] * per_speed;
             k[i] = [mu * slip[0], mu * slip[1] * world.lateral[i]];
-            let turned = if s2 > T::zero() { (slope - per_speed) * sx2 / s2 } else { T::zero() };
-            stiffness[i] = world.adhesion[i] * (per_speed + turned).max(T::zero());
+            stiffness[i] = world.adhesion[i] * stiff;
         }
         let balance = self.stance.settle(&k);
         let mut rolling = [T::zero(); 4];
@@ -147,60 +160,72 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     /// Torque of a side's drivetrain friction at wheel speed `w`, without rolling resistance.
+    #[inline(always)]
     fn friction(world: &World<T>, j: usize, w: T, sign: T) -> T {
         let mut dry = world.coulomb[j];
         if world.stribeck[j] != T::zero() {
-            dry += world.stribeck[j] * bell(w / real(STRIBECK_SPEED));
+            dry += world.stribeck[j] * bell(w * real(1.0 / STRIBECK_SPEED));
         }
         dry * sign + world.viscous[j] * w
     }
 
     /// One step of a torque-driven robot: `command` is held over the step.
+    pub fn step(&self, s: &mut State<T>, command: [T; 2]) {
+        self.step_drive(s, command);
+        self.step_under(s, self.delivered(s));
+    }
+
+    /// One step under the torque of each side at its driven wheel, past the drive.
     ///
     /// Linearly implicit in the wheel speeds, whose slip stiffness is the fast part: with contact stiffness
     /// `F' = ∂F_x/∂v_slip` and the last acceleration `a` of the contact point,
     /// `(J + h r² F') Δω = h (T − r F + r F' h a)`, and the body receives the same impulses as the wheels.
-    pub fn step(&self, s: &mut State<T>, command: [T; 2]) {
+    #[inline(always)]
+    pub fn step_under(&self, s: &mut State<T>, torque: [T; 2]) {
         let (h, half) = (self.step, real::<T>(0.5));
-        self.step_drive(s, command);
-        let world = self.world_at(s);
-        let Contacts { mut force, stiffness, rolling } = self.contacts(s, &world);
+        let changed;
+        let world = if self.active.is_empty() {
+            &self.world
+        } else {
+            changed = self.world_at(s);
+            &changed
+        };
+        let Contacts { mut force, stiffness, rolling } = self.contacts(s, world);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
         for j in 0..2 {
-            let (f, r) = (j, j + 2);
             let mut inertia = [jw, jw + jm];
-            let mut impulse = [T::zero(); 2];
+            let mut impulse = [T::zero(), h * torque[j]];
             let mut ahead = [T::zero(); 2];
-            for (n, i) in [f, r].into_iter().enumerate() {
+            let speed = [s.front_speed[j], s.wheel_speed[j]];
+            for n in 0..2 {
+                let i = j + 2 * n;
                 let radius = world.radius[i];
-                let w = if n == 0 { s.front_speed[j] } else { s.wheel_speed[j] };
-                let sign = smooth_sign(w / real(FRICTION_REST));
+                let sign = smooth_sign(speed[n] * real(1.0 / FRICTION_REST));
                 ahead[n] = h * (s.rate[0] - s.rate[2] * self.stance.wheel[i][1]);
                 let stiff = h * radius * stiffness[i];
                 inertia[n] += stiff * radius;
                 // Bearings: each wheel bears half of its side's drivetrain friction, as in Eq. 8 of the paper.
-                let drag = rolling[i] * sign + half * Self::friction(&world, j, w, sign);
-                impulse[n] = stiff * ahead[n] - h * (radius * force[i][0] + drag);
+                let drag = rolling[i] * sign + half * Self::friction(world, j, speed[n], sign);
+                impulse[n] += stiff * ahead[n] - h * (radius * force[i][0] + drag);
             }
-            impulse[1] += h * self.delivered(s, j);
-            let limit = world.belt_limit[j];
-            let change = if limit >= real(UNLIMITED) {
-                let dw = (impulse[0] + impulse[1]) / (inertia[0] + inertia[1]);
-                [dw, dw]
-            } else {
-                let gap = s.wheel_speed[j] - s.front_speed[j] + impulse[1] / inertia[1] - impulse[0] / inertia[0];
-                let belt = gap / (T::one() / inertia[0] + T::one() / inertia[1]);
-                let belt = belt.max(-limit * h).min(limit * h);
-                [(impulse[0] + belt) / inertia[0], (impulse[1] - belt) / inertia[1]]
-            };
-            for (n, i) in [f, r].into_iter().enumerate() {
+            // The belt's impulse that keeps both wheels at one speed, or as much of it as the belt passes.
+            let both = inertia[0] * inertia[1];
+            let sum = inertia[0] + inertia[1];
+            let inverse = T::one() / (both * sum);
+            let per_inertia = [inertia[1] * sum * inverse, inertia[0] * sum * inverse];
+            let gap = speed[1] - speed[0] + impulse[1] * per_inertia[1] - impulse[0] * per_inertia[0];
+            let most = world.belt_limit[j] * h;
+            let belt = (gap * both * both * inverse).max(-most).min(most);
+            let change = [(impulse[0] + belt) * per_inertia[0], (impulse[1] - belt) * per_inertia[1]];
+            for n in 0..2 {
+                let i = j + 2 * n;
                 force[i][0] += stiffness[i] * (world.radius[i] * change[n] - ahead[n]);
             }
-            s.front_speed[j] += change[0];
-            s.wheel_speed[j] += change[1];
+            s.front_speed[j] = speed[0] + change[0];
+            s.wheel_speed[j] = speed[1] + change[1];
             s.wheel_angle[j] += h * s.wheel_speed[j];
         }
-        self.move_body(s, &force, &world);
+        self.move_body(s, &force, world);
     }
 
     /// One step of a speed-driven robot: the wheels turn at `speed` and change it at `rate`;
@@ -209,66 +234,28 @@ impl<'a, T: Scalar> Plant<'a, T> {
         let h = self.step;
         s.wheel_speed = speed;
         s.front_speed = speed;
-        let world = self.world_at(s);
-        let Contacts { force, rolling, .. } = self.contacts(s, &world);
+        let changed;
+        let world = if self.active.is_empty() {
+            &self.world
+        } else {
+            changed = self.world_at(s);
+            &changed
+        };
+        let Contacts { force, rolling, .. } = self.contacts(s, world);
         let inertia = self.robot.wheel_inertia * real(2.0) + self.robot.motor_inertia;
         for j in 0..2 {
-            let sign = smooth_sign(speed[j] / real(FRICTION_REST));
-            s.needed[j] = inertia * rate[j] + Self::friction(&world, j, speed[j], sign);
+            let sign = smooth_sign(speed[j] * real(1.0 / FRICTION_REST));
+            s.needed[j] = inertia * rate[j] + Self::friction(world, j, speed[j], sign);
             for i in [j, j + 2] {
                 s.needed[j] += rolling[i] * sign + world.radius[i] * force[i][0];
             }
             s.needed[j] /= self.robot.drive.gain;
             s.wheel_angle[j] += h * speed[j];
         }
-        self.move_body(s, &force, &world);
+        self.move_body(s, &force, world);
     }
 
-    /// Body motion at which a robot whose wheels turn at `speed` stays: velocity of the centre of mass and yaw rate
-    /// for which all accelerations vanish, at the heading and place of `s`; the torque that it takes is left in
-    /// [`State::needed`].
-    ///
-    /// Pseudo-transient continuation: implicit Euler steps with ever longer steps, at most `SETTLING`. Returns the
-    /// largest acceleration that is left, m/s² or rad/s².
-    pub fn settle_at_speed(&self, s: &mut State<T>, speed: [T; 2]) -> T {
-        let still = Self {
-            robot: self.robot,
-            stance: self.stance,
-            world: self.world,
-            active: self.active,
-            step: T::zero(),
-            keep: self.keep,
-        };
-        let rate = |s: &State<T>, v: [T; 3]| {
-            let mut at = State { velocity: [v[0], v[1]], yaw_rate: v[2], ..*s };
-            still.step_at_speed(&mut at, speed, [T::zero(); 2]);
-            (nalgebra::Vector3::from(at.rate), at.needed)
-        };
-        let shift = real::<T>(1e-5);
-        let mut h = real::<T>(1e-2);
-        for _ in 0..SETTLING {
-            let v = [s.velocity[0], s.velocity[1], s.yaw_rate];
-            let (here, _) = rate(s, v);
-            let mut m = nalgebra::Matrix3::identity();
-            for k in 0..3 {
-                let mut shifted = v;
-                shifted[k] += shift;
-                m.set_column(k, &(m.column(k) - (rate(s, shifted).0 - here) * (h / shift)));
-            }
-            let Some(inverse) = m.try_inverse() else { break };
-            let change = inverse * here * h;
-            s.velocity[0] += change[0];
-            s.velocity[1] += change[1];
-            s.yaw_rate += change[2];
-            h *= real(1.6);
-        }
-        let (left, needed) = rate(s, [s.velocity[0], s.velocity[1], s.yaw_rate]);
-        s.wheel_speed = speed;
-        s.front_speed = speed;
-        s.needed = needed;
-        left.amax()
-    }
-
+    #[inline(always)]
     fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], world: &World<T>) {
         let (h, half) = (self.step, real::<T>(0.5));
         let mut total = world.force;
@@ -281,13 +268,12 @@ impl<'a, T: Scalar> Plant<'a, T> {
         }
         total[0] += ground[0];
         total[1] += ground[1];
-        let m = self.robot.mass;
         let w = s.yaw_rate;
-        s.specific = [total[0] / m, total[1] / m];
+        s.specific = [total[0] * self.inverse_mass, total[1] * self.inverse_mass];
         s.rate = [
             s.specific[0] + world.tilt[0] + w * s.velocity[1],
             s.specific[1] + world.tilt[1] - w * s.velocity[0],
-            moment / self.robot.yaw_inertia,
+            moment * self.inverse_yaw_inertia,
         ];
         s.yaw_rate += h * s.rate[2];
         s.velocity[0] += h * s.rate[0];
@@ -298,7 +284,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
         s.position[0] += h * (v[0] * c - v[1] * n);
         s.position[1] += h * (v[0] * n + v[1] * c);
         let turn = h * half * (w + s.yaw_rate);
-        let (cd, sd) = (T::one() - half * turn * turn, turn - turn * turn * turn / real(6.0));
+        let (cd, sd) = (T::one() - half * turn * turn, turn - turn * turn * turn * real(1.0 / 6.0));
         let (c2, n2) = (c * cd - n * sd, n * cd + c * sd);
         let fix = real::<T>(1.5) - half * (c2 * c2 + n2 * n2);
         s.heading = [c2 * fix, n2 * fix];
@@ -306,12 +292,14 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     /// Velocity of the geometric centre in body axes, m/s.
+    #[inline(always)]
     pub fn velocity(&self, s: &State<T>) -> [T; 2] {
         let (w, com) = (s.yaw_rate, &self.robot.com);
         [s.velocity[0] + w * com[1], s.velocity[1] - w * com[0]]
     }
 
     /// What ideal sensors show, before any sensor effect.
+    #[inline(always)]
     pub fn readings(&self, s: &State<T>) -> Readings<T> {
         let (w, dw, com) = (s.yaw_rate, s.rate[2], &self.robot.com);
         Readings {
@@ -324,8 +312,9 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     /// Adds what the active effects do to the sensors.
+    #[inline(always)]
     pub fn sense(&self, readings: &mut Readings<T>) {
-        for a in self.active {
+        for a in self.active.iter().filter(|a| a.senses) {
             a.effect.sense(a.values(), readings);
         }
     }

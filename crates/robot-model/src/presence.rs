@@ -42,11 +42,11 @@ impl<T: Scalar> Presence<T> {
     }
 
     /// Share of the effect under each wheel, 0 to 1.
+    #[inline(always)]
     pub fn at(&self, at: &Situation<T>) -> [T; 4] {
-        if at.time < self.from || at.time >= self.until {
-            return [T::zero(); 4];
-        }
-        let mut share = [T::one(); 4];
+        let (zero, one) = (T::zero(), T::one());
+        let now = at.time.if_less(self.from, zero, at.time.if_less(self.until, one, zero));
+        let mut share = [now; 4];
         if let Some(disc) = self.disc {
             let ([c, s], [a, b]) = (at.heading, at.half_base);
             for (i, share) in share.iter_mut().enumerate() {
@@ -55,13 +55,13 @@ impl<T: Scalar> Presence<T> {
                 let dx = at.position[0] + c * x - s * y - disc.centre[0];
                 let dy = at.position[1] + s * x + c * y - disc.centre[1];
                 let inside = disc.radius - (dx * dx + dy * dy).sqrt();
-                *share = real::<T>(0.5) * (T::one() + smooth_sign(inside / real(EDGE)));
+                *share *= real::<T>(0.5) * (one + smooth_sign(inside * real(1.0 / EDGE)));
             }
         }
         if let Some(side) = self.side {
             let other = 1 - side.min(1);
-            share[other] = T::zero();
-            share[other + 2] = T::zero();
+            share[other] = zero;
+            share[other + 2] = zero;
         }
         share
     }
@@ -69,6 +69,7 @@ impl<T: Scalar> Presence<T> {
 
 impl<T: Scalar> World<T> {
     /// Takes `share` of what `other` changes, wheel by wheel; sides and the body take the mean of their wheels.
+    #[inline(always)]
     pub(crate) fn blend(&mut self, other: &Self, share: [T; 4]) {
         let half = real::<T>(0.5);
         let side = [half * (share[0] + share[2]), half * (share[1] + share[3])];
@@ -88,9 +89,7 @@ impl<T: Scalar> World<T> {
             mix(&mut self.force[i], other.force[i], body);
             mix(&mut self.tilt[i], other.tilt[i], body);
             // A limit does not average: it is worn whole or not at all.
-            if side[i] > half {
-                self.belt_limit[i] = other.belt_limit[i];
-            }
+            self.belt_limit[i] = half.if_less(side[i], other.belt_limit[i], self.belt_limit[i]);
         }
         mix(&mut self.moment, other.moment, body);
     }

@@ -1,5 +1,7 @@
 //! The constants of a user's robot model.
 
+use nalgebra::RealField;
+
 use crate::contact::Stance;
 use crate::effect::World;
 use crate::error::{ModelError, finite, not_negative, positive, within};
@@ -69,7 +71,7 @@ pub struct Robot<T> {
     pub gravity: T,
 }
 
-impl<T: Scalar> Robot<T> {
+impl<T: RealField + Copy> Robot<T> {
     /// Checks every constant.
     ///
     /// # Errors
@@ -117,6 +119,48 @@ impl<T: Scalar> Robot<T> {
         Ok(self)
     }
 
+    /// The same robot in another scalar.
+    pub fn cast<U: Scalar>(&self) -> Robot<U> {
+        Robot::assemble(|constant| real(nalgebra::try_convert::<T, f64>(constant(self)).unwrap_or(f64::NAN)))
+    }
+}
+
+impl<U: Scalar> Robot<U> {
+    /// A robot each of whose constants is made from the same constant of other robots: `make` gets what reads it.
+    pub fn assemble<T: Copy>(make: impl Fn(fn(&Robot<T>) -> T) -> U) -> Self {
+        Self {
+            mass: make(|r| r.mass),
+            yaw_inertia: make(|r| r.yaw_inertia),
+            com: [make(|r| r.com[0]), make(|r| r.com[1]), make(|r| r.com[2])],
+            half_wheelbase: make(|r| r.half_wheelbase),
+            half_track: make(|r| r.half_track),
+            wheel_radius: make(|r| r.wheel_radius),
+            wheel_inertia: make(|r| r.wheel_inertia),
+            motor_inertia: make(|r| r.motor_inertia),
+            adhesion: make(|r| r.adhesion),
+            slip_at_peak: make(|r| r.slip_at_peak),
+            sliding_share: make(|r| r.sliding_share),
+            rest_speed: make(|r| r.rest_speed),
+            lateral_factor: make(|r| r.lateral_factor),
+            rolling_resistance: make(|r| r.rolling_resistance),
+            coulomb: [make(|r| r.coulomb[0]), make(|r| r.coulomb[1])],
+            viscous: [make(|r| r.viscous[0]), make(|r| r.viscous[1])],
+            stribeck: make(|r| r.stribeck),
+            hitch_x: make(|r| r.hitch_x),
+            drive: Drive {
+                gain: make(|r| r.drive.gain),
+                lag: make(|r| r.drive.lag),
+                extra_lag: make(|r| r.drive.extra_lag),
+                delay: make(|r| r.drive.delay),
+                limit: make(|r| r.drive.limit),
+                dead_band: make(|r| r.drive.dead_band),
+            },
+            gravity: make(|r| r.gravity),
+        }
+    }
+}
+
+impl<T: Scalar> Robot<T> {
     /// Where the wheels stand and how they are loaded.
     pub(crate) fn stance(&self) -> Stance<T> {
         Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
@@ -137,41 +181,6 @@ impl<T: Scalar> Robot<T> {
             force: [T::zero(); 2],
             moment: T::zero(),
             tilt: [T::zero(); 2],
-        }
-    }
-
-    /// The same robot in another scalar.
-    pub fn cast<U: Scalar>(&self) -> Robot<U> {
-        let f = |x: T| real::<U>(nalgebra::try_convert::<T, f64>(x).unwrap_or(f64::NAN));
-        let d = self.drive;
-        Robot {
-            mass: f(self.mass),
-            yaw_inertia: f(self.yaw_inertia),
-            com: self.com.map(f),
-            half_wheelbase: f(self.half_wheelbase),
-            half_track: f(self.half_track),
-            wheel_radius: f(self.wheel_radius),
-            wheel_inertia: f(self.wheel_inertia),
-            motor_inertia: f(self.motor_inertia),
-            adhesion: f(self.adhesion),
-            slip_at_peak: f(self.slip_at_peak),
-            sliding_share: f(self.sliding_share),
-            rest_speed: f(self.rest_speed),
-            lateral_factor: f(self.lateral_factor),
-            rolling_resistance: f(self.rolling_resistance),
-            coulomb: self.coulomb.map(f),
-            viscous: self.viscous.map(f),
-            stribeck: f(self.stribeck),
-            hitch_x: f(self.hitch_x),
-            drive: Drive {
-                gain: f(d.gain),
-                lag: f(d.lag),
-                extra_lag: f(d.extra_lag),
-                delay: f(d.delay),
-                limit: f(d.limit),
-                dead_band: f(d.dead_band),
-            },
-            gravity: f(self.gravity),
         }
     }
 }

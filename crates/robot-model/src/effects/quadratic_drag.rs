@@ -1,7 +1,7 @@
 //! Quadratic drag.
 
 use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, real};
 
 /// F = −c v |v|
 pub struct Law;
@@ -32,12 +32,9 @@ impl<T: Scalar> Effect<T> for Law {
 
     fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
         let [x, y] = at.velocity;
-        let speed2 = x * x + y * y;
         // At rest the square root has no derivative, the drag has.
-        if speed2 > T::zero() {
-            let drag = v[0] * speed2.sqrt();
-            w.force[0] -= drag * x;
-            w.force[1] -= drag * y;
-        }
+        let speed = (x * x + y * y).max(real(1e-20)).sqrt();
+        w.force[0] -= v[0] * speed * x;
+        w.force[1] -= v[0] * speed * y;
     }
 }

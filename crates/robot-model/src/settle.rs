@@ -1,0 +1,50 @@
+//! Steady motion of a speed-driven robot.
+
+use nalgebra::RealField;
+
+use crate::plant::Plant;
+use crate::scalar::real;
+use crate::state::State;
+
+/// Steps of the search for a steady motion: the last one is a thousand seconds long.
+const SETTLING: usize = 25;
+
+impl<T: RealField + Copy> Plant<'_, T> {
+    /// Body motion at which a robot whose wheels turn at `speed` stays: velocity of the centre of mass and yaw rate
+    /// for which all accelerations vanish, at the heading and place of `s`; the torque that it takes is left in
+    /// [`State::needed`].
+    ///
+    /// Pseudo-transient continuation: implicit Euler steps with ever longer steps, at most `SETTLING`. Returns the
+    /// largest acceleration that is left, m/s² or rad/s².
+    pub fn settle_at_speed(&self, s: &mut State<T>, speed: [T; 2]) -> T {
+        let still = self.stepping(T::zero());
+        let rate = |s: &State<T>, v: [T; 3]| {
+            let mut at = State { velocity: [v[0], v[1]], yaw_rate: v[2], ..*s };
+            still.step_at_speed(&mut at, speed, [T::zero(); 2]);
+            (nalgebra::Vector3::from(at.rate), at.needed)
+        };
+        let shift = real::<T>(1e-5);
+        let mut h = real::<T>(1e-2);
+        for _ in 0..SETTLING {
+            let v = [s.velocity[0], s.velocity[1], s.yaw_rate];
+            let (here, _) = rate(s, v);
+            let mut m = nalgebra::Matrix3::identity();
+            for k in 0..3 {
+                let mut shifted = v;
+                shifted[k] += shift;
+                m.set_column(k, &(m.column(k) - (rate(s, shifted).0 - here) * (h / shift)));
+            }
+            let Some(inverse) = m.try_inverse() else { break };
+            let change = inverse * here * h;
+            s.velocity[0] += change[0];
+            s.velocity[1] += change[1];
+            s.yaw_rate += change[2];
+            h *= real(1.6);
+        }
+        let (left, needed) = rate(s, [s.velocity[0], s.velocity[1], s.yaw_rate]);
+        s.wheel_speed = speed;
+        s.front_speed = speed;
+        s.needed = needed;
+        left.amax()
+    }
+}
