@@ -1,9 +1,7 @@
 //! Plants side by side: every lane must have the bits of a plant of its own.
 
-mod common;
-
-use common::robot;
 use robot_model::effect::MAX_PARAMETERS;
+use robot_model::paper::Parameters;
 use robot_model::{Active, Disc, Effect, Lanes, Plant, Presence, Robot, State, effects};
 
 const N: usize = 4;
@@ -13,7 +11,8 @@ const STEPS: usize = 700;
 /// Four robots that differ.
 fn robots() -> [Robot<f64>; N] {
     std::array::from_fn(|i| {
-        let mut r = robot();
+        let mut r = Robot::from(&Parameters::SET_B);
+        (r.drive.lag, r.drive.dead_band, r.stribeck) = (0.02, 0.1, 0.1);
         r.mass *= 1.0 + 0.1 * i as f64;
         r.adhesion -= 0.1 * i as f64;
         r.coulomb[1] += 0.05 * i as f64;
