@@ -239,7 +239,7 @@ impl Answer<'_> {
                 (corrected, plain)
             })
             .collect();
-        let healthy = healthy_cost(p);
+        let healthy = healthy_cost(p, &self.calibration.regimes.scatter);
         let best = winner.map_or(retuned.cost, |w| w.trial.fitted.cost);
         let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| {
             let before = p.misfit(&calibrated) - healthy;
@@ -260,6 +260,7 @@ impl Answer<'_> {
             limits: self.limits(),
             trials: self.trials(retuned),
             costs: [p.misfit(&calibrated), retuned.cost, healthy],
+            accusations: self.calibration.gate.accusations.clone(),
             screened,
             tuning,
             steady: None,
@@ -273,6 +274,7 @@ impl Answer<'_> {
         let row = |s: &Scored| Trial {
             hypothesis: s.trial.hypothesis.parts.iter().map(|(v, _)| v.label()).collect(),
             gain: retuned.cost - s.trial.fitted.cost,
+            visits: s.visits,
             score: s.score,
             probability: s.probability,
             values: s.trial.fitted.point.effects.clone(),

@@ -4,6 +4,7 @@ use faer::Mat;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
+use crate::gate::Gate;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
 use crate::linalg::solve_spd;
 use crate::simulate::Response;
@@ -18,6 +19,8 @@ pub(crate) struct Calibration {
     pub(crate) variance: [f64; CHANNELS],
     pub(crate) spread: f64,
     pub(crate) regimes: Regimes,
+    /// What the references themselves would be accused of.
+    pub(crate) gate: Gate,
 }
 
 /// Variances to start with, from typical residuals: wheel 0.3 rad/s, yaw 0.04 rad/s, v 0.03 and 0.012 m/s,
@@ -36,6 +39,8 @@ pub(crate) struct Regimes {
     /// Features and ln(q/D) of each reference segment.
     known: Vec<([f64; 3], f64)>,
     median: f64,
+    /// By which factor the misfit of each reference segment differs from what the others let expect.
+    pub(crate) scatter: Vec<f64>,
 }
 
 /// Segments at the median that the kernel mean begins with.
@@ -47,13 +52,23 @@ impl Regimes {
         let mut sorted: Vec<f64> = known.iter().map(|k| k.1).collect();
         sorted.sort_by(f64::total_cmp);
         let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
-        Self { known, median }
+        let mut out = Self { known, median, scatter: Vec::new() };
+        out.scatter =
+            (0..out.known.len()).map(|i| out.known[i].1.exp() / out.expected_but(out.known[i].0, Some(i))).collect();
+        out
     }
 
     /// Expected q/D: kernel mean of ln(q/D) over features, unit bandwidth.
     pub(crate) fn expected(&self, features: [f64; 3]) -> f64 {
+        self.expected_but(features, None)
+    }
+
+    fn expected_but(&self, features: [f64; 3], left_out: Option<usize>) -> f64 {
         let (mut w, mut sum) = (PSEUDO_COUNTS, PSEUDO_COUNTS * self.median);
-        for (f, v) in &self.known {
+        for (i, (f, v)) in self.known.iter().enumerate() {
+            if Some(i) == left_out {
+                continue;
+            }
             let d: f64 = f.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
             let k = (-0.5 * d).exp();
             w += k;
@@ -108,7 +123,8 @@ pub(crate) fn calibrate(
         .normal(&at.point, &at.response, &columns, &Columns(Vec::new()))
         .ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     let information = &normal.matrix + &problem.information;
-    Ok(Calibration { theta: at.point.theta, information, variance: problem.variance, spread: problem.spread, regimes })
+    let gate = Gate::new(&problem, &at.point, &information);
+    Ok(Calibration { theta: at.point.theta, information, variance: problem.variance, spread: problem.spread, regimes, gate })
 }
 
 fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNELS] {

@@ -3,12 +3,15 @@
 use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::hypothesis::Place;
 use crate::search::{Found, Trial};
+use crate::visits;
 
 /// Penalties in nats: per effect, per shape number beyond the first strength, for choosing a disc, an onset, a second
 /// effect; and the preference for "nothing is missing".
 const PER_EFFECT: f64 = 6.0;
 const PER_SHAPE: f64 = 1.0;
 const DISC: f64 = 10.0;
+/// A disc that fewer than two visits support: what happened once may have been an event in time.
+const ONE_VISIT: f64 = 10.0;
 const ONSET: f64 = 9.0;
 const SECOND: f64 = 10.0;
 const NONE: f64 = 12.0;
@@ -28,6 +31,8 @@ const LEAST_MISMATCH: f64 = 60.0;
 #[derive(Clone)]
 pub(crate) struct Scored {
     pub(crate) trial: Trial,
+    /// Separate visits that support its disc, if it has one.
+    pub(crate) visits: Option<usize>,
     pub(crate) score: f64,
     pub(crate) probability: f64,
 }
@@ -40,7 +45,7 @@ pub(crate) struct Decision {
 }
 
 /// Penalty of a hypothesis.
-fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
+pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
     let mut at = 0;
     let mut sum = 0.0;
     for (i, (v, onsets)) in h.parts.iter().enumerate() {
@@ -61,12 +66,16 @@ fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
     sum
 }
 
-/// Cost that a healthy drive of these segments would have.
-pub(crate) fn healthy_cost(problem: &Problem<'_>) -> f64 {
+/// Cost that a healthy drive of these segments would have: each as far from its expectation as the references' segments
+/// are from theirs, on average.
+pub(crate) fn healthy_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
+    let usual = [1.0];
+    let scatter = if scatter.is_empty() { &usual } else { scatter };
     let mut f = 0.0;
     for (r, cut) in problem.cuts.iter().enumerate() {
         for (s, segment) in cut.segments.iter().enumerate() {
-            f += problem.segment_cost(r, s, segment.count * problem.regime[r][s]);
+            let cost = |x: &f64| problem.segment_cost(r, s, segment.count * problem.regime[r][s] * x);
+            f += scatter.iter().map(cost).sum::<f64>() / scatter.len() as f64;
         }
     }
     f
@@ -77,22 +86,26 @@ fn logistic(x: f64) -> f64 {
 }
 
 /// Weighs all hypotheses.
-pub(crate) fn decide(problem: &Problem<'_>, found: &Found) -> Decision {
+/// `scatter`: of the references' segments about their regimes; `gate`: the highest score of a healthy drive.
+pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate: f64) -> Decision {
     let base: &Fitted = &found.retuned;
     let mut scored: Vec<Scored> = found
         .singles
         .iter()
         .chain(&found.pairs)
         .map(|t| {
-            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, &t.fitted.point.effects);
-            Scored { trial: t.clone(), score, probability: 0.0 }
+            let visits = visits::supporting(problem, base, t);
+            let once = if visits.is_some_and(|n| n < 2) { ONE_VISIT } else { 0.0 };
+            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, &t.fitted.point.effects) - once;
+            Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let top = scored.first().map_or(NONE, |s| s.score.max(NONE));
+    let none = NONE.max(gate);
+    let top = scored.first().map_or(none, |s| s.score.max(none));
     let weight = |s: f64| ((s - top) / TEMPERATURE).exp();
-    let sum = weight(NONE) + scored.iter().map(|s| weight(s.score)).sum::<f64>();
-    let healthy = healthy_cost(problem);
+    let sum = weight(none) + scored.iter().map(|s| weight(s.score)).sum::<f64>();
+    let healthy = healthy_cost(problem, scatter);
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / healthy.max(1e-9)).ln();
     let left = (best - healthy) / (base.cost - healthy).max(LEAST_MISMATCH);
@@ -101,7 +114,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found) -> Decision {
     for s in &mut scored {
         s.probability = (1.0 - unknown) * weight(s.score) / sum;
     }
-    Decision { scored, none: (1.0 - unknown) * weight(NONE) / sum, unknown }
+    Decision { scored, none: (1.0 - unknown) * weight(none) / sum, unknown }
 }
 
 #[cfg(test)]
@@ -117,7 +130,7 @@ mod tests {
         let problem = problem(&robot, &cuts);
         let retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
         let found = Found { retuned, singles: Vec::new(), pairs: Vec::new(), screened: Vec::new() };
-        let decision = decide(&problem, &found);
+        let decision = decide(&problem, &found, &[1.0], 0.0);
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
         approx::assert_relative_eq!(decision.none + decision.unknown, 1.0, epsilon = 1e-12);

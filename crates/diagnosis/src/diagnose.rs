@@ -59,7 +59,7 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
     let calibration = calibrate(&robot, &case.sigma, &references, largest, options)?;
     let problem = problem(&robot, case, &recordings, &calibration, largest, options);
     let found = search(&problem, progress);
-    let decision = decide(&problem, &found);
+    let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
     progress("comparing on data that was not fitted");
     let answer =
         Answer { case, options, problem: &problem, calibration: &calibration, sensors: &sensors, decision: &decision };

@@ -61,6 +61,7 @@ impl Hypothesis {
 }
 
 /// Everything a fit compares with and is bound by.
+#[derive(Clone)]
 pub(crate) struct Problem<'a> {
     pub(crate) robot: &'a Robot<f64>,
     /// One sigma of each tunable.

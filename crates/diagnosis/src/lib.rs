@@ -15,6 +15,7 @@ mod diagnose;
 mod disc;
 mod error;
 mod fit;
+mod gate;
 mod hold;
 mod hypothesis;
 mod leave_out;
@@ -36,6 +37,7 @@ pub mod steady;
 #[cfg(test)]
 mod testing;
 mod verdict;
+mod visits;
 mod windows;
 mod words;
 

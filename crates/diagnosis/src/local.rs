@@ -46,7 +46,7 @@ fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> 
 }
 
 /// Share of a part of a segment that is spent inside a disc, mean over the wheels; its edge is softened over `SOFT`.
-fn share_inside(segment: &Segment, q: usize, disc: [f64; 3]) -> f64 {
+pub(crate) fn share_inside(segment: &Segment, q: usize, disc: [f64; 3]) -> f64 {
     let n = segment.windows;
     let (from, until) = (q * n / PARTS, (q + 1) * n / PARTS);
     let wheels = segment.wheels[from..until].iter().flatten();

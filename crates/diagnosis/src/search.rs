@@ -30,6 +30,8 @@ const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
 const CLOSE: f64 = 60.0;
 const MOST_CLOSE: usize = 4;
+/// Gain of a second effect that could matter, nats.
+const LEAST_SECOND: f64 = 12.0;
 /// Below this gain a finalist starts a second time, from the re-tuned point.
 const SMALL_GAIN: f64 = 30.0;
 /// Partners of a first effect that are tried, and what a partner's evidence must exceed.
@@ -139,6 +141,9 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     }
     progress("looking for a second effect");
     let pairs = pairs(problem, &singles, &origin);
+    if let Some(best) = pairs.first() {
+        converge_members(problem, best, &mut singles);
+    }
     let mut screened: Vec<(String, f64)> =
         by_id(&first).iter().map(|c| (c.variant.card().id.to_owned(), c.evidence)).collect();
     for c in by_id(&second) {
@@ -147,6 +152,27 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         }
     }
     Found { retuned, singles, pairs, screened }
+}
+
+/// Fits each member of a pair alone from the pair's tuning: a single that had not converged would invent a gain for
+/// whatever stands beside it.
+fn converge_members(problem: &Problem<'_>, pair: &Trial, singles: &mut [Trial]) {
+    let mut from = 0;
+    for (variant, _) in &pair.hypothesis.parts {
+        let until = from + variant.free(1.0).len();
+        for single in singles.iter_mut().filter(|t| t.hypothesis.parts[0].0.label() == variant.label()) {
+            if single.fitted.cost - pair.fitted.cost > LEAST_SECOND {
+                let effects = pair.fitted.point.effects[from..until].to_vec();
+                let start = begin(problem, &single.hypothesis, &pair.fitted.point, &effects, &pair.fitted);
+                let again = problem.refine(&single.hypothesis, start, MORE_STEPS, Some(2));
+                if again.cost < single.fitted.cost {
+                    single.fitted = again;
+                }
+            }
+        }
+        from = until;
+    }
+    best_first(singles);
 }
 
 fn best_first(trials: &mut [Trial]) {

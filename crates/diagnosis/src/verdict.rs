@@ -111,6 +111,8 @@ pub struct Trial {
     pub hypothesis: Vec<String>,
     /// Fall of the cost below "re-tune only", nats.
     pub gain: f64,
+    /// Separate visits that support a place on the ground, if it names one.
+    pub visits: Option<usize>,
     /// Gain less penalties, nats.
     pub score: f64,
     /// Its share of the probability.
@@ -146,6 +148,8 @@ pub struct Diagnosis {
     pub trials: Vec<Trial>,
     /// Cost of the recordings when calibrated, when re-tuned, when healthy: nats.
     pub costs: [f64; 3],
+    /// What each reference, left out in turn, would be accused of, and what that scores: a hypothesis must do better.
+    pub accusations: Vec<(String, f64)>,
     /// Evidence of the screen per effect, nats.
     pub screened: Vec<(String, f64)>,
     /// Constants of the robot as re-tuned together with the named effects, relative to sigma.

@@ -309,6 +309,7 @@ mod tests {
             limits: Vec::new(),
             trials: Vec::new(),
             costs: [0.0; 3],
+            accusations: Vec::new(),
             screened: Vec::new(),
             tuning: BTreeMap::new(),
             steady: None,

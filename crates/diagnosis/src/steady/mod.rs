@@ -195,6 +195,7 @@ fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosi
         limits: Vec::new(),
         trials: Vec::new(),
         costs: [0.0; 3],
+        accusations: Vec::new(),
         screened: Vec::new(),
         tuning: BTreeMap::new(),
         steady: None,
