@@ -4,8 +4,9 @@ use faer::Mat;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::gate::Gate;
+use crate::drives::Drives;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
+use crate::gate::Gate;
 use crate::linalg::solve_spd;
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
@@ -103,6 +104,7 @@ pub(crate) fn calibrate(
         kappa: options.kappa,
         step: options.step,
         largest_torque,
+        drives: Drives::default(),
     };
     let none = Hypothesis::default();
     let mut at = problem.begin(&none, problem.origin(), None);
@@ -124,7 +126,14 @@ pub(crate) fn calibrate(
         .ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     let information = &normal.matrix + &problem.information;
     let gate = Gate::new(&problem, &at.point, &information);
-    Ok(Calibration { theta: at.point.theta, information, variance: problem.variance, spread: problem.spread, regimes, gate })
+    Ok(Calibration {
+        theta: at.point.theta,
+        information,
+        variance: problem.variance,
+        spread: problem.spread,
+        regimes,
+        gate,
+    })
 }
 
 fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNELS] {

@@ -4,6 +4,7 @@ use crate::answer::Answer;
 use crate::calibrate::{Calibration, calibrate};
 use crate::case::Case;
 use crate::decide::decide;
+use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::motion::GyroError;
 use crate::redundancy::check;
@@ -88,5 +89,6 @@ pub(crate) fn problem<'a>(
         kappa: options.kappa,
         step: options.step,
         largest_torque,
+        drives: Drives::default(),
     }
 }

@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
+use crate::drives::Drives;
 use crate::hypothesis::{Free, Onsets, Variant};
-use crate::simulate::{Body, Dose, Response, free_run};
+use crate::simulate::{Body, Dose, Grid, Response, free_run};
 use crate::windows::{CHANNELS, Cut};
 
 /// Offsets of a run that sensors add: gyro, accelerometer x and y.
@@ -84,6 +85,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) step: f64,
     /// Largest torque commanded, N m.
     pub(crate) largest_torque: f64,
+    pub(crate) drives: Drives,
 }
 
 /// Where a fit stands.
@@ -130,7 +132,11 @@ impl Problem<'_> {
 
     /// Response of the recordings `runs`.
     fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
-        let body = |run| Body { robot: self.robot_of(&lane.point, run), doses: (lane.doses)(run) };
+        let body = |run| {
+            let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
+            let torque = self.drives.delivered(run, cut, &robot, &doses, &Grid::new(cut, self.step));
+            Body { robot, doses, torque }
+        };
         let bodies: Vec<Body> = runs.clone().map(body).collect();
         let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
         for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {

@@ -13,6 +13,7 @@ pub mod case;
 mod decide;
 mod diagnose;
 mod disc;
+mod drives;
 mod error;
 mod fit;
 mod gate;

@@ -80,8 +80,9 @@ fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], 
     problem.begin(h, point, Some(base.columns.clone()))
 }
 
-fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize) -> Trial {
-    let fitted = problem.refine(&h, start, steps, Some(2));
+/// A first refit, with the columns of θ that are there: they are renewed where it may win.
+fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Trial {
+    let fitted = problem.refine(&h, start, steps, renew);
     let mut trial = Trial { hypothesis: h, fitted };
     onset::scan(problem, &mut trial);
     trial
@@ -91,7 +92,7 @@ fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize) -> T
 fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
     let mut trial = trial.clone();
     disc::scan(problem, &mut trial);
-    let mut trial = refit(problem, trial.hypothesis, trial.fitted, steps);
+    let mut trial = refit(problem, trial.hypothesis, trial.fitted, steps, Some(0));
     disc::scan(problem, &mut trial);
     trial
 }
@@ -113,9 +114,10 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         .into_iter()
         .map(|c| {
             let h = Hypothesis::single(c.variant, c.onsets.clone());
-            let trial = refit(problem, h.clone(), begin(problem, &h, &origin.point, &c.start, &origin), STEPS);
+            let trial = refit(problem, h.clone(), begin(problem, &h, &origin.point, &c.start, &origin), STEPS, None);
             if retuned.cost - trial.fitted.cost < SMALL_GAIN {
-                let again = refit(problem, h.clone(), begin(problem, &h, &retuned.point, &c.start, &retuned), STEPS);
+                let again =
+                    refit(problem, h.clone(), begin(problem, &h, &retuned.point, &c.start, &retuned), STEPS, None);
                 if again.fitted.cost < trial.fitted.cost {
                     return again;
                 }
@@ -203,7 +205,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
             let mut h = h1.clone();
             h.parts.push((p.variant, p.onsets.clone()));
             let start: Vec<f64> = e1.iter().chain(&p.start).copied().collect();
-            out.push(refit(problem, h.clone(), begin(problem, &h, &origin.point, &start, origin), 5));
+            out.push(refit(problem, h.clone(), begin(problem, &h, &origin.point, &start, origin), STEPS, None));
         }
     }
     best_first(&mut out);

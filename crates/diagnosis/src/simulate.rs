@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use robot_model::presence::{Disc, Presence};
 use robot_model::{Active, Effect, Lanes, Plant, Robot, Scalar, State, effects};
 
-use crate::hold::Hold;
+use crate::drives::Torques;
 use crate::windows::{CHANNELS, Cut, PARTS, Segment};
 
 /// Segments that are simulated side by side.
@@ -32,6 +32,8 @@ impl Dose {
 pub(crate) struct Body {
     pub(crate) robot: Robot<f64>,
     pub(crate) doses: Vec<Dose>,
+    /// What its drives deliver.
+    pub(crate) torque: Torques,
 }
 
 /// Predicted windows of every recording and segment, in the layout of [`Segment::observed`].
@@ -43,11 +45,9 @@ pub(crate) type Response = Vec<Vec<Vec<f64>>>;
 /// during that part of each segment. `step` is the integration step, s.
 pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step: f64) -> Response {
     let grids: Vec<Grid> = cuts.iter().map(|c| Grid::new(c, step)).collect();
-    let torques: Vec<Vec<[f64; 2]>> =
-        cuts.iter().zip(bodies).zip(&grids).map(|((c, b), g)| delivered(c, b, g)).collect();
     let stretches: Vec<Stretch<'_>> = (0..cuts.len())
         .flat_map(|r| {
-            let (cut, body, torque, grid) = (&cuts[r], &bodies[r], &torques[r], grids[r]);
+            let (cut, body, torque, grid) = (&cuts[r], &bodies[r], &bodies[r].torque, grids[r]);
             cut.segments.iter().map(move |segment| Stretch { cut, body, segment, torque, grid })
         })
         .collect();
@@ -62,14 +62,14 @@ pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step:
 
 /// How a recording's rows are divided into steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Grid {
-    substeps: usize,
-    h: f64,
+pub(crate) struct Grid {
+    pub(crate) substeps: usize,
+    pub(crate) h: f64,
     rows_per_window: usize,
 }
 
 impl Grid {
-    fn new(cut: &Cut, step: f64) -> Self {
+    pub(crate) fn new(cut: &Cut, step: f64) -> Self {
         let substeps = (cut.period / step).round().max(1.0) as usize;
         Self { substeps, h: cut.period / substeps as f64, rows_per_window: cut.rows_per_window }
     }
@@ -77,23 +77,6 @@ impl Grid {
     fn steps_per_window(&self) -> usize {
         self.rows_per_window * self.substeps
     }
-}
-
-/// Torque that the drives deliver in every step of a recording, up to the end of its last segment.
-fn delivered(cut: &Cut, body: &Body, grid: &Grid) -> Vec<[f64; 2]> {
-    let active: Vec<Active<f64>> = body.doses.iter().map(Dose::active).collect();
-    let plant = Plant::new(&body.robot, &active, grid.h);
-    let hold = Hold::new(cut.period, grid.substeps, plant.drive().delay);
-    let rows = cut.segments.last().map_or(0, |s| s.row + s.windows * cut.rows_per_window);
-    let mut s = State::default();
-    let mut out = Vec::with_capacity(rows * grid.substeps);
-    for k in 0..rows {
-        for i in 0..grid.substeps {
-            plant.step_drive(&mut s, hold.command(&cut.torque, k, i));
-            out.push(plant.delivered(&s));
-        }
-    }
-    out
 }
 
 /// One segment to be run freely.
@@ -220,6 +203,7 @@ impl NullaryFnOnce for Drive<'_, '_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drives::Drives;
     use crate::testing::{cutting, driven, robot};
     use crate::windows::cut;
 
@@ -227,7 +211,8 @@ mod tests {
     fn a_free_run_reproduces_a_drive_of_the_plant_itself() {
         let robot = robot();
         let cut = cut(&driven(&robot, &[], 20.0), &cutting());
-        let bodies = [Body { robot, doses: Vec::new() }];
+        let torque = Drives::default().delivered(0, &cut, &robot, &[], &Grid::new(&cut, 1e-3));
+        let bodies = [Body { robot, doses: Vec::new(), torque }];
         let free = free_run(std::slice::from_ref(&cut), &bodies, None, 1e-3).remove(0);
         let (mut sum, mut size, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS], 0.0);
         for (segment, free) in cut.segments.iter().zip(&free) {

@@ -9,6 +9,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::Options;
 use crate::case::usual_sigma;
+use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::hold::Hold;
 use crate::motion::GyroError;
@@ -145,5 +146,6 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         kappa: options.kappa,
         step: options.step,
         largest_torque: 5.0,
+        drives: Drives::default(),
     }
 }

@@ -61,8 +61,7 @@ mod tests {
         // A disc on the way, well into the drive.
         let k = (400..free.rows()).find(|&k| free.pose[0][k].is_some()).expect("a pose");
         let (x, y) = (free.pose[0][k].unwrap_or(0.0), free.pose[1][k].unwrap_or(0.0));
-        let presence =
-            Presence { disc: Some(Disc { centre: [x, y], radius: 0.5 }), ..Presence::default() };
+        let presence = Presence { disc: Some(Disc { centre: [x, y], radius: 0.5 }), ..Presence::default() };
         let sticky = driven(&robot, &[Dose { effect: variant.effect, values: vec![0.3], presence }], 8.0);
         let h = Hypothesis::single(variant, Vec::new());
         for (runs, wanted) in [(vec![sticky.clone()], 1), (vec![sticky.clone(), sticky], 2)] {
@@ -74,10 +73,13 @@ mod tests {
             let trial = Trial { hypothesis: h.clone(), fitted };
             assert_eq!(supporting(&problem, &retuned, &trial), Some(wanted));
         }
-        let none = Trial { hypothesis: Hypothesis::default(), fitted: {
-            let cuts = [cut(&free, &cutting())];
-            problem(&robot, &cuts).begin(&Hypothesis::default(), problem(&robot, &cuts).origin(), None)
-        } };
+        let none = Trial {
+            hypothesis: Hypothesis::default(),
+            fitted: {
+                let cuts = [cut(&free, &cutting())];
+                problem(&robot, &cuts).begin(&Hypothesis::default(), problem(&robot, &cuts).origin(), None)
+            },
+        };
         let cuts = [cut(&free, &cutting())];
         assert_eq!(supporting(&problem(&robot, &cuts), &none.fitted, &none), None);
     }
