@@ -20,8 +20,8 @@ struct Cli {
 enum Command {
     /// Reproduce Table 1 and the figures of Hendzel & Trojnacki 2014.
     Reproduce(reproduce::Args),
-    /// Diagnose case folders and write answers for the scorer.
-    Blind(blind::Args),
+    /// Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders.
+    Blind(Box<blind::Args>),
 }
 
 fn main() -> ExitCode {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 /// One measured figure. `summary.json` of every command is a flat list of these, so that versions can be compared.
@@ -18,6 +19,37 @@ pub(crate) struct Figure {
     pub(crate) target: Option<String>,
     /// Whether it is met, if anything is asked.
     pub(crate) pass: Option<bool>,
+}
+
+/// What is asked of a figure.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Asked {
+    /// This or more.
+    AtLeast(f64),
+    /// This or less.
+    AtMost(f64),
+}
+
+impl Figure {
+    /// A figure of which nothing is asked.
+    pub(crate) fn free(name: impl Into<String>, value: f64, unit: &str) -> Self {
+        Self { name: name.into(), value, unit: unit.into(), target: None, pass: None }
+    }
+
+    /// The same figure with what is asked of it.
+    pub(crate) fn asked(self, asked: Asked) -> Self {
+        let (target, pass) = match asked {
+            Asked::AtLeast(least) => (format!(">= {least}"), self.value >= least),
+            Asked::AtMost(most) => (format!("<= {most}"), self.value <= most),
+        };
+        Self { target: Some(target), pass: Some(pass), ..self }
+    }
+}
+
+/// A bar on a terminal; indicatif hides it anywhere else.
+pub(crate) fn progress(count: u64, what: &str) -> anyhow::Result<ProgressBar> {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")?;
+    Ok(ProgressBar::new(count).with_style(style).with_message(what.to_owned()))
 }
 
 /// The folder `target/COMMAND` of the workspace, created if needed.

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use anyhow::Context;
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressStyle};
 use report::reproduction::{Condition, Index, Reproduction, Signals};
 use sim::table1::{Check, Distribution, distributions, judge, typical};
 use sim::{Draw, Experiment, Recipe, RobotSet, Trajectory};
@@ -111,7 +110,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<bool> {
     let experiment = Experiment::new(&recipe, args.set.into())?;
     let plant = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
-    let bar = progress(args.draws)?;
+    let bar = output::progress(args.draws, "first layers")?;
     let draws = experiment.ensemble(args.seed, args.draws, || bar.inc(1))?;
     bar.finish_and_clear();
     let constant = experiment.constant_regressor()?;
@@ -132,12 +131,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<bool> {
     output::write(&folder, "index.html", &report::reproduction::page(&page(&outcome, &experiment)?))?;
     println!("\nPage and numbers: target/reproduce/index.html, numbers.json, summary.json");
     Ok(outcome.within() || !outcome.judged())
-}
-
-/// A bar on a terminal; indicatif hides it anywhere else.
-fn progress(draws: u64) -> anyhow::Result<ProgressBar> {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} first layers, {eta} left")?;
-    Ok(ProgressBar::new(draws).with_style(style))
 }
 
 fn page(o: &Outcome, experiment: &Experiment) -> anyhow::Result<Reproduction> {

@@ -62,7 +62,7 @@ impl Case {
             recordings: hidden.truths.clone(),
             heldout: std::collections::BTreeMap::new(),
             setting: draw.setting.name().to_owned(),
-            robot: draw.robot.against(&draw.nominal),
+            robot: draw.robot.against(&draw.nominal).into_iter().map(|(name, x)| (name.to_owned(), x)).collect(),
             below_noise: hidden.below_noise,
         };
         for (i, run) in heldout.iter().enumerate() {

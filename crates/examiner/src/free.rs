@@ -81,8 +81,9 @@ pub(crate) fn rms(values: impl Iterator<Item = [f64; 3]>) -> [f64; 2] {
     [(wheel / (2.0 * n)).sqrt(), (yaw / n).sqrt()]
 }
 
-/// Error of a prediction.
-pub(crate) fn error(truth: &[[f64; 3]], predicted: &[[f64; 3]]) -> [f64; 2] {
+/// Root mean square errors of predicted wheel speeds and of the yaw rate that the gyro shows, restart rows left out.
+/// A row holds the wheel speeds of both sides and the yaw rate; both tables have the same rows.
+pub fn error(truth: &[[f64; 3]], predicted: &[[f64; 3]]) -> [f64; 2] {
     let pairs = truth.iter().zip(predicted);
     rms(pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// A hidden effect. Fields that an effect does not have are left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct EffectTruth {
     /// Id of the vocabulary, or `out_of_library`.
@@ -90,7 +90,7 @@ impl EffectTruth {
 }
 
 /// Of one recording. Pairs are root mean squares of wheel speeds and of yaw rate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RecordingTruth {
     /// When a local effect was present.
@@ -106,7 +106,7 @@ pub struct RecordingTruth {
 }
 
 /// Of one held-out run. Pairs are root mean squares of wheel speeds and of yaw rate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct HeldoutTruth {
     /// Kinds of drive, in order.
@@ -122,7 +122,7 @@ pub struct HeldoutTruth {
 }
 
 /// Everything hidden in a case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Truth {
     /// Name of the case.
@@ -140,7 +140,7 @@ pub struct Truth {
     /// `normal` or `weak`.
     pub setting: String,
     /// The true robot without what is hidden; ratios to the user's value where there is one.
-    pub robot: BTreeMap<&'static str, f64>,
+    pub robot: BTreeMap<String, f64>,
     /// Whether no draw reached the asked excess over the noise.
     pub below_noise: bool,
 }
@@ -161,11 +161,16 @@ impl Truth {
     /// # Errors
     /// If a number is not finite.
     pub fn seal(&self) -> Result<String, serde_json::Error> {
-        let digest = Sha256::digest(self.json()?.as_bytes());
-        Ok(digest.iter().fold(String::new(), |mut text, byte| {
-            use std::fmt::Write as _;
-            let _ = write!(text, "{byte:02x}");
-            text
-        }))
+        Ok(sha256(self.json()?.as_bytes()))
     }
+}
+
+/// SHA-256 in hexadecimal, as `sha256sum` prints it.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        use std::fmt::Write as _;
+        // Writing to a String cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }

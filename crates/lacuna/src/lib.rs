@@ -1,4 +1,4 @@
-//! The parts of the command line that other programs use too: robot files, case folders, predictions.
+//! The parts of the command line that other programs use too: robot files, case folders, answers, tables of text.
 //!
 //! ```text
 //! paths --inputs::load--> Loaded --CaseFolder--> diagnosis::Case --diagnosis::diagnose--> Diagnosis
@@ -14,6 +14,7 @@ pub mod robot_file;
 mod robot_parameters;
 mod robot_text;
 pub mod suggest;
+pub mod text_table;
 
 pub use robot_error::RobotFileError;
 pub use robot_file::{Causality, RobotSpec};

@@ -11,7 +11,6 @@ use clap::{Parser, Subcommand};
 
 mod commands;
 mod console;
-mod text_table;
 
 use commands::{Outcome, Usage, diagnose, effects, explain, identify};
 

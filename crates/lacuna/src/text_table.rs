@@ -2,25 +2,25 @@
 
 /// A table with a line of names; columns are as wide as their widest cell.
 #[derive(Debug)]
-pub(crate) struct TextTable {
+pub struct TextTable {
     right: Vec<bool>,
     rows: Vec<Vec<String>>,
 }
 
 impl TextTable {
     /// A table with these columns; a name that begins with `>` is aligned to the right.
-    pub(crate) fn new(columns: &[&str]) -> Self {
+    pub fn new(columns: &[&str]) -> Self {
         let names = columns.iter().map(|c| c.trim_start_matches('>').to_owned());
         Self { right: columns.iter().map(|c| c.starts_with('>')).collect(), rows: vec![names.collect()] }
     }
 
     /// Adds a row, one cell per column.
-    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 
     /// The table, indented by two.
-    pub(crate) fn render(&self) -> String {
+    pub fn render(&self) -> String {
         let width = |c: usize| {
             let cells = self.rows.iter().filter_map(|r| r.get(c));
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
@@ -32,7 +32,9 @@ impl TextTable {
             for ((cell, width), right) in row.iter().zip(&widths).zip(&self.right) {
                 let pad = " ".repeat(width - cell.chars().count());
                 let (before, after) = if *right { (pad.as_str(), "") } else { ("", pad.as_str()) };
-                line += &format!("  {before}{cell}{after}");
+                for part in ["  ", before, cell, after] {
+                    line += part;
+                }
             }
             out += line.trim_end();
             out += "\n";
@@ -42,7 +44,7 @@ impl TextTable {
 }
 
 /// A number with four digits that count, without an exponent where that is readable.
-pub(crate) fn number(x: f64) -> String {
+pub fn number(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()

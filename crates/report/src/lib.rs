@@ -1,6 +1,8 @@
 //! Pages and text for diagnoses and experiments.
 
 pub mod chart;
+mod drawing;
 pub mod page;
 pub mod picture;
+pub mod reliability;
 pub mod reproduction;

@@ -45,7 +45,7 @@ const CSS: &str = "\
 body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:1200px;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem}p{max-width:75ch}p.note{color:var(--soft)}
 .scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
-th,td{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right}
+svg{max-width:100%;height:auto}th,td{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right}
 th:first-child,td:first-child{text-align:left}.good{color:var(--good)}.bad{color:var(--bad);font-weight:600}
 .grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,480px),1fr));gap:1rem}
 figure{margin:0;min-width:0}figcaption{color:var(--soft);font-size:.9rem}";
@@ -115,6 +115,13 @@ impl Page {
             ));
         }
         self.body += "</div>\n";
+    }
+
+    /// Adds a picture that was drawn by this crate, with a caption below it.
+    pub fn picture(&mut self, svg: &str, caption: &str) {
+        self.body += "<figure>";
+        self.body += svg;
+        self.push(format_args!("<figcaption>{}</figcaption></figure>\n", escape(caption)));
     }
 
     /// The finished page. With charts it carries plotly.js (4.6 MB) once and needs no network.

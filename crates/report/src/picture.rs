@@ -1,20 +1,11 @@
 //! One picture of a diagnosis, as SVG: how probable the causes are, and how much better the corrected model forecasts.
 
 use diagnosis::{Cause, Diagnosis, FreeRun};
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use thiserror::Error;
+use plotters::style::text_anchor::HPos;
 
-/// The picture could not be drawn.
-#[derive(Debug, Error)]
-#[error("cannot draw the picture: {reason}")]
-pub struct PictureError {
-    /// What the drawing library says.
-    pub reason: String,
-}
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub use crate::drawing::PictureError;
+use crate::drawing::{Area, CORRECTED, FRAME, INK, PAPER, SOFT, bold, failed, rectangle, text};
 
 /// Width, margin and gap between the panels, px.
 const WIDTH: i32 = 800;
@@ -44,14 +35,9 @@ const SENTENCES: usize = 3;
 /// Causes below this probability are left out, unless nothing else would be shown.
 const SHOWN: f64 = 0.005;
 
-const PAPER: RGBColor = RGBColor(255, 255, 255);
-const FRAME: RGBColor = RGBColor(208, 215, 222);
-const INK: RGBColor = RGBColor(31, 41, 51);
-const SOFT: RGBColor = RGBColor(92, 105, 117);
 const TRACK: RGBColor = RGBColor(236, 239, 242);
 const PLAIN: RGBColor = RGBColor(160, 171, 182);
 const RETUNED: RGBColor = RGBColor(125, 161, 196);
-const CORRECTED: RGBColor = RGBColor(42, 125, 110);
 /// "None" and "unknown" are answers, but no causes.
 const NO_CAUSE: RGBColor = RGBColor(160, 171, 182);
 
@@ -200,37 +186,6 @@ fn bar(root: &Area<'_>, x: i32, y: i32, long: i32, whole: i32, colour: RGBColor)
     rectangle(root, [x, y, x + long.clamp(1, whole), y + BAR], colour.filled())
 }
 
-fn rectangle(root: &Area<'_>, [a, b, c, d]: [i32; 4], style: ShapeStyle) -> Result<(), PictureError> {
-    root.draw(&Rectangle::new([(a, b), (c, d)], style)).map_err(failed)
-}
-
-fn text(root: &Area<'_>, s: &str, at: [i32; 2], size: i32, ink: RGBColor, h: HPos) -> Result<(), PictureError> {
-    write(root, s, at, size, FontStyle::Normal, ink, h)
-}
-
-fn bold(root: &Area<'_>, s: &str, at: [i32; 2], size: i32) -> Result<(), PictureError> {
-    write(root, s, at, size, FontStyle::Bold, INK, HPos::Left)
-}
-
-fn write(
-    root: &Area<'_>,
-    s: &str,
-    [x, y]: [i32; 2],
-    size: i32,
-    style: FontStyle,
-    ink: RGBColor,
-    h: HPos,
-) -> Result<(), PictureError> {
-    // The SVG backend writes letters smaller by 1.24 than it is told.
-    let font = FontDesc::new(FontFamily::SansSerif, 1.24 * f64::from(size), style);
-    let style = TextStyle::from(font).color(&ink).pos(Pos::new(h, VPos::Top));
-    root.draw(&Text::new(s.to_owned(), (x, y), style)).map_err(failed)
-}
-
-fn failed(e: impl std::fmt::Display) -> PictureError {
-    PictureError { reason: e.to_string() }
-}
-
 /// Height of so many rows, px.
 fn rows(count: usize, height: i32) -> i32 {
     // A picture has few rows; a hundred are far more than it can hold.
@@ -272,6 +227,7 @@ mod tests {
     use diagnosis::Verdict;
 
     use super::*;
+    use crate::drawing::well_formed;
 
     fn cause(effect: &str, name: &str, probability: f64) -> Cause {
         Cause {
@@ -315,27 +271,6 @@ mod tests {
             steady: None,
             predictions: Vec::new(),
         }
-    }
-
-    /// Tags open and close in order, and no bare ampersand or bracket is left in the text.
-    fn well_formed(svg: &str) {
-        let mut open: Vec<&str> = Vec::new();
-        for piece in svg.split('<').skip(1) {
-            let (tag, text) = piece.split_once('>').expect("every bracket closes");
-            assert!(!text.contains('>'), "stray bracket in {text:?}");
-            let entity = |t: &str| ["amp;", "lt;", "gt;", "quot;", "#"].iter().any(|e| t.starts_with(e));
-            assert!(text.split('&').skip(1).all(entity), "bare ampersand in {text:?}");
-            if tag.starts_with(['?', '!']) {
-                continue;
-            }
-            let name = tag.trim_start_matches('/').split([' ', '/', '\n']).next().unwrap_or_default();
-            if tag.starts_with('/') {
-                assert_eq!(open.pop(), Some(name));
-            } else if !tag.ends_with('/') {
-                open.push(name);
-            }
-        }
-        assert!(open.is_empty(), "still open: {open:?}");
     }
 
     #[test]

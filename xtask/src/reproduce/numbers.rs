@@ -53,8 +53,6 @@ pub(super) fn found(check: &Check) -> String {
 
 /// The flat list of `summary.json`.
 pub(super) fn summary(o: &Outcome) -> Vec<Figure> {
-    let free =
-        |name: String, value: f64, unit: &str| Figure { name, value, unit: unit.into(), target: None, pass: None };
     let mut list: Vec<Figure> = o
         .checks
         .iter()
@@ -68,15 +66,15 @@ pub(super) fn summary(o: &Outcome) -> Vec<Figure> {
         .collect();
     for (d, constant) in o.table.iter().zip(o.constant.table1()) {
         for (q, value) in ["min", "5%", "median", "95%", "max"].into_iter().zip(d.quantiles) {
-            list.push(free(format!("{} {q}", d.name), value, "rad/s"));
+            list.push(Figure::free(format!("{} {q}", d.name), value, "rad/s"));
         }
-        list.push(free(format!("{} percentile of the paper's value", d.name), d.percentile, "%"));
-        list.push(free(format!("{} constant regressor", d.name), constant, "rad/s"));
+        list.push(Figure::free(format!("{} percentile of the paper's value", d.name), d.percentile, "%"));
+        list.push(Figure::free(format!("{} constant regressor", d.name), constant, "rad/s"));
     }
-    list.push(free("largest path error".into(), o.run.largest_path_error, "m"));
-    list.push(free("smallest wheel load".into(), o.run.smallest_load, "N"));
-    list.push(free("time of the plant".into(), o.seconds[0], "s"));
-    list.push(free("time of the identifiers".into(), o.seconds[1], "s"));
+    list.push(Figure::free("largest path error", o.run.largest_path_error, "m"));
+    list.push(Figure::free("smallest wheel load", o.run.smallest_load, "N"));
+    list.push(Figure::free("time of the plant", o.seconds[0], "s"));
+    list.push(Figure::free("time of the identifiers", o.seconds[1], "s"));
     list
 }
 

@@ -7,7 +7,7 @@ use robot_model::effects::catalogue;
 
 use super::{Outcome, explain};
 use crate::console::{emit, emit_json};
-use crate::text_table::TextTable;
+use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:

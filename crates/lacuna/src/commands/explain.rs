@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::{Outcome, Usage, effects};
 use crate::console::{emit, emit_json, heading};
-use crate::text_table::TextTable;
+use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1,18 +1,17 @@
 //! A diagnosis for people: the verdict first.
 
 use diagnosis::{Cause, Cell, Diagnosis, FreeRun};
+use lacuna::answers::NINETY;
 use lacuna::case_folder::CaseFolder;
 
 use crate::commands::listed;
 use crate::console::heading;
-use crate::text_table::{TextTable, number};
+use lacuna::text_table::{TextTable, number};
 
 /// Rows of each table at most; everything is in the JSON.
 const ROWS: usize = 6;
 /// Causes less probable than this are not shown.
 const SHOWN: f64 = 0.005;
-/// Half the width of a 90 % interval in sigmas of a normal distribution.
-const NINETY: f64 = 1.645;
 /// Intervals shown per cause.
 const INTERVALS: usize = 3;
 

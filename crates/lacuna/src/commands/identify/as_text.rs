@@ -5,7 +5,7 @@ use super::follow::{COMPARISONS, Errors, Indices, SETTLED};
 use super::lines::GAP_PERIODS;
 use crate::commands::listed;
 use crate::console::heading;
-use crate::text_table::{TextTable, number};
+use lacuna::text_table::{TextTable, number};
 
 const SIDES: [&str; 2] = ["left", "right"];
 

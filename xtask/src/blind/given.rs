@@ -1,34 +1,19 @@
-//! `cargo xtask blind`: diagnoses case folders whose truth it does not see and writes answers for the scorer.
+//! Given case folders, whose truth is elsewhere: diagnoses them and writes answers for a scorer.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use clap::Args as ClapArgs;
-use lacuna::{answers, case_folder};
+use lacuna::case_folder;
 use recordings::ReadOptions;
 
 use crate::output::{self, Figure};
 
-/// Arguments of `cargo xtask blind`.
-#[derive(Debug, ClapArgs)]
-pub(crate) struct Args {
-    /// Folder of unpacked cases, one folder each.
-    #[arg(long)]
-    cases: PathBuf,
-    /// Folder for answers and held-out predictions.
-    #[arg(long)]
-    answers: PathBuf,
-    /// Only these cases.
-    #[arg(long, value_delimiter = ',')]
-    only: Vec<String>,
-}
-
 /// Diagnoses every case; a case that fails is named and does not stop the others.
-pub(crate) fn run(args: &Args) -> Result<bool> {
-    let mut folders: Vec<PathBuf> = fs::read_dir(&args.cases)
-        .with_context(|| format!("cannot list '{}'", args.cases.display()))?
+pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool> {
+    let mut folders: Vec<PathBuf> = fs::read_dir(cases)
+        .with_context(|| format!("cannot list '{}'", cases.display()))?
         .filter_map(|e| e.ok().map(|e| e.path()))
         .filter(|p| p.is_dir())
         .collect();
@@ -38,7 +23,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let mut times = Vec::new();
     for folder in &folders {
         let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        if !args.only.is_empty() && !args.only.contains(&name) {
+        if !only.is_empty() && !only.contains(&name) {
             continue;
         }
         let start = Instant::now();
@@ -51,8 +36,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         times.push(seconds);
         match outcome {
             Ok(d) => {
-                answers::write(&args.answers, &name, &d, seconds)?;
-                let whole = args.answers.join(&name).join("diagnosis.json");
+                lacuna::answers::write(answers, &name, &d, seconds)?;
+                let whole = answers.join(&name).join("diagnosis.json");
                 fs::write(&whole, serde_json::to_string_pretty(&d)?)
                     .with_context(|| format!("cannot write '{}'", whole.display()))?;
                 println!("{name}  {seconds:5.1} s  {}", d.sentences.first().map_or("", String::as_str));
@@ -72,22 +57,15 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
 
 /// What the run itself measured; right and wrong are the scorer's.
 fn summary(times: &[f64], failed: usize) -> Vec<Figure> {
-    let figure = |name: &str, value: f64, unit: &str| Figure {
-        name: name.to_owned(),
-        value,
-        unit: unit.to_owned(),
-        target: None,
-        pass: None,
-    };
-    let mut out = vec![figure("cases", times.len() as f64, "")];
+    let mut out = vec![Figure::free("cases", times.len() as f64, "")];
     out.push(Figure {
         target: Some("0".to_owned()),
         pass: Some(failed == 0),
-        ..figure("cases that failed", failed as f64, "")
+        ..Figure::free("cases that failed", failed as f64, "")
     });
     if let (Some(median), Some(longest)) = (times.get(times.len() / 2), times.last()) {
-        out.push(figure("time of a case, median", *median, "s"));
-        out.push(figure("time of a case, longest", *longest, "s"));
+        out.push(Figure::free("time of a case, median", *median, "s"));
+        out.push(Figure::free("time of a case, longest", *longest, "s"));
     }
     out
 }

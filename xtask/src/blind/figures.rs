@@ -1,0 +1,83 @@
+//! The flat list of figures with what is asked of them.
+
+use super::score::statistics::{Rate, largest, mean, median};
+use super::score::{Kind, Row};
+use super::totals::Totals;
+use crate::output::Asked::{AtLeast, AtMost};
+use crate::output::{Asked, Figure};
+
+/// Names of the quantities that held-out drives are compared in.
+pub(super) const QUANTITIES: [&str; 2] = ["wheel speed", "yaw rate"];
+
+/// All figures of a set.
+pub(super) fn figures(rows: &[Row], failed: usize) -> Vec<Figure> {
+    let of = |kinds: &[Kind]| Totals::of(&rows.iter().filter(|r| kinds.contains(&r.kind)).collect::<Vec<_>>());
+    let (all, single, pair) = (of(&Kind::ALL), of(&[Kind::Single]), of(&[Kind::Pair]));
+    let mut list = List(Vec::new());
+    list.free("cases", Some(rows.len() as f64), "");
+    for kind in Kind::ALL {
+        list.free(&format!("cases, {}", kind.name()), Some(rows.iter().filter(|r| r.kind == kind).count() as f64), "");
+    }
+    list.asked("cases that failed", Some(failed as f64), "", AtMost(0.0));
+    list.free("right, all cases", all.right.share(), "");
+    list.free("top-1, singles", single.right.share(), "");
+    list.asked("top-1 class, singles", single.class.share(), "", AtLeast(0.95));
+    list.free("top-1, pairs: first answer is one of the two", pair.right.share(), "");
+    list.free("one of a pair in the first three", pair.one_of_pair.share(), "");
+    list.asked("both of a pair in the first three", pair.both_of_pair.share(), "", AtLeast(0.85));
+    list.asked("truth inside the 90 % set of answers", all.in_set.share(), "", AtLeast(0.9));
+    list.free("answers in the 90 % set, mean", mean(&all.set_sizes), "");
+    list.asked("nothing hidden, alarmed", all.alarmed.share(), "", AtMost(0.02));
+    list.bounds("nothing hidden, alarmed", all.alarmed);
+    list.free("in the catalogue, no mismatch seen", all.missed.share(), "");
+    list.free("in the catalogue, called unknown", all.called_unknown.share(), "");
+    list.asked("outsiders called unknown", all.outsiders_unknown.share(), "", AtLeast(0.9));
+    list.asked("sensor told from physics", all.sort.share(), "", AtLeast(0.98));
+    list.free("side right", all.side.share(), "");
+    list.asked("place and time, intersection over union, mean", mean(&all.overlaps), "", AtLeast(0.95));
+    list.asked("onset error, median", median(&all.onset_errors), "s", AtMost(0.3));
+    list.free("onsets told", all.onsets_told.share(), "");
+    list.asked("size, relative error, median", median(&all.size_errors), "", AtMost(0.03));
+    list.free("size within 25 %", all.size_within_quarter().share(), "");
+    list.free("size inside its 90 % interval", all.size_held.share(), "");
+    list.free("Brier score, mean", mean(&all.briers), "");
+    list.asked("expected calibration error", all.calibration_error, "", AtMost(0.05));
+    for (of, quantity) in QUANTITIES.iter().enumerate() {
+        let closed = &all.closed[of];
+        list.asked(&format!("gap closed, {quantity}, median"), median(closed), "", AtLeast([0.96, 0.95][of]));
+        list.free(&format!("gap closed, {quantity}, mean"), mean(closed), "");
+        let own = &all.closed_from_own[of];
+        list.free(&format!("gap closed from own nominal, {quantity}, median"), median(own), "");
+        list.free(&format!("corrected worse than own nominal by 5 %, {quantity}"), all.worse[of].share(), "");
+        let over = median(&all.over_calibrated[of]);
+        list.asked(&format!("nothing hidden, error over perfect, {quantity}, median"), over, "", AtMost(1.5));
+    }
+    list.asked("time of a case on one core, median", median(&all.core_seconds), "s", AtMost(3.0));
+    list.asked("time of a case on one core, longest", largest(&all.core_seconds), "s", AtMost(10.0));
+    list.free("time of a case by the clock, median", median(&all.seconds), "s");
+    list.free("time of a case by the clock, longest", largest(&all.seconds), "s");
+    list.asked("memory of a case, most", largest(&all.memory), "MiB", AtMost(128.0));
+    list.0
+}
+
+/// Figures in the making; what there are no cases for is left out.
+struct List(Vec<Figure>);
+
+impl List {
+    fn free(&mut self, name: &str, value: Option<f64>, unit: &str) {
+        self.0.extend(value.map(|v| Figure::free(name, v, unit)));
+    }
+
+    fn asked(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
+        self.0.extend(value.map(|v| Figure::free(name, v, unit).asked(asked)));
+    }
+
+    /// The 95 % interval of a rate.
+    fn bounds(&mut self, name: &str, rate: Rate) {
+        if rate.count > 0 {
+            for (end, value) in ["from", "to"].into_iter().zip(rate.interval()) {
+                self.free(&format!("{name}, 95 % {end}"), Some(value), "");
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! `cargo xtask blind`: draws robots with something hidden, seals what it is, diagnoses them and scores the answers.
+//!
+//! ```text
+//! set --draw--> case folders, truth, seals --diagnose (lacuna, one process per case)--> answers
+//! truth, if its seal holds, and answers --score--> rows --Totals--> figures and tables
+//! ```
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use clap::Args as ClapArgs;
+use examiner::Plan;
+use rayon::ThreadPool;
+
+use crate::output;
+
+mod binary;
+mod child;
+mod diagnose;
+mod document;
+mod draw;
+mod figures;
+mod given;
+mod layout;
+mod score;
+mod seal;
+mod set;
+mod tables;
+mod totals;
+mod truth;
+mod write;
+
+use layout::Layout;
+
+const EXAMPLES: &str = "\
+Examples:
+  cargo xtask blind                                    300 cases: draw, seal, diagnose, score
+  cargo xtask blind --quick --judge                    12 cases; fails when a target is missed
+  cargo xtask blind --draw-only --count 20 --out DIR   cases and truth for other tools
+  cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
+
+A second run goes on where the first one stopped.
+The program that is examined is `lacuna` beside this one. After a change to it:
+  cargo build --release -p lacuna --bin lacuna";
+
+/// Arguments of `cargo xtask blind`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Folder of unpacked cases, one folder each, instead of drawing some.
+    #[arg(long, value_name = "DIR", requires = "answers", conflicts_with_all = ["Drawing", "Running"])]
+    cases: Option<PathBuf>,
+    /// Folder for answers to these cases and held-out predictions.
+    #[arg(long, value_name = "DIR", requires = "cases")]
+    answers: Option<PathBuf>,
+    /// Only these cases.
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<String>,
+    #[command(flatten)]
+    drawing: set::Drawing,
+    #[command(flatten)]
+    running: Running,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Running")]
+struct Running {
+    /// Folder for everything that is written [default: target/blind].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Cases at a time, each on one core [default: all cores].
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Draw and seal only.
+    #[arg(long, conflicts_with_all = ["fresh", "judge"])]
+    draw_only: bool,
+    /// Diagnose again what was diagnosed before.
+    #[arg(long)]
+    fresh: bool,
+    /// Fail when a target is missed.
+    #[arg(long)]
+    judge: bool,
+}
+
+/// Runs the command; true if nothing failed to run and, when judged, no target was missed.
+pub(crate) fn run(args: &Args) -> Result<bool> {
+    if let (Some(cases), Some(answers)) = (&args.cases, &args.answers) {
+        return given::run(cases, answers, &args.only);
+    }
+    let layout = Layout::new(match &args.running.out {
+        Some(folder) => folder.clone(),
+        None => output::folder("blind")?,
+    });
+    let plans = args.drawing.plans();
+    let chosen = set::chosen(&plans, &args.only)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.running.threads.unwrap_or(0))
+        .build()
+        .context("cannot start the threads; give fewer with --threads")?;
+    let seals = pool.install(|| draw::draw(&chosen, &layout))?;
+    println!("Cases sealed: {} of {}, in {}", chosen.len(), plans.len(), layout.seals().display());
+    if args.running.draw_only {
+        return Ok(true);
+    }
+    examine(args, &chosen, &layout, &seals, &pool)
+}
+
+/// Diagnoses what was drawn, then opens the truth and scores.
+fn examine(args: &Args, plans: &[&Plan], layout: &Layout, seals: &seal::Seals, pool: &ThreadPool) -> Result<bool> {
+    let binary = binary::find()?;
+    let outcomes = pool.install(|| diagnose::all(plans, layout, seals, &binary, args.running.fresh))?;
+    let failed = outcomes.iter().filter(|o| o.is_err()).count();
+    let rows = plans
+        .iter()
+        .zip(&outcomes)
+        .map(|(plan, outcome)| score::row(layout, plan, seals, outcome.as_ref().ok()))
+        .collect::<Result<Vec<_>>>()?;
+    let figures = figures::figures(&rows, failed);
+    write::all(layout, &args.drawing.described(), &rows, &figures)?;
+    let missed = figures.iter().any(|f| f.pass == Some(false));
+    Ok(failed == 0 && !(args.running.judge && missed))
+}

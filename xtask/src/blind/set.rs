@@ -1,0 +1,162 @@
+//! Which cases are drawn.
+
+use anyhow::{Result, ensure};
+use clap::Args as ClapArgs;
+use clap::builder::{PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
+use examiner::{Mix, Plan, RobotClass, Setting, Settings, TyreLaw};
+
+/// Cases of `--quick`: with the usual mix at least one of each kind.
+const QUICK: usize = 12;
+
+/// How a set is drawn.
+#[derive(Debug, ClapArgs)]
+#[command(next_help_heading = "Drawing")]
+pub(super) struct Drawing {
+    /// Seed of the set.
+    #[arg(long, default_value_t = 2014)]
+    seed: u64,
+    /// Number of cases.
+    #[arg(long, default_value_t = 300, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
+    count: usize,
+    /// Twelve cases, of each kind at least one.
+    #[arg(long, conflicts_with = "count")]
+    quick: bool,
+    /// Shares of cases with nothing hidden, one effect, two, and a cause outside the catalogue [default: 0.2,0.5,0.18,0.12].
+    #[arg(long, value_name = "NULL,SINGLE,PAIR,OUTSIDER", value_parser = mix)]
+    mix: Option<Mix>,
+    /// Tyre law of the true robots; both in turn if not given.
+    #[arg(long, value_parser = one_of([("brush", TyreLaw::Brush), ("pacejka", TyreLaw::Pacejka)]))]
+    law: Option<TyreLaw>,
+    /// Clear effects or weak ones; half and half if not given.
+    #[arg(long, value_parser = one_of([("normal", Setting::Normal), ("weak", Setting::Weak)]))]
+    setting: Option<Setting>,
+    /// Size of the robots.
+    #[arg(long, default_value = "medium", value_parser = one_of([
+        ("small", RobotClass::Small), ("medium", RobotClass::Medium), ("large", RobotClass::Large),
+    ]))]
+    class: RobotClass,
+    /// Rows per second.
+    #[arg(long, value_name = "HZ", default_value_t = Settings::default().row_rate_hz)]
+    rate: f64,
+    /// Factor on sensor noise.
+    #[arg(long, default_value_t = Settings::default().noise)]
+    noise: f64,
+    /// Length of references and recordings.
+    #[arg(long, value_name = "SECONDS", default_value_t = Settings::default().duration_s)]
+    duration: f64,
+    /// Leave out the pose.
+    #[arg(long)]
+    no_pose: bool,
+    /// Leave out the accelerometer.
+    #[arg(long)]
+    no_accel: bool,
+}
+
+impl Drawing {
+    fn count(&self) -> usize {
+        if self.quick { QUICK } else { self.count }
+    }
+
+    /// The cases that are to be drawn.
+    pub(super) fn plans(&self) -> Vec<Plan> {
+        let settings = Settings {
+            setting: self.setting,
+            law: self.law,
+            class: self.class,
+            row_rate_hz: self.rate,
+            pose: !self.no_pose,
+            accelerometer: !self.no_accel,
+            noise: self.noise,
+            duration_s: self.duration,
+            ..Settings::default()
+        };
+        examiner::set(self.seed, self.count(), self.mix.unwrap_or_default(), &settings)
+    }
+
+    /// One line for people.
+    pub(super) fn described(&self) -> String {
+        let law = self.law.map_or("both tyre laws", TyreLaw::name);
+        let setting = self.setting.map_or("normal and weak", Setting::name);
+        let without = match (self.no_pose, self.no_accel) {
+            (true, true) => ", no pose, no accelerometer",
+            (true, false) => ", no pose",
+            (false, true) => ", no accelerometer",
+            (false, false) => "",
+        };
+        format!(
+            "Set of {} cases, seed {}: {law}, {setting} effects, {} robots, {} rows/s, {} s, noise x {}{without}.",
+            self.count(),
+            self.seed,
+            format!("{:?}", self.class).to_lowercase(),
+            self.rate,
+            self.duration,
+            self.noise
+        )
+    }
+}
+
+/// The plans with these names; all when no name is given.
+pub(super) fn chosen<'a>(plans: &'a [Plan], names: &[String]) -> Result<Vec<&'a Plan>> {
+    for name in names {
+        ensure!(
+            plans.iter().any(|p| p.name == *name),
+            "there is no case '{name}' in this set of {}; names are {} to {}",
+            plans.len(),
+            plans.first().map_or("", |p| &p.name),
+            plans.last().map_or("", |p| &p.name)
+        );
+    }
+    Ok(plans.iter().filter(|p| names.is_empty() || names.contains(&p.name)).collect())
+}
+
+/// A value by its name.
+fn one_of<T: Clone + Send + Sync + 'static, const N: usize>(
+    named: [(&'static str, T); N],
+) -> impl TypedValueParser<Value = T> {
+    let names = PossibleValuesParser::new(named.each_ref().map(|(name, _)| *name));
+    names.try_map(move |given| {
+        let found = named.iter().find(|(name, _)| *name == given);
+        found.map(|(_, value)| value.clone()).ok_or_else(|| format!("'{given}' is none of the names"))
+    })
+}
+
+fn mix(text: &str) -> Result<Mix, String> {
+    let shares: Vec<f64> = text
+        .split(',')
+        .map(|s| s.trim().parse().map_err(|_| format!("'{s}' is no number")))
+        .collect::<Result<_, _>>()?;
+    let [null, single, pair, outsider] = shares[..] else {
+        return Err(format!("four shares are needed, these are {}", shares.len()));
+    };
+    let sensible = shares.iter().all(|s| s.is_finite() && *s >= 0.0) && shares.iter().sum::<f64>() > 0.0;
+    if !sensible {
+        return Err("shares must be finite, not negative, and not all zero".to_owned());
+    }
+    Ok(Mix { null, single, pair, outsider })
+}
+
+#[cfg(test)]
+mod tests {
+    use examiner::{Content, Mix};
+
+    use super::{QUICK, mix};
+
+    #[test]
+    fn the_quick_set_holds_every_kind() {
+        let plans = examiner::set(2014, QUICK, Mix::default(), &examiner::Settings::default());
+        let count = |f: &dyn Fn(&Content) -> bool| plans.iter().filter(|p| f(&p.settings.content)).count();
+        assert_eq!(count(&|c| *c == Content::Null), 2);
+        assert_eq!(count(&|c| matches!(c, Content::Effects(e) if e.len() == 1)), 6);
+        assert_eq!(count(&|c| matches!(c, Content::Effects(e) if e.len() == 2)), 2);
+        assert_eq!(count(&|c| matches!(c, Content::Outsider(_))), 2);
+    }
+
+    #[test]
+    fn a_mix_is_four_sensible_shares() {
+        let read = mix("0, 1,0.5,0").expect("reads");
+        assert_eq!((read.null, read.single, read.pair, read.outsider), (0.0, 1.0, 0.5, 0.0));
+        for bad in ["1,2,3", "a,0,0,0", "0,0,0,0", "-1,2,0,0", "inf,0,0,0"] {
+            assert!(mix(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The cases that are answered wrongly.
+
+use super::super::document::Section;
+use super::super::score::{Kind, Row};
+
+/// Whether the answer is wrong; of a pair both effects are asked for.
+pub(in crate::blind) fn fails(row: &Row) -> bool {
+    !row.naming.right || row.kind == Kind::Pair && !row.naming.all_in_three
+}
+
+/// What was hidden, in a word.
+pub(in crate::blind) fn hidden(row: &Row) -> String {
+    match row.kind {
+        Kind::Null => "nothing".to_owned(),
+        Kind::Outsider => format!("outside: {}", row.hidden.join(" + ")),
+        Kind::Single | Kind::Pair => row.hidden.join(" + "),
+    }
+}
+
+/// What was answered; with a verdict that names effects, those that come first.
+pub(in crate::blind) fn answered(row: &Row) -> String {
+    if row.verdict == Some("explained") { row.naming.first.join(", ") } else { row.naming.answer.clone() }
+}
+
+pub(super) fn table(rows: &[&Row]) -> Section {
+    let header =
+        ["case", "hidden", "severity", "setting", "law", "answered", "effects by rank", "probability of the first"];
+    let mut out = Section::new("Wrong answers", "Of a pair both effects must be among the first three.", &header);
+    for r in rows.iter().filter(|r| fails(r)) {
+        let noise = if r.below_noise { ", below the noise" } else { "" };
+        out.rows.push(vec![
+            r.case.as_str().into(),
+            hidden(r).into(),
+            r.severity.map_or(String::new(), |s| s.to_string()).into(),
+            format!("{}{noise}", r.setting).into(),
+            r.law.as_str().into(),
+            r.naming.answer.as_str().into(),
+            r.naming.first.join(", ").into(),
+            format!("{:.2}", r.belief.confidence).into(),
+        ]);
+    }
+    out
+}
