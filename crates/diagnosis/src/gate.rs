@@ -47,14 +47,13 @@ impl Gate {
             alone.centre[k] -= shift[(k, 0)];
         }
         alone.information = others;
-        let worst = screen(&alone, &base, &variants(), &none)
+        screen(&alone, &base, &variants(), &none)
             .into_iter()
             .map(|c| {
                 let h = Hypothesis::single(c.variant, c.onsets.clone());
                 (c.variant.label(), c.evidence - penalty(&h, &c.start))
             })
-            .max_by(|a, b| a.1.total_cmp(&b.1));
-        worst
+            .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The highest score of a healthy recording.
