@@ -13,7 +13,8 @@ const DISC: f64 = 10.0;
 /// A disc that fewer than two visits support: what happened once may have been an event in time.
 const ONE_VISIT: f64 = 10.0;
 const ONSET: f64 = 9.0;
-const SECOND: f64 = 10.0;
+/// A second effect: on our own generator (seed 8001) 46 wrong partners scored up to 20 before it, 21 right ones from 40.
+const SECOND: f64 = 18.0;
 const NONE: f64 = 12.0;
 /// Width of the smallest-size-of-interest penalty in ln(size).
 const SIZE_WIDTH: f64 = 0.35;
