@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use faer::Mat;
-use robot_model::Kind;
+use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::calibrate::Calibration;
@@ -78,12 +78,12 @@ impl Answer<'_> {
         for f in &self.sensors.faults {
             out.push(Cause {
                 effect: f.card.id.to_owned(),
-                name: words::named(f.card.name, f.side),
+                name: words::fault(f),
                 probability: SURE,
                 magnitude: Some(f.magnitude),
                 sigma: Some(f.sigma),
                 unit: words::unit(f.card),
-                parameters: BTreeMap::from([(f.card.parameters[0].name.to_owned(), f.magnitude)]),
+                parameters: BTreeMap::from([(f.card.parameters[f.parameter].name.to_owned(), f.magnitude)]),
                 side: f.side.map(words::side),
                 place: None,
                 intervals: None,
@@ -323,8 +323,7 @@ impl Answer<'_> {
         if held > 0 {
             out.push(format!("{held} torque samples were missing and took the value before them"));
         }
-        let sided = self.sensors.faults.iter().any(|f| f.card.kind == Kind::Sensor && f.side.is_some());
-        if sided {
+        if self.sensors.faults.iter().any(|f| f.card.redundancy == Redundancy::FrozenAngle) {
             out.push("windows beside frozen encoder rows were left out".to_owned());
         }
         out

@@ -7,7 +7,7 @@ use crate::decide::decide;
 use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::motion::GyroError;
-use crate::redundancy::check;
+use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::search;
 use crate::verdict::Diagnosis;
@@ -30,8 +30,8 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
     }
     let robot = case.robot.checked()?;
     progress("checking the sensors against each other");
-    let sensors = check(&case.recordings);
-    let reference_sensors = check(&case.references);
+    let sensors = check(&case.recordings, &case.references);
+    let reference_sensors = check(&case.references, &[]);
     let cutting = |gyro: GyroError| CutOptions {
         segment: options.segment,
         pose_sigma: case.pose_sigma,
@@ -39,9 +39,11 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
         wheel_radius: robot.wheel_radius,
         half_base: [robot.half_wheelbase, robot.half_track],
     };
-    let cut_all = |runs: &[Run], gyro: GyroError| -> Vec<Cut> { runs.iter().map(|r| cut(r, &cutting(gyro))).collect() };
-    let references = cut_all(&case.references, reference_sensors.gyro);
-    let recordings = cut_all(&case.recordings, sensors.gyro);
+    let cut_all = |runs: &[Run], sensors: &Redundant| -> Vec<Cut> {
+        runs.iter().map(|r| cut(&sensors.corrected(r), &cutting(sensors.gyro))).collect()
+    };
+    let references = cut_all(&case.references, &reference_sensors);
+    let recordings = cut_all(&case.recordings, &sensors);
     for c in references.iter().chain(&recordings) {
         if c.segments.is_empty() {
             let rows = c.torque.len();

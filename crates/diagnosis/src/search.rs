@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use robot_model::Card;
+
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::hypothesis::variants;
 use crate::screen::{Candidate, screen};
@@ -23,8 +25,8 @@ pub(crate) struct Found {
     pub(crate) screened: Vec<(String, f64)>,
 }
 
-/// Finalists that are refitted.
-const FINALISTS: usize = 6;
+/// Finalists that are refitted: common effects, and rare ones beside them, which take no place from a common one.
+const FINALISTS: [usize; 2] = [6, 2];
 /// Steps of a first refit, and more for those within `CLOSE` nats of the best.
 const STEPS: usize = 4;
 const MORE_STEPS: usize = 6;
@@ -34,9 +36,24 @@ const MOST_CLOSE: usize = 4;
 const LEAST_SECOND: f64 = 12.0;
 /// Below this gain a finalist starts a second time, from the re-tuned point.
 const SMALL_GAIN: f64 = 30.0;
-/// Partners of a first effect that are tried, and what a partner's evidence must exceed.
-const PARTNERS: usize = 4;
+/// Partners of a first effect that are tried, common and rare, and what a partner's evidence must exceed.
+const PARTNERS: [usize; 2] = [4, 1];
+/// First effects of pairs, common and rare.
+const FIRSTS: [usize; 2] = [2, 1];
 const PARTNER_EVIDENCE: f64 = 3.0;
+
+/// Places that are left to common and to rare effects.
+struct Places([usize; 2]);
+
+impl Places {
+    /// Takes a place for `card`, if one is left.
+    fn take(&mut self, card: &Card) -> bool {
+        let left = &mut self.0[usize::from(card.rarity > 0.0)];
+        let free = *left > 0;
+        *left -= usize::from(free);
+        free
+    }
+}
 
 /// Distinct ids in the order of evidence, with the best candidate of each.
 fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
@@ -54,11 +71,12 @@ fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
     let (a, b) = (by_id(first), by_id(second));
     let mut ids: Vec<&'static str> = Vec::new();
     let mut out: Vec<Candidate> = Vec::new();
+    let mut places = Places(FINALISTS);
     for i in 0..a.len().max(b.len()) {
         for list in [&a, &b] {
             if let Some(c) = list.get(i)
-                && ids.len() < FINALISTS
                 && !ids.contains(&c.variant.card().id)
+                && places.take(c.variant.card())
             {
                 ids.push(c.variant.card().id);
                 out.push((*c).clone());
@@ -185,16 +203,22 @@ fn best_first(trials: &mut [Trial]) {
 fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial> {
     let mut out: Vec<Trial> = Vec::new();
     let mut ids: Vec<&'static str> = Vec::new();
+    let mut firsts = Places(FIRSTS);
     for first in singles {
-        let id = first.hypothesis.parts[0].0.card().id;
-        if ids.contains(&id) || ids.len() >= 2 {
+        let card = first.hypothesis.parts[0].0.card();
+        let id = card.id;
+        // A rare effect that is no better than a common one is not worth a search of its own.
+        let behind = card.rarity > 0.0 && !ids.is_empty();
+        if ids.contains(&id) || behind || !firsts.take(card) {
             continue;
         }
         ids.push(id);
         let (h1, e1) = (&first.hypothesis, &first.fitted.point.effects);
         let base = begin(problem, h1, &origin.point, e1, origin);
         let partners = screen_beside(problem, &base, first);
-        for p in partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE).take(PARTNERS) {
+        let mut places = Places(PARTNERS);
+        let worth = partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE);
+        for p in worth.filter(|p| places.take(p.variant.card())) {
             let known = out.iter().any(|t: &Trial| {
                 let [a, b] = [t.hypothesis.parts[0].0.card().id, t.hypothesis.parts[1].0.card().id];
                 (a, b) == (p.variant.card().id, id)

@@ -3,6 +3,7 @@
 use robot_model::Card;
 
 use crate::hypothesis::{Place, Variant};
+use crate::redundancy::Fault;
 use crate::steady::{NINETY, UNNAMED_STRAIGHT};
 use crate::verdict::{Cause, Diagnosis, Verdict};
 
@@ -12,6 +13,13 @@ pub(crate) fn side(s: usize) -> &'static str {
 
 pub(crate) fn named(name: &str, on: Option<usize>) -> String {
     on.map_or_else(|| name.to_owned(), |s| format!("{name}: {}", side(s)))
+}
+
+/// Name of a sensor fault: with its side, and with its number where the effect has several.
+pub(crate) fn fault(f: &Fault) -> String {
+    let card = f.card;
+    let name = named(card.name, f.side);
+    if card.strengths().count() > 1 { format!("{name}: {}", card.parameters[f.parameter].name) } else { name }
 }
 
 /// Unit of an effect's magnitude: that of its first strength.

@@ -1,6 +1,6 @@
 //! An effect at work: values and presence.
 
-use crate::effect::{Effect, Kind, MAX_PARAMETERS, Situation, Values, World};
+use crate::effect::{Effect, Kind, MAX_PARAMETERS, Readings, Situation, Values, World};
 use crate::presence::Presence;
 use crate::scalar::{Scalar, real};
 
@@ -38,6 +38,18 @@ impl<T: Scalar> Active<T> {
             let mut changed = *world;
             self.effect.act(self.values(), at, &mut changed);
             world.blend(&changed, self.presence.at(at));
+        }
+    }
+
+    /// A sensor of one side keeps to that side; when and where do not limit what sensors show.
+    #[inline(always)]
+    pub(crate) fn sense(&self, readings: &mut Readings<T>) {
+        let before = *readings;
+        self.effect.sense(self.values(), readings);
+        if let Some(side) = self.presence.side {
+            let other = 1 - side.min(1);
+            readings.wheel_speed[other] = before.wheel_speed[other];
+            readings.torque[other] = before.torque[other];
         }
     }
 }

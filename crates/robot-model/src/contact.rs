@@ -88,20 +88,28 @@ impl<T: Scalar> Stance<T> {
     /// A wheel never pulls on the ground: negative loads are set to zero.
     #[inline(always)]
     pub fn settle(&self, k: &[[T; 2]; 4]) -> Balance<T> {
+        self.settle_twisted(k, T::zero())
+    }
+
+    /// The same on ground, or with a frame, that is twisted: four wheels are one more than statics needs, so that a
+    /// load `twist` may move from each wheel of one diagonal (front left) to each of the other and change no balance.
+    #[inline(always)]
+    pub fn settle_twisted(&self, k: &[[T; 2]; 4], twist: T) -> Balance<T> {
         let (m, p, r) = (self.mass, self.pitch, self.roll);
+        let [a, b, c, d] = self.static_load;
+        let s = [a - twist, b + twist, c + twist, d - twist];
         let mut b = [T::zero(); 2];
         for i in 0..4 {
-            b[0] += self.static_load[i] * k[i][0];
-            b[1] += self.static_load[i] * k[i][1];
+            b[0] += s[i] * k[i][0];
+            b[1] += s[i] * k[i][1];
         }
         let rear = |j: usize| k[2][j] + k[3][j] - k[0][j] - k[1][j];
         let right = |j: usize| k[1][j] + k[3][j] - k[0][j] - k[2][j];
         let (a11, a12) = (m - p * rear(0), -(r * right(0)));
         let (a21, a22) = (-(p * rear(1)), m - r * right(1));
         let inv = T::one() / (a11 * a22 - a12 * a21);
-        let (sx, sy) = ((b[0] * a22 - a12 * b[1]) * inv, (a11 * b[1] - a21 * b[0]) * inv);
-        let (dp, dr) = (p * sx, r * sy);
-        let s = &self.static_load;
+        let (ax, ay) = ((b[0] * a22 - a12 * b[1]) * inv, (a11 * b[1] - a21 * b[0]) * inv);
+        let (dp, dr) = (p * ax, r * ay);
         let load = [s[0] - dp - dr, s[1] - dp + dr, s[2] + dp - dr, s[3] + dp + dr].map(|n| n.max(T::zero()));
         let mut out = Balance { load, force: [[T::zero(); 2]; 4], total: [T::zero(); 2], yaw_moment: T::zero() };
         for i in 0..4 {

@@ -14,7 +14,7 @@ pub trait Effect<T: Scalar>: Sync {
     fn robot(&self, _values: &Values<T>, _robot: &mut Robot<T>) {}
     /// Changes the forces of an instant.
     fn act(&self, _values: &Values<T>, _at: &Situation<T>, _world: &mut World<T>) {}
-    /// Changes what the sensors show.
+    /// Changes what the sensors show; of a one-sided effect, that side alone is taken.
     fn sense(&self, _values: &Values<T>, _readings: &mut Readings<T>) {}
 }
 
@@ -43,6 +43,8 @@ pub struct Situation<T> {
     pub hitch: [T; 2],
     /// Wheel positions from the geometric centre in body axes, m.
     pub half_base: [T; 2],
+    /// Torque that the drive of each side delivers, N m; of a speed-driven robot, that of the step before.
+    pub torque: [T; 2],
 }
 
 /// What the ground, the drivetrain and the surroundings do at an instant.
@@ -58,12 +60,18 @@ pub struct World<T> {
     pub rolling: [T; 4],
     /// Effective radius of each wheel, m.
     pub radius: [T; 4],
+    /// Share of its longitudinal force that the ground takes from each wheel.
+    pub traction: [T; 4],
+    /// Load that moves from the front left and rear right wheel to the other two, each, N.
+    pub twist: T,
     /// Dry friction of each side's drivetrain, N m.
     pub coulomb: [T; 2],
     /// Viscous friction of each side's drivetrain, N m s/rad.
     pub viscous: [T; 2],
     /// Rise of the dry friction towards rest on each side, N m.
     pub stribeck: [T; 2],
+    /// Torque at each side's driven wheel beside what the drive delivers, N m.
+    pub torque: [T; 2],
     /// Largest torque that each side's belt passes to the front wheel, N m.
     pub belt_limit: [T; 2],
     /// Force on the centre of mass in body axes, N.
@@ -169,6 +177,36 @@ pub enum Redundancy {
     GyroGain,
     /// Wheel angle frozen while moving, then jumping.
     FrozenAngle,
+    /// Wheel angle jumping within a row while the speed before and after is the same.
+    JumpingAngle,
+    /// Wheel speed over ground speed on straights, alike when driving and when braking.
+    WheelScale,
+    /// Accelerometer less acceleration of the pose: its part fixed in the robot.
+    AccelOffset,
+    /// Accelerometer turned against the acceleration of the pose.
+    AccelTurn,
+    /// Delay between the clocks of two sensors.
+    Delay,
+    /// Growth of the delay between the clocks of two sensors.
+    DelayGrowth,
+}
+
+impl Redundancy {
+    /// What is compared, for people; `None` when nothing is.
+    pub const fn shows_in(self) -> Option<&'static str> {
+        match self {
+            Self::None => None,
+            Self::GyroOffset => Some("gyro less rate of the pose heading: its constant part"),
+            Self::GyroGain => Some("gyro less rate of the pose heading: its part proportional to the rate"),
+            Self::FrozenAngle => Some("wheel angle frozen while moving, then jumping"),
+            Self::JumpingAngle => Some("wheel angle jumping within a row at steady speed"),
+            Self::WheelScale => Some("wheel speed over pose speed on straights, alike when driving and braking"),
+            Self::AccelOffset => Some("accelerometer less acceleration of the pose: its part fixed in the robot"),
+            Self::AccelTurn => Some("accelerometer turned against the acceleration of the pose"),
+            Self::Delay => Some("delay of the gyro against the pose and the wheels"),
+            Self::DelayGrowth => Some("growth of the delay of the gyro against the pose"),
+        }
+    }
 }
 
 /// The card of an effect: all that is known about it besides its law.
@@ -196,6 +234,9 @@ pub struct Card {
     pub redundancy: Redundancy,
     /// Size, in the unit of the magnitude, below which nobody would act; zero when any size matters.
     pub interest: f64,
+    /// Penalty in nats because few robots have it: 0 for what most studies of such robots name, 3 for what some robots
+    /// have, 6 for the exotic and for look-alikes of a commoner effect.
+    pub rarity: f64,
     /// The drive that reveals it best.
     pub revealed_by: &'static str,
     /// Effects that look alike, and when.

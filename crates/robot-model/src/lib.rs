@@ -44,3 +44,8 @@ pub use state::State;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 pub struct Readme;
+
+/// The worked example of a new effect, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/writing-an-effect.md")]
+pub struct WritingAnEffect;

@@ -101,7 +101,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     #[inline(always)]
-    fn situation(&self, s: &State<T>) -> Situation<T> {
+    fn situation(&self, s: &State<T>, torque: [T; 2]) -> Situation<T> {
         let r = &self.robot;
         Situation {
             time: s.time,
@@ -115,18 +115,17 @@ impl<'a, T: Scalar> Plant<'a, T> {
             gravity: r.gravity,
             hitch: [r.hitch_x - r.com[0], -r.com[1]],
             half_base: [r.half_wheelbase, r.half_track],
+            torque,
         }
     }
 
-    /// What the active effects make of the world at an instant.
+    /// Lets the active effects change the world of an instant, in place: it is large, and this is the hot path.
     #[inline(always)]
-    fn world_at(&self, s: &State<T>) -> World<T> {
-        let mut world = self.world;
-        let at = self.situation(s);
+    fn change(&self, s: &State<T>, torque: [T; 2], world: &mut World<T>) {
+        let at = self.situation(s, torque);
         for a in self.active {
-            a.act(&at, &mut world);
+            a.act(&at, world);
         }
-        world
     }
 
     #[inline(always)]
@@ -147,10 +146,10 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
             let (per_speed, stiff) = combined(slip, rim * rim + rest2, world.slip_at_peak[i], self.robot.sliding_share);
             let mu = world.adhesion[i] * per_speed;
-            k[i] = [mu * slip[0], mu * slip[1] * world.lateral[i]];
-            stiffness[i] = world.adhesion[i] * stiff;
+            k[i] = [mu * slip[0] * world.traction[i], mu * slip[1] * world.lateral[i]];
+            stiffness[i] = world.adhesion[i] * stiff * world.traction[i];
         }
-        let balance = self.stance.settle(&k);
+        let balance = self.stance.settle_twisted(&k, world.twist);
         let mut rolling = [T::zero(); 4];
         for i in 0..4 {
             stiffness[i] *= balance.load[i];
@@ -183,18 +182,19 @@ impl<'a, T: Scalar> Plant<'a, T> {
     #[inline(always)]
     pub fn step_under(&self, s: &mut State<T>, torque: [T; 2]) {
         let (h, half) = (self.step, real::<T>(0.5));
-        let changed;
+        let mut changed;
         let world = if self.active.is_empty() {
             &self.world
         } else {
-            changed = self.world_at(s);
+            changed = self.world;
+            self.change(s, torque, &mut changed);
             &changed
         };
         let Contacts { mut force, stiffness, rolling } = self.contacts(s, world);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
         for j in 0..2 {
             let mut inertia = [jw, jw + jm];
-            let mut impulse = [T::zero(), h * torque[j]];
+            let mut impulse = [T::zero(), h * (torque[j] + world.torque[j])];
             let mut ahead = [T::zero(); 2];
             let speed = [s.front_speed[j], s.wheel_speed[j]];
             for n in 0..2 {
@@ -234,11 +234,12 @@ impl<'a, T: Scalar> Plant<'a, T> {
         let h = self.step;
         s.wheel_speed = speed;
         s.front_speed = speed;
-        let changed;
+        let mut changed;
         let world = if self.active.is_empty() {
             &self.world
         } else {
-            changed = self.world_at(s);
+            changed = self.world;
+            self.change(s, s.needed.map(|t| t * self.robot.drive.gain), &mut changed);
             &changed
         };
         let Contacts { force, rolling, .. } = self.contacts(s, world);
@@ -249,7 +250,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
             for i in [j, j + 2] {
                 s.needed[j] += rolling[i] * sign + world.radius[i] * force[i][0];
             }
-            s.needed[j] /= self.robot.drive.gain;
+            s.needed[j] = (s.needed[j] - world.torque[j]) / self.robot.drive.gain;
             s.wheel_angle[j] += h * speed[j];
         }
         self.move_body(s, &force, world);
@@ -315,7 +316,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     #[inline(always)]
     pub fn sense(&self, readings: &mut Readings<T>) {
         for a in self.active.iter().filter(|a| a.senses) {
-            a.effect.sense(a.values(), readings);
+            a.sense(readings);
         }
     }
 }

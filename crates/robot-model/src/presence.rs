@@ -81,16 +81,19 @@ impl<T: Scalar> World<T> {
             mix(&mut self.lateral[i], other.lateral[i], share[i]);
             mix(&mut self.rolling[i], other.rolling[i], share[i]);
             mix(&mut self.radius[i], other.radius[i], share[i]);
+            mix(&mut self.traction[i], other.traction[i], share[i]);
         }
         for i in 0..2 {
             mix(&mut self.coulomb[i], other.coulomb[i], side[i]);
             mix(&mut self.viscous[i], other.viscous[i], side[i]);
             mix(&mut self.stribeck[i], other.stribeck[i], side[i]);
+            mix(&mut self.torque[i], other.torque[i], side[i]);
             mix(&mut self.force[i], other.force[i], body);
             mix(&mut self.tilt[i], other.tilt[i], body);
             // A limit does not average: it is worn whole or not at all.
             self.belt_limit[i] = half.if_less(side[i], other.belt_limit[i], self.belt_limit[i]);
         }
         mix(&mut self.moment, other.moment, body);
+        mix(&mut self.twist, other.twist, body);
     }
 }

@@ -27,7 +27,9 @@ impl<T: RealField + Copy> Plant<'_, T> {
         let mut h = real::<T>(1e-2);
         for _ in 0..SETTLING {
             let v = [s.velocity[0], s.velocity[1], s.yaw_rate];
-            let (here, _) = rate(s, v);
+            let (here, needed) = rate(s, v);
+            // Effects that depend on the torque see that of the step before.
+            s.needed = needed;
             let mut m = nalgebra::Matrix3::identity();
             for k in 0..3 {
                 let mut shifted = v;

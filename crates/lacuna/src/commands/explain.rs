@@ -3,7 +3,7 @@
 use anyhow::Result;
 use clap::Args as ClapArgs;
 use lacuna::suggest;
-use robot_model::effect::{Parameter, Redundancy, Scale};
+use robot_model::effect::{Parameter, Scale};
 use robot_model::{Card, Kind, Role};
 use serde_json::{Value, json};
 
@@ -70,15 +70,6 @@ const fn counted_in(p: &Parameter) -> &'static str {
     }
 }
 
-const fn redundancy(card: &Card) -> Option<&'static str> {
-    match card.redundancy {
-        Redundancy::None => None,
-        Redundancy::GyroOffset => Some("gyro less rate of the pose heading: its constant part"),
-        Redundancy::GyroGain => Some("gyro less rate of the pose heading: its part proportional to the rate"),
-        Redundancy::FrozenAngle => Some("wheel angle frozen while moving, then jumping"),
-    }
-}
-
 /// The forms in which the diagnosis looks for it.
 fn wears(card: &Card) -> Vec<&'static str> {
     let w = card.wears;
@@ -106,7 +97,7 @@ fn render(card: &Card) -> String {
     line("looked for", &wears(card).join("; "));
     line("revealed by", card.revealed_by);
     line("resembles", card.resembles);
-    line("shows in", redundancy(card).unwrap_or_default());
+    line("shows in", card.redundancy.shows_in().unwrap_or_default());
     let unit = card.strengths().next().map_or("-", |i| card.parameters[i].unit);
     let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
     if card.interest > 0.0 {
@@ -143,7 +134,7 @@ pub(crate) fn as_json(card: &Card) -> Value {
     json!({
         "id": card.id, "name": card.name, "kind": kind(card), "law": card.law, "seen": card.seen,
         "parameters": parameters, "signed": card.signed, "axes": card.axes, "looked_for": wears(card),
-        "redundancy": redundancy(card), "interest": card.interest, "revealed_by": card.revealed_by,
+        "redundancy": card.redundancy.shows_in(), "interest": card.interest, "revealed_by": card.revealed_by,
         "resembles": card.resembles, "source": card.source,
     })
 }

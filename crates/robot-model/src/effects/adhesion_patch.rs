@@ -1,4 +1,6 @@
-//! Slippery or grippy ground.
+//! Slippery or grippy ground: the level everywhere, or a patch.
+//!
+//! One effect for both: the law is the same, and a second one that differed by its place only would be a look-alike.
 
 use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, Wears, World};
 use crate::scalar::Scalar;
@@ -10,8 +12,8 @@ const CARD: Card = Card {
     id: "adhesion_patch",
     name: "grip of the ground",
     kind: Kind::Physics,
-    law: "μ (1 − q)",
-    seen: "Wheels spin or slide earlier; turns come out wider or tighter.",
+    law: "μ (1 − q), everywhere or at one place",
+    seen: "Wheels spin or slide earlier; turns come out wider or tighter; at one place or, as the level of grip, everywhere.",
     parameters: &[
         Parameter { name: "lost share", unit: "-", role: Role::Strength, bounds: [-2.0, 0.95], neutral: 0.0, probes: &[0.3], scale: Scale::Own },
     ],
@@ -20,6 +22,7 @@ const CARD: Card = Card {
     wears: Wears { everywhere: true, onset: true, disc: true, side: false },
     redundancy: Redundancy::None,
     interest: 0.2,
+    rarity: 0.0,
     revealed_by: "hard acceleration and tight turns on and off the place",
     resembles: "turning_resistance in turns; payload in spins",
     source: "Coulomb adhesion",

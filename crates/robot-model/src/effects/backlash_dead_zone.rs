@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.08,
+    rarity: 0.0,
     revealed_by: "slow drives with small torques of both signs",
     resembles: "Coulomb friction as long as torque and motion have the same sign",
     source: "dead zone",

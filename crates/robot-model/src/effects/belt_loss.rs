@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: ONE_SIDE,
     redundancy: Redundancy::None,
     interest: 0.0,
+    rarity: 0.0,
     revealed_by: "spins both ways and hard acceleration",
     resembles: "adhesion loss or turning_resistance on one side",
     source: "dry friction of a belt",

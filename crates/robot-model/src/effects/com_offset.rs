@@ -22,6 +22,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.015,
+    rarity: 0.0,
     revealed_by: "spins both ways, then straight acceleration",
     resembles: "coulomb_side and wheel_radius_mismatch in straight drives",
     source: "rigid body mechanics",

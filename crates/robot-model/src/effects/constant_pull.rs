@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 2.0,
+    rarity: 0.0,
     revealed_by: "straight drives forward and backward",
     resembles: "grade while the heading does not change; rolling_resistance in forward drives",
     source: "statics",

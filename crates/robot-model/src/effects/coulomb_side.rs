@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: ONE_SIDE,
     redundancy: Redundancy::None,
     interest: 0.12,
+    rarity: 0.0,
     revealed_by: "straight drives both ways at two speeds",
     resembles: "com_offset to the side; wheel_radius_mismatch at one speed",
     source: "Coulomb friction",

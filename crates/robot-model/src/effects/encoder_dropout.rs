@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: ONE_SIDE,
     redundancy: Redundancy::FrozenAngle,
     interest: 0.008,
+    rarity: 0.0,
     revealed_by: "any drive",
     resembles: "slipping wheel: but the angle jumps back",
     source: "sensor model",

@@ -1,4 +1,4 @@
-//! Sloping ground.
+//! Sloping ground: grade and side slope are one effect, for a heading turns one into the other.
 
 use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
 use crate::scalar::{Scalar, real};
@@ -10,8 +10,8 @@ const CARD: Card = Card {
     id: "grade",
     name: "sloping ground",
     kind: Kind::Physics,
-    law: "F = m g sin α along the downhill direction, fixed in the world",
-    seen: "Costs torque uphill and saves it downhill; changes with the heading.",
+    law: "F = m g sin α along the downhill direction, any, fixed in the world: grade and side slope alike",
+    seen: "Costs torque uphill, saves it downhill and pulls sideways across the slope; changes with the heading.",
     parameters: &[
         Parameter { name: "downhill x", unit: "rad", role: Role::Strength, bounds: [-0.6, 0.6], neutral: 0.0, probes: &[0.02], scale: Scale::Own },
         Parameter { name: "downhill y", unit: "rad", role: Role::Strength, bounds: [-0.6, 0.6], neutral: 0.0, probes: &[0.02], scale: Scale::Own },
@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.01,
+    rarity: 0.0,
     revealed_by: "the same path in the opposite direction",
     resembles: "rolling_resistance or constant_pull as long as all drives go one way",
     source: "statics",

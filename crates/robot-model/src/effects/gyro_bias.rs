@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::GyroOffset,
     interest: 0.008,
+    rarity: 0.0,
     revealed_by: "standing still",
     resembles: "a constant turn: only a second heading sensor tells",
     source: "sensor model",

@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::GyroGain,
     interest: 0.015,
+    rarity: 0.0,
     revealed_by: "several full turns both ways",
     resembles: "effective track: only a second heading sensor tells",
     source: "sensor model",

@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.04,
+    rarity: 0.0,
     revealed_by: "steps of torque",
     resembles: "transport_delay in slow drives",
     source: "first-order lag",

@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 1.0,
+    rarity: 0.0,
     revealed_by: "hard acceleration and braking, then spins both ways",
     resembles: "torque_constant on level ground; motor inertia in straight drives",
     source: "rigid body mechanics",

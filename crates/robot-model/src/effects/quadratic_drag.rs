@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 1.6,
+    rarity: 0.0,
     revealed_by: "straight drives at three speeds",
     resembles: "viscous_friction over a narrow range of speed",
     source: "fluid drag",

@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: Wears { everywhere: true, onset: true, disc: true, side: false },
     redundancy: Redundancy::None,
     interest: 0.01,
+    rarity: 0.0,
     revealed_by: "straight drives both ways and coasting down",
     resembles: "grade and constant_pull in one-way drives; Coulomb friction at constant load",
     source: "Hendzel & Trojnacki 2014, a6 to a8 of Eq. 8",

@@ -26,6 +26,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 1.0,
+    rarity: 0.0,
     revealed_by: "arcs and spins with a gyro or a pose",
     resembles: "adhesion and turning_resistance in turns; wheel radius in straight drives",
     source: "Hendzel & Trojnacki 2014, λp of Eq. 8",

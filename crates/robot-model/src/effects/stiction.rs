@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.4,
+    rarity: 0.0,
     revealed_by: "slow starts, stops and reversals",
     resembles: "backlash_dead_zone near rest",
     source: "Armstrong-Hélouvry et al. 1994, Automatica 30(7)",

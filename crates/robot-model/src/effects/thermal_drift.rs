@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.14,
+    rarity: 0.0,
     revealed_by: "one long drive of steady speed after a rest",
     resembles: "stiction or rolling resistance from an instant on",
     source: "first-order thermal model",

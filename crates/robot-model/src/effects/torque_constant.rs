@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.045,
+    rarity: 0.0,
     revealed_by: "hard acceleration of the unloaded robot",
     resembles: "payload together with friction: exact if all are unknown",
     source: "motor equation",

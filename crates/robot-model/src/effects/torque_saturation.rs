@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.0,
+    rarity: 0.0,
     revealed_by: "hard acceleration and spins",
     resembles: "adhesion_patch when wheels would slip at that torque",
     source: "current limiting",

@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.03,
+    rarity: 0.0,
     revealed_by: "steps of torque",
     resembles: "motor_lag in slow drives; clock offset of the recording",
     source: "pure delay",

@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.08,
+    rarity: 0.0,
     revealed_by: "spins both ways at two speeds",
     resembles: "adhesion_patch in turns; yaw inertia in fast turns",
     source: "Kozłowski & Pazderski 2004, Int. J. Appl. Math. Comput. Sci. 14(4)",

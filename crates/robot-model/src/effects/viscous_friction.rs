@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: WHOLE,
     redundancy: Redundancy::None,
     interest: 0.02,
+    rarity: 0.0,
     revealed_by: "constant speeds of different size, then coasting down",
     resembles: "quadratic_drag over a narrow range of speed; torque_constant when friction dominates",
     source: "Armstrong-Hélouvry et al. 1994, Automatica 30(7)",

@@ -21,6 +21,7 @@ const CARD: Card = Card {
     wears: ONE_SIDE,
     redundancy: Redundancy::None,
     interest: 0.0018,
+    rarity: 0.0,
     revealed_by: "steady straight driving at two speeds",
     resembles: "periodic ripple of the drivetrain",
     source: "geometry",

@@ -20,6 +20,7 @@ const CARD: Card = Card {
     wears: ONE_SIDE,
     redundancy: Redundancy::None,
     interest: 0.012,
+    rarity: 0.0,
     revealed_by: "a long straight drive both ways",
     resembles: "com_offset to the side; encoder scale",
     source: "Borenstein & Feng 1996, IEEE Trans. Robot. Autom. 12(6)",

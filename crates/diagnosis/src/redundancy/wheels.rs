@@ -1,0 +1,119 @@
+//! The encoders against the speed of the pose.
+//!
+//! Slip looks like a wrong scale, but drags the wheel back when braking and lets it run ahead when driving; a wheel of
+//! another radius looks the same to every sensor. So only a scale that both kinds of driving agree on counts, and it
+//! must be one that no wheel's radius has: the interest of the card.
+
+use robot_model::effect::Redundancy;
+
+use super::pool::{Measured, beyond, median};
+use super::{Fault, card};
+use crate::run::Run;
+
+/// Time over which speeds are compared, s.
+const SPAN: f64 = 0.4;
+/// Slowest wheel that counts, rad/s.
+const SLOWEST: f64 = 1.5;
+/// Most turning per driving that is straight, rad/m.
+const STRAIGHT: f64 = 0.5;
+/// Fewest stretches of driving and of braking.
+const FEWEST: usize = 4;
+
+/// ln(wheel speed over pose speed) of each side in straight driving and in straight braking, both alike.
+fn scales(run: &Run) -> [Option<Measured>; 2] {
+    let span = (SPAN / run.period).round().max(1.0) as usize;
+    let poses: Vec<(usize, [f64; 3])> =
+        (0..run.rows()).filter_map(|k| Some((k, [run.pose[0][k]?, run.pose[1][k]?, run.pose[2][k]?]))).collect();
+    let mut found: [[Vec<f64>; 2]; 2] = Default::default();
+    let mut next = 0;
+    for (i, &(a, from)) in poses.iter().enumerate() {
+        let Some(&(b, to)) = poses[i..].iter().find(|p| p.0 >= a + span).filter(|_| a >= next) else { continue };
+        next = b;
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let travel = dx.hypot(dy);
+        let turn = (to[2] - from[2]).sin().abs();
+        if turn > STRAIGHT * travel {
+            continue;
+        }
+        for (j, found) in found.iter_mut().enumerate() {
+            // A pose sample was taken half a row before its row.
+            let at = |k: usize| Some(0.5 * (run.angle[j][k]? + run.angle[j][k.checked_sub(1)?]?));
+            let Some((x, y)) = at(a).zip(at(b)) else { continue };
+            if (y - x).abs() < SLOWEST * (b - a) as f64 * run.period {
+                continue;
+            }
+            let work: f64 = run.torque[a..b].iter().map(|t| t[j]).sum::<f64>() * (y - x);
+            found[usize::from(work < 0.0)].push(((y - x).abs() / travel.max(1e-6)).ln());
+        }
+    }
+    found.map(|[driving, braking]| {
+        if driving.len() < FEWEST || braking.len() < FEWEST {
+            return None;
+        }
+        let ((d, ds), (b, bs)) = (median(driving)?, median(braking)?);
+        // What driving and braking disagree about is slip.
+        Some(Measured { value: 0.5 * (d + b), sigma: (0.25 * (d - b).powi(2) + ds * ds + bs * bs).sqrt() })
+    })
+}
+
+/// Encoder scale of each side.
+pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
+    let Some(card) = card(Redundancy::WheelScale) else { return };
+    let (here, there): (Vec<_>, Vec<_>) = (runs.iter().map(scales).collect(), references.iter().map(scales).collect());
+    for side in 0..2 {
+        let of = |all: &[[Option<Measured>; 2]]| all.iter().map(|s| s[side]).collect::<Vec<_>>();
+        let Some(d) = beyond(&of(&here), &of(&there), card.interest) else { continue };
+        let scale = Measured { value: d.value.exp() - 1.0, sigma: d.value.exp() * d.sigma };
+        if scale.is_told(card.interest) {
+            out.push(Fault { card, parameter: 0, magnitude: scale.value, sigma: scale.sigma, side: Some(side) });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+    use super::*;
+    use crate::testing::{PERIOD, blank};
+
+    /// Straight driving at a speed that rises and falls, on wheels of 0.1 m that slip by a share `slip` with the torque
+    /// and whose right encoder shows `scale` times the angle.
+    fn straight(slip: f64, scale: f64) -> Vec<Run> {
+        let mut run = blank(2400);
+        let (mut x, mut angle) = (0.0, [0.0; 2]);
+        for k in 0..run.rows() {
+            let t = k as f64 * PERIOD;
+            let (speed, push) = (0.6 - 0.3 * (0.8 * t).cos(), (0.8 * t).sin());
+            run.torque[k] = [2.0 * push; 2];
+            for (j, a) in angle.iter_mut().enumerate() {
+                run.angle[j][k] = Some(*a * if j == 1 { scale } else { 1.0 });
+                *a += speed * PERIOD / 0.1 * (1.0 + slip * push.signum());
+            }
+            x += speed * PERIOD;
+            if k % 10 == 0 {
+                for (channel, v) in run.pose.iter_mut().zip([0.8 * x, 0.6 * x, 0.6_f64.atan2(0.8)]) {
+                    channel[k] = Some(v);
+                }
+            }
+        }
+        vec![run; 3]
+    }
+
+    #[test]
+    fn an_encoder_of_the_wrong_scale_is_found_with_its_side() {
+        for scale in [0.5, 1.4, 2.0] {
+            let found = check(&straight(0.02, scale), &straight(0.02, 1.0)).faults;
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!((found[0].card.redundancy, found[0].side), (Redundancy::WheelScale, Some(1)));
+            approx::assert_abs_diff_eq!(found[0].magnitude, scale - 1.0, epsilon = 0.02);
+        }
+    }
+
+    #[test]
+    fn slip_and_a_wheel_of_another_radius_are_no_fault() {
+        for (slip, scale) in [(0.02, 1.0), (0.4, 1.0), (0.02, 1.1), (0.3, 0.9)] {
+            let found = check(&straight(slip, scale), &straight(0.02, 1.0)).faults;
+            assert!(found.is_empty(), "slip {slip}, scale {scale}: {found:?}");
+        }
+    }
+}

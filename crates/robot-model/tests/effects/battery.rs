@@ -1,0 +1,108 @@
+//! What the tests of this battery share.
+
+use robot_model::effect::Wears;
+use robot_model::{Card, Disc, Presence, Scalar, Situation, State, World, effects, real};
+
+pub(crate) const H: f64 = 1e-3;
+
+pub(crate) fn at_rest<T: Scalar>(duration: f64) -> (State<T>, f64, f64) {
+    (State::default(), duration, H)
+}
+
+/// A presence for each way in which an effect may be worn; discs and onsets are met during the drive.
+pub(crate) fn worn<T: Scalar>(wears: Wears) -> Vec<Presence<T>> {
+    let always = Presence::default();
+    let mut all = vec![always];
+    if wears.onset {
+        all.push(Presence { from: real(0.7), until: real(1.4), ..always });
+    }
+    if wears.disc {
+        all.push(Presence { disc: Some(Disc { centre: [real(0.3), real(0.1)], radius: real(0.3) }), ..always });
+    }
+    if wears.side {
+        all.extend([0, 1].map(|side| Presence { side: Some(side), ..always }));
+    }
+    all
+}
+
+/// All ways at once, whatever the card says: a wrapper must not change what is neutral.
+pub(crate) const ANY: Wears = Wears { everywhere: true, onset: true, disc: true, side: true };
+
+/// A sane part of a parameter's bounds, for limits that stand for "none".
+pub(crate) fn sane(p: &robot_model::Parameter) -> [f64; 2] {
+    p.bounds.map(|b| b.clamp(-1e3, 1e3))
+}
+
+pub(crate) fn linear_strengths() -> impl Iterator<Item = (usize, usize, &'static Card)> {
+    effects::catalogue::<f64>()
+        .into_iter()
+        .enumerate()
+        .filter(|(_, e)| e.card().is_linear())
+        .flat_map(|(i, e)| e.card().strengths().map(move |k| (i, k, e.card())))
+}
+
+/// States at which every smooth law is active: driving and turning, slow, and sliding sideways.
+pub(crate) fn moving() -> [State<f64>; 3] {
+    let state = |velocity, yaw_rate, speed: [f64; 2], time| State {
+        time,
+        velocity,
+        yaw_rate,
+        position: [0.4, -0.2],
+        heading: [0.8, 0.6],
+        wheel_speed: speed,
+        front_speed: speed.map(|w| 0.97 * w),
+        wheel_angle: [1.0, 2.5],
+        torque: [1.0, 1.5],
+        lagged: [1.0, 1.5],
+        ..State::default()
+    };
+    [
+        state([0.8, 0.03], 0.4, [8.0, 10.0], 3.0),
+        state([0.02, 0.0], 0.05, [0.2, 0.35], 1.0),
+        state([-0.5, 0.3], -1.0, [-4.0, -9.0], 9.0),
+    ]
+}
+
+/// A robot that drives askew, and an instant of its surroundings.
+pub(crate) fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
+    let at = Situation {
+        time: 3.0,
+        position: [1.0, -2.0],
+        heading: [heading.cos(), heading.sin()],
+        velocity: [0.7, -0.2],
+        yaw_rate: 0.5,
+        wheel_speed: [6.0, 9.0],
+        wheel_angle: [0.3, 2.0],
+        mass: 30.0,
+        gravity: 9.81,
+        hitch: [-0.25, 0.1],
+        half_base: [0.17, 0.2],
+        torque: [1.0, -1.5],
+    };
+    let world = World {
+        adhesion: [0.7; 4],
+        slip_at_peak: [0.12; 4],
+        lateral: [0.9; 4],
+        rolling: [0.025; 4],
+        radius: [0.09; 4],
+        traction: [1.0; 4],
+        twist: 0.0,
+        coulomb: [0.5, 0.4],
+        viscous: [0.03, 0.04],
+        stribeck: [0.1; 2],
+        torque: [0.0; 2],
+        belt_limit: [1e9; 2],
+        force: [0.0; 2],
+        moment: 0.0,
+        tilt: [0.0; 2],
+    };
+    (at, world)
+}
+
+pub(crate) fn world_numbers(w: &World<f64>) -> Vec<f64> {
+    let World { adhesion, slip_at_peak, lateral, rolling, radius, coulomb, viscous, stribeck, .. } = *w;
+    let World { traction, twist, torque, belt_limit, force, moment, tilt, .. } = *w;
+    let wheels = [adhesion, slip_at_peak, lateral, rolling, radius, traction].into_iter().flatten();
+    let sides = [coulomb, viscous, stribeck, torque, belt_limit, force, tilt].into_iter().flatten();
+    wheels.chain(sides).chain([moment, twist]).collect()
+}

@@ -1,0 +1,122 @@
+//! Derivatives by dual numbers are right, for every effect and both ways of driving.
+
+use num_dual::Dual64;
+use proptest::prelude::*;
+use robot_model::{Active, Effect, Presence, Role, Scalar, State, effects};
+
+use crate::battery::{H, linear_strengths, moving};
+use crate::common::{BOTH, Causality, numbers, robot, run};
+
+fn dual(s: &State<f64>) -> State<Dual64> {
+    let two = |x: [f64; 2]| x.map(Dual64::from_re);
+    State {
+        time: Dual64::from_re(s.time),
+        position: two(s.position),
+        heading: two(s.heading),
+        velocity: two(s.velocity),
+        yaw_rate: Dual64::from_re(s.yaw_rate),
+        wheel_speed: two(s.wheel_speed),
+        front_speed: two(s.front_speed),
+        wheel_angle: two(s.wheel_angle),
+        torque: two(s.torque),
+        lagged: two(s.lagged),
+        specific: two(s.specific),
+        rate: s.rate.map(Dual64::from_re),
+        needed: two(s.needed),
+    }
+}
+
+/// The state after `steps` steps and the readings of the gyro.
+fn advance<T: Scalar>(
+    effect: &'static dyn Effect<T>,
+    values: &[T],
+    presence: Presence<T>,
+    start: State<T>,
+    (causality, steps): (Causality, usize),
+) -> Vec<T> {
+    let active = [Active::new(effect, values, presence)];
+    let mut gyro = T::zero();
+    let robot = robot().cast();
+    let end = run(&robot, &active, causality, (start, steps as f64 * H, H), |plant, s| {
+        let mut y = plant.readings(s);
+        plant.sense(&mut y);
+        gyro = y.gyro;
+    });
+    let mut all = numbers(&end);
+    all.push(gyro);
+    all
+}
+
+/// Largest difference of the dual derivative from a central difference, relative to the largest derivative.
+fn derivative_error(index: usize, parameter: usize, share: f64, start: &State<f64>, how: (Causality, usize)) -> f64 {
+    let (plain, duals) = (effects::catalogue::<f64>()[index], effects::catalogue::<Dual64>()[index]);
+    let card = plain.card();
+    let mut values: Vec<f64> =
+        card.parameters.iter().map(|p| if p.role == Role::Shape { p.neutral } else { share * p.probes[0] }).collect();
+    let mut exact: Vec<Dual64> = values.iter().map(|v| Dual64::from_re(*v)).collect();
+    exact[parameter].eps = 1.0;
+    let exact = advance(duals, &exact, Presence::default(), dual(start), how);
+    let (at, d) = (values[parameter], 1e-3 * card.parameters[parameter].probes[0].abs());
+    let mut side = |x: f64| {
+        values[parameter] = x;
+        advance(plain, &values, Presence::default(), *start, how)
+    };
+    let (up, down) = (side(at + d), side(at - d));
+    let largest = exact.iter().map(|x| x.eps.abs()).fold(1e-9, f64::max);
+    let difference = up.iter().zip(&down).zip(&exact).map(|((u, l), x)| ((u - l) / (2.0 * d) - x.eps).abs());
+    difference.fold(0.0, |worst: f64, x| if x.is_nan() { f64::NAN } else { worst.max(x) }) / largest
+}
+
+#[test]
+fn dual_derivatives_equal_central_differences() {
+    for (effect, parameter, card) in linear_strengths() {
+        for causality in BOTH {
+            for (n, start) in moving().iter().enumerate() {
+                // Over many steps a central difference may straddle a kink, where one branch of a law meets the next.
+                for (steps, bound) in [(1, 1e-6), (100, 1e-4)] {
+                    let error = derivative_error(effect, parameter, 1.0, start, (causality, steps));
+                    assert!(
+                        error < bound,
+                        "{} {parameter}, state {n}, {causality:?}, {steps} steps: {error:e}",
+                        card.id
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn dual_derivatives_exist_from_rest() {
+    for (effect, parameter, card) in linear_strengths() {
+        for causality in BOTH {
+            let mut values = vec![Dual64::from_re(0.0); card.parameters.len()];
+            for (v, p) in values.iter_mut().zip(card.parameters) {
+                *v = Dual64::from_re(p.neutral);
+            }
+            values[parameter].eps = 1.0;
+            let law = effects::catalogue::<Dual64>()[effect];
+            let end = advance(law, &values, Presence::default(), State::default(), (causality, 500));
+            assert!(end.iter().all(|x| x.re.is_finite() && x.eps.is_finite()), "{} {causality:?}: {end:?}", card.id);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+
+    #[test]
+    fn dual_derivatives_equal_central_differences_at_any_strength(
+        pick in 0_usize..1000,
+        share in 0.1..3.0_f64,
+        state in 0_usize..3,
+        speed_driven: bool,
+    ) {
+        let all: Vec<_> = linear_strengths().collect();
+        let (effect, parameter, card) = all[pick % all.len()];
+        let how = (BOTH[usize::from(speed_driven)], 1);
+        let error = derivative_error(effect, parameter, share, &moving()[state], how);
+        prop_assert!(error < 1e-5, "{} {parameter}: {error:e}", card.id);
+    }
+}

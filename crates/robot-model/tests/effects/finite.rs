@@ -1,0 +1,67 @@
+//! Nothing within the bounds makes a drive blow up.
+
+use proptest::prelude::*;
+use robot_model::{Active, Effect, Presence, effects};
+
+use crate::battery::{at_rest, sane, worn};
+use crate::common::{BOTH, numbers, robot, run};
+
+/// Drives with `values` and tells what went wrong.
+fn stays_finite(effect: &'static dyn Effect<f64>, values: &[f64], presence: Presence<f64>) -> Result<(), String> {
+    for causality in BOTH {
+        let mut worst = 0.0_f64;
+        let active = [Active::new(effect, values, presence)];
+        let last = run(&robot(), &active, causality, at_rest(2.0), |plant, s| {
+            let mut y = plant.readings(s);
+            plant.sense(&mut y);
+            let [a, b] = y.velocity;
+            // NaN must not be swallowed by max.
+            for x in [a, b, y.gyro / 10.0, y.wheel_speed[0] / 20.0, y.wheel_speed[1] / 20.0] {
+                worst = if x.is_finite() { worst.max(x.abs()) } else { f64::INFINITY };
+            }
+        });
+        let finite = numbers(&last).iter().all(|x| x.is_finite());
+        let unit = last.heading[0].hypot(last.heading[1]);
+        if !finite || worst > 30.0 || (unit - 1.0).abs() > 1e-3 {
+            return Err(format!("{causality:?}: {} {values:?}: {worst}, heading {unit}", effect.card().id));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn runs_stay_finite_at_every_corner_of_the_bounds() {
+    let mut bad = Vec::new();
+    for effect in effects::catalogue::<f64>() {
+        let parameters = effect.card().parameters;
+        for corner in 0..1_usize << parameters.len() {
+            let values: Vec<f64> =
+                parameters.iter().enumerate().map(|(i, p)| sane(p)[usize::from(corner >> i & 1 == 1)]).collect();
+            for presence in worn(effect.card().wears) {
+                bad.extend(stays_finite(effect, &values, presence).err());
+            }
+        }
+    }
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+
+    #[test]
+    fn runs_stay_finite_inside_the_bounds(
+        index in 0..effects::COUNT,
+        place in prop::array::uniform4(0.0..1.0_f64),
+        wear in 0_usize..5,
+    ) {
+        let effect = effects::catalogue::<f64>()[index];
+        let values: Vec<f64> = effect.card().parameters.iter().zip(place).map(|(p, x)| {
+            let [low, high] = sane(p);
+            low + x * (high - low)
+        }).collect();
+        let presences = worn(effect.card().wears);
+        let outcome = stays_finite(effect, &values, presences[wear % presences.len()]);
+        prop_assert!(outcome.is_ok(), "{outcome:?}");
+    }
+}

@@ -1,0 +1,59 @@
+//! At its neutral value an effect changes nothing, bit for bit.
+
+use robot_model::{Active, Plant, Presence, Robot, Role, Scalar, effects, real};
+
+use crate::battery::{ANY, H, at_rest, worn};
+use crate::common::{BOTH, Causality, robot, run};
+
+fn history<T: Scalar>(robot: &Robot<T>, active: &[Active<T>], causality: Causality) -> (Vec<String>, String) {
+    let mut states = Vec::new();
+    let last = run(robot, active, causality, at_rest(2.0), |plant, s| {
+        let mut readings = plant.readings(s);
+        plant.sense(&mut readings);
+        if states.len() % 100 == 0 {
+            states.push(format!("{s:?} {readings:?}"));
+        } else {
+            states.push(String::new());
+        }
+    });
+    let plant = Plant::new(robot, active, real(H));
+    (states, format!("{last:?} {:?}", plant.drive()))
+}
+
+fn neutral_is_identical<T: Scalar>() {
+    let robot = robot().cast::<T>();
+    for causality in BOTH {
+        let nominal = history(&robot, &[], causality);
+        for effect in effects::catalogue::<T>() {
+            let card = effect.card();
+            let mut neutral: Vec<T> = card.parameters.iter().map(|p| real(p.neutral)).collect();
+            for presence in worn::<T>(ANY) {
+                let same = history(&robot, &[Active::new(effect, &neutral, presence)], causality) == nominal;
+                assert!(same, "{} at its neutral value changes a {causality:?}-driven run ({presence:?})", card.id);
+            }
+            // The neutral value of the strengths is enough: shapes may be anything.
+            for (v, p) in neutral.iter_mut().zip(card.parameters).filter(|(_, p)| p.role == Role::Shape) {
+                *v = real(p.bounds[0]);
+            }
+            assert!(history(&robot, &[Active::new(effect, &neutral, Presence::default())], causality) == nominal);
+        }
+    }
+}
+
+#[test]
+fn neutral_effects_leave_a_drive_bit_identical() {
+    neutral_is_identical::<f64>();
+}
+
+#[test]
+fn neutral_effects_leave_a_drive_bit_identical_in_f32() {
+    neutral_is_identical::<f32>();
+}
+
+#[test]
+fn all_neutral_effects_together_leave_a_drive_bit_identical() {
+    let all = effects::catalogue::<f64>().map(|e| Active::new(e, &[], Presence::default()));
+    for causality in BOTH {
+        assert!(history(&robot(), &all, causality) == history(&robot(), &[], causality));
+    }
+}
