@@ -18,6 +18,7 @@ use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Redundant;
 use crate::verdict::{Cause, Diagnosis, Trial, Verdict};
+use crate::windows::Cut;
 use crate::{Options, locate, words};
 
 /// Probability above which a sensor fault is taken to be there, when a redundancy shows it.
@@ -36,6 +37,7 @@ pub(crate) struct Answer<'a> {
     pub(crate) case: &'a Case,
     pub(crate) options: &'a Options,
     pub(crate) problem: &'a Problem<'a>,
+    pub(crate) references: &'a [Cut],
     pub(crate) calibration: &'a Calibration,
     pub(crate) sensors: &'a Redundant,
     pub(crate) decision: &'a Decision,
@@ -247,17 +249,23 @@ impl Answer<'_> {
         });
         let indistinguishable = self.rivals(&ranked, verdict);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
+        let (free_runs, left_out) = leave_one_out(self);
+        let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
+        let located = locate::locate(self, &calibrated, fitted, &left_out, unexplained, &ranked);
+        let mut limits = self.limits();
+        limits.extend(located.contradiction);
         let mut out = Diagnosis {
             format: FORMAT,
             verdict,
             sentences: Vec::new(),
             ranked,
             indistinguishable,
-            findings: locate::findings(p, &calibrated),
-            cells: locate::cells(p, &calibrated),
-            free_runs: leave_one_out(self),
+            findings: located.findings,
+            cells: located.cells,
+            located: located.told,
+            free_runs,
             unexplained,
-            limits: self.limits(),
+            limits,
             trials: self.trials(retuned),
             costs: [p.misfit(&calibrated), retuned.cost, healthy],
             accusations: self.calibration.gate.accusations.clone(),

@@ -64,8 +64,15 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
     let found = search(&problem, progress);
     let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
     progress("comparing on data that was not fitted");
-    let answer =
-        Answer { case, options, problem: &problem, calibration: &calibration, sensors: &sensors, decision: &decision };
+    let answer = Answer {
+        case,
+        options,
+        problem: &problem,
+        references: &references,
+        calibration: &calibration,
+        sensors: &sensors,
+        decision: &decision,
+    };
     Ok(answer.diagnosis(&found.retuned, found.screened.clone()))
 }
 

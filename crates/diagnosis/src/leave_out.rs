@@ -1,48 +1,58 @@
-//! Free runs on recordings that were not fitted.
+//! Free runs on recordings that were not fitted: as it is, re-tuned, corrected, and a placebo.
+
+use std::sync::Arc;
 
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::answer::Answer;
+use crate::decide::Scored;
 use crate::diagnose::problem;
-use crate::fit::{Hypothesis, Point};
+use crate::fit::{Columns, Fitted, Hypothesis, Point};
 use crate::locate;
 use crate::verdict::FreeRun;
 use crate::windows::Cut;
 
-/// Free runs on each recording, fitted on the others only.
-pub(crate) fn leave_one_out(answer: &Answer<'_>) -> Vec<FreeRun> {
+/// Gauss–Newton steps of a placebo, from where its own fit ended.
+const PLACEBO_STEPS: usize = 2;
+
+/// A recording's best point without it in the fit.
+pub(crate) struct LeftOut {
+    pub(crate) run: usize,
+    /// Corrected, or re-tuned when there is nothing to correct with.
+    pub(crate) point: Point,
+}
+
+/// Free runs on each recording, fitted on the others only, with the points behind them.
+pub(crate) fn leave_one_out(answer: &Answer<'_>) -> (Vec<FreeRun>, Vec<LeftOut>) {
     let p = answer.problem;
     if p.cuts.len() < 2 {
-        return Vec::new();
+        return (Vec::new(), Vec::new());
     }
     let none = Hypothesis::default();
     let nominal = Point { theta: [0.0; NUISANCES], ..p.origin() };
-    let as_is = p.response(&nominal, &none);
+    let wrong = placebo(answer);
     let mut out = Vec::new();
+    let mut points = Vec::new();
     for left_out in 0..p.cuts.len() {
         let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != left_out).map(|r| p.cuts[r].clone()).collect();
         let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
         let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
-        let mut point = p.origin();
-        point.theta = retuned.point.theta;
-        let retuned_response = p.response(&point, &none);
-        let corrected_response = answer.winner().map(|w| {
-            let mut h = w.trial.hypothesis.clone();
-            for (_, onsets) in &mut h.parts {
-                if !onsets.is_empty() {
-                    onsets.remove(left_out);
-                }
-            }
-            let start = Point { effects: w.trial.fitted.point.effects.clone(), ..others.origin() };
-            let fitted = others.refine(&h, others.begin(&h, start, None), 3, None);
-            let mut point = p.origin();
-            point.theta = fitted.point.theta;
-            point.effects = fitted.point.effects;
-            p.response(&point, &w.trial.hypothesis)
+        let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
+        let of = |point: &Point, h: &Hypothesis| locate::rms(p, &[(left_out, p.run_response(left_out, point, h))]);
+        let refit = |s: &Scored, theta: [f64; NUISANCES], columns: Option<Arc<Columns>>, steps: usize| {
+            let h = without(&s.trial.hypothesis, left_out);
+            let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
+            elsewhere(&others.refine(&h, others.begin(&h, start, columns), steps, None))
+        };
+        let corrected = answer.winner().map(|w| (refit(w, others.centre, None, 3), &w.trial.hypothesis));
+        // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
+        let placebo = wrong.map(|s| {
+            let point = refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS);
+            of(&point, &s.trial.hypothesis)
         });
-        let of = |r| locate::rms(p, r, left_out);
-        let (a, b) = (of(&as_is), of(&retuned_response));
-        let c = corrected_response.as_ref().map_or(b, of);
+        let retuned = elsewhere(&retuned);
+        let (a, b) = (of(&nominal, &none), of(&retuned, &none));
+        let c = corrected.as_ref().map_or(b, |(point, h)| of(point, h));
         for (i, quantity) in ["wheel speed, rad/s", "yaw rate, rad/s"].into_iter().enumerate() {
             out.push(FreeRun {
                 recording: p.cuts[left_out].name.clone(),
@@ -50,8 +60,34 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>) -> Vec<FreeRun> {
                 nominal: a[i],
                 retuned: b[i],
                 corrected: c[i],
+                placebo: placebo.map(|d| d[i]),
             });
         }
+        points.push(LeftOut { run: left_out, point: corrected.map_or(retuned, |c| c.0) });
     }
-    out
+    (out, points)
+}
+
+/// The hypothesis for all recordings but one.
+fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
+    let mut h = h.clone();
+    for (_, onsets) in h.parts.iter_mut().filter(|(_, o)| !o.is_empty()) {
+        onsets.remove(left_out);
+    }
+    h
+}
+
+/// The best hypothesis that shares no effect with the winner and is no larger.
+fn placebo<'a>(answer: &'a Answer<'_>) -> Option<&'a Scored> {
+    let winner = &answer.winner()?.trial.hypothesis.parts;
+    let shared = |s: &Scored| {
+        let ids = |parts: &[(crate::hypothesis::Variant, Vec<Option<f64>>)]| -> Vec<&'static str> {
+            parts.iter().map(|(v, _)| v.card().id).collect()
+        };
+        let own = ids(winner);
+        ids(&s.trial.hypothesis.parts).iter().any(|id| own.contains(id))
+    };
+    let all = answer.decision.scored.iter();
+    all.filter(|s| s.trial.hypothesis.parts.len() <= winner.len() && !shared(s))
+        .max_by(|a, b| a.score.total_cmp(&b.score))
 }

@@ -45,6 +45,7 @@ mod words;
 pub use case::{Case, HeldOut};
 pub use diagnose::diagnose;
 pub use error::DiagnosisError;
+pub use locate::{Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use options::Options;
 pub use predict::Prediction;
 pub use run::Run;

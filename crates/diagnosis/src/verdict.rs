@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::locate::Located;
 use crate::predict::Prediction;
 
 /// The kind of answer.
@@ -76,6 +77,8 @@ pub struct FreeRun {
     pub retuned: f64,
     /// Corrected by the named effects.
     pub corrected: f64,
+    /// Corrected by the best wrong effect, given the same freedom; `None` when no other effect was fitted.
+    pub placebo: Option<f64>,
 }
 
 /// A place in the data where the mismatch shows.
@@ -83,25 +86,37 @@ pub struct FreeRun {
 pub struct Finding {
     /// Which signal.
     pub signal: String,
-    /// Mean squared mismatch of the calibrated model over that of the references.
+    /// Side of the signal, if it has one.
+    pub side: Option<&'static str>,
+    /// Mean squared mismatch of the calibrated model over what left-out references show in such driving.
     pub ratio: f64,
     /// Recording and interval in which it is largest, s.
     pub recording: String,
     /// From, until, s.
     pub interval: [f64; 2],
+    /// Probability that a healthy case shows as much.
+    pub p: f64,
+    /// Whether it stands out from the references, with 5 % of false discoveries over all signals.
+    pub significant: bool,
 }
 
-/// Mean mismatch in a range of speed and turning.
+/// Mean mismatch in a range of speed, turning, slip or heading, or at a place on the ground.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cell {
-    /// Range of |forward velocity|, m/s.
-    pub speed: [f64; 2],
-    /// Range of yaw rate, rad/s.
-    pub turning: [f64; 2],
+    /// "speed" (|forward velocity|), "turning" (yaw rate), "slip" (the faster side's |slip speed|), "heading" or "place".
+    pub by: &'static str,
+    /// Unit of the range.
+    pub unit: &'static str,
+    /// Range; of a place, those of x and y.
+    pub range: Vec<[f64; 2]>,
     /// Seconds of driving in it.
     pub seconds: f64,
-    /// Mismatch over the references', as in [`Finding::ratio`].
+    /// Mean squared mismatch of all signals over what the references show in such driving.
     pub ratio: f64,
+    /// Probability that healthy driving shows as much; segments are the independent blocks.
+    pub p: f64,
+    /// Whether it stands out, with 5 % of false discoveries over all cells (Benjamini and Yekutieli).
+    pub significant: bool,
 }
 
 /// A hypothesis that was fitted in free run.
@@ -136,8 +151,10 @@ pub struct Diagnosis {
     pub indistinguishable: Vec<Vec<String>>,
     /// Where the mismatch shows.
     pub findings: Vec<Finding>,
-    /// Mismatch by speed and turning.
+    /// Mismatch by speed, turning, slip, heading and place.
     pub cells: Vec<Cell>,
+    /// When it shows, residual torque, and what is left after the verdict.
+    pub located: Located,
     /// Free runs on recordings that were not fitted.
     pub free_runs: Vec<FreeRun>,
     /// Share of the mismatch that the best answer leaves unexplained, if there is one.

@@ -3,6 +3,7 @@
 use robot_model::Card;
 
 use crate::hypothesis::{Place, Variant};
+use crate::locate;
 use crate::redundancy::Fault;
 use crate::steady::{NINETY, UNNAMED_STRAIGHT};
 use crate::verdict::{Cause, Diagnosis, Verdict};
@@ -96,8 +97,8 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
             "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."
         ));
     }
-    if let Some(u) = d.unexplained.filter(|_| d.verdict == Verdict::Explained) {
-        out.push(format!("{:.0} % of the mismatch is still unexplained.", 100.0 * u));
+    if let Some(r) = d.located.remainder.as_ref().filter(|_| d.verdict != Verdict::NoMismatch) {
+        out.push(locate::sentence(r));
     }
     out
 }

@@ -251,6 +251,7 @@ mod tests {
             nominal: 4.0,
             retuned: 1.5,
             corrected,
+            placebo: None,
         };
         Diagnosis {
             format: 1,
@@ -260,6 +261,7 @@ mod tests {
             indistinguishable: Vec::new(),
             findings: Vec::new(),
             cells: Vec::new(),
+            located: diagnosis::Located::default(),
             free_runs: vec![run("run_1", 0.1), run("run_2", 0.3)],
             unexplained: None,
             limits: Vec::new(),

@@ -20,6 +20,7 @@ use serde::Serialize;
 use crate::diagnose::FORMAT;
 use crate::fit::tuned;
 use crate::hypothesis::Place;
+use crate::locate::Located;
 use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
 use crate::{DiagnosisError, words};
 
@@ -176,6 +177,7 @@ fn free_runs(
             nominal: forecast(run, robot, &[]),
             retuned: forecast(run, &tuned(robot, &case.sigma, &retuned.theta), &[]),
             corrected,
+            placebo: None,
         });
     }
     out
@@ -190,6 +192,7 @@ fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosi
         indistinguishable: Vec::new(),
         findings: Vec::new(),
         cells: Vec::new(),
+        located: Located::default(),
         free_runs: Vec::new(),
         unexplained: None,
         limits: Vec::new(),

@@ -13,6 +13,7 @@ use crate::console::{Progress, emit, emit_json, warning};
 
 mod as_json;
 mod as_text;
+mod where_and_when;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1,9 +1,10 @@
 //! A diagnosis for people: the verdict first.
 
-use diagnosis::{Cause, Cell, Diagnosis, FreeRun};
+use diagnosis::{Cause, Diagnosis, FreeRun};
 use lacuna::answers::NINETY;
 use lacuna::case_folder::CaseFolder;
 
+use super::where_and_when;
 use crate::commands::listed;
 use crate::console::heading;
 use lacuna::text_table::{TextTable, number};
@@ -22,10 +23,10 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String]) -> Strin
         out += &if i == 0 { heading(sentence) } else { format!("{sentence}\n") };
     }
     out += &causes(&d.ranked);
-    out += &findings(d);
-    out += &cells(&d.cells);
+    out += &where_and_when::render(d);
     out += &steady(d);
     out += &free_runs(&d.free_runs);
+    out += &where_and_when::network(d);
     out += &listed("Answers that the recordings do not permit", &withheld(d));
     out += &listed("What limits this answer", &d.limits);
     out += &listed("Lost input", lost);
@@ -83,34 +84,6 @@ fn place(c: &Cause) -> String {
     parts.join("; ")
 }
 
-fn findings(d: &Diagnosis) -> String {
-    if d.findings.is_empty() {
-        return String::new();
-    }
-    let mut table = TextTable::new(&["signal", ">ratio", "largest in", "interval"]);
-    for f in d.findings.iter().take(ROWS) {
-        let [from, until] = f.interval;
-        let interval = format!("{from:.1}-{until:.1} s");
-        table.row([f.signal.clone(), format!("{:.1}", f.ratio), f.recording.clone(), interval]);
-    }
-    let title = "Where it shows (mean squared mismatch of the calibrated model over that of the references)";
-    format!("\n{}{}", heading(title), table.render())
-}
-
-fn cells(cells: &[Cell]) -> String {
-    if cells.is_empty() {
-        return String::new();
-    }
-    let mut worst: Vec<&Cell> = cells.iter().collect();
-    worst.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
-    let mut table = TextTable::new(&["speed, m/s", "turning, rad/s", ">driven, s", ">ratio"]);
-    for c in worst.iter().take(ROWS) {
-        let range = |[a, b]: [f64; 2]| format!("{a} to {b}");
-        table.row([range(c.speed), range(c.turning), format!("{:.0}", c.seconds), format!("{:.1}", c.ratio)]);
-    }
-    format!("\n{}{}", heading("Worst by speed and turning (same ratio)"), table.render())
-}
-
 /// Loads of steady driving over the references'.
 fn steady(d: &Diagnosis) -> String {
     let Some(loads) = d.steady.as_ref().filter(|l| !l.ratios.is_empty()) else { return String::new() };
@@ -143,12 +116,19 @@ fn free_runs(runs: &[FreeRun]) -> String {
     if runs.is_empty() {
         return String::new();
     }
-    let mut table = TextTable::new(&["left out", "quantity", ">as it is", ">re-tuned", ">corrected"]);
+    let placebo = runs.iter().any(|r| r.placebo.is_some());
+    let columns = ["left out", "quantity", ">as it is", ">re-tuned", ">corrected", ">placebo"];
+    let mut table = TextTable::new(&columns[..if placebo { 6 } else { 5 }]);
     for r in runs {
-        let errors = [r.nominal, r.retuned, r.corrected].map(number);
-        table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(errors));
+        let errors = [Some(r.nominal), Some(r.retuned), Some(r.corrected)];
+        let cells = errors.into_iter().chain(placebo.then_some(r.placebo)).map(|e| e.map_or(String::new(), number));
+        table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(cells));
     }
-    let title = "Free runs on recordings that were left out of the fit (rms error)";
+    let title = if placebo {
+        "Free runs on recordings that were left out of the fit (rms error; placebo: the best other effect)"
+    } else {
+        "Free runs on recordings that were left out of the fit (rms error)"
+    };
     format!("\n{}{}", heading(title), table.render())
 }
 

@@ -1,0 +1,164 @@
+//! What healthy driving looks like: each reference run freely with the model calibrated on the other references.
+
+use std::sync::Arc;
+
+use faer::Mat;
+use robot_model::tunable::COUNT as NUISANCES;
+
+use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::simulate::Response;
+use crate::windows::{CHANNELS, Cut};
+
+/// Gauss–Newton steps of a calibration without one reference, from the one with all.
+const STEPS: usize = 2;
+/// Windows to each side over which the growth of the residual since the restart is averaged.
+const SMOOTH: usize = 2;
+/// Segments at the overall mean that the kernel mean begins with, and the least energy of a segment.
+const PSEUDO_SEGMENTS: f64 = 2.0;
+const LEAST: f64 = 0.02;
+
+/// Squared residuals over their healthy expectation: run, segment, window, channel; not a number where invalid.
+pub(crate) type Energy = Vec<Vec<Vec<[f64; CHANNELS]>>>;
+
+/// A reference segment: its run, its kind of driving, ln of each channel's energy.
+type Known = (usize, [f64; 3], [f64; CHANNELS]);
+
+/// The healthy expectation, and the references seen with it.
+pub(crate) struct Healthy {
+    /// Mean growth of the squared residual with the windows since the restart.
+    growth: Vec<[f64; CHANNELS]>,
+    known: Vec<Known>,
+    /// Energy of every reference that was left out of its own calibration and expectation.
+    pub(crate) energy: Energy,
+}
+
+impl Healthy {
+    /// From the references, with the calibrated constants as their centre.
+    pub(crate) fn new(references: &Problem<'_>) -> Self {
+        let plain = whitened(references, &left_out(references));
+        let mut out = Self { growth: growth(&plain), known: Vec::new(), energy: Vec::new() };
+        let grown = out.over_growth(plain);
+        for (r, (cut, run)) in references.cuts.iter().zip(&grown).enumerate() {
+            out.known.extend(cut.segments.iter().zip(run).map(|(s, e)| (r, s.regime, levels(e))));
+        }
+        out.energy = out.over_regime(references, grown, references.cuts.len() > 1);
+        out
+    }
+
+    /// Energy of a response.
+    pub(crate) fn energy_of(&self, problem: &Problem<'_>, response: &Response) -> Energy {
+        self.over_regime(problem, self.over_growth(whitened(problem, response)), false)
+    }
+
+    fn over_growth(&self, mut energy: Energy) -> Energy {
+        for segment in energy.iter_mut().flatten() {
+            for (w, window) in segment.iter_mut().enumerate() {
+                let Some(growth) = self.growth.get(w).or(self.growth.last()) else { continue };
+                for (e, g) in window.iter_mut().zip(growth) {
+                    *e /= g;
+                }
+            }
+        }
+        energy
+    }
+
+    /// Divides by what the references show in such driving; with `apart`, by what the other references show.
+    fn over_regime(&self, problem: &Problem<'_>, mut energy: Energy, apart: bool) -> Energy {
+        for (r, (cut, run)) in problem.cuts.iter().zip(&mut energy).enumerate() {
+            for (segment, e) in cut.segments.iter().zip(run) {
+                let expected = self.expected(segment.regime, apart.then_some(r));
+                for window in e {
+                    for (e, x) in window.iter_mut().zip(&expected) {
+                        *e /= x;
+                    }
+                }
+            }
+        }
+        energy
+    }
+
+    /// Kernel mean of the references' levels in driving of this kind, begun with their overall mean.
+    fn expected(&self, regime: [f64; 3], without: Option<usize>) -> [f64; CHANNELS] {
+        let all = || self.known.iter().filter(|k| Some(k.0) != without);
+        std::array::from_fn(|c| {
+            let valid = || all().filter(|k| k.2[c].is_finite());
+            let (n, sum) = valid().fold((0.0, 0.0), |(n, s), k| (n + 1.0, s + k.2[c]));
+            let mean = sum / f64::max(n, 1.0);
+            let (mut weight, mut sum) = (PSEUDO_SEGMENTS, PSEUDO_SEGMENTS * mean);
+            for (_, features, level) in valid() {
+                let d: f64 = features.iter().zip(regime).map(|(a, b)| (a - b).powi(2)).sum();
+                let w = (-0.5 * d).exp();
+                weight += w;
+                sum += w * level[c];
+            }
+            (sum / weight).exp()
+        })
+    }
+}
+
+/// ln of a segment's mean energy, channel by channel.
+fn levels(segment: &[[f64; CHANNELS]]) -> [f64; CHANNELS] {
+    std::array::from_fn(|c| {
+        let valid = segment.iter().map(|w| w[c]).filter(|e| e.is_finite());
+        let (n, sum) = valid.fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
+        if n > 0.0 { f64::max(sum / n, LEAST).ln() } else { f64::NAN }
+    })
+}
+
+/// Response of each reference at constants calibrated on the others. A lone reference cannot be left out.
+fn left_out(references: &Problem<'_>) -> Response {
+    let none = Hypothesis::default();
+    let runs = references.cuts.len();
+    let base = references.response(&references.origin(), &none);
+    if runs < 2 {
+        return base;
+    }
+    let columns = references.nuisance_columns(&references.origin(), &none, &base);
+    (0..runs)
+        .map(|out| {
+            let keep = || (0..runs).filter(|&r| r != out);
+            let cuts: Vec<Cut> = keep().map(|r| references.cuts[r].clone()).collect();
+            let others = Problem {
+                cuts: &cuts,
+                regime: keep().map(|r| references.regime[r].clone()).collect(),
+                information: Mat::identity(NUISANCES, NUISANCES),
+                centre: [0.0; NUISANCES],
+                ..references.clone()
+            };
+            let columns = columns.0.iter().map(|c| keep().map(|r| c[r].clone()).collect()).collect();
+            let start = Point { theta: references.centre, ..others.origin() };
+            let begun = others.begin(&none, start, Some(Arc::new(Columns(columns))));
+            let theta = others.refine(&none, begun, STEPS, None).point.theta;
+            references.run_response(out, &Point { theta, ..references.origin() }, &none)
+        })
+        .collect()
+}
+
+/// Squared residual of each window over variance and regime.
+fn whitened(problem: &Problem<'_>, response: &Response) -> Energy {
+    let of = |r: usize, s: usize| {
+        let (segment, regime) = (&problem.cuts[r].segments[s], problem.regime[r][s]);
+        (0..segment.windows)
+            .map(|w| {
+                std::array::from_fn(|c| {
+                    let i = w * CHANNELS + c;
+                    let square = (segment.observed[i] - response[r][s][i]).powi(2);
+                    if segment.valid[i] { square / (problem.variance[c] * regime) } else { f64::NAN }
+                })
+            })
+            .collect()
+    };
+    (0..problem.cuts.len()).map(|r| (0..problem.cuts[r].segments.len()).map(|s| of(r, s)).collect()).collect()
+}
+
+/// Mean over segments by the windows since the restart, smoothed.
+fn growth(energy: &Energy) -> Vec<[f64; CHANNELS]> {
+    let windows = energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    let at = |w: usize, c: usize| {
+        let near = w.saturating_sub(SMOOTH)..w + SMOOTH + 1;
+        let all = energy.iter().flatten().flat_map(|s| s.iter().take(near.end).skip(near.start));
+        let (n, sum) = all.map(|e| e[c]).filter(|e| e.is_finite()).fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
+        if n > 0.0 && sum > 0.0 { sum / n } else { 1.0 }
+    };
+    (0..windows).map(|w| std::array::from_fn(|c| at(w, c))).collect()
+}

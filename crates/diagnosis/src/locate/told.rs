@@ -1,0 +1,114 @@
+//! What is told about where, when and how much.
+
+use serde::Serialize;
+
+/// All that was found about where the mismatch sits, before and after the verdict.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Located {
+    /// When each signal mismatches: at most one healthy case in twenty shows any.
+    pub spans: Vec<Span>,
+    /// Residual torque of each recording and side by the paper's identifier.
+    pub torque: Vec<ResidualTorque>,
+    /// What is left after the verdict.
+    pub remainder: Option<Remainder>,
+    /// The side on which the mismatch sits, when the wheel speeds tell.
+    pub side: Option<&'static str>,
+    /// A network that lowers what is left; not a cause.
+    pub residual_model: Option<ResidualModel>,
+}
+
+/// A stretch of a recording in which a signal mismatches the calibrated simulation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Span {
+    /// Name of the recording.
+    pub recording: String,
+    /// Which signal.
+    pub signal: String,
+    /// Side of the signal, if it has one.
+    pub side: Option<&'static str>,
+    /// From, until, s.
+    pub interval: [f64; 2],
+    /// 90 % interval of the onset, s; `None` when it was there from the start.
+    pub onset: Option<[f64; 2]>,
+    /// 90 % interval of the end, s; `None` when it lasted to the end.
+    pub end: Option<[f64; 2]>,
+    /// Fall of the negative log-likelihood by this stretch, nats.
+    pub gain: f64,
+}
+
+/// Torque that acts on a side's wheels beyond the calibrated model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualTorque {
+    /// Name of the recording.
+    pub recording: String,
+    /// Side.
+    pub side: &'static str,
+    /// Mean over the recording, N m; positive drives forward.
+    pub mean: f64,
+    /// Root mean square of half-second means, N m.
+    pub rms: f64,
+    /// Where 95 % of the references' half-second means lie in such driving, N m.
+    pub band: [f64; 2],
+    /// When it leaves what the references show.
+    pub spans: Vec<Span>,
+    /// What is proved about the identifier that followed it.
+    pub certificate: TorqueCertificate,
+}
+
+/// The mean-square bound of the identifier over a recording, against zero weights.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TorqueCertificate {
+    /// Whether the bound holds.
+    pub holds: bool,
+    /// `Σ h x̃²` of the wheel speed's part that the model does not explain, rad²/s.
+    pub error_energy: f64,
+    /// Its bound, rad²/s.
+    pub bound: f64,
+    /// Largest relative residual of the exact identity over all steps.
+    pub identity: f64,
+}
+
+/// What the best answer leaves.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Remainder {
+    /// Share of the mismatch that is left, as in [`crate::Diagnosis::unexplained`].
+    pub share: f64,
+    /// Each signal's share of what is left beyond healthy driving, largest first.
+    pub by_signal: Vec<(String, f64)>,
+    /// Where it sits in words ("the left side"); `None` when what is left does not stand out from healthy driving.
+    pub place: Option<String>,
+    /// Driving that holds most of it.
+    pub regime: Option<Regime>,
+}
+
+/// A kind of driving.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Regime {
+    /// "speed" or "turning".
+    pub by: &'static str,
+    /// Unit of the limits.
+    pub unit: &'static str,
+    /// From, until; the last may be infinite, written as null.
+    pub range: [f64; 2],
+    /// Share of what is left that sits in it.
+    pub share: f64,
+    /// Share of the time driven in it.
+    pub time: f64,
+}
+
+/// The paper's network as a model of what the verdict leaves: a better simulator, not a cause.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualModel {
+    /// Always "not a cause".
+    pub standing: &'static str,
+    /// Inputs of the network with their scales: `input / scale` goes in.
+    pub inputs: Vec<(&'static str, f64)>,
+    /// First layer: threshold, then one weight per input, for each logistic unit.
+    pub first_layer: Vec<Vec<f64>>,
+    /// Torque of each side that adds to the command: one weight per unit, then a constant, N m.
+    pub weights: [Vec<f64>; 2],
+    /// Root mean squared wheel-speed error on left-out recordings without and with it, rad/s.
+    pub wheel_speed: [f64; 2],
+    /// The same of the yaw rate, rad/s.
+    pub yaw_rate: [f64; 2],
+}
