@@ -1,75 +1,23 @@
 //! Whole diagnoses of blind cases: drawn by the examiner's plant, read as files, diagnosed, compared with the truth.
 
+mod common;
+
 use std::path::Path;
 
-use diagnosis::{Case, Diagnosis, HeldOut, Options, Prediction, Run, Verdict, diagnose};
-use examiner::{Content, DrawnCase, EffectId, Outsider, Setting, Settings, Severity, TyreLaw};
-use lacuna::RobotSpec;
-use recordings::{Input, Mapping, Policy, ReadOptions, Recording, read};
+use common::{answer, case_of, draw, settings, told};
+use diagnosis::{Diagnosis, Options, Prediction, Verdict, diagnose};
+use examiner::{Content, DrawnCase, EffectId, Outsider};
 
-fn draw(content: Content, seed: u64, duration_s: f64) -> DrawnCase {
-    let settings = Settings {
-        content,
-        severity: Some(Severity::Strong),
-        setting: Some(Setting::Normal),
-        law: Some(TyreLaw::Brush),
-        recordings: Some(3),
-        heldout: 1,
-        duration_s,
-        ..Settings::default()
-    };
-    examiner::Case::draw("x", seed, &settings).expect("sensible settings")
-}
-
-/// The recordings below a folder of a drawn case, read strictly.
-fn recordings_of(drawn: &DrawnCase, folder: &str) -> Vec<Recording> {
-    let mapping = Mapping::built_in("skid-steer-columns").expect("built in");
-    let options = ReadOptions { policy: Policy::Strict };
-    let files = drawn.files.iter().filter(|(path, _)| path.starts_with(folder));
-    files
-        .map(|(path, bytes)| {
-            let stem = path.file_stem().and_then(|s| s.to_str()).expect("a name");
-            let name = path.to_str().expect("text");
-            let read = read(&mapping, stem, &[Input { name, bytes }], &options).expect("readable");
-            assert!(read.losses.is_empty(), "{:?}", read.losses);
-            read.recording
-        })
-        .collect()
-}
-
-fn case_of(drawn: &DrawnCase) -> Case {
-    let (_, robot) = drawn.files.iter().find(|(p, _)| p == Path::new("robot.json")).expect("a robot file");
-    let robot = RobotSpec::parse("robot.json", std::str::from_utf8(robot).expect("text")).expect("a robot");
-    let runs = |folder| recordings_of(drawn, folder).iter().map(|r| Run::new(r).expect("a run")).collect::<Vec<_>>();
-    Case {
-        robot: robot.robot,
-        sigma: robot.sigma,
-        pose_sigma: robot.pose_sigma,
-        references: runs("reference"),
-        recordings: runs("recordings"),
-        held_out: recordings_of(drawn, "heldout").iter().map(|r| HeldOut::new(r).expect("inputs")).collect(),
-    }
-}
-
-fn answer(content: Content, seed: u64) -> (DrawnCase, Diagnosis) {
-    let drawn = draw(content, seed, 24.0);
-    let out = diagnose(&case_of(&drawn), &Options::default(), &|_| {}).expect("a diagnosis");
-    for c in &out.ranked {
-        assert!((0.0..=1.0).contains(&c.probability), "{c:?}");
-    }
-    assert!(!out.sentences.is_empty());
+/// A case and its diagnosis.
+fn of(content: Content, seed: u64) -> (DrawnCase, Diagnosis) {
+    let drawn = draw(&settings(content, 24.0, 1), seed);
+    let out = answer(&case_of(&drawn));
     (drawn, out)
-}
-
-fn told(d: &Diagnosis) -> String {
-    let causes: Vec<String> = d.ranked.iter().take(5).map(|c| format!("{} {:.3}", c.effect, c.probability)).collect();
-    let trials: Vec<String> = d.trials.iter().take(4).map(|t| format!("{:?} {:.0}", t.hypothesis, t.score)).collect();
-    format!("{:?}: {}; {}; costs {:.0?}", d.verdict, causes.join(", "), trials.join(", "), d.costs)
 }
 
 /// The first cause is the only effect that was hidden, with its size.
 fn names(effect: EffectId, seed: u64, tolerance: f64) -> (DrawnCase, Diagnosis) {
-    let (drawn, d) = answer(Content::Effects(vec![effect]), seed);
+    let (drawn, d) = of(Content::Effects(vec![effect]), seed);
     assert_eq!(d.verdict, Verdict::Explained, "{}", told(&d));
     assert_eq!(d.ranked[0].effect, effect.id(), "{}", told(&d));
     assert!(d.ranked[0].probability > 0.5, "{}", told(&d));
@@ -97,7 +45,7 @@ fn errors(drawn: &DrawnCase, p: &Prediction) -> [f64; 2] {
 
 #[test]
 fn nothing_hidden_is_no_mismatch() {
-    let (_, d) = answer(Content::Null, 2);
+    let (_, d) = of(Content::Null, 2);
     assert_eq!(d.verdict, Verdict::NoMismatch, "{}", told(&d));
     assert_eq!(d.ranked[0].effect, "none", "{}", told(&d));
 }
@@ -137,14 +85,14 @@ fn a_gyro_bias_is_a_fault_of_the_sensor_and_not_of_the_physics() {
 
 #[test]
 fn what_is_not_in_the_catalogue_is_unknown() {
-    let (_, d) = answer(Content::Outsider(Outsider::Cogging), 13);
+    let (_, d) = of(Content::Outsider(Outsider::Cogging), 13);
     assert_eq!(d.verdict, Verdict::Unknown, "{}", told(&d));
 }
 
 #[test]
 fn both_of_a_pair_are_named() {
     let pair = [EffectId::Payload, EffectId::CoulombSide];
-    let (drawn, d) = answer(Content::Effects(pair.to_vec()), 17);
+    let (drawn, d) = of(Content::Effects(pair.to_vec()), 17);
     assert_eq!(d.verdict, Verdict::Explained, "{}", told(&d));
     let first: Vec<&str> = d.ranked.iter().take(2).map(|c| c.effect.as_str()).collect();
     for (effect, truth) in pair.iter().zip(&drawn.truth.effects) {
@@ -156,7 +104,7 @@ fn both_of_a_pair_are_named() {
 
 #[test]
 fn the_answer_does_not_depend_on_the_number_of_threads() {
-    let case = case_of(&draw(Content::Effects(vec![EffectId::ConstantPull]), 19, 9.0));
+    let case = case_of(&draw(&settings(Content::Effects(vec![EffectId::ConstantPull]), 9.0, 1), 19));
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| diagnose(&case, &Options::default(), &|_| {}).expect("a diagnosis"))

@@ -19,6 +19,8 @@ pub(crate) struct Contact {
     per_peak: [f64; 2],
     lateral: f64,
     grain: f64,
+    /// Whether friction is bounded along and across apart.
+    boxed: bool,
     /// Direction of the grain of the ground, world axes.
     grain_along: [f64; 2],
 }
@@ -41,6 +43,7 @@ impl Contact {
             per_peak: [1.0 / c.peak_slip, 1.0 / (c.peak_slip * c.side_slip)],
             lateral: c.lateral * (1.0 + hidden.lateral),
             grain: hidden.foreign.grain,
+            boxed: hidden.foreign.friction_box,
             grain_along: [cos, sin],
         }
     }
@@ -90,6 +93,12 @@ impl Contact {
                 let square = x[i] * x[i] + y[i] * y[i];
                 gain[i] *= 1.0 - self.grain * with * with / square.max(1e-12);
             }
+        }
+        if self.boxed {
+            let alone = |share: f64, grip: f64| grip * self.table.gain(share.abs()) * share;
+            let along = std::array::from_fn(|i| alone(x[i], grip[i]));
+            let across = std::array::from_fn(|i| alone(y[i], grip[i]) * self.lateral);
+            return Tyres { force: [along, across], rates };
         }
         let force = [std::array::from_fn(|i| gain[i] * x[i]), std::array::from_fn(|i| gain[i] * y[i] * self.lateral)];
         Tyres { force, rates }

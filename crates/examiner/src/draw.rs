@@ -30,6 +30,8 @@ pub(crate) struct Draw<'a> {
     rows: usize,
     recordings: usize,
     drives: Vec<[Manoeuvre; 2]>,
+    /// Factor on the gain of the controller.
+    gain: f64,
 }
 
 /// What was hidden and the recordings with it.
@@ -100,6 +102,7 @@ impl<'a> Draw<'a> {
             rows,
             recordings,
             drives,
+            gain: 1.0,
         })
     }
 
@@ -119,6 +122,7 @@ impl<'a> Draw<'a> {
             events: Events::draw(&h.foreign, seed, duration),
             sheet: self.sheet,
             kinds,
+            gain: self.gain,
             row: self.row,
             rows,
         })
@@ -143,6 +147,10 @@ impl<'a> Draw<'a> {
     /// it; the clearest draw stands if none does.
     pub(crate) fn hide(&mut self, references: &[Run]) -> HiddenRuns {
         let causes = self.causes();
+        self.gain = self.settings.controller_gain;
+        if self.settings.moved > 0.0 {
+            self.robot = self.robot.moved(self.seed, self.settings.moved);
+        }
         let mut torques: Vec<f64> =
             references.iter().flat_map(|r| r.rows.iter().flat_map(|row| row.torque.map(f64::abs))).collect();
         torques.sort_by(f64::total_cmp);
@@ -202,6 +210,7 @@ impl<'a> Draw<'a> {
             // Later draws are a little larger, so that drowned effects come up.
             factor: self.settings.size * (1.0 + 0.05 * attempt as f64),
             peak_torque,
+            place: self.settings.place,
         };
         let mut hidden = Hidden::default();
         let mut effects = Vec::new();
@@ -211,7 +220,11 @@ impl<'a> Draw<'a> {
                 Cause::Outsider(kind) => outsider::hide(*kind, &sizing, &mut s, &mut hidden),
             });
         }
-        let drives = kinds(&mut s, self.recordings + self.settings.heldout);
+        let mut drives = kinds(&mut s, self.recordings + self.settings.heldout);
+        for (drive, kind) in drives.iter_mut().take(self.recordings).zip(self.settings.drives.iter().cycle()) {
+            *drive = [*kind; 2];
+        }
+        let [from, until] = self.settings.onset;
         let duration = self.rows as f64 * self.row;
         let name = format!("recording {attempt}");
         let mut runs = Vec::new();
@@ -219,7 +232,7 @@ impl<'a> Draw<'a> {
         for (i, kinds) in drives.iter().take(self.recordings).enumerate() {
             let mut h = hidden.clone();
             if let Some((at, _)) = &mut h.onset {
-                *at = (100.0 * duration * s.uniform(0.25, 0.65)).round() / 100.0;
+                *at = (100.0 * duration * s.uniform(from, until)).round() / 100.0;
             }
             runs.push(self.run(&name, i, *kinds, &h, self.rows));
             in_runs.push(h);

@@ -5,18 +5,26 @@ use crate::robot::Constants;
 
 /// A kind of drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Manoeuvre {
+pub enum Manoeuvre {
+    /// Speeds and turns at random.
     Random,
+    /// On the spot, both ways.
     Spin,
+    /// Starts and stops, with a little turning.
     Stopgo,
+    /// Circles left and right in turn.
     Eight,
+    /// Circles one way.
     Loop,
+    /// Swings left and right while driving ahead.
     Slalom,
+    /// Ahead and back without turning.
     Straight,
 }
 
 impl Manoeuvre {
-    pub(crate) const ALL: [Self; 7] =
+    /// All of them.
+    pub const ALL: [Self; 7] =
         [Self::Random, Self::Spin, Self::Stopgo, Self::Eight, Self::Loop, Self::Slalom, Self::Straight];
 
     /// Its name in the truth.
@@ -168,14 +176,14 @@ pub(crate) struct Controller {
 }
 
 impl Controller {
-    /// A controller for the robot as its user knows it.
-    pub(crate) fn new(c: &Constants, heading: f64) -> Self {
+    /// A controller for the robot as its user knows it, its gain times a factor.
+    pub(crate) fn new(c: &Constants, heading: f64, gain: f64) -> Self {
         Self {
             heading,
             sums: [0.0; 2],
             radius: c.radius,
             arm: 1.5 * c.half_track,
-            gain: 0.055 * c.torque_scale(),
+            gain: gain * (0.055 * c.torque_scale()),
             limit: c.torque_limit,
             friction: [c.coulomb[0], c.viscous[0]],
         }

@@ -8,7 +8,7 @@ use crate::hidden::{Disc, Hidden};
 use crate::random::Stream;
 use crate::robot::{Constants, GRAVITY};
 use crate::truth::EffectTruth;
-use crate::{Setting, Severity};
+use crate::{Place, Setting, Severity};
 
 /// The ids of the vocabulary, as they stand in `effects.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -88,6 +88,7 @@ pub(crate) struct Sizing<'a> {
     pub factor: f64,
     /// A torque that a side reaches now and then.
     pub peak_torque: f64,
+    pub place: Option<Place>,
 }
 
 impl Sizing<'_> {
@@ -155,7 +156,8 @@ pub(crate) fn hide(id: EffectId, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidden)
         }
         EffectId::RollingResistance => {
             let added = z.draw(s, [0.032, 0.055, 0.09], 0.45);
-            if s.unit() < 0.5 {
+            let drawn = if s.unit() < 0.5 { Place::Patch } else { Place::Time };
+            if z.place.unwrap_or(drawn) == Place::Patch {
                 e.place = Some("patch".to_owned());
                 h.mud = Some((disc(c, s, &mut e), added));
             } else {

@@ -1,7 +1,7 @@
 //! Free runs: from measured states at the restart rows, on logged torques, without looking.
 
 use crate::hidden::Hidden;
-use crate::integrate::{STEP, advance};
+use crate::integrate::{STEP, Stepper};
 use crate::motor::Motors;
 use crate::plant::{ANGLE, Plant, SPEED, YAW_RATE};
 use crate::random::Stream;
@@ -37,11 +37,12 @@ pub(crate) fn restarts(run: &Run, sheet: &Sheet, mut noise: Stream) -> Vec<Seen>
 /// Wheel speeds and shown yaw rate of a model at each row, restarted at each segment.
 pub(crate) fn predict(c: &Constants, hidden: &Hidden, run: &Run, starts: &[Seen], row: f64) -> Vec<[f64; 3]> {
     // Twice the step of the drives: free runs need no sensors and the method is of fourth order.
-    let step = 2.0 * STEP;
+    let step = if hidden.foreign.explicit_step > 0.0 { STEP } else { 2.0 * STEP };
     let plant = Plant::new(c, hidden);
     let mut motors = Motors::new(c, hidden, row, step);
     let commands: Vec<[f64; 2]> = run.rows.iter().map(|r| r.torque).collect();
     let steps = (row / step).round() as usize;
+    let mut stepper = Stepper::new(hidden, step);
     let mut state = plant.settled([0.0; 6], [0.0; 2], [0.0; 2]);
     let mut out = Vec::with_capacity(commands.len());
     for k in 0..commands.len() {
@@ -55,7 +56,7 @@ pub(crate) fn predict(c: &Constants, hidden: &Hidden, run: &Run, starts: &[Seen]
             let now = k as f64 * row + j as f64 * step;
             let torque = motors.step(now, &commands, &run.events);
             let moment = plant.moment(now, torque, &state, &run.events);
-            advance(&plant, &mut state, &moment, step);
+            stepper.step(&plant, &mut state, &moment);
         }
     }
     debug_assert!(state[ANGLE].is_finite());

@@ -121,6 +121,10 @@ pub(crate) struct Foreign {
     pub cable: Option<(f64, [f64; 2], f64)>,
     /// Extra dry friction per side when rolling backwards.
     pub ratchet: f64,
+    /// Length of the explicit steps of an artefact, seconds; zero for none.
+    pub explicit_step: f64,
+    /// Whether friction is bounded along and across apart.
+    pub friction_box: bool,
     /// Key of what happens at random within runs.
     pub seed: u64,
 }

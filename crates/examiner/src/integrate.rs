@@ -1,9 +1,44 @@
-//! Classical Runge-Kutta of fourth order with a fixed step.
+//! Classical Runge-Kutta of fourth order with a fixed step; explicit steps as an artefact.
 
+use crate::hidden::Hidden;
 use crate::plant::{Moment, N, Plant, State};
 
 /// Seconds of a step.
 pub(crate) const STEP: f64 = 0.000_25;
+
+/// Moves a state on: by Runge-Kutta, or as a simulator with coarse explicit steps would.
+#[derive(Debug, Clone)]
+pub(crate) struct Stepper {
+    step: f64,
+    /// Calls that one explicit step stands for; zero for none.
+    stride: usize,
+    calls: usize,
+    felt: [f64; 2],
+}
+
+impl Stepper {
+    /// A stepper that is called every `step` seconds.
+    pub(crate) fn new(hidden: &Hidden, step: f64) -> Self {
+        let stride = (hidden.foreign.explicit_step / step).round() as usize;
+        Self { step, stride, calls: 0, felt: [0.0; 2] }
+    }
+
+    /// Moves the state on; gives the specific force.
+    pub(crate) fn step(&mut self, plant: &Plant, s: &mut State, m: &Moment) -> [f64; 2] {
+        if self.stride == 0 {
+            return advance(plant, s, m, self.step);
+        }
+        if self.calls.is_multiple_of(self.stride) {
+            let (rates, felt) = plant.rates(s, m);
+            for (x, rate) in s.iter_mut().zip(rates) {
+                *x += self.stride as f64 * self.step * rate;
+            }
+            self.felt = felt;
+        }
+        self.calls += 1;
+        self.felt
+    }
+}
 
 /// Moves the state by `step`; gives the specific force at its start.
 pub(crate) fn advance(plant: &Plant, s: &mut State, m: &Moment, step: f64) -> [f64; 2] {

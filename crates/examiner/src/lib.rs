@@ -26,11 +26,12 @@ mod truth;
 mod tyre;
 
 pub use case::{Case, DrawnCase};
+pub use drive::Manoeuvre;
 pub use effect::EffectId;
 pub use error::Error;
 pub use free::error as free_run_error;
 pub use outsider::Outsider;
 pub use set::{Mix, Plan, set};
-pub use settings::{Content, RobotClass, Setting, Settings, Severity};
+pub use settings::{Content, Place, RobotClass, Setting, Settings, Severity};
 pub use truth::{EffectTruth, HeldoutTruth, RecordingTruth, Truth, sha256};
 pub use tyre::TyreLaw;

@@ -9,6 +9,9 @@ use crate::robot::GRAVITY;
 use crate::truth::EffectTruth;
 use crate::{Setting, random};
 
+/// Steps of the coarse integrator, seconds: 1.5 ms do not show in a medium robot, 2 ms may blow up.
+const EXPLICIT_STEP: f64 = 0.001_75;
+
 /// The kinds of outsiders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -35,10 +38,14 @@ pub enum Outsider {
     Cable,
     /// Friction of the drivetrain in one sense of rotation only.
     Ratchet,
+    /// Artefact: friction is bounded along and across apart, as in a simulator with a box for the cone.
+    FrictionBox,
+    /// Artefact: the motion goes on in coarse explicit steps.
+    ExplicitSteps,
 }
 
 impl Outsider {
-    /// All of them.
+    /// Those of the real world, which sets draw from.
     pub const ALL: [Self; 11] = [
         Self::ShiftingLoad,
         Self::Cogging,
@@ -52,6 +59,9 @@ impl Outsider {
         Self::Cable,
         Self::Ratchet,
     ];
+
+    /// Artefacts of a simulator: only drawn when asked for.
+    pub const ARTEFACTS: [Self; 2] = [Self::FrictionBox, Self::ExplicitSteps];
 }
 
 /// Hides an outsider.
@@ -91,6 +101,8 @@ pub(crate) fn hide(kind: Outsider, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidde
             f.cable = Some((0.04 * size * weight, anchor, s.uniform(0.2, 0.6)));
         }
         Outsider::Ratchet => f.ratchet = 0.16 * size * scale,
+        Outsider::FrictionBox => f.friction_box = true,
+        Outsider::ExplicitSteps => f.explicit_step = EXPLICIT_STEP,
     }
     let mut e = EffectTruth::new("out_of_library".to_owned(), z.severity.number());
     e.kind = serde_json::to_value(kind).ok().and_then(|v| v.as_str().map(str::to_owned));

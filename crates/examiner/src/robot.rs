@@ -178,6 +178,28 @@ impl Constants {
         c
     }
 
+    /// The same robot later: every constant that its user is unsure of has moved, by at most so many sigmas.
+    pub(crate) fn moved(&self, seed: u64, sigmas: f64) -> Self {
+        let mut s = Stream::new(seed, "moved", 0);
+        let mut off = |sigma: f64| (sigmas * sigma * s.uniform(-1.0, 1.0)).exp();
+        let viscous = off(SIGMAS.viscous);
+        let coulomb = off(SIGMAS.coulomb);
+        let side = off(SIGMAS.side_difference / 2.0);
+        Self {
+            mass: self.mass * off(SIGMAS.mass),
+            yaw_inertia: self.yaw_inertia * off(SIGMAS.yaw_inertia),
+            height: self.height * off(SIGMAS.height),
+            adhesion: self.adhesion * off(SIGMAS.adhesion),
+            rolling: self.rolling * off(SIGMAS.rolling),
+            coulomb: [self.coulomb[0] * coulomb * side, self.coulomb[1] * coulomb / side],
+            viscous: self.viscous.map(|v| v * viscous),
+            torque_gain: self.torque_gain * off(SIGMAS.torque_constant),
+            motor_inertia: self.motor_inertia * off(SIGMAS.motor_inertia),
+            centre: self.centre.map(|c| c + off(SIGMAS.centre).ln()),
+            ..*self
+        }
+    }
+
     /// The same robot on another run: friction a little different each time.
     pub(crate) fn on_run(&self, s: &mut Stream, spread: f64) -> Self {
         let mut c = *self;

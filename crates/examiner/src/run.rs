@@ -3,7 +3,7 @@
 use crate::drive::{Controller, Driver, Manoeuvre};
 use crate::events::Events;
 use crate::hidden::Hidden;
-use crate::integrate::{STEP, advance};
+use crate::integrate::{STEP, Stepper};
 use crate::motor::Motors;
 use crate::plant::{ANGLE, Plant, SPEED, VELOCITY, YAW_RATE};
 use crate::random::Stream;
@@ -47,6 +47,8 @@ pub(crate) struct Task<'a> {
     pub events: Events,
     pub sheet: Sheet,
     pub kinds: [Manoeuvre; 2],
+    /// Factor on the gain of the controller.
+    pub gain: f64,
     pub row: f64,
     pub rows: usize,
 }
@@ -66,8 +68,9 @@ pub(crate) fn record(task: Task<'_>) -> Run {
         frozen_rows(&mut s, task.hidden.frozen[side], task.rows, task.row)
     });
     let mut driver = Driver::new(stream("drive one"), task.nominal, task.kinds[0]);
-    let mut controller = Controller::new(task.nominal, start[2]);
+    let mut controller = Controller::new(task.nominal, start[2], task.gain);
     let steps = (task.row / STEP).round() as usize;
+    let mut stepper = Stepper::new(task.hidden, STEP);
     let half = task.rows / 2;
     let mut commands: Vec<[f64; 2]> = Vec::with_capacity(task.rows);
     let mut run = Run {
@@ -124,7 +127,7 @@ pub(crate) fn record(task: Task<'_>) -> Run {
             let moment = plant.moment(now, torque, &state, &run.events);
             let before = [state[0], state[1], state[2]];
             let rate = shown_rate(task.hidden, state[YAW_RATE]);
-            let felt = advance(&plant, &mut state, &moment, STEP);
+            let felt = stepper.step(&plant, &mut state, &moment);
             sampler.sample(now + STEP, rate, felt, before);
         }
     }

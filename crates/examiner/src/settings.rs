@@ -1,6 +1,6 @@
 //! What a drawn case is to look like.
 
-use crate::{EffectId, Outsider, TyreLaw};
+use crate::{EffectId, Manoeuvre, Outsider, TyreLaw};
 
 /// The size of the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,6 +57,15 @@ impl Severity {
     }
 }
 
+/// What makes an effect local that may be so in more than one way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// It is met in a disc on the ground.
+    Patch,
+    /// It sets in at an instant of each recording.
+    Time,
+}
+
 /// What is hidden in the recordings.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
@@ -108,6 +117,16 @@ pub struct Settings {
     /// Smallest ratio of the free-run error without the effect to that with it; draws below are
     /// drawn again. Zero admits effects below the noise.
     pub least_excess: f64,
+    /// What makes an effect local that may be so in more than one way; drawn if not given.
+    pub place: Option<Place>,
+    /// Between which shares of a recording an effect sets in that does so.
+    pub onset: [f64; 2],
+    /// Kinds of drive of the recordings in turn; all kinds mixed if empty. References and held-out runs stay mixed.
+    pub drives: Vec<Manoeuvre>,
+    /// Factor on the gain of the robot's controller after the references.
+    pub controller_gain: f64,
+    /// How many sigmas at most each constant of the robot moves after the references: re-tuning explains that.
+    pub moved: f64,
 }
 
 impl Default for Settings {
@@ -128,6 +147,11 @@ impl Default for Settings {
             heldout: 2,
             size: 1.0,
             least_excess: 1.3,
+            place: None,
+            onset: [0.25, 0.65],
+            drives: Vec::new(),
+            controller_gain: 1.0,
+            moved: 0.0,
         }
     }
 }

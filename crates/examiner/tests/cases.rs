@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use examiner::{
-    Case, Content, DrawnCase, EffectId, Mix, Outsider, RobotClass, Setting, Settings, Severity, TyreLaw, set,
+    Case, Content, DrawnCase, EffectId, Manoeuvre, Mix, Outsider, Place, RobotClass, Setting, Settings, Severity,
+    TyreLaw, set,
 };
 
 /// Settings of a short case.
@@ -152,6 +153,42 @@ fn every_cause_changes_the_recordings_and_none_the_references() {
     };
     let patch = draw(&settings);
     assert!(patch.truth.effects[0].excess >= 1.3 && !patch.truth.below_noise);
+}
+
+#[test]
+fn what_changes_after_the_references_changes_the_recordings_only() {
+    let files = |case: &DrawnCase, folder: &str| {
+        case.files.iter().filter(|f| f.0.starts_with(folder)).cloned().collect::<Vec<_>>()
+    };
+    let healthy = draw(&short(Content::Null));
+    for changed in [
+        Settings { controller_gain: 0.5, ..short(Content::Null) },
+        Settings { moved: 1.0, ..short(Content::Null) },
+        Settings { drives: vec![Manoeuvre::Spin], ..short(Content::Null) },
+        short(Content::Outsider(Outsider::FrictionBox)),
+        short(Content::Outsider(Outsider::ExplicitSteps)),
+    ] {
+        let case = draw(&changed);
+        let same = |folder| files(&case, folder) == files(&healthy, folder);
+        assert!(same("reference") && same("robot.json"), "{changed:?}");
+        assert!(!same("recordings"), "{changed:?}");
+        let rows = table(&case, "recordings/run_1.csv").1;
+        assert!(rows.iter().flatten().flatten().all(|x| x.is_finite()), "{changed:?}");
+        let kinds = &case.truth.recordings["run_1"].kinds;
+        assert!(changed.drives.is_empty() || *kinds == ["spin", "spin"], "{kinds:?}");
+    }
+}
+
+#[test]
+fn an_effect_sets_in_where_it_is_asked_to() {
+    let content = Content::Effects(vec![EffectId::RollingResistance]);
+    let place = |place| Settings { place: Some(place), onset: [0.9, 0.95], ..short(content.clone()) };
+    let late = draw(&place(Place::Time));
+    for run in late.truth.recordings.values() {
+        let [[from, until]] = run.intervals_s["rolling_resistance"][..] else { panic!("{run:?}") };
+        assert!((0.89..0.96).contains(&(from / until)), "{from} {until}");
+    }
+    assert!(draw(&place(Place::Patch)).truth.effects[0].radius.is_some());
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! The gyro against the pose heading: zero and gain.
 
+use robot_model::Card;
 use robot_model::effect::Redundancy;
 
-use super::pool::median;
+use super::pool::{Measured, alone, beyond, least_squares};
 use super::{Fault, Redundant, card};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
@@ -10,63 +11,68 @@ use crate::run::Run;
 /// Yaw travel below which a gyro's scale cannot be told, rad.
 const LEAST_TRAVEL: f64 = 3.0;
 
+/// Poses that tell as much as one: errors of a pose and of an integrated gyro last about a second.
+const ALIKE: f64 = 10.0;
+
 /// Offset and scale of one run's gyro against the pose heading, by least squares:
-/// `yaw_pose(t) = c + (∫gyro − b t)/(1 + s)`. The scale is `None` with too little travel.
-fn gyro_against_pose(run: &Run) -> Option<(f64, Option<f64>)> {
+/// `∫gyro = c + b t + (1 + s) yaw_pose(t)`. The scale is `None` with too little travel.
+fn gyro_against_pose(run: &Run) -> Option<[Option<Measured>; 2]> {
     let turned = integrated_yaw(run, GyroError::default())?;
     let poses = pose_yaw(run);
     if poses.len() < 20 {
         return None;
     }
     let at = |k: usize| 0.5 * (turned[k] + turned[k.saturating_sub(1)]);
-    let (first, last) = (poses[0], poses[poses.len() - 1]);
     let travel: f64 = poses.windows(2).map(|w| (w[1].1 - w[0].1).abs()).sum();
-    let n = poses.len();
-    let with_scale = travel > LEAST_TRAVEL && (last.0 > first.0);
-    // ∫gyro = c' + (1 + s) yaw + b t
-    let columns = if with_scale { 3 } else { 2 };
-    let a = faer::Mat::from_fn(n, columns, |i, j| match j {
-        0 => 1.0,
-        1 => poses[i].0 as f64 * run.period,
-        _ => poses[i].1,
-    });
-    let y = faer::Mat::from_fn(n, 1, |i, _| at(poses[i].0) - if with_scale { 0.0 } else { poses[i].1 });
-    let m = a.transpose() * &a;
-    let (x, _) = crate::linalg::solve_spd(&m, &(a.transpose() * &y))?;
-    Some((x[(1, 0)], with_scale.then(|| x[(2, 0)] - 1.0)))
+    let time = |k: usize| k as f64 * run.period;
+    if travel > LEAST_TRAVEL {
+        let rows: Vec<_> = poses.iter().map(|&(k, yaw)| ([1.0, time(k), yaw], at(k) - yaw)).collect();
+        let [_, bias, scale] = least_squares(&rows, ALIKE)?;
+        Some([Some(bias), Some(scale)])
+    } else {
+        let rows: Vec<_> = poses.iter().map(|&(k, yaw)| ([1.0, time(k)], at(k) - yaw)).collect();
+        let [_, bias] = least_squares(&rows, ALIKE)?;
+        Some([Some(bias), None])
+    }
 }
 
-/// An error of the gyro with its sigma.
-type Told = Option<(f64, f64)>;
+/// The errors of the gyro that can be checked, and what each run says of them.
+type Found = [(Redundancy, Vec<Option<Measured>>); 2];
 
-/// Offset and scale over all runs, where they are beyond the interest of their cards.
-fn pooled(runs: &[Run]) -> [Told; 2] {
-    let found: Vec<(f64, Option<f64>)> = runs.iter().filter_map(gyro_against_pose).collect();
-    let beyond = |kind: Redundancy, all: Vec<f64>| {
-        median(all).filter(|m| m.0.abs() > card(kind).map_or(f64::MAX, |c| c.interest))
-    };
+fn found(runs: &[Run]) -> Found {
+    let all: Vec<[Option<Measured>; 2]> = runs.iter().filter_map(gyro_against_pose).collect();
     [
-        beyond(Redundancy::GyroOffset, found.iter().map(|f| f.0).collect()),
-        beyond(Redundancy::GyroGain, found.iter().filter_map(|f| f.1).collect()),
+        (Redundancy::GyroOffset, all.iter().map(|m| m[0]).collect()),
+        (Redundancy::GyroGain, all.iter().map(|m| m[1]).collect()),
     ]
+}
+
+/// The error over all runs, if it matters and is sure.
+fn pooled(card: &Card, runs: &[Option<Measured>]) -> Option<Measured> {
+    alone(runs, card.interest).filter(|m| m.is_told(card.interest))
 }
 
 /// What is to be corrected in the gyro of these runs.
 pub(super) fn errors(runs: &[Run]) -> GyroError {
-    let [bias, scale] = pooled(runs).map(|m| m.map_or(0.0, |m| m.0));
+    let [bias, scale] =
+        found(runs).map(|(kind, all)| card(kind).and_then(|c| pooled(c, &all)).map_or(0.0, |m| m.value));
     GyroError { bias, scale }
 }
 
 /// Zero and gain: corrected as they are, told as far as the references do not show them.
 pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Redundant) {
-    let [bias, scale] = pooled(runs);
+    out.gyro = errors(runs);
     let known = errors(references);
-    out.gyro = GyroError { bias: bias.map_or(0.0, |m| m.0), scale: scale.map_or(0.0, |m| m.0) };
-    for (kind, own, told) in [(Redundancy::GyroGain, known.scale, scale), (Redundancy::GyroOffset, known.bias, bias)] {
-        if let (Some(card), Some((value, sigma))) = (card(kind), told)
-            && (value - own).abs() > card.interest
-        {
-            out.faults.push(Fault { card, parameter: 0, magnitude: value - own, sigma, side: None });
+    let [bias, scale] = found(runs);
+    let [known_bias, known_scale] = found(references);
+    for ((kind, all), (_, before), own) in [(scale, known_scale, known.scale), (bias, known_bias, known.bias)] {
+        let Some(card) = card(kind) else { continue };
+        let Some(here) = pooled(card, &all) else { continue };
+        // References that say nothing of it are no reason to doubt what the runs show.
+        let sure = beyond(&all, &before, card.interest).is_none_or(|m| m.is_told(card.interest));
+        let magnitude = here.value - own;
+        if sure && magnitude.abs() > card.interest {
+            out.faults.push(Fault { card, parameter: 0, magnitude, sigma: here.sigma, side: None });
         }
     }
 }

@@ -38,6 +38,17 @@ pub(super) fn median(mut v: Vec<f64>) -> Option<(f64, f64)> {
     Some((m, (spread / v.len() as f64).sqrt()))
 }
 
+/// What the runs show by themselves: their median, no surer than their spread and their own sigmas let it be.
+///
+/// A run that does not determine the number to half the size that matters has no say.
+pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured> {
+    let told: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+    let (value, spread) = median(told.iter().map(|m| m.value).collect())?;
+    let n = told.len() as f64;
+    let own = (told.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
+    Some(Measured { value, sigma: spread.max(own) })
+}
+
 /// What the recordings show beyond the references, by medians; `None` when either determines nothing.
 ///
 /// A run that does not determine the number to half the size that matters has no say.
