@@ -35,7 +35,9 @@ impl Draw<'_> {
                     without[j][c] += lacking[c] * lacking[c];
                 }
                 let Cause::Effect(id) = cause else { continue };
-                let Some(found) = presence(*id, h, run, self.row) else { continue };
+                let Some(found) = presence(*id, h, run, self.row, [self.robot.half_base, self.robot.half_track]) else {
+                    continue;
+                };
                 let share: f64 = found.iter().map(|f| f[1] - f[0]).sum::<f64>();
                 coverage[j].push(share / (run.rows.len() as f64 * self.row));
                 intervals.insert(id.id(), found);
@@ -92,8 +94,8 @@ pub(crate) fn note_coverage(effects: &mut [EffectTruth], runs: &[Run]) {
     }
 }
 
-/// When a local effect was present: at the robot's geometric centre, or from its instant on.
-fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64) -> Option<Vec<[f64; 2]>> {
+/// When a local effect was present: while at least two wheels were inside, or from its instant on.
+fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64, half: [f64; 2]) -> Option<Vec<[f64; 2]>> {
     let end = run.rows.len() as f64 * row;
     let disc = match id {
         EffectId::AdhesionPatch => h.ice?.0,
@@ -107,7 +109,13 @@ fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64) -> Option<Vec<[f64; 2
     let mut was = false;
     let clean = |t: f64| (t * 1000.0).round() / 1000.0;
     for (k, s) in run.seen.iter().enumerate() {
-        let is = disc.holds(s.body[0], s.body[1]);
+        // The ground acts on wheels: it is there while at least two of them are on it.
+        let (sin, cos) = s.body[2].sin_cos();
+        let on = |ahead: f64, left: f64| {
+            disc.holds(s.body[0] + cos * ahead - sin * left, s.body[1] + sin * ahead + cos * left)
+        };
+        let [a, b] = half;
+        let is = [on(a, b), on(a, -b), on(-a, b), on(-a, -b)].iter().filter(|&&on| on).count() >= 2;
         let now = clean(k as f64 * row);
         if is && !was {
             found.push([now, clean(end)]);

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
+use examiner::EffectId;
 use examiner::Plan;
 use lacuna::answers::Told;
 use rayon::prelude::*;
@@ -120,5 +121,11 @@ fn before(name: &str, layout: &Layout) -> Option<Record> {
 /// What a diagnosis says.
 pub(super) fn told(path: &Path) -> Result<Told> {
     let text = fs::read_to_string(path).with_context(|| format!("cannot read '{}'", path.display()))?;
-    Told::read(&text).with_context(|| format!("'{}'", path.display()))
+    let told = Told::read(&text).with_context(|| format!("'{}'", path.display()))?;
+    Ok(told.within(&vocabulary()))
+}
+
+/// The effects that cases may hide; the catalogue has more.
+pub(super) fn vocabulary() -> Vec<String> {
+    EffectId::ALL.iter().map(|e| e.id()).collect()
 }

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use lacuna::case_folder;
+use lacuna::answers::Told;
+use lacuna::{case_folder, predictions};
 use recordings::ReadOptions;
 
+use super::diagnose::vocabulary;
 use crate::output::{self, Figure};
 
 /// Diagnoses every case; a case that fails is named and does not stop the others.
@@ -36,7 +38,8 @@ pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool>
         times.push(seconds);
         match outcome {
             Ok(d) => {
-                lacuna::answers::write(answers, &name, &d, seconds)?;
+                Told::of(&d)?.within(&vocabulary()).write(answers, &name, seconds)?;
+                predictions::write(&answers.join(&name), &d)?;
                 let whole = answers.join(&name).join("diagnosis.json");
                 fs::write(&whole, serde_json::to_string_pretty(&d)?)
                     .with_context(|| format!("cannot write '{}'", whole.display()))?;
