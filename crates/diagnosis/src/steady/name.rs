@@ -248,7 +248,7 @@ impl<'a> Comparison<'a> {
                 break;
             }
         }
-        let paid = occam + PER_EFFECT * parts.len() as f64;
+        let paid = occam + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
         let score = 0.5 * self.quadratic(&self.plain, &self.plain) - left - paid;
         Some(Named { parts: parts.to_vec(), values: e, sigma, score })
     }
