@@ -12,7 +12,7 @@ use crate::decide::{Decision, Scored, healthy_cost};
 use crate::diagnose::FORMAT;
 use crate::fit::{Fitted, Hypothesis, Problem, tuned};
 use crate::hypothesis::{Place, Variant};
-use crate::leave_out::leave_one_out;
+use crate::leave_out::{is_worthwhile, leave_one_out};
 use crate::linalg::solve_spd;
 use crate::motion::GyroError;
 use crate::predict::predict;
@@ -218,6 +218,9 @@ impl Answer<'_> {
         let calibrated = p.response(&p.origin(), &none);
         let winner = self.winner();
         let theta = winner.map_or(retuned.point.theta, |w| w.trial.fitted.point.theta);
+        let (free_runs, left_out) = leave_one_out(self);
+        let worthwhile = is_worthwhile(p, &calibrated, &free_runs);
+        let (corrector, forecaster) = if worthwhile { (winner, theta) } else { (None, p.centre) };
         let gyro = self.sensors.gyro;
         let predictions = self
             .case
@@ -225,7 +228,7 @@ impl Answer<'_> {
             .iter()
             .map(|h| {
                 // Where an effect began at an instant, it is there throughout what follows.
-                let doses = winner.map_or(Vec::new(), |w| {
+                let doses = corrector.map_or(Vec::new(), |w| {
                     let always: Vec<(Variant, Vec<Option<f64>>)> = w
                         .trial
                         .hypothesis
@@ -235,7 +238,7 @@ impl Answer<'_> {
                         .collect();
                     Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0)
                 });
-                let corrected = predict(h, &tuned(p.robot, &p.sigma, &theta), &doses, gyro, self.options.step);
+                let corrected = predict(h, &tuned(p.robot, &p.sigma, &forecaster), &doses, gyro, self.options.step);
                 let plain =
                     predict(h, &tuned(p.robot, &p.sigma, &p.centre), &[], GyroError::default(), self.options.step);
                 (corrected, plain)
@@ -249,11 +252,17 @@ impl Answer<'_> {
         });
         let indistinguishable = self.rivals(&ranked, verdict);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
-        let (free_runs, left_out) = leave_one_out(self);
         let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
         let located = locate::locate(self, &calibrated, fitted, &left_out, unexplained, &ranked);
         let mut limits = self.limits();
         limits.extend(located.contradiction);
+        if winner.is_some() && !worthwhile {
+            limits.push(
+                "recordings that were left out are forecast no better with the correction: held-out drives are predicted \
+                 without it"
+                    .to_owned(),
+            );
+        }
         let mut out = Diagnosis {
             format: FORMAT,
             verdict,

@@ -7,8 +7,9 @@ use robot_model::tunable::COUNT as NUISANCES;
 use crate::answer::Answer;
 use crate::decide::Scored;
 use crate::diagnose::problem;
-use crate::fit::{Columns, Fitted, Hypothesis, Point};
+use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
 use crate::locate;
+use crate::simulate::Response;
 use crate::verdict::FreeRun;
 use crate::windows::Cut;
 
@@ -66,6 +67,14 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>) -> (Vec<FreeRun>, Vec<LeftOut>)
         points.push(LeftOut { run: left_out, point: corrected.map_or(retuned, |c| c.0) });
     }
     (out, points)
+}
+
+/// Whether the correction (or re-tuning, without one) forecasts recordings that were left out of its fit no worse than the
+/// calibrated model does, all recordings and both quantities together.
+pub(crate) fn is_worthwhile(p: &Problem<'_>, calibrated: &Response, runs: &[FreeRun]) -> bool {
+    let before = (0..p.cuts.len()).flat_map(|r| locate::rms(p, &[(r, calibrated[r].clone())]));
+    let change: f64 = runs.iter().zip(before).map(|(f, before)| (f.corrected / before.max(1e-9)).ln()).sum();
+    change.is_nan() || change <= 0.0
 }
 
 /// The hypothesis for all recordings but one.

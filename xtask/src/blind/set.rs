@@ -13,7 +13,7 @@ const QUICK: usize = 12;
 #[command(next_help_heading = "Drawing")]
 pub(super) struct Drawing {
     /// Seed of the set.
-    #[arg(long, default_value_t = 2014)]
+    #[arg(long, default_value_t = 2026)]
     seed: u64,
     /// Number of cases.
     #[arg(long, default_value_t = 300, value_parser = RangedU64ValueParser::<usize>::new().range(1..))]
