@@ -17,7 +17,7 @@ use crate::linalg::solve_spd;
 use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Redundant;
-use crate::verdict::{Cause, Diagnosis, Trial, Verdict};
+use crate::verdict::{Cause, Diagnosis, Estimate, Trial, Verdict};
 use crate::windows::Cut;
 use crate::{Options, locate, words};
 
@@ -85,7 +85,10 @@ impl Answer<'_> {
                 magnitude: Some(f.magnitude),
                 sigma: Some(f.sigma),
                 unit: words::unit(f.card),
-                parameters: BTreeMap::from([(f.card.parameters[f.parameter].name.to_owned(), f.magnitude)]),
+                parameters: BTreeMap::from([(
+                    f.card.parameters[f.parameter].name.to_owned(),
+                    Estimate { value: f.magnitude, sigma: Some(f.sigma), at_bound: false },
+                )]),
                 side: f.side.map(words::side),
                 place: None,
                 intervals: None,
@@ -108,13 +111,20 @@ impl Answer<'_> {
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
         let card = variant.card();
         let strengths = variant.strengths().len();
-        let mut parameters = BTreeMap::new();
         let mut place = None;
-        for (f, &v) in free.iter().zip(e) {
-            if let Some(i) = f.parameter {
-                parameters.insert(card.parameters[i].name.to_owned(), v);
-            }
-        }
+        let mut of_disc = ["x", "y", "radius"].into_iter();
+        let parameters = free
+            .iter()
+            .zip(e)
+            .enumerate()
+            .filter_map(|(i, (f, &value))| {
+                let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(card.parameters[i].name))?;
+                let model = if f.parameter.is_some() { MODEL_ERROR * value } else { 0.0 };
+                let sigma = sigmas.as_ref().map(|s| (CURVATURE * s[before + i]).hypot(model));
+                let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
+                Some((name.to_owned(), Estimate { value, sigma, at_bound }))
+            })
+            .collect();
         if variant.place == Place::Disc {
             let d = &e[free.len() - 3..];
             place = Some([d[0], d[1], d[2]]);

@@ -50,4 +50,4 @@ pub use options::Options;
 pub use predict::Prediction;
 pub use run::Run;
 pub use steady::{SteadyCase, diagnose_steady};
-pub use verdict::{Cause, Cell, Diagnosis, Finding, FreeRun, Trial, Verdict};
+pub use verdict::{Cause, Cell, Diagnosis, Estimate, Finding, FreeRun, Trial, Verdict};

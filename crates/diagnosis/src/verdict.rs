@@ -36,8 +36,8 @@ pub struct Cause {
     pub sigma: Option<f64>,
     /// Unit of the size.
     pub unit: &'static str,
-    /// Every number of its law, by name.
-    pub parameters: BTreeMap<String, f64>,
+    /// Every number of its law, by name; of a place also x, y and radius, m.
+    pub parameters: BTreeMap<String, Estimate>,
     /// Side, when it sits on one.
     pub side: Option<&'static str>,
     /// Where on the ground, when it is a place: x, y, radius in m.
@@ -46,7 +46,23 @@ pub struct Cause {
     pub intervals: Option<BTreeMap<String, Vec<[f64; 2]>>>,
 }
 
+/// A fitted number.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Its value in the unit of the card.
+    pub value: f64,
+    /// One sigma, where it is known.
+    pub sigma: Option<f64>,
+    /// Whether the fit stopped at the end of what the card calls sensible: the value is then no estimate.
+    pub at_bound: bool,
+}
+
 impl Cause {
+    /// Whether any number of it stopped at its bound.
+    pub fn is_at_bound(&self) -> bool {
+        self.parameters.values().any(|p| p.at_bound)
+    }
+
     /// A cause of which only the probability is known.
     pub(crate) fn plain(effect: &str, name: &str, probability: f64) -> Self {
         Self {

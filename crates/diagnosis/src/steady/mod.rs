@@ -21,7 +21,7 @@ use crate::diagnose::FORMAT;
 use crate::fit::tuned;
 use crate::hypothesis::Place;
 use crate::locate::Located;
-use crate::verdict::{Cause, Diagnosis, FreeRun, Verdict};
+use crate::verdict::{Cause, Diagnosis, Estimate, FreeRun, Verdict};
 use crate::{DiagnosisError, words};
 
 use compare::{Reference, matching, references, scaled};
@@ -290,8 +290,12 @@ fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let parameters = variant
         .free(1.0)
         .iter()
-        .zip(values)
-        .filter_map(|(f, v)| f.parameter.map(|i| (card.parameters[i].name.to_owned(), *v)))
+        .zip(values.iter().zip(sigma))
+        .filter_map(|(f, (&value, &sigma))| {
+            let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
+            let estimate = Estimate { value, sigma: Some(sigma).filter(|s| s.is_finite()), at_bound };
+            f.parameter.map(|i| (card.parameters[i].name.to_owned(), estimate))
+        })
         .collect();
     Cause {
         magnitude: Some(variant.magnitude(values)),

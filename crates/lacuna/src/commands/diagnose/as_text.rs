@@ -81,6 +81,9 @@ fn place(c: &Cause) -> String {
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         parts.push(spans[..spans.len().min(INTERVALS)].join(", ") + &more);
     }
+    if c.is_at_bound() {
+        parts.push("a number is at its bound".to_owned());
+    }
     parts.join("; ")
 }
 
