@@ -8,9 +8,9 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::drives::Drives;
-use crate::hypothesis::{Free, Onsets, Variant};
+use crate::hypothesis::{Free, Onsets, Variant, variants};
 use crate::simulate::{Body, Dose, Grid, Response, free_run};
-use crate::windows::{CHANNELS, Cut};
+use crate::windows::{CHANNELS, Cut, FORWARD};
 
 /// Offsets of a run that sensors add: gyro, accelerometer x and y.
 pub(crate) const OFFSETS: usize = 3;
@@ -111,6 +111,13 @@ pub(crate) struct Columns(pub(crate) Vec<Response>);
 impl Problem<'_> {
     pub(crate) fn origin(&self) -> Point {
         Point { theta: self.centre, run: vec![[0.0; PER_RUN]; self.cuts.len()], effects: Vec::new() }
+    }
+
+    /// Every form of every effect that these recordings may show in the motion.
+    pub(crate) fn variants(&self) -> Vec<Variant> {
+        // A forward velocity comes from a pose only.
+        let segments = || self.cuts.iter().flat_map(|c| &c.segments);
+        variants(segments().any(|s| s.valid.iter().skip(FORWARD).step_by(CHANNELS).any(|&v| v)))
     }
 
     /// Standard deviation of a run's own numbers, in sigmas of θ or in units of the channel.

@@ -5,7 +5,6 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::penalty;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Point, Problem};
-use crate::hypothesis::variants;
 use crate::linalg::solve_spd;
 use crate::screen::screen;
 
@@ -47,7 +46,7 @@ impl Gate {
             alone.centre[k] -= shift[(k, 0)];
         }
         alone.information = others;
-        screen(&alone, &base, &variants(), &none)
+        screen(&alone, &base, &alone.variants(), &none)
             .into_iter()
             .map(|c| {
                 let h = Hypothesis::single(c.variant, c.onsets.clone());

@@ -119,11 +119,14 @@ impl Variant {
 }
 
 /// All forms of all effects that show in the motion, in the order of the catalogue.
-pub(crate) fn variants() -> Vec<Variant> {
+///
+/// Without a pose nothing but the motion can tell a fault of the gyro from turning: then it is one of them.
+pub(crate) fn variants(pose: bool) -> Vec<Variant> {
     let mut out = Vec::new();
     for effect in effects::catalogue::<f64>() {
         let card = effect.card();
-        if card.redundancy != Redundancy::None {
+        let of_gyro = matches!(card.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
+        if card.redundancy != Redundancy::None && (pose || !of_gyro) {
             continue;
         }
         let axes: Vec<Option<usize>> =

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use robot_model::Card;
 
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
-use crate::hypothesis::variants;
 use crate::screen::{Candidate, screen};
 use crate::{disc, onset};
 
@@ -118,7 +117,7 @@ fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
 /// Runs the whole search on the recordings.
 pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     let none = Hypothesis::default();
-    let all = variants();
+    let all = problem.variants();
     progress("screening every effect");
     let origin = problem.begin(&none, problem.origin(), None);
     let first = screen(problem, &origin, &all, &none);
@@ -243,7 +242,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
 /// Partners of `first`, screened with it present at its fitted size.
 fn screen_beside(problem: &Problem<'_>, base: &Fitted, first: &Trial) -> Vec<Candidate> {
     let id = first.hypothesis.parts[0].0.card().id;
-    let others: Vec<_> = variants().into_iter().filter(|v| v.card().id != id).collect();
+    let others: Vec<_> = problem.variants().into_iter().filter(|v| v.card().id != id).collect();
     let list = screen(problem, base, &others, &first.hypothesis);
     by_id(&list).into_iter().cloned().collect()
 }

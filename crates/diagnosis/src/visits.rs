@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn visits_are_counted_run_by_run() {
         let robot = robot();
-        let variant = variants()
+        let variant = variants(true)
             .into_iter()
             .find(|v| v.place == Place::Disc && v.card().id == "rolling_resistance")
             .expect("rolling resistance may be local");

@@ -20,6 +20,9 @@ pub(crate) const CHANNEL_NAMES: [&str; CHANNELS] = [
     "lateral acceleration",
 ];
 
+/// Channel of the forward velocity.
+pub(crate) const FORWARD: usize = 3;
+
 /// Length of a window, s.
 pub(crate) const WINDOW: f64 = 0.1;
 /// Parts of a segment in which a local presence is resolved.

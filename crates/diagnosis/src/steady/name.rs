@@ -270,7 +270,7 @@ impl<'a> Comparison<'a> {
 
 /// Weighs every effect that can be present everywhere, and every pair with one of the best, against the differences.
 pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
-    let candidates: Vec<Variant> = variants()
+    let candidates: Vec<Variant> = variants(true)
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
