@@ -1,9 +1,9 @@
 //! Sensors that imitate physics, physics that imitates sensors, and noise of another law: families 5 and 12.
 
 use diagnosis::{Diagnosis, Run};
-use examiner::EffectId;
+use examiner::{EffectId, Settings};
 
-use crate::common::{case_of, draw};
+use crate::common::{case_of, draw, told};
 use crate::damage::{coarse_steps, heavy_tails, lost_rows};
 use crate::rules::{
     answer, diagnosed, is_named, no_physics_is_claimed_but, nothing_is_claimed_but, nothing_is_missing, strong,
@@ -27,6 +27,15 @@ fn physics_that_imitates_a_fault_of_a_sensor_is_called_physics() {
         let (_, d) = diagnosed(seed, &strong(&[effect]));
         is_named(&d, effect);
         nothing_is_claimed_but(&d, &[effect]);
+    }
+}
+
+#[test]
+fn without_a_pose_a_gyro_that_shows_too_much_is_not_called_turning_resistance() {
+    for (seed, effect) in [(505, EffectId::GyroScale), (605, EffectId::TurningResistance)] {
+        let (_, d) = diagnosed(seed, &Settings { pose: false, ..strong(&[effect]) });
+        nothing_is_claimed_but(&d, &[effect]);
+        assert!(d.ranked.iter().take(2).any(|c| c.effect == effect.id()), "{}", told(&d));
     }
 }
 
