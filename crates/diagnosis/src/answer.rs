@@ -313,7 +313,7 @@ impl Answer<'_> {
     fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<Vec<String>> {
         let Some(winner) = self.winner().filter(|_| verdict == Verdict::Explained) else { return Vec::new() };
         // Alternatives to the best hypothesis, not its own second member.
-        let members: Vec<&str> = winner.trial.hypothesis.parts.iter().map(|(v, _)| v.card().id).collect();
+        let members = winner.trial.hypothesis.ids();
         let best = members
             .iter()
             .filter_map(|m| ranked.iter().find(|c| c.effect == *m))

@@ -44,8 +44,21 @@ pub(crate) struct Regimes {
     pub(crate) scatter: Vec<f64>,
 }
 
-/// Segments at the median that the kernel mean begins with.
+/// Segments at the middle that a kernel mean begins with.
 const PSEUDO_COUNTS: f64 = 2.0;
+
+/// Mean of the values of segments driven like `features`: Gaussian kernel of unit width over the features, begun with a
+/// few segments at `middle`.
+pub(crate) fn kernel_mean(known: impl Iterator<Item = ([f64; 3], f64)>, features: [f64; 3], middle: f64) -> f64 {
+    let (mut weight, mut sum) = (PSEUDO_COUNTS, PSEUDO_COUNTS * middle);
+    for (other, value) in known {
+        let distance2: f64 = other.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
+        let k = (-0.5 * distance2).exp();
+        weight += k;
+        sum += k * value;
+    }
+    sum / weight
+}
 
 impl Regimes {
     fn new(mut known: Vec<([f64; 3], f64)>) -> Self {
@@ -65,17 +78,8 @@ impl Regimes {
     }
 
     fn expected_but(&self, features: [f64; 3], left_out: Option<usize>) -> f64 {
-        let (mut w, mut sum) = (PSEUDO_COUNTS, PSEUDO_COUNTS * self.median);
-        for (i, (f, v)) in self.known.iter().enumerate() {
-            if Some(i) == left_out {
-                continue;
-            }
-            let d: f64 = f.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
-            let k = (-0.5 * d).exp();
-            w += k;
-            sum += k * v;
-        }
-        (sum / w).exp()
+        let others = self.known.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, k)| *k);
+        kernel_mean(others, features, self.median).exp()
     }
 
     pub(crate) fn of(&self, cuts: &[Cut]) -> Vec<Vec<f64>> {

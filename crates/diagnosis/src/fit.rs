@@ -43,6 +43,11 @@ impl Hypothesis {
         Self { parts: vec![(variant, onsets)] }
     }
 
+    /// Its effects, in order.
+    pub(crate) fn ids(&self) -> Vec<&'static str> {
+        self.parts.iter().map(|(v, _)| v.card().id).collect()
+    }
+
     pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
         self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
     }

@@ -88,14 +88,8 @@ fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
 
 /// The best hypothesis that shares no effect with the winner and is no larger.
 fn placebo<'a>(answer: &'a Answer<'_>) -> Option<&'a Scored> {
-    let winner = &answer.winner()?.trial.hypothesis.parts;
-    let shared = |s: &Scored| {
-        let ids = |parts: &[(crate::hypothesis::Variant, Vec<Option<f64>>)]| -> Vec<&'static str> {
-            parts.iter().map(|(v, _)| v.card().id).collect()
-        };
-        let own = ids(winner);
-        ids(&s.trial.hypothesis.parts).iter().any(|id| own.contains(id))
-    };
+    let winner = answer.winner()?.trial.hypothesis.ids();
+    let shared = |s: &Scored| s.trial.hypothesis.ids().iter().any(|id| winner.contains(id));
     let all = answer.decision.scored.iter();
     all.filter(|s| s.trial.hypothesis.parts.len() <= winner.len() && !shared(s))
         .max_by(|a, b| a.score.total_cmp(&b.score))

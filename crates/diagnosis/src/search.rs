@@ -218,10 +218,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         let mut places = Places(PARTNERS);
         let worth = partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE);
         for p in worth.filter(|p| places.take(p.variant.card())) {
-            let known = out.iter().any(|t: &Trial| {
-                let [a, b] = [t.hypothesis.parts[0].0.card().id, t.hypothesis.parts[1].0.card().id];
-                (a, b) == (p.variant.card().id, id)
-            });
+            let known = out.iter().any(|t: &Trial| t.hypothesis.ids() == [p.variant.card().id, id]);
             if known {
                 continue;
             }

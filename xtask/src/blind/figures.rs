@@ -29,8 +29,8 @@ pub(super) fn figures(rows: &[Row], failed: usize) -> Vec<Figure> {
     list.free("answers in the 90 % set, mean", mean(&all.set_sizes), "");
     list.asked("nothing hidden, alarmed", all.alarmed.share(), "", AtMost(0.02));
     list.bounds("nothing hidden, alarmed", all.alarmed);
-    list.free("in the catalogue, no mismatch seen", all.missed.share(), "");
-    list.free("in the catalogue, called unknown", all.called_unknown.share(), "");
+    list.free("in the vocabulary, no mismatch seen", all.missed.share(), "");
+    list.free("in the vocabulary, called unknown", all.called_unknown.share(), "");
     list.asked("outsiders called unknown", all.outsiders_unknown.share(), "", AtLeast(0.9));
     list.asked("sensor told from physics", all.sort.share(), "", AtLeast(0.98));
     list.free("side right", all.side.share(), "");

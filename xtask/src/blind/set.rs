@@ -21,7 +21,7 @@ pub(super) struct Drawing {
     /// Twelve cases, of each kind at least one.
     #[arg(long, conflicts_with = "count")]
     quick: bool,
-    /// Shares of cases with nothing hidden, one effect, two, and a cause outside the catalogue [default: 0.2,0.5,0.18,0.12].
+    /// Shares of cases with nothing hidden, one effect, two, and a cause outside the vocabulary [default: 0.2,0.5,0.18,0.12].
     #[arg(long, value_name = "NULL,SINGLE,PAIR,OUTSIDER", value_parser = mix)]
     mix: Option<Mix>,
     /// Tyre law of the true robots; both in turn if not given.

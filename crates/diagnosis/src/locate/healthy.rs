@@ -5,6 +5,7 @@ use std::sync::Arc;
 use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
+use crate::calibrate::kernel_mean;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
@@ -13,8 +14,7 @@ use crate::windows::{CHANNELS, Cut};
 const STEPS: usize = 2;
 /// Windows to each side over which the growth of the residual since the restart is averaged.
 const SMOOTH: usize = 2;
-/// Segments at the overall mean that the kernel mean begins with, and the least energy of a segment.
-const PSEUDO_SEGMENTS: f64 = 2.0;
+/// Least energy of a segment.
 const LEAST: f64 = 0.02;
 
 /// Squared residuals over their healthy expectation: run, segment, window, channel; not a number where invalid.
@@ -84,14 +84,7 @@ impl Healthy {
             let valid = || all().filter(|k| k.2[c].is_finite());
             let (n, sum) = valid().fold((0.0, 0.0), |(n, s), k| (n + 1.0, s + k.2[c]));
             let mean = sum / f64::max(n, 1.0);
-            let (mut weight, mut sum) = (PSEUDO_SEGMENTS, PSEUDO_SEGMENTS * mean);
-            for (_, features, level) in valid() {
-                let d: f64 = features.iter().zip(regime).map(|(a, b)| (a - b).powi(2)).sum();
-                let w = (-0.5 * d).exp();
-                weight += w;
-                sum += w * level[c];
-            }
-            (sum / weight).exp()
+            kernel_mean(valid().map(|k| (k.1, k.2[c])), regime, mean).exp()
         })
     }
 }

@@ -42,7 +42,7 @@ pub(super) enum Kind {
     Single,
     /// Two of them.
     Pair,
-    /// Something outside the catalogue.
+    /// Something outside the vocabulary.
     Outsider,
 }
 

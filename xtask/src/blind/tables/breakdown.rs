@@ -102,7 +102,7 @@ fn by_effect(rows: &[&Row]) -> Section {
 
 fn outsiders(rows: &[&Row]) -> Section {
     let header = ["outsider", "cases", "called unknown", "other answers"];
-    let mut out = Section::new("Causes outside the catalogue", "", &header);
+    let mut out = Section::new("Causes outside the vocabulary", "", &header);
     let all = of_kind(rows, Kind::Outsider);
     for outsider in all.iter().filter_map(|r| r.hidden.first()).collect::<BTreeSet<_>>() {
         let part = || all.iter().filter(|r| r.hidden.first() == Some(outsider));
