@@ -19,7 +19,7 @@ pub(super) struct Totals {
     pub(super) set_sizes: Vec<f64>,
     /// Cases with nothing hidden whose verdict is something else.
     pub(super) alarmed: Rate,
-    /// Effects of the catalogue.
+    /// Effects of the vocabulary.
     pub(super) missed: Rate,
     pub(super) called_unknown: Rate,
     pub(super) outsiders_unknown: Rate,

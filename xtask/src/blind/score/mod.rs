@@ -38,7 +38,7 @@ const FIRST: usize = 3;
 pub(super) enum Kind {
     /// Nothing.
     Null,
-    /// One effect of the catalogue.
+    /// One effect of the vocabulary.
     Single,
     /// Two of them.
     Pair,
@@ -68,7 +68,7 @@ impl Kind {
         }
     }
 
-    /// Whether effects of the catalogue are hidden.
+    /// Whether effects of the vocabulary are hidden.
     pub(super) fn in_catalogue(self) -> bool {
         matches!(self, Self::Single | Self::Pair)
     }
@@ -92,7 +92,7 @@ pub(super) struct Row {
     pub(super) verdict: Option<&'static str>,
     pub(super) naming: Naming,
     pub(super) belief: Belief,
-    /// Each hidden effect of the catalogue.
+    /// Each hidden effect of the vocabulary.
     pub(super) parts: Vec<Part>,
     pub(super) heldout: HeldOut,
     /// By the clock.
