@@ -1,12 +1,15 @@
 //! What is proved about a step, and about a run.
 
-use nn_basis::{Scalar, real};
+use nn_basis::{Scalar, dot, real};
 
-use crate::Step;
+use crate::{Sample, Step};
 
 /// What one step does to `L = ½ x̃² + ‖W* − Ŵ‖²/(2γ)`, against comparison weights W*.
 ///
-/// Source: Eq. 16–21 of Hendzel & Trojnacki 2014, made exact for the discrete law.
+/// Every law has a balance `ΔL ≤ −c e² + b ε e + s` with its own error e, dissipation c > 0, coupling b and surplus s;
+/// for most it is an equality. With `s ≤ 0`, L falls whenever `|e| > b |ε|/c`, at any step size, gain and regressor.
+///
+/// Source: Eq. 16–21 of Hendzel & Trojnacki 2014, made exact for the discrete laws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate<T> {
     /// L before the step.
@@ -15,37 +18,118 @@ pub struct Certificate<T> {
     pub after: T,
     /// The change of L, measured from the two models.
     pub change: T,
-    /// The change of L that the law's identity predicts; for the midpoint law `−a h x̃_m² + h ε x̃_m`.
+    /// The change of L by the law's balance: its value where the balance is an equality, else its upper bound.
     pub predicted: T,
-    /// The largest change that any error could have caused with this ε: `h ε²/(4a)`.
-    pub bound: T,
-    /// `|change − predicted|` relative to the quantities involved: rounding, about 1e-15 in double precision.
+    /// How far the change is from the prediction, or above it, relative to the quantities involved: rounding, about
+    /// 1e-15 in double precision.
     pub residual: T,
     /// The approximation error ε of W* in this step, unit of the output per second.
     pub epsilon: T,
-    /// The error that the identity is about, x̃_m for the midpoint law.
+    /// The error e that the balance is about.
     pub error: T,
-    /// Length of the step, s.
-    pub h: T,
+    /// Dissipation c of the balance; about a h.
+    pub dissipation: T,
+    /// Coupling b of ε to e; about h, s.
+    pub coupling: T,
 }
 
 impl<T: Scalar> Certificate<T> {
-    /// Whether L falls for certain: `predicted < 0`, that is `|x̃_m| > |ε|/a` or ε of opposite sign.
+    /// Whether L falls for certain: the predicted change is negative.
     pub fn falls(&self) -> bool {
         self.predicted < T::zero()
     }
+
+    /// What the law adds by itself, `s = ΔL + c e² − b ε e`: never positive for laws that keep L.
+    pub fn surplus(&self) -> T {
+        self.predicted + self.dissipation * self.error * self.error - self.coupling * self.epsilon * self.error
+    }
+
+    /// The largest change that any error could have caused with this ε: `b² ε²/(4c) + s`.
+    pub fn bound(&self) -> T {
+        let injected = self.coupling * self.epsilon;
+        injected * injected / (real::<T>(4.0) * self.dissipation) + self.surplus()
+    }
+}
+
+/// The terms of a law's balance, from which its certificate is made.
+pub(crate) struct Balance<T> {
+    /// Distance ½ x̃² of the output before and after; of the dead zone's D where there is one.
+    pub(crate) output: [T; 2],
+    pub(crate) error: T,
+    pub(crate) epsilon: T,
+    pub(crate) dissipation: T,
+    pub(crate) coupling: T,
+    pub(crate) surplus: T,
+    /// Whether the balance is an equality.
+    pub(crate) exact: bool,
+}
+
+impl<T: Scalar> Balance<T> {
+    /// Measures the change of L over the step and compares.
+    pub(crate) fn certificate<const N: usize>(self, step: &Step<T, N>, comparison: &[T; N], gain: T) -> Certificate<T> {
+        let half = real::<T>(0.5);
+        let [from, to] = self.output;
+        let (old, new) = (&step.before.weight, &step.after.weight);
+        let before = half * (from * from + distance(old, comparison) / gain);
+        let after = half * (to * to + distance(new, comparison) / gain);
+        // Differences times sums keep the digits that subtracting two large L would lose.
+        let change = half * ((to - from) * (to + from) + difference(old, new, comparison) / gain);
+        let dissipated = self.dissipation * self.error * self.error;
+        let injected = self.coupling * self.epsilon * self.error;
+        let predicted = injected - dissipated + self.surplus;
+        let size = before + after + dissipated + injected.abs() + self.surplus.abs();
+        let gap = change - predicted;
+        let gap = if self.exact { gap.abs() } else { positive_part(gap) };
+        // Not `size > 0`: a size that is not a number must give a residual that is not a number.
+        let residual = if size == T::zero() { T::zero() } else { gap / size };
+        let Self { error, epsilon, dissipation, coupling, .. } = self;
+        Certificate { before, after, change, predicted, residual, epsilon, error, dissipation, coupling }
+    }
+}
+
+/// `max(x, 0)`, but not a number stays not a number.
+pub(crate) fn positive_part<T: Scalar>(x: T) -> T {
+    if x < T::zero() { T::zero() } else { x }
+}
+
+/// `‖W* − Ŵ‖²`.
+fn distance<T: Scalar, const N: usize>(weight: &[T; N], comparison: &[T; N]) -> T {
+    let mut sum = T::zero();
+    for (w, c) in weight.iter().zip(comparison) {
+        sum += (*c - *w) * (*c - *w);
+    }
+    sum
+}
+
+/// `‖W* − Ŵ_new‖² − ‖W* − Ŵ_old‖²` without cancellation.
+pub(crate) fn difference<T: Scalar, const N: usize>(old: &[T; N], new: &[T; N], comparison: &[T; N]) -> T {
+    let mut sum = T::zero();
+    for i in 0..N {
+        sum += (old[i] - new[i]) * ((comparison[i] - new[i]) + (comparison[i] - old[i]));
+    }
+    sum
+}
+
+/// What the comparison weights leave of the right-hand side `ẋ + a x` that the sample shows, with x̄ as its x.
+pub(crate) fn approximation_error<T: Scalar, const N: usize>(
+    slope: T,
+    sample: &Sample<T, N>,
+    comparison: &[T; N],
+) -> T {
+    slope - sample.known - dot(comparison, &sample.regressor)
 }
 
 /// Certificates added up over a run: the mean-square bound.
 ///
-/// `Σ h x̃² ≤ (2/a) L₀ + (1/a²) Σ h ε²` for every comparison W*: the mean square of the error is bounded by that of ε,
-/// not its maximum.
+/// `Σ h e² ≤ (2/a)(L₀ + Σ s) + (1/a²) Σ h ε²` for every comparison W*, h standing for c/a on the left and a b²/c on the
+/// right: the mean square of the error is bounded by that of ε, not its maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ledger<T> {
     pole: T,
     start: Option<T>,
     error_energy: T,
     epsilon_energy: T,
+    surplus: T,
     worst_residual: T,
     rises: u32,
 }
@@ -54,7 +138,15 @@ impl<T: Scalar> Ledger<T> {
     /// An empty ledger for an identifier with pole a, 1/s.
     pub fn new(pole: T) -> Self {
         let zero = T::zero();
-        Self { pole, start: None, error_energy: zero, epsilon_energy: zero, worst_residual: zero, rises: 0 }
+        Self {
+            pole,
+            start: None,
+            error_energy: zero,
+            epsilon_energy: zero,
+            surplus: zero,
+            worst_residual: zero,
+            rises: 0,
+        }
     }
 
     /// Adds the certificate of the next step. All must be against the same W*.
@@ -62,8 +154,11 @@ impl<T: Scalar> Ledger<T> {
     pub fn add(&mut self, certificate: &Certificate<T>) {
         let c = certificate;
         self.start.get_or_insert(c.before);
-        self.error_energy += c.h * c.error * c.error;
-        self.epsilon_energy += c.h * c.epsilon * c.epsilon;
+        self.error_energy += c.dissipation / self.pole * c.error * c.error;
+        let injected = c.coupling * c.epsilon;
+        self.epsilon_energy += self.pole * injected * injected / c.dissipation;
+        // What a law gives away besides is not needed for the bound, only what it adds.
+        self.surplus += positive_part(c.surplus());
         // A residual that is not a number is kept, not lost.
         if self.worst_residual.is_finite() && (c.residual > self.worst_residual || !c.residual.is_finite()) {
             self.worst_residual = c.residual;
@@ -73,14 +168,14 @@ impl<T: Scalar> Ledger<T> {
         }
     }
 
-    /// `Σ h x̃²`, unit of the output squared times s.
+    /// `Σ h e²`, unit of the output squared times s.
     pub fn error_energy(&self) -> T {
         self.error_energy
     }
 
-    /// The bound `(2/a) L₀ + (1/a²) Σ h ε²` on [`Ledger::error_energy`].
+    /// The bound `(2/a)(L₀ + Σ s) + (1/a²) Σ h ε²` on [`Ledger::error_energy`].
     pub fn bound(&self) -> T {
-        let start = self.start.unwrap_or_else(T::zero);
+        let start = self.start.unwrap_or_else(T::zero) + self.surplus;
         real::<T>(2.0) * start / self.pole + self.epsilon_energy / (self.pole * self.pole)
     }
 
@@ -89,7 +184,7 @@ impl<T: Scalar> Ledger<T> {
         self.error_energy <= self.bound() * (T::one() + real::<T>(1e-6))
     }
 
-    /// Largest relative residual of the identity so far.
+    /// Largest relative residual of the balance so far.
     pub fn worst_residual(&self) -> T {
         self.worst_residual
     }
@@ -98,23 +193,4 @@ impl<T: Scalar> Ledger<T> {
     pub fn rises(&self) -> u32 {
         self.rises
     }
-}
-
-/// `½ x̃² + ‖W* − Ŵ‖²/(2γ)`.
-pub(crate) fn lyapunov<T: Scalar, const N: usize>(error: T, weight: &[T; N], comparison: &[T; N], gain: T) -> T {
-    let mut distance = T::zero();
-    for (w, c) in weight.iter().zip(comparison) {
-        distance += (*c - *w) * (*c - *w);
-    }
-    real::<T>(0.5) * (error * error + distance / gain)
-}
-
-/// The change of L as differences times sums, which keeps the digits that subtracting two large L would lose.
-pub(crate) fn difference_of_squares<T: Scalar, const N: usize>(step: &Step<T, N>, comparison: &[T; N], gain: T) -> T {
-    let mut weights = T::zero();
-    for ((old, new), c) in step.before.weight.iter().zip(&step.after.weight).zip(comparison) {
-        weights += (*old - *new) * ((*c - *new) + (*c - *old));
-    }
-    let error = (step.error_after - step.error_before) * (step.error_after + step.error_before);
-    real::<T>(0.5) * (error + weights / gain)
 }

@@ -10,6 +10,18 @@ pub enum IdentifierError {
         /// Which gain.
         name: &'static str,
     },
+    /// A bound must not be negative.
+    #[error("the {name} must not be negative")]
+    Negative {
+        /// Which bound.
+        name: &'static str,
+    },
+    /// A matrix comes without a valid proof of its stability.
+    #[error("the stability of A is not proved: {what}")]
+    NotProved {
+        /// What is missing.
+        what: &'static str,
+    },
     /// A start value must be finite.
     #[error("the {name} must be a finite number")]
     NotFinite {

@@ -14,8 +14,24 @@ pub struct Sample<T, const N: usize> {
     pub end: T,
     /// Regressor φ over the interval.
     pub regressor: [T; N],
+    /// What is known of G over the interval besides `Ŵᵀφ`, in the unit of the output per second: mostly zero.
+    pub known: T,
     /// Length of the interval h, s.
     pub h: T,
+}
+
+impl<T: Scalar, const N: usize> Sample<T, N> {
+    /// The mean output `x_m = ½(x_k + x_{k+1})`.
+    #[inline]
+    pub fn middle(&self) -> T {
+        nn_basis::real::<T>(0.5) * (self.start + self.end)
+    }
+
+    /// The right-hand side that the interval shows by the midpoint rule, `(x_{k+1} − x_k)/h + a x_m`.
+    #[inline]
+    pub fn right_hand_side(&self, pole: T) -> T {
+        (self.end - self.start) / self.h + pole * self.middle()
+    }
 }
 
 /// What the identifier believes: the estimate x̂ and the weights Ŵ.
@@ -38,19 +54,26 @@ pub struct Step<T, const N: usize> {
     pub after: Model<T, N>,
     /// Error x̃ = x − x̂ at the start.
     pub error_before: T,
-    /// The error that drove the weights.
-    pub error_mid: T,
+    /// The error e that drove the weights: at the start, in the middle or at the end, as the law has it.
+    pub error: T,
     /// Error x̃ = x − x̂ at the end.
     pub error_after: T,
-    /// End value minus what the model with unchanged weights would have predicted.
-    pub innovation: T,
+}
+
+impl<T: Scalar, const N: usize> Step<T, N> {
+    /// The step from a model to the next.
+    #[inline]
+    pub(crate) fn new(sample: &Sample<T, N>, before: &Model<T, N>, after: Model<T, N>, error: T) -> Self {
+        let (error_before, error_after) = (sample.start - before.output, sample.end - after.output);
+        Self { sample: *sample, before: *before, after, error_before, error, error_after }
+    }
 }
 
 /// A discrete adaptive law: how x̂ and Ŵ advance over one interval, and what that does to L.
 pub trait Law<T: Scalar, const N: usize> {
     /// Advances the model over the sample; `pole` is a, 1/s.
     ///
-    /// Never panics; input that is not finite gives output that is not finite.
+    /// Never panics and never branches on more than signs; input that is not finite gives output that is not finite.
     fn advance(&self, pole: T, model: &Model<T, N>, sample: &Sample<T, N>) -> Step<T, N>;
 
     /// The certificate of a step of this law against the comparison weights W*.
@@ -58,6 +81,16 @@ pub trait Law<T: Scalar, const N: usize> {
 
     /// Adaptation gain γ.
     fn gain(&self) -> T;
+}
+
+/// `Ŵ + rate φ`.
+#[inline]
+pub(crate) fn moved<T: Scalar, const N: usize>(weight: &[T; N], rate: T, phi: &[T; N]) -> [T; N] {
+    let mut weight = *weight;
+    for (w, p) in weight.iter_mut().zip(phi) {
+        *w += rate * *p;
+    }
+    weight
 }
 
 /// Follows one output online.
@@ -88,8 +121,13 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Identifier<T, N, L> {
     /// Never panics; input that is not finite gives a step that is not finite.
     #[inline]
     pub fn step(&mut self, x_k: T, x_k1: T, phi: &[T; N], h: T) -> Step<T, N> {
-        let sample = Sample { start: x_k, end: x_k1, regressor: *phi, h };
-        let step = self.law.advance(self.pole, &self.model, &sample);
+        self.follow(&Sample { start: x_k, end: x_k1, regressor: *phi, known: T::zero(), h })
+    }
+
+    /// The same for a sample of whose right-hand side a part is known.
+    #[inline]
+    pub fn follow(&mut self, sample: &Sample<T, N>) -> Step<T, N> {
+        let step = self.law.advance(self.pole, &self.model, sample);
         self.model = step.after;
         step
     }

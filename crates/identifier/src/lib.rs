@@ -2,15 +2,27 @@
 //!
 //! One [`Identifier`] follows one output x of an unknown system `ẋ = −a x + G(x, u)` with the model
 //! `d/dt x̂ = −a x̂ + Ŵᵀφ` (Hendzel & Trojnacki 2014, Eq. 10–13 with A = −a I) and adapts Ŵ. How the law is advanced
-//! over a sample is a [`Law`]; [`Midpoint`] keeps the paper's Lyapunov function exactly, at any step size.
-//! Rows 1 and 2 of Eq. 23, whose right-hand sides are known, are [`AngleRow`]s.
+//! over a sample is a [`Law`]:
+//!
+//! | law | what is proved of each step |
+//! |---|---|
+//! | [`Midpoint`] | the paper's Lyapunov function exactly, at any step size; second order |
+//! | [`Exponential`] | the same with numerical damping; with a dead zone Eq. 22 and bounded weights |
+//! | [`Projection`] | any law, weights in a ball |
+//! | [`Leaky`] | any law, weights that leak: sigma- and e-modification |
+//! | [`Euler`] | its exact change of L, which no step size makes a decrease |
+//!
+//! These laws follow but keep nothing; [`Retaining`] adds a [`Memory`] that does. [`CoupledIdentifier`] takes a general
+//! Hurwitz A with its proof, [`HurwitzMatrix`]. Rows 1 and 2 of Eq. 23, whose right-hand sides are known, are
+//! [`AngleRow`]s.
 //!
 //! The Lyapunov function `L = ½ x̃² + ‖W* − Ŵ‖²/(2γ)` needs weights W* that nobody knows. A [`Certificate`] is
 //! therefore stated against a comparison W* that the caller chooses: it holds for *every* choice, and all that the
 //! chosen W* cannot represent counts as approximation error ε. [`Ledger`] adds certificates up to the mean-square
-//! bound. What is *not* certified: convergence of the weights, or a bound on max |x̃|.
+//! bound. What is *not* certified: convergence of the weights, or a bound on max |x̃| without a dead zone or projection.
 //!
-//! No standard library, no allocation; steps never panic.
+//! No standard library, no allocation; steps never panic. The feature `std` adds `HurwitzMatrix::solve`, which solves the
+//! Lyapunov equation on a host.
 //!
 //! ```
 //! use identifier::{Identifier, Midpoint};
@@ -29,17 +41,40 @@
 //! ```
 #![no_std]
 
+#[cfg(feature = "std")]
+extern crate std;
+
 mod angle;
 mod certificate;
+mod coupled;
 mod error;
+mod euler;
+mod exponential;
+mod hurwitz;
 mod law;
+mod leak;
+#[cfg(feature = "std")]
+mod lyapunov;
+mod memory;
 mod midpoint;
+mod projection;
+mod retaining;
 #[cfg(test)]
 mod tests;
 
 pub use angle::AngleRow;
 pub use certificate::{Certificate, Ledger};
+pub use coupled::{CoupledCertificate, CoupledIdentifier, CoupledSample};
 pub use error::IdentifierError;
+pub use euler::Euler;
+pub use exponential::Exponential;
+pub use hurwitz::HurwitzMatrix;
 pub use law::{Identifier, Law, Model, Sample, Step};
+pub use leak::{Leaky, Rate};
+#[cfg(feature = "std")]
+pub use lyapunov::LyapunovError;
+pub use memory::{Memory, MemorySettings};
 pub use midpoint::Midpoint;
 pub use nn_basis::Scalar;
+pub use projection::Projection;
+pub use retaining::Retaining;

@@ -140,7 +140,7 @@ impl Experiment {
                 let speed = (to - from) / h;
                 trace.angle_error[i].push(measured[i].step(from, to, speed, h));
                 trace.angle_estimate[i].push(measured[i].estimate());
-                trace.angle_error_estimated_speed[i].push(estimated[i].step(from, to, speed - step.error_mid, h));
+                trace.angle_error_estimated_speed[i].push(estimated[i].step(from, to, speed - 0.5 * (step.error_before + step.error_after), h));
                 trace.speed_estimate[i].push(step.after.output);
                 trace.speed_error[i].push(step.error_after);
                 for (history, w) in trace.weight[i].iter_mut().zip(step.after.weight) {
