@@ -179,7 +179,7 @@ fn signals(run: &Trajectory, trace: sim::Trace) -> Signals {
         angle_error_estimated_speed: trace.angle_error_estimated_speed,
         speed_estimate: trace.speed_estimate,
         speed_error: trace.speed_error,
-        weight: trace.weight.map(Vec::from),
+        weight: trace.weight,
         events: run.windows.start.to_vec(),
     }
 }

@@ -1,7 +1,7 @@
 //! Path reference, kinematic loop and neural tracking controller of a skid-steer robot.
 //!
 //! Three parts, from the path to the torques:
-//! * [`LoopPath`] and [`PathReference`]: a trapezoidal speed along a straight, one full circle, and a straight;
+//! * [`LoopPath`] and [`PathReference`]: a speed [`Profile`] along a straight, one full circle, and a straight;
 //! * [`Kinematic`]: Kanayama's loop, which turns the error of the pose into a speed and a yaw rate;
 //! * [`Tracking`]: a sliding variable per side with a network that learns the wheel's load online.
 //!
@@ -34,5 +34,5 @@ mod tracking;
 
 pub use error::ControllerError;
 pub use kinematic::{Command, Kinematic, Pose};
-pub use path::{Events, Loop, LoopPath, PathReference, Reference, Turn};
+pub use path::{Events, Loop, LoopPath, PathReference, Profile, Reference, Turn};
 pub use tracking::{Action, Gains, Tracking, WheelState};

@@ -15,6 +15,16 @@ pub enum Turn {
     Right,
 }
 
+/// How the desired speed rises from rest and falls back to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Profile {
+    /// Constant acceleration, `ρ(s) = s`: it jumps where a ramp begins and ends.
+    #[default]
+    Trapezoid,
+    /// `ρ(s) = s² (3 − 2 s)`: the acceleration is continuous, and at most 1.5 times the trapezoid's.
+    Smoothstep,
+}
+
 /// What the loop is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loop {
@@ -22,7 +32,7 @@ pub struct Loop {
     pub speed: f64,
     /// Radius of the circle R, m.
     pub radius: f64,
-    /// Duration of the constant acceleration from rest, s.
+    /// Duration of the acceleration from rest, s.
     pub accelerate: f64,
     /// Duration of the straight before the circle, s.
     pub lead_in: f64,
@@ -30,10 +40,12 @@ pub struct Loop {
     pub blend: f64,
     /// Duration of the straight after the circle, s.
     pub lead_out: f64,
-    /// Duration of the constant deceleration to rest, s.
+    /// Duration of the deceleration to rest, s.
     pub brake: f64,
     /// Which way the loop turns.
     pub turn: Turn,
+    /// Shape of the ramps of the speed; the yaw rate's blends stay linear.
+    pub profile: Profile,
 }
 
 impl Default for Loop {
@@ -48,6 +60,7 @@ impl Default for Loop {
             lead_out: 3.0,
             brake: 2.0,
             turn: Turn::Left,
+            profile: Profile::Trapezoid,
         }
     }
 }
@@ -72,6 +85,7 @@ pub struct Events {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoopPath<T> {
     events: Events,
+    profile: Profile,
     speed: T,
     yaw_rate: T,
     accelerate: T,
@@ -104,6 +118,7 @@ impl<T: Scalar> LoopPath<T> {
         };
         Ok(Self {
             events: Events { entry, exit, brake, rest: brake + path.brake },
+            profile: path.profile,
             speed: real(path.speed),
             yaw_rate: real(sign * path.speed / path.radius),
             accelerate: real(path.accelerate),
@@ -120,10 +135,11 @@ impl<T: Scalar> LoopPath<T> {
         &self.events
     }
 
-    /// Desired speed v_d, m/s.
+    /// Desired speed `v_d(t) = v [ρ(t / T_acc) − ρ((t − t_brake) / T_br)]`, m/s, ρ the ramp of the [`Profile`].
     #[inline]
     pub fn speed(&self, t: T) -> T {
-        self.speed * (ramp(t, self.accelerate) - ramp(t - self.brake_at, self.brake))
+        let shaped = |s| shape(self.profile, s);
+        self.speed * (shaped(ramp(t, self.accelerate)) - shaped(ramp(t - self.brake_at, self.brake)))
     }
 
     /// Desired yaw rate ω_d, rad/s.
@@ -143,6 +159,15 @@ impl<T: Scalar> LoopPath<T> {
 #[inline]
 fn ramp<T: Scalar>(t: T, duration: T) -> T {
     (t / duration).max(T::zero()).min(T::one())
+}
+
+/// The profile's ρ over a linear ramp `s` from 0 to 1.
+#[inline]
+fn shape<T: Scalar>(profile: Profile, s: T) -> T {
+    match profile {
+        Profile::Trapezoid => s,
+        Profile::Smoothstep => s * s * (real::<T>(3.0) - real::<T>(2.0) * s),
+    }
 }
 
 /// Area under [`ramp`] up to `t`.

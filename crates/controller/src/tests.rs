@@ -4,7 +4,8 @@ use nn_basis::Constant;
 use robot_model::paper::Parameters;
 
 use crate::{
-    ControllerError, Gains, Kinematic, Loop, LoopPath, PathReference, Pose, Reference, Tracking, Turn, WheelState,
+    ControllerError, Gains, Kinematic, Loop, LoopPath, PathReference, Pose, Profile, Reference, Tracking, Turn,
+    WheelState,
 };
 
 fn path(turn: Turn) -> LoopPath<f64> {
@@ -148,4 +149,23 @@ fn the_command_does_not_depend_on_where_the_plane_points() {
         assert!((turned.speed - straight.speed).abs() < 1e-12, "{turned:?}");
         assert!((turned.yaw_rate - straight.yaw_rate).abs() < 1e-12, "{turned:?}");
     }
+}
+
+#[test]
+fn the_smooth_profile_starts_and_ends_without_a_jump_of_acceleration() {
+    let sharp = path(Turn::Left);
+    let smooth = LoopPath::<f64>::new(&Loop { profile: Profile::Smoothstep, ..Loop::default() }).expect("valid");
+    assert_eq!(smooth.events(), sharp.events());
+    let slope = |path: &LoopPath<f64>, t: f64| (path.speed(t + 1e-6) - path.speed(t - 1e-6)) / 2e-6;
+    let brake = sharp.events().brake;
+    for (begin, duration, speed) in [(0.0, 1.0, 0.5), (brake, 2.0, -0.5)] {
+        for end in [begin, begin + duration] {
+            assert!(slope(&smooth, end).abs() < 1e-5 && slope(&sharp, end).abs() > 0.1, "at {end} s");
+        }
+        let middle = begin + 0.5 * duration;
+        assert!((slope(&smooth, middle) - 1.5 * speed / duration).abs() < 1e-6);
+        assert!((smooth.speed(middle) - 0.25).abs() < 1e-12);
+    }
+    assert_eq!((smooth.speed(10.0), smooth.yaw_rate(4.1)), (sharp.speed(10.0), sharp.yaw_rate(4.1)));
+    assert_eq!((smooth.speed(-1.0), smooth.speed(40.0)), (0.0, 0.0));
 }

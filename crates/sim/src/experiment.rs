@@ -1,11 +1,13 @@
 //! Many identifiers over one trajectory.
 
-use identifier::AngleRow;
-use nn_basis::Constant;
+use identifier::{AngleRow, Euler, Exponential, Law, Midpoint, Step};
+use nn_basis::{Basis, Constant};
 use rayon::prelude::*;
 
-use crate::identification::{comparison, follow, layers};
-use crate::{Recipe, RobotSet, SimError, Trajectory, UNITS};
+use crate::identification::{comparison, follow};
+use crate::network_recipe::SIGNALS;
+use crate::recipe::WIDE;
+use crate::{Purpose, Recipe, RobotSet, Scheme, SimError, Stream, Trajectory, UNITS};
 
 /// Quality of one output of one identifier. Errors are x̃ = x − x̂ of a wheel speed at the samples 1..=n, rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +20,8 @@ pub struct OutputIndices {
     pub peak: [f64; 5],
     /// When it occurred, s.
     pub peak_at: [f64; 5],
+    /// Share of each event's window in the sum of squared errors.
+    pub share: [f64; 5],
     /// Root of the mean squared error in the quiet parts, rad/s.
     pub quiet_rms: f64,
     /// Mean of ‖φ‖².
@@ -61,7 +65,7 @@ pub struct Trace {
     /// Error of the wheel speeds, rad/s.
     pub speed_error: [Vec<f64>; 2],
     /// Weights of both outputs, rad/s².
-    pub weight: [[Vec<f64>; UNITS]; 2],
+    pub weight: [Vec<Vec<f64>>; 2],
 }
 
 /// The paper's experiment: one trajectory, any number of identifiers.
@@ -90,9 +94,46 @@ impl Experiment {
     /// # Errors
     /// [`SimError`] if the identifier cannot be built or an estimate stops being finite.
     pub fn identify(&self, seed: u64, number: u64) -> Result<Draw, SimError> {
-        let bases = layers(&self.recipe, &self.trajectory, seed, number)?;
-        let output = follow(&self.recipe, &self.trajectory, &bases, &comparison(seed, number), |_, _| {})?;
-        Ok(Draw { number, output })
+        match self.recipe.identifier.network.units {
+            WIDE => self.draw::<WIDE>(seed, number, |_, _| {}),
+            _ => self.draw::<UNITS>(seed, number, |_, _| {}),
+        }
+    }
+
+    fn draw<const N: usize>(
+        &self,
+        seed: u64,
+        number: u64,
+        watch: impl FnMut(usize, &[Step<f64, N>; 2]),
+    ) -> Result<Draw, SimError> {
+        let mut stream = Stream::new(seed, Purpose::IdentifierLayer, number);
+        let layers = self.recipe.identifier.network.layers::<N>(&self.trajectory, &mut stream)?;
+        Ok(Draw { number, output: self.follow(&layers, &comparison(seed, number), watch)? })
+    }
+
+    /// Follows the run by the recipe's scheme.
+    fn follow<B: Basis<f64, SIGNALS, N>, const N: usize>(
+        &self,
+        bases: &[B; 2],
+        comparison: &[[f64; N]; 2],
+        watch: impl FnMut(usize, &[Step<f64, N>; 2]),
+    ) -> Result<[OutputIndices; 2], SimError> {
+        let i = &self.recipe.identifier;
+        match i.scheme {
+            Scheme::Midpoint => self.follow_by(Midpoint::new(i.gain)?, bases, comparison, watch),
+            Scheme::Exponential => self.follow_by(Exponential::new(i.gain)?, bases, comparison, watch),
+            Scheme::Euler => self.follow_by(Euler::new(i.gain)?, bases, comparison, watch),
+        }
+    }
+
+    fn follow_by<B: Basis<f64, SIGNALS, N>, L: Law<f64, N> + Copy, const N: usize>(
+        &self,
+        law: L,
+        bases: &[B; 2],
+        comparison: &[[f64; N]; 2],
+        watch: impl FnMut(usize, &[Step<f64, N>; 2]),
+    ) -> Result<[OutputIndices; 2], SimError> {
+        follow(&self.trajectory, self.recipe.identifier.pole, law, bases, comparison, watch)
     }
 
     /// Runs the draws `0..draws` on all cores; `done` is called after each.
@@ -118,7 +159,7 @@ impl Experiment {
     /// As [`Experiment::identify`].
     pub fn constant_regressor(&self) -> Result<Draw, SimError> {
         let basis = Constant::new([0.5; UNITS])?;
-        let output = follow(&self.recipe, &self.trajectory, &[basis; 2], &comparison(0, 0), |_, _| {})?;
+        let output = self.follow(&[basis; 2], &comparison(0, 0), |_, _| {})?;
         Ok(Draw { number: 0, output })
     }
 
@@ -127,12 +168,18 @@ impl Experiment {
     /// # Errors
     /// As [`Experiment::identify`].
     pub fn trace(&self, seed: u64, number: u64) -> Result<Trace, SimError> {
-        let bases = layers(&self.recipe, &self.trajectory, seed, number)?;
+        match self.recipe.identifier.network.units {
+            WIDE => self.traced::<WIDE>(seed, number),
+            _ => self.traced::<UNITS>(seed, number),
+        }
+    }
+
+    fn traced<const N: usize>(&self, seed: u64, number: u64) -> Result<Trace, SimError> {
         let row = AngleRow::new(self.recipe.identifier.pole, 0.0)?;
         let (mut measured, mut estimated) = ([row; 2], [row; 2]);
         let (run, h) = (&self.trajectory, self.trajectory.step);
-        let mut trace = Trace::default();
-        follow(&self.recipe, run, &bases, &comparison(seed, number), |k, steps| {
+        let mut trace = Trace { weight: [0, 1].map(|_| vec![Vec::new(); N]), ..Trace::default() };
+        self.draw::<N>(seed, number, |k, steps| {
             trace.time.push((k + 1) as f64 * h);
             for (i, step) in steps.iter().enumerate() {
                 let (from, to) = (run.states[k].angle[i], run.states[k + 1].angle[i]);
@@ -140,7 +187,8 @@ impl Experiment {
                 let speed = (to - from) / h;
                 trace.angle_error[i].push(measured[i].step(from, to, speed, h));
                 trace.angle_estimate[i].push(measured[i].estimate());
-                trace.angle_error_estimated_speed[i].push(estimated[i].step(from, to, speed - 0.5 * (step.error_before + step.error_after), h));
+                let missed = 0.5 * (step.error_before + step.error_after);
+                trace.angle_error_estimated_speed[i].push(estimated[i].step(from, to, speed - missed, h));
                 trace.speed_estimate[i].push(step.after.output);
                 trace.speed_error[i].push(step.error_after);
                 for (history, w) in trace.weight[i].iter_mut().zip(step.after.weight) {

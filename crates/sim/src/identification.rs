@@ -1,37 +1,18 @@
 //! Identifiers over a recorded trajectory.
 
-use identifier::{Identifier, Ledger, Midpoint, Step};
-use nn_basis::{Activation, Basis, SigmoidLayer};
+use identifier::{Identifier, Law, Ledger, Step};
+use nn_basis::Basis;
 
 use crate::experiment::OutputIndices;
+use crate::network_recipe::SIGNALS;
 use crate::random::{Purpose, Stream};
-use crate::{INPUTS, Recipe, SimError, Trajectory, UNITS};
+use crate::{SimError, Trajectory};
 
 /// Comparison weights are drawn between minus and plus this, rad/s²: the size that weights really take.
 const COMPARISON_RANGE: f64 = 30.0;
 
-/// A random first layer per output.
-pub(crate) fn layers(
-    recipe: &Recipe,
-    trajectory: &Trajectory,
-    seed: u64,
-    draw: u64,
-) -> Result<[SigmoidLayer<f64, INPUTS, UNITS>; 2], SimError> {
-    let (p, i) = (&trajectory.parameters, &recipe.identifier);
-    let speed = i.speed_scale * trajectory.speed / p.wheel_radius;
-    let torque = i.torque_scale * p.adhesion * p.mass * p.gravity * p.wheel_radius;
-    let range = i.first_layer_range;
-    let mut stream = Stream::new(seed, Purpose::IdentifierLayer, draw);
-    let mut layer = || {
-        let threshold = std::array::from_fn(|_| stream.uniform(-range, range));
-        let weight = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-range, range)));
-        SigmoidLayer::new(threshold, weight, [speed, speed, torque, torque], Activation::Logistic)
-    };
-    Ok([layer()?, layer()?])
-}
-
 /// Comparison weights for the certificates of a draw.
-pub(crate) fn comparison(seed: u64, draw: u64) -> [[f64; UNITS]; 2] {
+pub(crate) fn comparison<const N: usize>(seed: u64, draw: u64) -> [[f64; N]; 2] {
     let mut stream = Stream::new(seed, Purpose::Comparison, draw);
     std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)))
 }
@@ -40,26 +21,24 @@ pub(crate) fn comparison(seed: u64, draw: u64) -> [[f64; UNITS]; 2] {
 ///
 /// The regressor of an interval is taken at its mean speeds and the torques held over it, as the midpoint rule asks.
 /// Each step is certified against `comparison` and against zero weights.
-pub(crate) fn follow<B: Basis<f64, INPUTS, UNITS>>(
-    recipe: &Recipe,
+pub(crate) fn follow<B: Basis<f64, SIGNALS, N>, L: Law<f64, N> + Copy, const N: usize>(
     trajectory: &Trajectory,
+    pole: f64,
+    law: L,
     bases: &[B; 2],
-    comparison: &[[f64; UNITS]; 2],
-    mut watch: impl FnMut(usize, &[Step<f64, UNITS>; 2]),
+    comparison: &[[f64; N]; 2],
+    mut watch: impl FnMut(usize, &[Step<f64, N>; 2]),
 ) -> Result<[OutputIndices; 2], SimError> {
-    let (pole, h) = (recipe.identifier.pole, trajectory.step);
-    let law = Midpoint::new(recipe.identifier.gain)?;
+    let h = trajectory.step;
     let mut identifiers = [Identifier::new(pole, law, 0.0)?, Identifier::new(pole, law, 0.0)?];
     let mut tallies = [Tally::new(pole), Tally::new(pole)];
-    for (k, torque) in trajectory.torques.iter().enumerate() {
+    for k in 0..trajectory.torques.len() {
         let (now, next) = (&trajectory.states[k].speed, &trajectory.states[k + 1].speed);
-        let mean = [0.5 * (now[0] + next[0]), 0.5 * (now[1] + next[1])];
-        let steps: [Step<f64, UNITS>; 2] = std::array::from_fn(|i| {
-            let other = 1 - i;
-            let phi = bases[i].regressor(&[mean[i], mean[other], torque[i], torque[other]]);
-            let step = identifiers[i].step(now[i], next[i], &phi, h);
+        let signals = trajectory.signals(k);
+        let steps: [Step<f64, N>; 2] = std::array::from_fn(|i| {
+            let step = identifiers[i].step(now[i], next[i], &bases[i].regressor(&signals[i]), h);
             tallies[i].chosen.add(&identifiers[i].certificate(&step, &comparison[i]));
-            tallies[i].zero.add(&identifiers[i].certificate(&step, &[0.0; UNITS]));
+            tallies[i].zero.add(&identifiers[i].certificate(&step, &[0.0; N]));
             step
         });
         let time = (k + 1) as f64 * h;
@@ -83,6 +62,7 @@ struct Tally {
     phi2: f64,
     peak: [f64; 5],
     peak_at: [f64; 5],
+    window: [f64; 5],
     quiet: f64,
     quiet_count: usize,
 }
@@ -97,18 +77,20 @@ impl Tally {
             phi2: 0.0,
             peak: [0.0; 5],
             peak_at: [0.0; 5],
+            window: [0.0; 5],
             quiet: 0.0,
             quiet_count: 0,
         }
     }
 
-    fn add(&mut self, trajectory: &Trajectory, time: f64, step: &Step<f64, UNITS>) {
+    fn add<const N: usize>(&mut self, trajectory: &Trajectory, time: f64, step: &Step<f64, N>) {
         let error = step.error_after.abs();
         self.max = self.max.max(error);
         self.squares += error * error;
         self.phi2 += step.sample.regressor.iter().map(|p| p * p).sum::<f64>();
         let windows = &trajectory.windows;
         if let Some(i) = windows.end.iter().position(|end| time <= *end) {
+            self.window[i] += error * error;
             if time > windows.quiet[i] {
                 self.quiet += error * error;
                 self.quiet_count += 1;
@@ -126,6 +108,7 @@ impl Tally {
             rmse: (self.squares / n).sqrt(),
             peak: self.peak,
             peak_at: self.peak_at,
+            share: self.window.map(|w| w / self.squares),
             quiet_rms: (self.quiet / self.quiet_count.max(1) as f64).sqrt(),
             mean_regressor_square: self.phi2 / n,
             identity_residual: self.chosen.worst_residual().max(self.zero.worst_residual()),
@@ -138,38 +121,22 @@ impl Tally {
 mod tests {
     use std::cell::RefCell;
 
+    use identifier::Midpoint;
     use nn_basis::Basis;
 
-    use super::{follow, layers};
-    use crate::{INPUTS, Recipe, RobotSet, Trajectory, UNITS};
+    use super::follow;
+    use crate::network_recipe::{SIGNALS, Signals};
+    use crate::{Recipe, RobotSet, Trajectory, UNITS};
 
     /// A basis that notes what it is shown.
     #[derive(Default)]
-    struct Probe(RefCell<Vec<[f64; INPUTS]>>);
+    struct Probe(RefCell<Vec<Signals>>);
 
-    impl Basis<f64, INPUTS, UNITS> for Probe {
-        fn regressor(&self, input: &[f64; INPUTS]) -> [f64; UNITS] {
+    impl Basis<f64, SIGNALS, UNITS> for Probe {
+        fn regressor(&self, input: &Signals) -> [f64; UNITS] {
             self.0.borrow_mut().push(*input);
             [0.5; UNITS]
         }
-    }
-
-    #[test]
-    fn outputs_have_their_own_layers_and_thresholds() {
-        let recipe = Recipe { samples: 1, ..Recipe::default() };
-        let run = Trajectory::simulate(&recipe, RobotSet::B).expect("runs");
-        let [three, four] = layers(&recipe, &run, 1, 0).expect("valid");
-        assert_ne!(three, four);
-        let mut spread = 0.0_f64;
-        for layer in [three, four] {
-            for phi in layer.regressor(&[0.0; INPUTS]) {
-                // logistic(±1): thresholds are U(−1, 1) too.
-                assert!((0.268..0.732).contains(&phi), "{phi}");
-                spread = spread.max((phi - 0.5).abs());
-            }
-        }
-        assert!(spread > 0.05);
-        assert_eq!([three, four], layers(&recipe, &run, 1, 0).expect("valid"));
     }
 
     #[test]
@@ -177,12 +144,14 @@ mod tests {
         let recipe = Recipe { samples: 5000, ..Recipe::default() };
         let run = Trajectory::simulate(&recipe, RobotSet::B).expect("runs");
         let probes = [Probe::default(), Probe::default()];
-        follow(&recipe, &run, &probes, &[[0.0; UNITS]; 2], |_, _| {}).expect("finite");
+        let law = Midpoint::new(500.0).expect("valid");
+        follow(&run, 8.0, law, &probes, &[[0.0; UNITS]; 2], |_, _| {}).expect("finite");
         let k = 4800;
         let mean = |i: usize| 0.5 * (run.states[k].speed[i] + run.states[k + 1].speed[i]);
+        let turned = |i: usize| 0.5 * (run.states[k].angle[i] + run.states[k + 1].angle[i]);
         let u = run.torques[k];
         assert!((u[0] - u[1]).abs() > 1.0, "the robot turns here, so the sides differ");
-        assert_eq!(probes[0].0.borrow()[k], [mean(0), mean(1), u[0], u[1]]);
-        assert_eq!(probes[1].0.borrow()[k], [mean(1), mean(0), u[1], u[0]]);
+        assert_eq!(probes[0].0.borrow()[k], [turned(0), turned(1), mean(0), mean(1), u[0], u[1]]);
+        assert_eq!(probes[1].0.borrow()[k], [turned(1), turned(0), mean(1), mean(0), u[1], u[0]]);
     }
 }

@@ -24,6 +24,7 @@
 mod error;
 mod experiment;
 mod identification;
+mod network_recipe;
 mod random;
 mod recipe;
 mod rk4;
@@ -33,7 +34,10 @@ mod trajectory;
 
 pub use error::SimError;
 pub use experiment::{Draw, Experiment, OutputIndices, Trace};
+pub use network_recipe::{Input, NetworkRecipe, SIGNALS, Scaling, Signals};
 pub use random::{Purpose, Stream};
-pub use recipe::{ControllerRecipe, INPUTS, IdentifierRecipe, PathRecipe, Recipe, RobotSet, UNITS};
+pub use recipe::{
+    ControllerRecipe, IdentifierRecipe, PathRecipe, Recipe, RobotSet, Scenario, Scenarios, Scheme, SpeedProfile, UNITS,
+};
 pub use rk4::rk4;
 pub use trajectory::{EVENTS, Trajectory, Windows};

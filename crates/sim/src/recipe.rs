@@ -1,15 +1,15 @@
 //! Everything that the experiment assumes, as data.
 
-use controller::Loop;
-use robot_model::paper::Parameters;
+use controller::{Loop, Profile};
+use robot_model::paper::{Parameters, Variant};
 use serde::{Deserialize, Serialize};
 
-use crate::SimError;
+use crate::{NetworkRecipe, SimError};
 
 /// Neurons per output of the identifier: the paper's 6.
 pub const UNITS: usize = 6;
-/// Inputs of the identifier's network besides the threshold: own speed, other speed, own torque, other torque.
-pub const INPUTS: usize = 4;
+/// Neurons per output of the wider network that the sensitivity table looks at.
+pub(crate) const WIDE: usize = 12;
 /// Neurons of the controller's network.
 pub(crate) const CONTROLLER_UNITS: usize = 8;
 
@@ -26,14 +26,66 @@ pub enum RobotSet {
 }
 
 impl RobotSet {
-    /// Parameters, cruising speed (m/s) and radius of the loop (m) of the set.
-    pub fn scenario(self) -> (Parameters, f64, f64) {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::A, Self::B, Self::C];
+
+    /// Its letter.
+    pub fn name(self) -> &'static str {
         match self {
-            Self::A => (Parameters::SET_A, 0.4, 1.2),
-            Self::B => (Parameters::SET_B, 0.5, 1.5),
-            Self::C => (Parameters::SET_C, 0.6, 1.8),
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
         }
     }
+}
+
+/// A robot and how it is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Cruising speed, m/s.
+    pub speed: f64,
+    /// Radius of the loop, m.
+    pub radius: f64,
+    /// The robot.
+    pub robot: Parameters,
+}
+
+/// The three scenarios.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenarios {
+    /// 20 kg at 0.4 m/s.
+    #[serde(rename = "A")]
+    pub a: Scenario,
+    /// 40 kg at 0.5 m/s.
+    #[serde(rename = "B")]
+    pub b: Scenario,
+    /// 90 kg at 0.6 m/s.
+    #[serde(rename = "C")]
+    pub c: Scenario,
+}
+
+impl Scenarios {
+    /// The scenario of a set.
+    pub fn of(&self, set: RobotSet) -> &Scenario {
+        match set {
+            RobotSet::A => &self.a,
+            RobotSet::B => &self.b,
+            RobotSet::C => &self.c,
+        }
+    }
+}
+
+/// How the speed rises and falls; see [`Profile`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpeedProfile {
+    /// Constant acceleration.
+    #[default]
+    Trapezoid,
+    /// Continuous acceleration.
+    Smoothstep,
 }
 
 /// The path in time; speed and radius come with the robot's set.
@@ -50,6 +102,8 @@ pub struct PathRecipe {
     pub lead_out: f64,
     /// Duration of the braking T_br, s.
     pub brake: f64,
+    /// Shape of accelerating and braking.
+    pub profile: SpeedProfile,
 }
 
 /// The tracking controller; see [`controller::Gains`] for the symbols.
@@ -78,6 +132,19 @@ pub struct ControllerRecipe {
     pub seed: u64,
 }
 
+/// The scheme by which the identifier advances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scheme {
+    /// [`identifier::Midpoint`].
+    #[default]
+    Midpoint,
+    /// [`identifier::Exponential`].
+    Exponential,
+    /// [`identifier::Euler`].
+    Euler,
+}
+
 /// The identifier.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -86,14 +153,10 @@ pub struct IdentifierRecipe {
     pub pole: f64,
     /// γ.
     pub gain: f64,
-    /// Neurons per output; must be [`UNITS`].
-    pub units: usize,
-    /// First-layer weights are uniform between minus and plus this.
-    pub first_layer_range: f64,
-    /// Speed inputs are divided by this times v_max/r.
-    pub speed_scale: f64,
-    /// Torque inputs are divided by this times μ_p m g r.
-    pub torque_scale: f64,
+    /// How it advances.
+    pub scheme: Scheme,
+    /// Its network.
+    pub network: NetworkRecipe,
 }
 
 /// The recipe of the experiment.
@@ -114,6 +177,10 @@ pub struct Recipe {
     pub disturbance_at: f64,
     /// How much it rises, Δf_r.
     pub disturbance: f64,
+    /// Which readings of the plant are taken.
+    pub plant: Variant,
+    /// The robots.
+    pub sets: Scenarios,
     /// The path.
     pub path: PathRecipe,
     /// The controller.
@@ -125,6 +192,7 @@ pub struct Recipe {
 impl Default for Recipe {
     /// The frozen recipe of the reproduction, without its texts.
     fn default() -> Self {
+        let scenario = |speed, radius, robot| Scenario { speed, radius, robot };
         Self {
             title: String::new(),
             disclosure: String::new(),
@@ -133,7 +201,20 @@ impl Default for Recipe {
             substeps: 20,
             disturbance_at: 12.0,
             disturbance: 0.3,
-            path: PathRecipe { accelerate: 1.0, lead_in: 3.0, blend: 0.5, lead_out: 3.0, brake: 2.0 },
+            plant: Variant::default(),
+            sets: Scenarios {
+                a: scenario(0.4, 1.2, Parameters::SET_A),
+                b: scenario(0.5, 1.5, Parameters::SET_B),
+                c: scenario(0.6, 1.8, Parameters::SET_C),
+            },
+            path: PathRecipe {
+                accelerate: 1.0,
+                lead_in: 3.0,
+                blend: 0.5,
+                lead_out: 3.0,
+                brake: 2.0,
+                profile: SpeedProfile::Trapezoid,
+            },
             controller: ControllerRecipe {
                 bandwidth: 100.0,
                 kx: 1.0,
@@ -149,10 +230,8 @@ impl Default for Recipe {
             identifier: IdentifierRecipe {
                 pole: 8.0,
                 gain: 500.0,
-                units: UNITS,
-                first_layer_range: 1.0,
-                speed_scale: 1.4,
-                torque_scale: 0.5,
+                scheme: Scheme::Midpoint,
+                network: NetworkRecipe::default(),
             },
         }
     }
@@ -164,41 +243,44 @@ impl Recipe {
     /// # Errors
     /// [`SimError::Recipe`] says what does not fit.
     pub fn check(&self) -> Result<(), SimError> {
-        let positive = |name: &str, value: f64| {
-            if value.is_finite() && value > 0.0 {
-                Ok(())
-            } else {
-                Err(SimError::Recipe(format!("{name} is {value}, but it must be a finite number larger than zero")))
-            }
-        };
         positive("step", self.step)?;
-        positive("identifier.first_layer_range", self.identifier.first_layer_range)?;
-        positive("identifier.speed_scale", self.identifier.speed_scale)?;
-        positive("identifier.torque_scale", self.identifier.torque_scale)?;
         positive("disturbance_at", self.disturbance_at)?;
         if self.samples == 0 || self.substeps == 0 {
             return Err(SimError::Recipe("samples and substeps must be at least 1".into()));
         }
-        if self.identifier.units != UNITS {
-            let found = self.identifier.units;
-            return Err(SimError::Recipe(format!(
-                "identifier.units is {found}, but this program is built for {UNITS}"
-            )));
-        }
-        Ok(())
+        self.identifier.network.check()
     }
 
-    pub(crate) fn path(&self, speed: f64, radius: f64) -> Loop {
+    /// Duration of the run, s.
+    pub fn duration(&self) -> f64 {
+        self.samples as f64 * self.step
+    }
+
+    /// The loop that a scenario drives.
+    pub fn path(&self, scenario: &Scenario) -> Loop {
         let p = &self.path;
         Loop {
-            speed,
-            radius,
+            speed: scenario.speed,
+            radius: scenario.radius,
             accelerate: p.accelerate,
             lead_in: p.lead_in,
             blend: p.blend,
             lead_out: p.lead_out,
             brake: p.brake,
             turn: controller::Turn::Left,
+            profile: match p.profile {
+                SpeedProfile::Trapezoid => Profile::Trapezoid,
+                SpeedProfile::Smoothstep => Profile::Smoothstep,
+            },
         }
+    }
+}
+
+/// Refuses what is not a finite number above zero.
+pub(crate) fn positive(name: &str, value: f64) -> Result<(), SimError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(SimError::Recipe(format!("{name} is {value}, but it must be a finite number larger than zero")))
     }
 }

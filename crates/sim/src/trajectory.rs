@@ -4,6 +4,7 @@ use controller::{Gains, Loop, LoopPath, PathReference, Tracking, WheelState};
 use nn_basis::{Activation, SigmoidLayer};
 use robot_model::paper::{PaperRobot, Parameters, State};
 
+use crate::network_recipe::Signals;
 use crate::random::{Purpose, Stream};
 use crate::recipe::CONTROLLER_UNITS;
 use crate::{Recipe, RobotSet, SimError, rk4};
@@ -58,8 +59,8 @@ impl Trajectory {
     /// # Errors
     /// [`SimError`] if the recipe cannot be used, a value stops being finite, or a wheel lifts.
     pub fn simulate(recipe: &Recipe, set: RobotSet) -> Result<Self, SimError> {
-        let (parameters, speed, radius) = set.scenario();
-        Self::of(recipe, &parameters, &recipe.path(speed, radius))
+        let scenario = recipe.sets.of(set);
+        Self::of(recipe, &scenario.robot, &recipe.path(scenario))
     }
 
     /// Simulates the recipe with any robot on any loop; the durations of the recipe's own path are not used.
@@ -68,7 +69,7 @@ impl Trajectory {
     /// As [`Trajectory::simulate`].
     pub fn of(recipe: &Recipe, parameters: &Parameters, path: &Loop) -> Result<Self, SimError> {
         recipe.check()?;
-        let nominal = PaperRobot::<f64>::new(parameters)?;
+        let nominal = PaperRobot::<f64>::with_variant(parameters, recipe.plant)?;
         let disturbed = nominal.with_rolling_resistance(parameters.rolling_resistance + recipe.disturbance)?;
         let checked = LoopPath::new(path)?;
         let windows = windows(recipe, path, &checked)?;
@@ -117,6 +118,18 @@ impl Trajectory {
         }
         Ok(run)
     }
+
+    /// What the networks of both outputs may see over interval k: mean angles and speeds, and the torques held.
+    #[inline]
+    pub fn signals(&self, k: usize) -> [Signals; 2] {
+        let (now, next, u) = (&self.states[k], &self.states[k + 1], &self.torques[k]);
+        let angle = [0, 1].map(|i| 0.5 * (now.angle[i] + next.angle[i]));
+        let speed = [0, 1].map(|i| 0.5 * (now.speed[i] + next.speed[i]));
+        [0, 1].map(|own| {
+            let other = 1 - own;
+            [angle[own], angle[other], speed[own], speed[other], u[own], u[other]]
+        })
+    }
 }
 
 /// Length of a vector with the four basic operations and a square root only: the same bits everywhere.
@@ -147,7 +160,7 @@ fn tracking(
     let mut stream = Stream::new(c.seed, Purpose::ControllerLayer, 0);
     let threshold = std::array::from_fn(|_| stream.uniform(-1.0, 1.0));
     let weight = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-1.0, 1.0)));
-    let scale = recipe.identifier.speed_scale * path.speed / parameters.wheel_radius;
+    let scale = recipe.identifier.network.speed_scale * path.speed / parameters.wheel_radius;
     let layer = SigmoidLayer::new(threshold, weight, [scale; 4], Activation::Logistic)?;
     Ok(Tracking::new(&gains, layer, PathReference::new(checked))?)
 }

@@ -1,15 +1,14 @@
 //! The paper's online identifier as a locator: its estimate of what the calibrated model's wheel dynamics lack.
 //!
 //! The identifier follows x of `ẋ = −a x + G(x, u)`. Of G the calibrated model knows a part, `G_m = ẋ_m + a x` with
-//! `J ẋ_m = u − load`, where `load` is what the model needs to turn its wheels as they were measured. The part of the
-//! wheel speed that this leaves, `e = x − x_m` with `ẋ_m = −a x_m + G_m`, obeys `ė = −a e + (G − G_m)` exactly, so
-//! the identifier as it is follows e, and `J Ŵᵀφ` is the residual torque. The free runs know nothing of it: what is
-//! looked for is shown by the weights, not absorbed by them.
+//! `J ẋ_m = u − load`, where `load` is what the model needs to turn its wheels as they were measured. With G_m as the
+//! identifier's known part, `J Ŵᵀφ` is the residual torque. The free runs know nothing of it: what is looked for is
+//! shown by the weights, not absorbed by them.
 
-use identifier::{Identifier, IdentifierError, Ledger, Midpoint};
-use nn_basis::{Activation, Basis, SigmoidLayer, dot};
+use identifier::{Identifier, IdentifierError, Ledger, Midpoint, Sample};
+use nn_basis::{Basis, dot};
 use robot_model::{Active, Plant, Robot, State};
-use sim::{INPUTS, Purpose, Recipe, Stream, UNITS};
+use sim::{Purpose, Recipe, Stream, UNITS};
 
 use crate::hold::Hold;
 use crate::locate::told::TorqueCertificate;
@@ -119,36 +118,28 @@ pub(crate) fn follow(
     let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
     let recipe = Recipe::default().identifier;
     let fastest = speed.iter().flatten().fold(1.0_f64, |a, v| a.max(v.abs()));
-    let (speed_scale, torque_scale) = (recipe.speed_scale * fastest, largest_torque.max(1e-3));
+    let (speed_scale, torque_scale) = (recipe.network.speed_scale * fastest, largest_torque.max(1e-3));
+    let scale = [1.0, 1.0, speed_scale, speed_scale, torque_scale, torque_scale];
     let mut stream = Stream::new(SEED, Purpose::IdentifierLayer, 0);
-    let range = recipe.first_layer_range;
     let (pole, law, h) = (recipe.pole, Midpoint::new(recipe.gain)?, run.period);
     let mut raw = vec![[0.0; 2]; surplus.len()];
     let mut estimate = raw.clone();
     let mut certificate = [TorqueCertificate { holds: true, error_energy: 0.0, bound: 0.0, identity: 0.0 }; 2];
     for j in 0..2 {
-        let threshold = std::array::from_fn(|_| stream.uniform(-range, range));
-        let weight = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-range, range)));
-        let scale: [f64; INPUTS] = [speed_scale, speed_scale, torque_scale, torque_scale];
-        let Ok(layer) = SigmoidLayer::<f64, INPUTS, UNITS>::new(threshold, weight, scale, Activation::Logistic) else {
-            continue;
-        };
-        let mut identifier = Identifier::new(pole, law, 0.0)?;
+        let Ok(layer) = recipe.network.layer::<UNITS>(&mut stream, scale) else { continue };
+        let mut identifier = Identifier::new(pole, law, speed[0][j])?;
         let mut ledger = Ledger::new(pole);
-        let (mut x, mut model) = (speed[0][j], speed[0][j]);
         for (k, torque) in surplus.iter().enumerate() {
-            let next = speed[k + 1][j];
+            let (start, end) = (speed[k][j], speed[k + 1][j]);
             let rate = torque[j] / inertia;
-            let drive = pole * 0.5 * (x + next) + rate;
-            let ahead = (model * (1.0 - 0.5 * pole * h) + h * drive) / (1.0 + 0.5 * pole * h);
             let mean = |i: usize| 0.5 * (speed[k][i] + speed[k + 1][i]);
             let u = run.torque[k];
-            let phi = layer.regressor(&[mean(j), mean(1 - j), u[j], u[1 - j]]);
-            let step = identifier.step(x - model, next - ahead, &phi, h);
+            let phi = layer.regressor(&[0.0, 0.0, mean(j), mean(1 - j), u[j], u[1 - j]]);
+            let known = pole * mean(j) + rate;
+            let step = identifier.follow(&Sample { start, end, regressor: phi, known, h });
             ledger.add(&identifier.certificate(&step, &[0.0; UNITS]));
-            raw[k][j] = inertia * ((next - x) / h - rate);
+            raw[k][j] = inertia * ((end - start) / h - rate);
             estimate[k][j] = 0.5 * inertia * (dot(&step.before.weight, &phi) + dot(&step.after.weight, &phi));
-            (x, model) = (next, ahead);
         }
         certificate[j] = TorqueCertificate {
             holds: ledger.holds(),

@@ -1,8 +1,8 @@
 //! The plane body that Eq. 8 leaves open: slip, loads, forces, motion.
 
-use super::{Constants, Parameters};
+use super::{Belt, Constants, Parameters, Tyre, Variant};
 use crate::ModelError;
-use crate::contact::{Stance, kiencke};
+use crate::contact::{Balance, Stance, kiencke};
 use crate::scalar::{Scalar, real};
 
 /// The state of the robot; as a rate, each field holds its own time derivative.
@@ -66,19 +66,22 @@ pub struct Outputs<T> {
 /// The closed plant: Eq. 8 for the wheels, planar dynamics for the body.
 ///
 /// `m a_R = Σ F`, `I_z ω̇ = Σ (x F_y − y F_x)`, `v̇_x = a_x + ω v_y`, `v̇_y = a_y − ω v_x`, with
-/// `F_i = N_i μ_p (K(λ_ix), K(λ_iy))`, K Kiencke's law in each direction by itself. Loads depend linearly on a_R and
+/// `F_i = N_i μ_p (K(λ_ix), K(λ_iy))`, K Kiencke's law in each direction by itself; a [`Variant`] may take another
+/// belt or tyre. Loads depend linearly on a_R and
 /// forces linearly on loads, so a 2×2 system closes them without iteration.
 ///
 /// Unlike Eq. 5 of the paper the body may move sideways: a skid-steered robot does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperRobot<T> {
     parameters: Parameters,
+    variant: Variant,
     constants: Constants<T>,
     stance: Stance<T>,
     mass: T,
     yaw_inertia: T,
     radius: T,
     adhesion: T,
+    rolling_resistance: T,
     floor2: T,
 }
 
@@ -88,11 +91,20 @@ impl<T: Scalar> PaperRobot<T> {
     /// # Errors
     /// [`ModelError`] names the first quantity that no robot can have.
     pub fn new(parameters: &Parameters) -> Result<Self, ModelError> {
+        Self::with_variant(parameters, Variant::default())
+    }
+
+    /// Builds a variant of the plant from checked parameters.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the first quantity that no robot can have.
+    pub fn with_variant(parameters: &Parameters, variant: Variant) -> Result<Self, ModelError> {
         parameters.check()?;
         let p = parameters;
         let com_x = 0.5 * p.wheelbase - p.com_to_front_axle;
         Ok(Self {
             parameters: *p,
+            variant,
             constants: Constants::new(p),
             stance: Stance::new(
                 real(p.mass),
@@ -105,6 +117,7 @@ impl<T: Scalar> PaperRobot<T> {
             yaw_inertia: real(p.yaw_inertia),
             radius: real(p.wheel_radius),
             adhesion: real(p.adhesion),
+            rolling_resistance: real(p.rolling_resistance),
             floor2: real(p.slip_floor * p.slip_floor),
         })
     }
@@ -116,12 +129,17 @@ impl<T: Scalar> PaperRobot<T> {
     /// # Errors
     /// [`ModelError`] if `rolling_resistance` is negative or not finite.
     pub fn with_rolling_resistance(&self, rolling_resistance: f64) -> Result<Self, ModelError> {
-        Self::new(&Parameters { rolling_resistance, ..self.parameters })
+        Self::with_variant(&Parameters { rolling_resistance, ..self.parameters }, self.variant)
     }
 
     /// The parameters that the plant was built from.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
+    }
+
+    /// The variant of the plant.
+    pub fn variant(&self) -> Variant {
+        self.variant
     }
 
     /// The constants of Eq. 8.
@@ -145,6 +163,42 @@ impl<T: Scalar> PaperRobot<T> {
         })
     }
 
+    /// The share K of the peak adhesion in both directions.
+    #[inline]
+    fn share(&self, slip: [T; 2]) -> [T; 2] {
+        let peak = self.constants.slip_at_peak;
+        match self.variant.tyre {
+            Tyre::Uncoupled => slip.map(|s| kiencke(s, peak)),
+            Tyre::Combined => {
+                let total2 = slip[0] * slip[0] + slip[1] * slip[1];
+                let per_slip = real::<T>(2.0) * peak / (peak * peak + total2);
+                slip.map(|s| per_slip * s)
+            }
+        }
+    }
+
+    /// What the torques of the two sides must overcome besides inertia, N m.
+    #[inline]
+    fn resisting_torque(
+        &self,
+        speed: [T; 2],
+        share: &[[T; 2]; 4],
+        balance: &Balance<T>,
+        acceleration: [T; 2],
+    ) -> [T; 2] {
+        let c = &self.constants;
+        match self.variant.belt {
+            Belt::Literal => c.resisting_torque_at(speed, [share[2][0], share[3][0]], acceleration),
+            Belt::SideSum => core::array::from_fn(|i| {
+                let (front, rear) = (i, i + 2);
+                let traction = balance.force[front][0] + balance.force[rear][0];
+                let rolling = self.rolling_resistance * (balance.load[front] + balance.load[rear]);
+                let sign = c.sign(speed[i]);
+                real::<T>(2.0) * c.a2 * sign + self.radius * (traction + rolling * sign)
+            }),
+        }
+    }
+
     /// Rate of the state and what was computed on the way.
     ///
     /// `torque`: τ3 (left), τ4 (right) of the sides at the wheels, N m.
@@ -152,10 +206,11 @@ impl<T: Scalar> PaperRobot<T> {
     #[inline]
     pub fn evaluate(&self, state: &State<T>, torque: [T; 2]) -> (State<T>, Outputs<T>) {
         let slip = self.slip(state);
-        let peak = self.constants.slip_at_peak;
-        let balance = self.stance.settle(&slip.map(|s| s.map(|s| self.adhesion * kiencke(s, peak))));
+        let share = slip.map(|s| self.share(s));
+        let balance = self.stance.settle(&share.map(|s| s.map(|s| self.adhesion * s)));
         let acceleration = balance.total.map(|f| f / self.mass);
         let [ax, ay] = acceleration;
+        let resisting = self.resisting_torque(state.speed, &share, &balance, acceleration);
         let (sin, cos) = state.yaw.sin_cos();
         let rate = State {
             x: state.vx * cos - state.vy * sin,
@@ -165,7 +220,7 @@ impl<T: Scalar> PaperRobot<T> {
             vy: ay - state.yaw_rate * state.vx,
             yaw_rate: balance.yaw_moment / self.yaw_inertia,
             angle: state.speed,
-            speed: self.constants.wheel_acceleration(torque, state.speed, [slip[2][0], slip[3][0]], acceleration),
+            speed: self.constants.accelerated(torque, resisting),
         };
         (rate, Outputs { load: balance.load, slip, acceleration })
     }

@@ -69,12 +69,18 @@ impl<T: Scalar> Constants<T> {
     /// `speed`: θ̇3, θ̇4 in rad/s; `slip`: λ3, λ4; `acceleration`: a_Rx, a_Ry in body axes, m/s².
     #[inline]
     pub fn resisting_torque(&self, speed: [T; 2], slip: [T; 2], acceleration: [T; 2]) -> [T; 2] {
+        self.resisting_torque_at(speed, slip.map(|s| kiencke(s, self.slip_at_peak)), acceleration)
+    }
+
+    /// The vector C for shares K of the peak adhesion that any tyre law may have given.
+    #[inline]
+    pub(super) fn resisting_torque_at(&self, speed: [T; 2], share: [T; 2], acceleration: [T; 2]) -> [T; 2] {
         let two = real::<T>(2.0);
         let [ax, ay] = acceleration;
         let side = |i: usize, lateral: T| {
-            let sign = (speed[i] / self.sign_width).tanh();
+            let sign = self.sign(speed[i]);
             two * self.a2 * sign
-                + two * kiencke(slip[i], self.slip_at_peak) * (self.a3 + self.a4 * ax + self.a5 * lateral)
+                + two * share[i] * (self.a3 + self.a4 * ax + self.a5 * lateral)
                 + two * (self.a6 + self.a7 * ax + self.a8 * lateral) * sign
         };
         [side(0, -ay), side(1, ay)]
@@ -85,8 +91,19 @@ impl<T: Scalar> Constants<T> {
     /// `torque`: τ3, τ4 in N m; the rest as in [`Constants::resisting_torque`].
     #[inline]
     pub fn wheel_acceleration(&self, torque: [T; 2], speed: [T; 2], slip: [T; 2], acceleration: [T; 2]) -> [T; 2] {
-        let c = self.resisting_torque(speed, slip, acceleration);
+        self.accelerated(torque, self.resisting_torque(speed, slip, acceleration))
+    }
+
+    /// `θ̈ = (τ − C) / (2 a1)`, rad/s².
+    #[inline]
+    pub(super) fn accelerated(&self, torque: [T; 2], c: [T; 2]) -> [T; 2] {
         let inertia = real::<T>(2.0) * self.a1;
         [(torque[0] - c[0]) / inertia, (torque[1] - c[1]) / inertia]
+    }
+
+    /// The smooth sign of a wheel speed, `tanh(θ̇ / width)`.
+    #[inline]
+    pub(super) fn sign(&self, speed: T) -> T {
+        (speed / self.sign_width).tanh()
     }
 }

@@ -5,7 +5,8 @@
 //!
 //! * [`Parameters`]: what a robot is made of, sets A, B and C, and the checks;
 //! * [`Constants`]: the paper's a1..a8 and Eq. 8 taken literally;
-//! * [`PaperRobot`]: the closed plant, [`State`] and torques in, rate and [`Outputs`] out.
+//! * [`PaperRobot`]: the closed plant, [`State`] and torques in, rate and [`Outputs`] out;
+//! * [`Variant`]: two flagged departures, the sum over the belt and combined slip.
 //!
 //! Sides: 0 left (the paper's wheel 3), 1 right (wheel 4). A belt joins the wheels of a side, so both turn alike.
 //!
@@ -25,7 +26,9 @@ mod constants;
 mod parameters;
 #[cfg(test)]
 mod tests;
+mod variant;
 
 pub use body::{Outputs, PaperRobot, State};
 pub use constants::Constants;
 pub use parameters::Parameters;
+pub use variant::{Belt, Tyre, Variant};

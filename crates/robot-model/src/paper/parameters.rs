@@ -8,6 +8,11 @@ use crate::error::{not_negative, positive, within};
 /// The paper publishes none of them; the sets are round numbers for robots of 20, 40 and 90 kg.
 /// Front and rear, left and right are symmetric except for the place of the centre of mass on the long axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields, rename_all = "snake_case")
+)]
 pub struct Parameters {
     /// Mass m, kg.
     pub mass: f64,

@@ -1,6 +1,6 @@
 //! Force balances, symmetry and checks of the paper's plant.
 
-use super::{PaperRobot, Parameters, State};
+use super::{Belt, PaperRobot, Parameters, State, Tyre, Variant};
 use crate::{ModelError, Scalar, real};
 
 fn robot<T: Scalar>(p: &Parameters) -> PaperRobot<T> {
@@ -190,4 +190,127 @@ fn impossible_robots_are_refused_by_name() {
     let outside = PaperRobot::<f64>::new(&Parameters { com_to_front_axle: 0.36, ..b });
     assert!(matches!(outside, Err(ModelError::OutOfRange { .. })));
     assert!(robot::<f64>(&b).with_rolling_resistance(f64::NAN).is_err());
+}
+
+fn variant(p: &Parameters, belt: Belt, tyre: Tyre) -> PaperRobot<f64> {
+    PaperRobot::with_variant(p, Variant { belt, tyre }).expect("valid")
+}
+
+#[test]
+fn a_side_turns_by_the_sum_of_its_wheels() {
+    let p = Parameters { com_to_front_axle: 0.11, ..Parameters::SET_B };
+    let robot = variant(&p, Belt::SideSum, Tyre::Uncoupled);
+    for state in sliding() {
+        let (rate, out) = robot.evaluate(&state, [3.0, -2.0]);
+        for (side, torque) in [3.0, -2.0].into_iter().enumerate() {
+            let sign = nalgebra::ComplexField::tanh(state.speed[side] / p.sign_width);
+            let wheel = |i: usize| {
+                let slip = out.slip[i][0];
+                let share = 2.0 * p.slip_at_peak * slip / (p.slip_at_peak * p.slip_at_peak + slip * slip);
+                let (traction, rolling) = (p.adhesion * share, p.rolling_resistance * sign);
+                p.coulomb_torque * sign + p.wheel_radius * out.load[i] * (traction + rolling)
+            };
+            let expected = (torque - wheel(side) - wheel(side + 2)) / (2.0 * p.wheel_inertia);
+            assert!(near(rate.speed[side], expected, 1e-9), "{state:?}");
+        }
+    }
+}
+
+#[test]
+fn both_belts_agree_while_the_axles_are_loaded_alike() {
+    // Steady on a straight, the centre of mass half-way between the axles.
+    let state = State { vx: 0.5, speed: [5.0; 2], ..State::default() };
+    let rate = |belt| variant(&Parameters::SET_B, belt, Tyre::Uncoupled).rate(&state, [1.0, 2.0]);
+    for (a, b) in rate(Belt::Literal).to_array().into_iter().zip(rate(Belt::SideSum).to_array()) {
+        assert!(near(a, b, 1e-12));
+    }
+}
+
+#[test]
+fn under_combined_slip_the_whole_force_follows_kiencke() {
+    let p = Parameters::SET_B;
+    let combined = variant(&p, Belt::Literal, Tyre::Combined);
+    for state in sliding() {
+        let (rate, out) = combined.evaluate(&state, [0.0; 2]);
+        let mut force = [0.0; 2];
+        for (load, slip) in out.load.iter().zip(out.slip) {
+            let total = nalgebra::ComplexField::sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
+            // A wheel that does not slip has no direction, and no force.
+            let direction = slip.map(|s| if total > 0.0 { s / total } else { 0.0 });
+            let size = load * p.adhesion * 2.0 * p.slip_at_peak * total / (p.slip_at_peak.powi(2) + total * total);
+            force = core::array::from_fn(|j| force[j] + size * direction[j]);
+        }
+        for j in 0..2 {
+            assert!(near(out.acceleration[j], force[j] / p.mass, 1e-9), "{state:?}");
+        }
+        assert!(near(rate.vx, out.acceleration[0] + state.yaw_rate * state.vy, 1e-12));
+    }
+}
+
+#[test]
+fn without_lateral_slip_the_tyres_agree() {
+    let state = State { vx: 0.5, speed: [5.3, 5.1], ..State::default() };
+    let rate = |tyre| variant(&Parameters::SET_C, Belt::Literal, tyre).rate(&state, [4.0; 2]);
+    for (a, b) in rate(Tyre::Uncoupled).to_array().into_iter().zip(rate(Tyre::Combined).to_array()) {
+        assert!(near(a, b, 1e-9));
+    }
+}
+
+#[test]
+fn other_ground_keeps_the_variant() {
+    let robot = variant(&Parameters::SET_B, Belt::SideSum, Tyre::Combined);
+    let other = robot.with_rolling_resistance(0.33).expect("valid");
+    assert_eq!(other.variant(), robot.variant());
+    assert_ne!(other.variant(), PaperRobot::<f64>::new(&Parameters::SET_B).expect("valid").variant());
+}
+
+#[cfg(feature = "serde")]
+mod data {
+    use serde::Deserialize;
+    use serde::de::IntoDeserializer;
+    use serde::de::value::{Error, MapDeserializer};
+
+    use crate::paper::{Belt, Parameters, Tyre, Variant};
+
+    #[test]
+    fn variants_are_read_by_name() {
+        let read = |fields: [(&'static str, &'static str); 1]| {
+            Variant::deserialize(MapDeserializer::<_, Error>::new(fields.into_iter()))
+        };
+        assert_eq!(read([("belt", "side_sum")]), Ok(Variant { belt: Belt::SideSum, tyre: Tyre::Uncoupled }));
+        assert_eq!(read([("tyre", "combined")]), Ok(Variant { belt: Belt::Literal, tyre: Tyre::Combined }));
+        assert!(read([("wheels", "literal")]).is_err());
+        let belt: Result<Belt, Error> = Belt::deserialize("literal".into_deserializer());
+        assert_eq!(belt, Ok(Belt::Literal));
+    }
+
+    #[test]
+    fn parameters_must_be_complete_and_known() {
+        let b = Parameters::SET_B;
+        let fields = [
+            ("mass", b.mass),
+            ("yaw_inertia", b.yaw_inertia),
+            ("wheel_radius", b.wheel_radius),
+            ("wheelbase", b.wheelbase),
+            ("track", b.track),
+            ("com_height", b.com_height),
+            ("com_to_front_axle", b.com_to_front_axle),
+            ("wheel_inertia", b.wheel_inertia),
+            ("coulomb_torque", b.coulomb_torque),
+            ("adhesion", b.adhesion),
+            ("slip_at_peak", b.slip_at_peak),
+            ("rolling_resistance", b.rolling_resistance),
+            ("gravity", b.gravity),
+            ("slip_floor", b.slip_floor),
+            ("sign_width", b.sign_width),
+        ];
+        let read = |fields: &[(&'static str, f64)]| {
+            Parameters::deserialize(MapDeserializer::<_, Error>::new(fields.iter().copied()))
+        };
+        assert_eq!(read(&fields), Ok(b));
+        assert!(read(&fields[1..]).is_err());
+        let mut unknown = fields;
+        unknown[0].0 = "weight";
+        assert!(read(&unknown).is_err());
+    }
 }

@@ -2,9 +2,9 @@
 
 use anyhow::Result;
 use identifier::{AngleRow, Identifier, Ledger, Midpoint};
-use nn_basis::{Activation, Basis, Constant, SigmoidLayer};
+use nn_basis::{Basis, Constant};
 use robot_model::Robot;
-use sim::{INPUTS, Purpose, Recipe, Stream, UNITS};
+use sim::{Purpose, Recipe, SIGNALS, Stream, UNITS};
 
 use super::samples::{Samples, Stretch};
 
@@ -111,19 +111,14 @@ impl Followed {
 /// Follows both wheel speeds of a recording with the recipe of the paper's reproduction.
 pub(super) fn follow(samples: &Samples, robot: &Robot<f64>, seed: u64) -> Result<Followed> {
     let recipe = Recipe::default().identifier;
-    let speed_scale = recipe.speed_scale * samples.fastest();
+    let network = &recipe.network;
+    let speed_scale = network.speed_scale * samples.fastest();
     let weight = robot.mass * robot.gravity;
-    let torque_scale = recipe.torque_scale * robot.adhesion * weight * robot.wheel_radius;
-    let range = recipe.first_layer_range;
-
+    let torque_scale = network.torque_scale * robot.adhesion * weight * robot.wheel_radius;
+    // The recipe's network sees no angles.
+    let scale = [1.0, 1.0, speed_scale, speed_scale, torque_scale, torque_scale];
     let mut stream = Stream::new(seed, Purpose::IdentifierLayer, 0);
-    let mut layer = || {
-        let threshold = std::array::from_fn(|_| stream.uniform(-range, range));
-        let weight = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-range, range)));
-        let scale = [speed_scale, speed_scale, torque_scale, torque_scale];
-        SigmoidLayer::new(threshold, weight, scale, Activation::Logistic)
-    };
-    let layers = [layer()?, layer()?];
+    let layers = [network.layer(&mut stream, scale)?, network.layer(&mut stream, scale)?];
     let mut stream = Stream::new(seed, Purpose::Comparison, 0);
     let drawn: Weights =
         std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)));
@@ -147,7 +142,7 @@ pub(super) fn follow(samples: &Samples, robot: &Robot<f64>, seed: u64) -> Result
 }
 
 /// One identifier per side and stretch; each starts at the first measured speed with zero weights.
-fn run<B: Basis<f64, INPUTS, UNITS>>(
+fn run<B: Basis<f64, SIGNALS, UNITS>>(
     samples: &Samples,
     bases: &[B; 2],
     pole: f64,
@@ -166,7 +161,7 @@ fn run<B: Basis<f64, INPUTS, UNITS>>(
                 let (now, next) = (stretch.speed[k], stretch.speed[k + 1]);
                 let mean = |j: usize| 0.5 * (now[j] + next[j]);
                 let u = stretch.torque[k];
-                let phi = bases[i].regressor(&[mean(i), mean(other), u[i], u[other]]);
+                let phi = bases[i].regressor(&[0.0, 0.0, mean(i), mean(other), u[i], u[other]]);
                 let h = stretch.time[k + 1] - stretch.time[k];
                 let step = identifier.step(now[i], next[i], &phi, h);
                 for (ledger, weights) in ledgers.iter_mut().zip(comparisons) {
