@@ -59,6 +59,7 @@ mod memory;
 mod midpoint;
 mod projection;
 mod retaining;
+mod span;
 #[cfg(test)]
 mod tests;
 
@@ -78,3 +79,4 @@ pub use midpoint::Midpoint;
 pub use nn_basis::Scalar;
 pub use projection::Projection;
 pub use retaining::Retaining;
+pub use span::SpanSettings;

@@ -1,94 +1,106 @@
-//! What an identifier keeps: recursive least squares on filtered signals.
+//! What an identifier keeps.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 use nn_basis::{Scalar, real};
 
 use crate::Sample;
 use crate::error::{IdentifierError, finite, positive};
+use crate::span::{Span, SpanSettings, relaxed};
 
-/// How a memory filters, forgets and is held back.
+/// The two spans of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MemorySettings<T> {
-    /// Bandwidth β of the filter that both sides of the equation pass, 1/s: noise beyond it does not count.
-    pub bandwidth: T,
-    /// Rate at which old samples lose weight, 1/s; 0 keeps all.
-    pub forgetting: T,
-    /// Ridge δ, s: as if each weight had been seen to be zero with a regressor of one for so long.
-    pub ridge: T,
+    /// What is kept: a span of minutes that fits levels.
+    pub long: SpanSettings<T>,
+    /// What acts: a span of about a second that also fits changes, its prior what is kept.
+    pub short: SpanSettings<T>,
+    /// Rate at which the long span's weights are taken over into what is kept, 1/s: slow, because the first guesses of
+    /// least squares are wild.
+    pub consolidation: T,
 }
 
-/// Recursive least squares with forgetting: the weights that explain all that was seen.
+impl<T: Scalar> Default for MemorySettings<T> {
+    /// Settings for wheel speeds sampled at 1 kHz with noise of about 0.01 rad/s; where they come from is told in
+    /// `docs/paper/learning.md`.
+    fn default() -> Self {
+        let span = |bandwidth, lead, forgetting, ridge| SpanSettings {
+            bandwidth: real(bandwidth),
+            lead: real(lead),
+            forgetting: real(forgetting),
+            ridge: real(ridge),
+        };
+        Self { long: span(30.0, 0.0, 0.02, 1e-4), short: span(200.0, 0.5, 2.0, 0.25), consolidation: real(0.03) }
+    }
+}
+
+/// A long and a short memory of the equation `(x_{k+1} − x_k)/h + a x_m = Wᵀφ`, each by least squares over its span.
 ///
-/// Of each sample the equation `(x_{k+1} − x_k)/h + a x_m = Wᵀφ` is passed through `y_{k+1} = y_k + α(u_k − y_k)`,
-/// `α = βh/(1 + βh)`, on both sides, which leaves W as it is and takes the noise of the derivative away. With y the left
-/// side so filtered and φ_f the right, `W = (R + δI)⁻¹ r`, where `R = Σ h φ_f φ_fᵀ` and `r = Σ h φ_f y` are discounted by
-/// `1/(1 + h · forgetting)` per sample. Kept in this form R + δI stays positive definite, in single precision too, and
-/// `‖W‖ ≤ √(Σ h y²)/(2√δ)`: bounded while the output is.
+/// The long one fits what the regressor explains over minutes; its weights are kept. The short one fits the last second,
+/// as near to what is kept as the data allow: where they say nothing it is what is kept, so that what was learned on one
+/// lap helps on the next. Both are bounded while the output is.
 ///
 /// Regressor entries should be of the order of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Memory<T: Scalar, const N: usize> {
-    settings: MemorySettings<T>,
-    target: T,
-    regressor: SVector<T, N>,
-    information: SMatrix<T, N, N>,
-    cross: SVector<T, N>,
-    weight: SVector<T, N>,
+    long: Span<T, N>,
+    short: Span<T, N>,
+    consolidation: T,
+    /// Prior of the long span: what was kept before this memory began.
+    prior: SVector<T, N>,
+    kept: SVector<T, N>,
+    acting: SVector<T, N>,
 }
 
 impl<T: Scalar, const N: usize> Memory<T, N> {
     /// A memory of nothing.
     ///
     /// # Errors
-    /// [`IdentifierError`] if bandwidth or ridge are not positive, or the forgetting negative or not finite.
+    /// [`IdentifierError`] names the setting that cannot be used.
     pub fn new(settings: MemorySettings<T>) -> Result<Self, IdentifierError> {
-        positive("bandwidth of the memory", settings.bandwidth)?;
-        positive("ridge of the memory", settings.ridge)?;
-        if finite("forgetting of the memory", settings.forgetting)? < T::zero() {
-            return Err(IdentifierError::Negative { name: "forgetting of the memory" });
+        Self::recalling(settings, [T::zero(); N])
+    }
+
+    /// A memory that begins with the weights that another one had kept, as after a restart.
+    ///
+    /// # Errors
+    /// [`IdentifierError`] if a setting cannot be used or a weight is not finite.
+    pub fn recalling(settings: MemorySettings<T>, kept: [T; N]) -> Result<Self, IdentifierError> {
+        for weight in kept {
+            finite("weight that is recalled", weight)?;
         }
-        let (target, vector) = (T::zero(), SVector::zeros());
-        Ok(Self { settings, target, regressor: vector, information: SMatrix::zeros(), cross: vector, weight: vector })
+        let kept = SVector::from(kept);
+        Ok(Self {
+            long: Span::new(settings.long)?,
+            short: Span::new(settings.short)?,
+            consolidation: positive("consolidation of the memory", settings.consolidation)?,
+            prior: kept,
+            kept,
+            acting: kept,
+        })
     }
 
     /// Takes in a sample; `pole` is a, 1/s. What the sample names as known is not learned again.
     ///
-    /// The work is the same for every sample: one Cholesky factorisation of N × N. A factorisation that fails, which
-    /// takes input that is not finite, leaves the weights as they are.
+    /// The work is the same for every sample: two Cholesky factorisations of N × N. One that fails, which takes input that
+    /// is not finite, leaves its weights as they are.
     pub fn learn(&mut self, pole: T, sample: &Sample<T, N>) {
-        let h = sample.h;
-        let rate = self.settings.bandwidth * h;
-        let share = rate / (T::one() + rate);
-        self.target += share * (sample.right_hand_side(pole) - sample.known - self.target);
-        self.regressor += (SVector::from(sample.regressor) - self.regressor) * share;
-        let kept = T::one() / (T::one() + self.settings.forgetting * h);
-        let weighted = self.regressor * h;
-        self.information = (self.information + weighted * self.regressor.transpose()) * kept;
-        self.cross = (self.cross + weighted * self.target) * kept;
-        let mut normal = self.information;
-        for i in 0..N {
-            normal[(i, i)] += self.settings.ridge;
+        let y = sample.right_hand_side(pole) - sample.known;
+        let (phi, h) = (SVector::from(sample.regressor), sample.h);
+        if let Some(weight) = self.long.learn(y, &phi, h, &self.prior) {
+            self.kept += (weight - self.kept) * relaxed(self.consolidation, h);
         }
-        if let Some(factor) = normal.cholesky() {
-            self.weight = factor.solve(&self.cross);
+        if let Some(weight) = self.short.learn(y, &phi, h, &self.kept) {
+            self.acting = weight;
         }
     }
 
-    /// The weights that explain what was seen.
-    pub fn weight(&self) -> [T; N] {
-        self.weight.into()
+    /// The weights that are kept.
+    pub fn kept(&self) -> [T; N] {
+        self.kept.into()
     }
 
-    /// Standard deviation of each weight per standard deviation of white noise in the filtered equation, 1/√s.
-    ///
-    /// The square roots of the diagonal of `(R + δI)⁻¹`; large where what was seen says little.
-    pub fn uncertainty(&self) -> [T; N] {
-        let mut normal = self.information;
-        for i in 0..N {
-            normal[(i, i)] += self.settings.ridge;
-        }
-        let Some(factor) = normal.cholesky() else { return [real(f64::INFINITY); N] };
-        let inverse = factor.inverse();
-        core::array::from_fn(|i| inverse[(i, i)].sqrt())
+    /// The weights that act now.
+    pub fn acting(&self) -> [T; N] {
+        self.acting.into()
     }
 }

@@ -3,11 +3,11 @@
 use nn_basis::{Scalar, dot};
 
 use crate::error::IdentifierError;
-use crate::{Certificate, Identifier, Law, Memory, MemorySettings, Midpoint, Sample, Step};
+use crate::{Certificate, Identifier, Law, Memory, Midpoint, Sample, Step};
 
 /// The paper's identifier with a [`Memory`] beside it.
 ///
-/// `d/dt x̂ = −a x̂ + (W_m + Ŵ)ᵀφ`: the memory's weights W_m come by least squares from all that was seen, and the gradient
+/// `d/dt x̂ = −a x̂ + (W_m + Ŵ)ᵀφ`: the memory's weights W_m come by least squares from what was seen, and the gradient
 /// law's Ŵ follow what is left. Pole, gain and regressor are the paper's. To the gradient law `W_mᵀφ` is a known part of
 /// the right-hand side, so every certificate of the law holds as it is, with `ε = G − W_mᵀφ − W*ᵀφ`: the memory enters as
 /// a bounded term, and the better it knows, the smaller ε is.
@@ -18,18 +18,18 @@ pub struct Retaining<T: Scalar, const N: usize, L = Midpoint<T>> {
 }
 
 impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
-    /// An identifier that has seen nothing; `pole`, `law` and `output` as for [`Identifier::new`].
+    /// An identifier with a memory; `pole`, `law` and `output` as for [`Identifier::new`].
     ///
     /// # Errors
     /// [`IdentifierError`] names what cannot be used.
-    pub fn new(pole: T, law: L, output: T, settings: MemorySettings<T>) -> Result<Self, IdentifierError> {
-        Ok(Self { identifier: Identifier::new(pole, law, output)?, memory: Memory::new(settings)? })
+    pub fn new(pole: T, law: L, output: T, memory: Memory<T, N>) -> Result<Self, IdentifierError> {
+        Ok(Self { identifier: Identifier::new(pole, law, output)?, memory })
     }
 
     /// Follows a sample with what the memory knew before it, then takes it in.
     #[inline]
     pub fn follow(&mut self, sample: &Sample<T, N>) -> Step<T, N> {
-        let remembered = dot(&self.memory.weight(), &sample.regressor);
+        let remembered = dot(&self.memory.acting(), &sample.regressor);
         let step = self.identifier.follow(&Sample { known: sample.known + remembered, ..*sample });
         self.memory.learn(self.identifier.pole(), sample);
         step
@@ -53,7 +53,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
 
     /// The weights that act now, `W_m + Ŵ`.
     pub fn weight(&self) -> [T; N] {
-        let mut weight = self.memory.weight();
+        let mut weight = self.memory.acting();
         for (w, g) in weight.iter_mut().zip(&self.identifier.model().weight) {
             *w += *g;
         }
