@@ -53,13 +53,13 @@ mod exponential;
 mod hurwitz;
 mod law;
 mod leak;
+mod least_squares;
 #[cfg(feature = "std")]
 mod lyapunov;
 mod memory;
 mod midpoint;
 mod projection;
 mod retaining;
-mod span;
 #[cfg(test)]
 mod tests;
 
@@ -72,6 +72,7 @@ pub use exponential::Exponential;
 pub use hurwitz::HurwitzMatrix;
 pub use law::{Identifier, Law, Model, Sample, Step};
 pub use leak::{Leaky, Rate};
+pub use least_squares::{LeastSquares, LeastSquaresSettings};
 #[cfg(feature = "std")]
 pub use lyapunov::LyapunovError;
 pub use memory::{Memory, MemorySettings};
@@ -79,4 +80,3 @@ pub use midpoint::Midpoint;
 pub use nn_basis::Scalar;
 pub use projection::Projection;
 pub use retaining::Retaining;
-pub use span::SpanSettings;

@@ -1,19 +1,17 @@
 //! What an identifier keeps.
 
-use nalgebra::SVector;
 use nn_basis::{Scalar, real};
 
-use crate::Sample;
 use crate::error::{IdentifierError, finite, positive};
-use crate::span::{Span, SpanSettings, relaxed};
+use crate::least_squares::{LeastSquares, LeastSquaresSettings, relaxed};
 
 /// The two spans of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MemorySettings<T> {
     /// What is kept: a span of minutes that fits levels.
-    pub long: SpanSettings<T>,
+    pub long: LeastSquaresSettings<T>,
     /// What acts: a span of about a second that also fits changes, its prior what is kept.
-    pub short: SpanSettings<T>,
+    pub short: LeastSquaresSettings<T>,
     /// Rate at which the long span's weights are taken over into what is kept, 1/s: slow, because the first guesses of
     /// least squares are wild.
     pub consolidation: T,
@@ -23,7 +21,7 @@ impl<T: Scalar> Default for MemorySettings<T> {
     /// Settings for wheel speeds sampled at 1 kHz with noise of about 0.01 rad/s; where they come from is told in
     /// `docs/paper/learning.md`.
     fn default() -> Self {
-        let span = |bandwidth, lead, forgetting, ridge| SpanSettings {
+        let span = |bandwidth, lead, forgetting, ridge| LeastSquaresSettings {
             bandwidth: real(bandwidth),
             lead: real(lead),
             forgetting: real(forgetting),
@@ -33,7 +31,7 @@ impl<T: Scalar> Default for MemorySettings<T> {
     }
 }
 
-/// A long and a short memory of the equation `(x_{k+1} − x_k)/h + a x_m = Wᵀφ`, each by least squares over its span.
+/// A long and a short memory of an equation `y = Wᵀφ`, each by least squares over its span.
 ///
 /// The long one fits what the regressor explains over minutes; its weights are kept. The short one fits the last second,
 /// as near to what is kept as the data allow: where they say nothing it is what is kept, so that what was learned on one
@@ -42,13 +40,13 @@ impl<T: Scalar> Default for MemorySettings<T> {
 /// Regressor entries should be of the order of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Memory<T: Scalar, const N: usize> {
-    long: Span<T, N>,
-    short: Span<T, N>,
+    long: LeastSquares<T, N>,
+    short: LeastSquares<T, N>,
     consolidation: T,
     /// Prior of the long span: what was kept before this memory began.
-    prior: SVector<T, N>,
-    kept: SVector<T, N>,
-    acting: SVector<T, N>,
+    prior: [T; N],
+    kept: [T; N],
+    acting: [T; N],
 }
 
 impl<T: Scalar, const N: usize> Memory<T, N> {
@@ -68,10 +66,9 @@ impl<T: Scalar, const N: usize> Memory<T, N> {
         for weight in kept {
             finite("weight that is recalled", weight)?;
         }
-        let kept = SVector::from(kept);
         Ok(Self {
-            long: Span::new(settings.long)?,
-            short: Span::new(settings.short)?,
+            long: LeastSquares::new(settings.long)?,
+            short: LeastSquares::new(settings.short)?,
             consolidation: positive("consolidation of the memory", settings.consolidation)?,
             prior: kept,
             kept,
@@ -79,28 +76,29 @@ impl<T: Scalar, const N: usize> Memory<T, N> {
         })
     }
 
-    /// Takes in a sample; `pole` is a, 1/s. What the sample names as known is not learned again.
+    /// Takes in `y = Wᵀφ`, as it was over `h` seconds.
     ///
     /// The work is the same for every sample: two Cholesky factorisations of N × N. One that fails, which takes input that
     /// is not finite, leaves its weights as they are.
-    pub fn learn(&mut self, pole: T, sample: &Sample<T, N>) {
-        let y = sample.right_hand_side(pole) - sample.known;
-        let (phi, h) = (SVector::from(sample.regressor), sample.h);
-        if let Some(weight) = self.long.learn(y, &phi, h, &self.prior) {
-            self.kept += (weight - self.kept) * relaxed(self.consolidation, h);
+    pub fn learn(&mut self, y: T, phi: &[T; N], h: T) {
+        if let Some(weight) = self.long.learn(y, phi, h, &self.prior) {
+            let share = relaxed(self.consolidation, h);
+            for (kept, weight) in self.kept.iter_mut().zip(weight) {
+                *kept += share * (weight - *kept);
+            }
         }
-        if let Some(weight) = self.short.learn(y, &phi, h, &self.kept) {
+        if let Some(weight) = self.short.learn(y, phi, h, &self.kept) {
             self.acting = weight;
         }
     }
 
     /// The weights that are kept.
     pub fn kept(&self) -> [T; N] {
-        self.kept.into()
+        self.kept
     }
 
     /// The weights that act now.
     pub fn acting(&self) -> [T; N] {
-        self.acting.into()
+        self.acting
     }
 }

@@ -31,7 +31,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
     pub fn follow(&mut self, sample: &Sample<T, N>) -> Step<T, N> {
         let remembered = dot(&self.memory.acting(), &sample.regressor);
         let step = self.identifier.follow(&Sample { known: sample.known + remembered, ..*sample });
-        self.memory.learn(self.identifier.pole(), sample);
+        self.memory.learn(sample.right_hand_side(self.identifier.pole()) - sample.known, &sample.regressor, sample.h);
         step
     }
 

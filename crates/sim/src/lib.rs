@@ -6,6 +6,7 @@
 //! * [`Trajectory`]: the plant under its controller, simulated once;
 //! * [`Experiment`]: identifiers with many random first layers over that trajectory, since the motion does not depend
 //!   on what an identifier makes of it;
+//! * [`learning`]: which adaptive laws keep what they learn;
 //! * [`table1`]: the paper's indices and what counts as reproduced.
 //!
 //! Everything is deterministic: the same recipe and seed give the same bits on any machine with any thread count.
@@ -24,6 +25,7 @@
 mod error;
 mod experiment;
 mod identification;
+pub mod learning;
 mod network_recipe;
 mod random;
 mod recipe;

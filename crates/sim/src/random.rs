@@ -12,6 +12,8 @@ pub enum Purpose {
     ControllerLayer,
     /// Comparison weights of a certificate.
     Comparison,
+    /// Noise of sensors.
+    SensorNoise,
 }
 
 /// A stream of random numbers, fixed by seed, purpose and draw.
@@ -39,6 +41,13 @@ impl Stream {
         let unit = (self.rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit
     }
+
+    /// The next number of a standard normal distribution, by Box and Muller with the same bits everywhere.
+    pub fn normal(&mut self) -> f64 {
+        // 1 − u is never zero.
+        let radius = (-2.0 * nalgebra::ComplexField::ln(1.0 - self.uniform(0.0, 1.0))).sqrt();
+        radius * nalgebra::ComplexField::cos(self.uniform(0.0, std::f64::consts::TAU))
+    }
 }
 
 /// SplitMix64: one round of mixing.
@@ -61,6 +70,18 @@ mod tests {
         assert_ne!(base, first(2, Purpose::IdentifierLayer, 3));
         assert_ne!(base, first(1, Purpose::ControllerLayer, 3));
         assert_ne!(base, first(1, Purpose::IdentifierLayer, 4));
+    }
+
+    #[test]
+    fn normal_numbers_have_the_moments_of_the_distribution() {
+        let mut stream = Stream::new(1, Purpose::SensorNoise, 0);
+        let n = 20_000;
+        let values: Vec<f64> = (0..n).map(|_| stream.normal()).collect();
+        let moment = |p| values.iter().map(|v| v.powi(p)).sum::<f64>() / f64::from(n);
+        let found = [1, 2, 3, 4].map(moment);
+        for (found, expected) in found.into_iter().zip([0.0, 1.0, 0.0, 3.0]) {
+            assert!((found - expected).abs() < 0.15, "{found} {expected}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What is kept, and that keeping it leaves every certificate as it is.
 
 use identifier::{
-    Identifier, IdentifierError, Ledger, Memory, MemorySettings, Midpoint, Retaining, Sample, SpanSettings,
+    Identifier, IdentifierError, LeastSquaresSettings, Ledger, Memory, MemorySettings, Midpoint, Retaining, Sample,
 };
 use proptest::prelude::*;
 
@@ -10,13 +10,18 @@ use super::{POLE, UNITS, Weights, decades, dot, midpoint_system, norm, regressor
 /// A memory that takes over at once what it fits, so that tests need no minutes.
 fn quick() -> MemorySettings<f64> {
     let default = MemorySettings::<f64>::default();
-    let long = SpanSettings { forgetting: 0.0, ridge: 1e-9, ..default.long };
+    let long = LeastSquaresSettings { forgetting: 0.0, ridge: 1e-9, ..default.long };
     MemorySettings { long, consolidation: 1e6, ..default }
 }
 
 fn retaining(settings: MemorySettings<f64>) -> Retaining<f64, UNITS> {
     let memory = Memory::new(settings).expect("valid");
     Retaining::new(POLE, Midpoint::new(500.0).expect("valid"), 0.0, memory).expect("valid")
+}
+
+/// Learns the equation that a sample shows.
+fn learn<const N: usize>(memory: &mut Memory<f64, N>, sample: &Sample<f64, N>) {
+    memory.learn(sample.right_hand_side(POLE), &sample.regressor, sample.h);
 }
 
 fn sample<const N: usize>(start: f64, end: f64, regressor: [f64; N], h: f64) -> Sample<f64, N> {
@@ -42,9 +47,9 @@ fn settings_that_cannot_work_are_refused() {
 #[test]
 fn input_that_is_not_finite_leaves_the_weights_finite() {
     let mut memory = Memory::<f64, 2>::new(quick()).expect("valid");
-    memory.learn(POLE, &sample(0.0, 0.1, [1.0, 0.5], 1e-2));
+    learn(&mut memory, &sample(0.0, 0.1, [1.0, 0.5], 1e-2));
     let learned = (memory.kept(), memory.acting());
-    memory.learn(POLE, &sample(0.0, 0.1, [f64::NAN, 0.0], 1e-2));
+    learn(&mut memory, &sample(0.0, 0.1, [f64::NAN, 0.0], 1e-2));
     assert_eq!((memory.kept(), memory.acting()), learned);
 }
 
@@ -57,7 +62,7 @@ fn old_samples_fade_at_the_rate_of_forgetting() {
         let mut memory = Memory::<f64, 1>::new(settings).expect("valid");
         for k in 0..2000 {
             let x = if k < 1000 { 1.0 } else { 3.0 } / POLE;
-            memory.learn(POLE, &sample(x, x, [1.0], 1e-2));
+            learn(&mut memory, &sample(x, x, [1.0], 1e-2));
         }
         memory.kept()[0]
     };
@@ -70,7 +75,7 @@ fn what_is_kept_acts_where_the_present_says_nothing() {
     // Two weights are learned; then only the first one's regressor is seen, with another weight.
     let mut memory = Memory::recalling(MemorySettings::default(), [4.0, -2.0]).expect("valid");
     for _ in 0..5000 {
-        memory.learn(POLE, &sample(0.0, 0.0, [1.0, 0.0], 1e-3));
+        learn(&mut memory, &sample(0.0, 0.0, [1.0, 0.0], 1e-3));
     }
     let [seen, unseen] = memory.acting();
     assert!(seen.abs() < 0.5 * 4.0 && unseen == -2.0, "{seen} {unseen}");
@@ -125,7 +130,7 @@ proptest! {
         let mut x = 0.0;
         for phi in steps {
             let next = midpoint_system(x, dot(&truth, &phi), h);
-            memory.learn(POLE, &sample(x, next, phi, h));
+            learn(&mut memory, &sample(x, next, phi, h));
             x = next;
         }
         for (found, truth) in memory.kept().iter().zip(&truth) {

@@ -6,6 +6,7 @@
 //! * [`Parameters`]: what a robot is made of, sets A, B and C, and the checks;
 //! * [`Constants`]: the paper's a1..a8 and Eq. 8 taken literally;
 //! * [`PaperRobot`]: the closed plant, [`State`] and torques in, rate and [`Outputs`] out;
+//! * [`Structured`] and [`terms`]: Eq. 8 as a regressor whose weights are the constants;
 //! * [`Variant`]: two flagged departures, the sum over the belt and combined slip.
 //!
 //! Sides: 0 left (the paper's wheel 3), 1 right (wheel 4). A belt joins the wheels of a side, so both turn alike.
@@ -24,6 +25,7 @@
 mod body;
 mod constants;
 mod parameters;
+mod structured;
 #[cfg(test)]
 mod tests;
 mod variant;
@@ -31,4 +33,5 @@ mod variant;
 pub use body::{Outputs, PaperRobot, State};
 pub use constants::Constants;
 pub use parameters::Parameters;
+pub use structured::{SideSignals, Structured, TERMS, balance, terms};
 pub use variant::{Belt, Tyre, Variant};

@@ -1,13 +1,13 @@
-//! Least squares over a span of the past.
+//! Recursive least squares over a span of the past.
 
 use nalgebra::{SMatrix, SVector};
 use nn_basis::{Scalar, real};
 
 use crate::error::{IdentifierError, finite, positive};
 
-/// How far back a span reaches, what it listens to and how it is held back.
+/// How far back least squares reach, what they listen to and how they are held back.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpanSettings<T> {
+pub struct LeastSquaresSettings<T> {
     /// Bandwidth β of the filter `(1 + τ s)/(1 + s/β)²` that both sides of the equation pass, 1/s: noise beyond it does
     /// not count.
     pub bandwidth: T,
@@ -19,12 +19,12 @@ pub struct SpanSettings<T> {
     pub ridge: T,
 }
 
-impl<T: Scalar> SpanSettings<T> {
+impl<T: Scalar> LeastSquaresSettings<T> {
     fn check(self) -> Result<Self, IdentifierError> {
-        positive("bandwidth of the memory", self.bandwidth)?;
-        positive("ridge of the memory", self.ridge)?;
-        not_negative("lead of the memory", self.lead)?;
-        not_negative("forgetting of the memory", self.forgetting)?;
+        positive("bandwidth of the least squares", self.bandwidth)?;
+        positive("ridge of the least squares", self.ridge)?;
+        not_negative("lead of the least squares", self.lead)?;
+        not_negative("forgetting of the least squares", self.forgetting)?;
         Ok(self)
     }
 }
@@ -40,8 +40,8 @@ pub(crate) fn not_negative<T: Scalar>(name: &'static str, value: T) -> Result<T,
 /// factorisation. In this form the matrix stays positive definite, in single precision and without excitation too, and
 /// `‖W − W_prior‖ ≤ √(Σ h λ (y_f − W_priorᵀφ_f)²)/(2√δ)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Span<T: Scalar, const N: usize> {
-    settings: SpanSettings<T>,
+pub struct LeastSquares<T: Scalar, const N: usize> {
+    settings: LeastSquaresSettings<T>,
     /// Both stages of the filter, of the target and of the regressor.
     target: [T; 2],
     regressor: [SVector<T, N>; 2],
@@ -49,8 +49,12 @@ pub(crate) struct Span<T: Scalar, const N: usize> {
     cross: SVector<T, N>,
 }
 
-impl<T: Scalar, const N: usize> Span<T, N> {
-    pub(crate) fn new(settings: SpanSettings<T>) -> Result<Self, IdentifierError> {
+impl<T: Scalar, const N: usize> LeastSquares<T, N> {
+    /// Least squares that have seen nothing.
+    ///
+    /// # Errors
+    /// [`IdentifierError`] names the setting that cannot be used.
+    pub fn new(settings: LeastSquaresSettings<T>) -> Result<Self, IdentifierError> {
         Ok(Self {
             settings: settings.check()?,
             target: [T::zero(); 2],
@@ -60,10 +64,11 @@ impl<T: Scalar, const N: usize> Span<T, N> {
         })
     }
 
-    /// Takes in `y = Wᵀφ` over `h` seconds and returns the best W given a prior.
+    /// Takes in `y = Wᵀφ`, as it was over `h` seconds, and returns the best W given a prior.
     ///
-    /// Same work for every sample. `None` takes input that is not finite.
-    pub(crate) fn learn(&mut self, y: T, phi: &SVector<T, N>, h: T, prior: &SVector<T, N>) -> Option<SVector<T, N>> {
+    /// The work is the same for every sample. `None` takes input that is not finite.
+    pub fn learn(&mut self, y: T, phi: &[T; N], h: T, prior: &[T; N]) -> Option<[T; N]> {
+        let (phi, prior) = (SVector::from(*phi), SVector::from(*prior));
         let s = &self.settings;
         let share = relaxed(s.bandwidth, h);
         self.target[0] += (y - self.target[0]) * share;
@@ -79,7 +84,7 @@ impl<T: Scalar, const N: usize> Span<T, N> {
         self.information = (self.information + weighted * phi.transpose()) * kept;
         self.cross = (self.cross + weighted * y) * kept;
         let normal = self.information + SMatrix::identity() * s.ridge;
-        Some(normal.cholesky()?.solve(&(self.cross + prior * s.ridge)))
+        Some(normal.cholesky()?.solve(&(self.cross + prior * s.ridge)).into())
     }
 }
 
