@@ -5,6 +5,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 mod blind;
+mod document;
+mod learn;
 mod output;
 mod reproduce;
 
@@ -20,13 +22,16 @@ struct Cli {
 enum Command {
     /// Reproduce Table 1 and the figures of Hendzel & Trojnacki 2014.
     Reproduce(reproduce::Args),
+    /// Compare adaptive laws on laps they have not seen: which keep what they learn.
+    Learn(learn::Args),
     /// Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders.
     Blind(Box<blind::Args>),
 }
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::Reproduce(args) => reproduce::run(&args),
+        Command::Reproduce(args) => reproduce::run(args),
+        Command::Learn(args) => learn::run(args),
         Command::Blind(args) => blind::run(&args),
     };
     match outcome {

@@ -52,13 +52,22 @@ pub(crate) fn progress(count: u64, what: &str) -> anyhow::Result<ProgressBar> {
     Ok(ProgressBar::new(count).with_style(style).with_message(what.to_owned()))
 }
 
+/// The workspace's folder.
+fn root() -> PathBuf {
+    // Cargo sets this for `cargo run`; started by hand, the program writes below the current folder.
+    std::env::var_os("CARGO_MANIFEST_DIR")
+        .and_then(|dir| Path::new(&dir).parent().map(Path::to_path_buf))
+        .unwrap_or_default()
+}
+
+/// A folder of the documentation.
+pub(crate) fn docs(name: &str) -> PathBuf {
+    root().join("docs").join(name)
+}
+
 /// The folder `target/COMMAND` of the workspace, created if needed.
 pub(crate) fn folder(command: &str) -> anyhow::Result<PathBuf> {
-    // Cargo sets this for `cargo run`; started by hand, the program writes below the current folder.
-    let root = std::env::var_os("CARGO_MANIFEST_DIR")
-        .and_then(|dir| Path::new(&dir).parent().map(Path::to_path_buf))
-        .unwrap_or_default();
-    let folder = root.join("target").join(command);
+    let folder = root().join("target").join(command);
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot create {}", folder.display()))?;
     Ok(folder)
 }

@@ -57,6 +57,8 @@ pub(crate) struct Balance<T> {
     pub(crate) output: [T; 2],
     pub(crate) error: T,
     pub(crate) epsilon: T,
+    /// Size of what ε is the difference of: its rounding is relative to this.
+    pub(crate) scale: T,
     pub(crate) dissipation: T,
     pub(crate) coupling: T,
     pub(crate) surplus: T,
@@ -77,7 +79,8 @@ impl<T: Scalar> Balance<T> {
         let dissipated = self.dissipation * self.error * self.error;
         let injected = self.coupling * self.epsilon * self.error;
         let predicted = injected - dissipated + self.surplus;
-        let size = before + after + dissipated + injected.abs() + self.surplus.abs();
+        let rounded = (self.coupling * self.scale * self.error).abs();
+        let size = before + after + dissipated + rounded + self.surplus.abs();
         let gap = change - predicted;
         let gap = if self.exact { gap.abs() } else { positive_part(gap) };
         // Not `size > 0`: a size that is not a number must give a residual that is not a number.
@@ -110,13 +113,14 @@ pub(crate) fn difference<T: Scalar, const N: usize>(old: &[T; N], new: &[T; N], 
     sum
 }
 
-/// What the comparison weights leave of the right-hand side `ẋ + a x` that the sample shows, with x̄ as its x.
+/// What the comparison weights leave of the right-hand side `shown` by a sample, and the size of what it is a difference of.
 pub(crate) fn approximation_error<T: Scalar, const N: usize>(
-    slope: T,
+    shown: T,
     sample: &Sample<T, N>,
     comparison: &[T; N],
-) -> T {
-    slope - sample.known - dot(comparison, &sample.regressor)
+) -> (T, T) {
+    let known = sample.known + dot(comparison, &sample.regressor);
+    (shown - known, shown.abs() + known.abs())
 }
 
 /// Certificates added up over a run: the mean-square bound.

@@ -49,7 +49,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Euler<T> {
     #[inline]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
         let Sample { start, end, regressor: phi, h, .. } = &step.sample;
-        let epsilon = approximation_error((*end - *start) / *h + pole * *start, &step.sample, comparison);
+        let (epsilon, scale) = approximation_error((*end - *start) / *h + pole * *start, &step.sample, comparison);
         let error = step.error;
         let estimation = dot(comparison, phi) - dot(&step.before.weight, phi);
         let rate = estimation + epsilon - pole * error;
@@ -58,6 +58,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Euler<T> {
             output: [step.error_before, step.error_after],
             error,
             epsilon,
+            scale,
             dissipation: pole * *h,
             coupling: *h,
             surplus,

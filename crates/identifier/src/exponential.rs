@@ -76,7 +76,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Exponential<T> {
         let [rho, b, d] = self.constants(pole, sample.h);
         let shown = (sample.end - rho * sample.start) / b;
         let (from, to) = (excess(step.error_before, d), step.error);
-        let error = approximation_error(shown, sample, comparison);
+        let (error, scale) = approximation_error(shown, sample, comparison);
         // What the dead zone does not tolerate.
         let epsilon = excess(error, self.tolerated);
         let dissipation = half * (T::one() - rho * rho);
@@ -88,6 +88,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Exponential<T> {
             output: [from, to],
             error: to,
             epsilon,
+            scale,
             dissipation,
             coupling: b,
             surplus,

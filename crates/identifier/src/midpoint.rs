@@ -48,10 +48,12 @@ impl<T: Scalar, const N: usize> Law<T, N> for Midpoint<T> {
     #[inline]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
         let sample = &step.sample;
+        let (epsilon, scale) = approximation_error(sample.right_hand_side(pole), sample, comparison);
         Balance {
             output: [step.error_before, step.error_after],
             error: step.error,
-            epsilon: approximation_error(sample.right_hand_side(pole), sample, comparison),
+            epsilon,
+            scale,
             dissipation: pole * sample.h,
             coupling: sample.h,
             surplus: T::zero(),

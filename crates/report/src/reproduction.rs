@@ -1,37 +1,7 @@
-//! The page of `xtask reproduce`: Table 1 and the analogues of Figures 5, 6 and 7 of Hendzel & Trojnacki 2014.
+//! The analogues of Figures 5, 6 and 7 of Hendzel & Trojnacki 2014.
 
 use crate::chart::{Chart, Line};
-use crate::page::{Cell, Page, Tone};
-
-/// A column of Table 1.
-#[derive(Debug, Clone)]
-pub struct Index {
-    /// Name of the index.
-    pub name: String,
-    /// The paper's value, rad/s.
-    pub paper: f64,
-    /// Smallest, 5 %, median, 95 % and largest value over the draws, rad/s.
-    pub quantiles: [f64; 5],
-    /// Percentage of draws below the paper's value.
-    pub percentile: f64,
-    /// The value without a network, rad/s.
-    pub constant: f64,
-}
-
-/// A condition of the tolerance.
-#[derive(Debug, Clone)]
-pub struct Condition {
-    /// Letter of the rule.
-    pub rule: char,
-    /// What is measured.
-    pub name: String,
-    /// What was found, with its unit.
-    pub found: String,
-    /// What is asked.
-    pub target: String,
-    /// Whether it is met.
-    pub pass: bool,
-}
+use crate::page::Page;
 
 /// Histories of one draw. Pairs are wheels 3 and 4; all have one entry per `time`.
 #[derive(Debug, Clone, Default)]
@@ -64,73 +34,15 @@ pub struct Signals {
     pub events: Vec<f64>,
 }
 
-/// All that the page shows.
-#[derive(Debug, Clone, Default)]
-pub struct Reproduction {
-    /// Title of the page.
-    pub title: String,
-    /// One line on robot, draws and seed.
-    pub setting: String,
-    /// The verdict in a sentence.
-    pub verdict: String,
-    /// What was chosen, when and why.
-    pub disclosure: String,
-    /// Table 1.
-    pub indices: Vec<Index>,
-    /// The tolerance.
-    pub conditions: Vec<Condition>,
-    /// Which draw the figures show.
-    pub figures_of: String,
-    /// Its histories.
-    pub signals: Signals,
-}
-
-/// Writes the page as one HTML document.
-pub fn page(r: &Reproduction) -> String {
-    let mut page = Page::new(&r.title);
-    page.paragraph(&r.verdict);
-    page.note(&r.setting);
-    page.heading("Table 1, rad/s");
-    let header: Vec<&str> = std::iter::once("").chain(r.indices.iter().map(|i| i.name.as_str())).collect();
-    page.table(&header, &table1(&r.indices));
-    page.note(
-        "The last row uses no network at all: a constant regressor. Indices this near to it cannot tell learning from \
-         integral action.",
-    );
-    page.heading("Tolerance");
-    let rows: Vec<Vec<Cell>> = r
-        .conditions
-        .iter()
-        .map(|c| {
-            let (text, tone) = if c.pass { ("met", Tone::Good) } else { ("missed", Tone::Bad) };
-            let name = format!("({}) {}", c.rule, c.name);
-            vec![name.into(), c.found.clone().into(), c.target.clone().into(), Cell { text: text.into(), tone }]
-        })
-        .collect();
-    page.table(&["condition", "found", "asked", ""], &rows);
-    page.heading("What was chosen, and when");
-    page.paragraph(&r.disclosure);
+/// Adds the analogues of Figures 5, 6 and 7, laid out as in the paper; `note` says which draw they show.
+pub fn figures(page: &mut Page, note: &str, s: &Signals) {
     page.heading("Figure 5: signals for the identification");
-    page.note(&r.figures_of);
-    page.charts(&figure5(&r.signals));
+    page.note(note);
+    page.charts(&figure5(s));
     page.heading("Figure 6: the identifier");
-    page.charts(&figure6(&r.signals));
+    page.charts(&figure6(s));
     page.heading("Figure 7: weights");
-    page.charts(&figure7(&r.signals));
-    page.render()
-}
-
-fn table1(indices: &[Index]) -> Vec<Vec<Cell>> {
-    let row = |name: &str, value: &dyn Fn(&Index) -> String| {
-        std::iter::once(Cell::from(name)).chain(indices.iter().map(|i| value(i).into())).collect()
-    };
-    let mut rows: Vec<Vec<Cell>> = vec![row("paper", &|i| format!("{:.4}", i.paper))];
-    for (n, name) in ["smallest", "5 %", "median", "95 %", "largest"].into_iter().enumerate() {
-        rows.push(row(name, &|i| format!("{:.4}", i.quantiles[n])));
-    }
-    rows.push(row("percentile of the paper's value", &|i| format!("{:.1} %", i.percentile)));
-    rows.push(row("constant regressor", &|i| format!("{:.4}", i.constant)));
-    rows
+    page.charts(&figure7(s));
 }
 
 fn chart(caption: &str, y_label: &str, lines: Vec<Line>) -> Chart {

@@ -119,8 +119,8 @@ pub fn judge(draws: &[Draw], windows: &Windows) -> Vec<Check> {
             });
         }
     }
-    let within = share(draws, |d| d.table1().iter().zip(PAPER).all(|(v, p)| near(v / p)));
-    checks.push(at_least('e', format!("all four within x{FACTOR}"), within, "%", SHARE_WITHIN));
+    let name = format!("all four within x{FACTOR}");
+    checks.push(at_least('e', name, within(draws, FACTOR), "%", SHARE_WITHIN));
     checks
 }
 
@@ -139,6 +139,11 @@ fn events(draws: &[Draw], windows: &Windows, checks: &mut Vec<Check>) {
             checks.push(check);
         }
     }
+}
+
+/// Share of draws with all four indices within `factor` of the paper's, %.
+pub fn within(draws: &[Draw], factor: f64) -> f64 {
+    share(draws, |d| d.table1().iter().zip(PAPER).all(|(v, p)| (1.0 / factor..=factor).contains(&(v / p))))
 }
 
 fn near(ratio: f64) -> bool {

@@ -8,7 +8,10 @@
 use core::panic::PanicInfo;
 
 use controller::{Gains, Loop, LoopPath, PathReference, Tracking, WheelState};
-use identifier::{Identifier, Midpoint};
+use identifier::{
+    CoupledIdentifier, CoupledSample, Euler, Exponential, HurwitzMatrix, Identifier, Law, Leaky, Memory,
+    MemorySettings, Midpoint, Projection, Rate, Retaining, Sample,
+};
 use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
 use robot_model::paper::{self, PaperRobot, Parameters};
 use robot_model::{Active, Plant, Presence, Robot, State, effects};
@@ -20,7 +23,7 @@ fn panic(_: &PanicInfo) -> ! {
 
 /// Kept by the linker, so that nothing below is thrown away.
 #[used]
-static KEPT: [extern "C" fn(f32) -> f32; 4] = [plant, paper_plant, identify, control];
+static KEPT: [extern "C" fn(f32) -> f32; 7] = [plant, paper_plant, identify, every_law, remember, coupled, control];
 
 /// One step of the plant with every effect of the catalogue at its neutral value.
 extern "C" fn plant(torque: f32) -> f32 {
@@ -50,6 +53,46 @@ extern "C" fn identify(x: f32) -> f32 {
     let Ok(mut identifier) = Identifier::new(8.0, law, x) else { return f32::NAN };
     let step = identifier.step(x, x + 1e-3, &phi, 1e-3);
     identifier.certificate(&step, &[0.0; 4]).residual + net.output(&phi)[0]
+}
+
+/// One step of a law on a constant regressor, with its certificate.
+fn step<L: Law<f32, 2>>(law: L, x: f32) -> f32 {
+    let Ok(mut identifier) = Identifier::new(8.0, law, x) else { return f32::NAN };
+    let step = identifier.step(x, x + 1e-3, &[0.5; 2], 1e-3);
+    identifier.certificate(&step, &[1.0; 2]).residual
+}
+
+/// One step of each adaptive law.
+extern "C" fn every_law(x: f32) -> f32 {
+    let (Ok(euler), Ok(midpoint), Ok(dead)) =
+        (Euler::new(500.0), Midpoint::new(500.0), Exponential::with_dead_zone(500.0, 0.1))
+    else {
+        return f32::NAN;
+    };
+    let (Ok(ball), Ok(sigma), Ok(error)) =
+        (Projection::new(dead, 40.0), Leaky::new(midpoint, Rate::Sigma(1e-3)), Leaky::new(dead, Rate::Error(1e-2)))
+    else {
+        return f32::NAN;
+    };
+    step(euler, x) + step(dead, x) + step(ball, x) + step(sigma, x) + step(error, x)
+}
+
+/// One step of the identifier with a memory.
+extern "C" fn remember(x: f32) -> f32 {
+    let (Ok(law), Ok(memory)) = (Midpoint::new(500.0), Memory::new(MemorySettings::default())) else { return f32::NAN };
+    let Ok(mut identifier) = Retaining::<f32, 6>::new(8.0, law, x, memory) else { return f32::NAN };
+    let sample = Sample { start: x, end: x + 1e-3, regressor: [0.5; 6], known: 0.0, h: 1e-3 };
+    identifier.follow(&sample).error_after + identifier.weight()[0] + identifier.memory().kept()[5]
+}
+
+/// One step with a general A, whose P a host has computed.
+extern "C" fn coupled(x: f32) -> f32 {
+    let Ok(matrix) = HurwitzMatrix::new([[-1.0, 10.0], [0.0, -1.0]], [[0.5, 2.5], [2.5, 25.5]]) else {
+        return f32::NAN;
+    };
+    let Ok(mut identifier) = CoupledIdentifier::<f32, 2, 3>::new(matrix, 500.0, [x; 2]) else { return f32::NAN };
+    let sample = CoupledSample { start: [x; 2], end: [x + 1e-3; 2], regressor: [0.5; 3], known: [0.0; 2], h: 1e-3 };
+    identifier.follow(&sample)[0]
 }
 
 /// One step of the tracking controller.

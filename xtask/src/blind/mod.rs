@@ -17,7 +17,6 @@ use crate::output;
 mod binary;
 mod child;
 mod diagnose;
-mod document;
 mod draw;
 mod figures;
 mod given;

@@ -5,10 +5,10 @@ use lacuna::text_table::TextTable;
 use report::page::Page;
 use report::reliability;
 
-use super::document::{number, to_markdown, to_page};
 use super::layout::Layout;
 use super::score::{Row, bins};
 use super::tables;
+use crate::document::{number, to_markdown, to_page};
 use crate::output::{Figure, write};
 
 const TITLE: &str = "Blind cases";

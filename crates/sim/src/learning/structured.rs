@@ -8,7 +8,7 @@ use robot_model::paper::{Structured, TERMS, balance};
 
 use super::follower::Follower;
 
-/// Smallest wheel inertia that is believed, kg m²: the estimate divides by it.
+/// Smallest wheel inertia that is believed, kg m²: the estimate divides by it. Below, the first guess acts.
 const LEAST_INERTIA: f64 = 2e-3;
 /// Smooth sign above which a wheel counts as turning: below, slip is noise over almost nothing.
 const TURNING: f64 = 0.999_999;
@@ -68,9 +68,9 @@ impl Follower<TERMS> for StructuredFollower {
     }
 
     fn kept(&self) -> [f64; TERMS] {
-        let mut constants = Structured::from_array(self.constants);
-        constants.a1 = constants.a1.max(LEAST_INERTIA);
-        constants.weights(self.torque_scale)
+        let constants = Structured::from_array(self.constants);
+        let believed = if constants.a1 < LEAST_INERTIA { Structured::from_array(self.guess) } else { constants };
+        believed.weights(self.torque_scale)
     }
 
     fn constants(&self) -> Option<Structured<f64>> {

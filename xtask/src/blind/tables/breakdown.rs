@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use report::page::Cell;
 
-use super::super::document::{Section, number};
 use super::super::figures::QUANTITIES;
 use super::super::score::statistics::{Rate, mean, median};
 use super::super::score::{Kind, Row};
 use super::super::totals::Totals;
+use crate::document::{Section, number};
 
 /// Names of severities by their number.
 const SEVERITIES: [&str; 3] = ["mild", "medium", "strong"];

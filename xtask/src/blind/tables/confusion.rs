@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use report::page::{Cell, Tone};
 
-use super::super::document::{Section, toned};
 use super::super::score::{Kind, Row};
+use crate::document::{Section, toned};
 
 /// What was hidden: effects first, then nothing, then outsiders.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

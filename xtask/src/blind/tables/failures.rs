@@ -1,7 +1,7 @@
 //! The cases that are answered wrongly.
 
-use super::super::document::Section;
 use super::super::score::{Kind, Row};
+use crate::document::Section;
 
 /// Whether the answer is wrong; of a pair both effects are asked for.
 pub(in crate::blind) fn fails(row: &Row) -> bool {

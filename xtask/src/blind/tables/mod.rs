@@ -2,9 +2,9 @@
 
 use report::page::Tone;
 
-use super::document::{Section, number, toned};
 use super::score::{Row, bins};
 use super::totals::BINS;
+use crate::document::{Section, number, toned};
 use crate::output::Figure;
 
 mod breakdown;
