@@ -132,6 +132,6 @@ fn a_recipe_that_contradicts_itself_is_refused() {
     assert!(refused(Recipe { disturbance_at: 3.9, ..Recipe::default() }).to_string().contains("events"));
     assert!(refused(Recipe { disturbance: -1.0, ..Recipe::default() }).to_string().contains("rolling resistance"));
     let mut recipe = Recipe::default();
-    recipe.identifier.units = 7;
-    assert!(refused(recipe).to_string().contains("identifier.units is 7"));
+    recipe.identifier.network.units = 7;
+    assert!(refused(recipe).to_string().contains("identifier.network.units is 7"));
 }

@@ -22,7 +22,9 @@ impl Hash {
 
     /// The first 16 hexadecimal digits.
     fn digits(self) -> String {
-        self.0.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+        let digest = self.0.finalize();
+        let first = digest.iter().take(8).fold(0_u64, |all, byte| (all << 8) | u64::from(*byte));
+        format!("{first:016x}")
     }
 }
 

@@ -2,7 +2,9 @@
 
 use robot_model::paper::{Belt, PaperRobot, Parameters, State, Variant};
 
-use crate::run::{robots, trajectory};
+use sim::{Experiment, Recipe, RobotSet, table1};
+
+use crate::run::{SEED, robots, trajectory};
 
 /// Erratum 3: Eq. 5 has no lateral velocity, but a skid-steered body slides sideways.
 #[test]
@@ -87,5 +89,20 @@ fn no_force_depends_on_the_angle_of_a_wheel() {
         let state = run.states[k];
         let turned = State { angle: [state.angle[0] + 1.0, state.angle[1] - 40.0], ..state };
         assert_eq!(before.rate(&turned, run.torques[k]), before.rate(&state, run.torques[k]));
+    }
+}
+
+/// Erratum 4: for the RMSE of Table 1 it makes no difference: the medians change by less than 2 %.
+#[test]
+fn the_sum_over_a_belt_hardly_moves_the_rmse() {
+    let median = |belt| {
+        let recipe = Recipe { plant: Variant { belt, ..Variant::default() }, ..Recipe::default() };
+        let draws = Experiment::new(&recipe, RobotSet::B).expect("runs").ensemble(SEED, 16, || {}).expect("finite");
+        [2, 3].map(|i| table1::distributions(&draws)[i].quantiles[2])
+    };
+    let (literal, summed) = (median(Belt::Literal), median(Belt::SideSum));
+    assert_ne!(literal, summed);
+    for (l, s) in literal.iter().zip(summed) {
+        assert!((s / l - 1.0).abs() < 0.02, "{literal:?} {summed:?}");
     }
 }
