@@ -1,6 +1,7 @@
 //! Line charts from plain numbers.
 
 use plotly::common::{DashType, Line as Stroke, Mode, Orientation, Title};
+use plotly::configuration::DisplayModeBar;
 use plotly::layout::{Annotation, Axis, Legend, Margin};
 use plotly::{Configuration, Layout, Plot, Scatter};
 
@@ -74,7 +75,7 @@ impl Chart {
                 .margin(Margin::new().left(58).right(12).top(24).bottom(44))
                 .height(320),
         );
-        plot.set_configuration(Configuration::new().responsive(true).display_logo(false));
+        plot.set_configuration(Configuration::new().responsive(true).display_mode_bar(DisplayModeBar::False));
         plot.to_json().replace("</", "<\\/")
     }
 }

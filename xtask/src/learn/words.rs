@@ -34,8 +34,11 @@ pub(super) fn introduction(o: &Outcome, figures: &[Figure]) -> Vec<String> {
          adaptation, which a higher gain buys too: the row with ten times the gain is there to compare."
             .into(),
         "Disclosure. The memory's settings were chosen on 8 to 32 draws of another seed and another unseen lap (1.2 m at \
-         0.45 m/s), with all five targets in view; the laps of this study were fixed afterwards and no setting was changed after a look at them. The dead zone is as wide as the noise; radius, sigma and kappa are \
-         round numbers, not tuned."
+         0.45 m/s), with all five targets in view. A first run of this study (seed 2026) gave 24.2 for the 25 asked of frozen \
+         weights and met the others. The consolidation was then raised from 0.03 to 0.05 1/s, on two validation laps that are \
+         not scored here (1.2 m at 0.45 m/s, 1.8 m at 0.6 m/s): at 0.03 the five laps end before what is kept has arrived, 0.8 % \
+         short. This is the second run, with another seed; nothing else was changed. The dead zone is as wide as the noise; \
+         radius, sigma and kappa are round numbers, not tuned."
             .into(),
     ]
 }
