@@ -27,7 +27,7 @@ impl<T: Scalar> Default for MemorySettings<T> {
             forgetting: real(forgetting),
             ridge: real(ridge),
         };
-        Self { long: span(30.0, 0.0, 0.02, 1e-4), short: span(200.0, 0.5, 2.0, 0.25), consolidation: real(0.03) }
+        Self { long: span(30.0, 0.0, 0.02, 1e-4), short: span(200.0, 0.5, 2.0, 0.25), consolidation: real(0.05) }
     }
 }
 
