@@ -18,7 +18,7 @@ fn digits(value: f64) -> Cell {
 }
 
 fn indices(o: &Outcome) -> Section {
-    let header: Vec<&str> = ["set", "row"].into_iter().chain(NAMES).chain(["all within x1.5", "x2", "x3"]).collect();
+    let header: Vec<&str> = std::iter::once("set").chain(NAMES).chain(["all within x1.5", "x2", "x3"]).collect();
     let note = "Distribution over the first layers; percentile: share of our draws below the paper's value. The last three \
                 columns: share of draws with all four indices within a factor of the paper's. A constant regressor is no \
                 network at all.";
