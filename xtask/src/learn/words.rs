@@ -26,7 +26,7 @@ pub(super) fn introduction(o: &Outcome, figures: &[Figure]) -> Vec<String> {
          known part of the right-hand side, so that the Lyapunov balance holds exactly, with the memory inside epsilon."
             .into(),
         "What the figures mean. Frozen weights are nearly a test of having learned G = a x, that is, that speeds change slowly: \
-         the row that is given just this and learns nothing is as good as any network there. Keeping it is more than the \
+         the row that is given just this and learns nothing beats every network there. Keeping it is more than the \
          paper's law does, and not yet a model of the robot. Running ahead tells more: with six random units of speeds and \
          torques, what is kept beats a frozen constant by far, but a constant that has followed until the start, and then \
          holds the speed, is about as good as the network. Only Eq. 8, with its constants learned and the body carried along, \
