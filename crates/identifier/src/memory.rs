@@ -8,7 +8,7 @@ use crate::least_squares::{LeastSquares, LeastSquaresSettings, relaxed};
 /// The two spans of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MemorySettings<T> {
-    /// What is kept: a span of minutes that fits levels.
+    /// What is kept: a span of minutes.
     pub long: LeastSquaresSettings<T>,
     /// What acts: a span of about a second that also fits changes, its prior what is kept.
     pub short: LeastSquaresSettings<T>,
@@ -27,7 +27,7 @@ impl<T: Scalar> Default for MemorySettings<T> {
             forgetting: real(forgetting),
             ridge: real(ridge),
         };
-        Self { long: span(30.0, 0.0, 0.02, 1e-4), short: span(200.0, 0.5, 2.0, 0.25), consolidation: real(0.05) }
+        Self { long: span(30.0, 0.5, 0.02, 1e-5), short: span(200.0, 0.5, 2.0, 0.25), consolidation: real(0.05) }
     }
 }
 

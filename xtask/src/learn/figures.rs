@@ -60,6 +60,10 @@ pub(super) fn all(o: &Outcome) -> Vec<Figure> {
         free("online RMSE of all laps: memory over the paper's law", ratio(memory, paper, all_laps))
             .asked(Asked::AtMost(0.75)),
         free("runs with a violated certificate, all laws", violations).asked(Asked::AtMost(0.0)),
+        free(
+            "frozen weights chosen with hindsight on the unseen laps: the paper's law over them",
+            paper.map_or(f64::NAN, |p| median(p, |s| frozen(s) / same_way(|lap| s.hindsight[lap]))),
+        ),
         free("online RMSE of the last lap: memory over the paper's law", ratio(memory, paper, last)),
         free(
             "frozen weights, the other way round: the paper's law over memory",

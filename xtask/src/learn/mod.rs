@@ -25,7 +25,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = FULL, value_parser = clap::value_parser!(u64).range(1..))]
     draws: u64,
     /// Seed of the draws.
-    #[arg(long, default_value_t = 2027)]
+    #[arg(long, default_value_t = 2028)]
     seed: u64,
     /// Also write docs/paper/learning.md.
     #[arg(long)]

@@ -68,17 +68,19 @@ fn laps(tried: &[Tried]) -> Section {
 }
 
 fn frozen(o: &Outcome) -> Section {
-    let note = "RMSE in rad/s. Frozen: d/dt x^ = -a x^ + W'phi with the weights that the training left. Online: following and \
-                learning on.";
+    let note = "RMSE in rad/s. Frozen: d/dt x^ = -a x^ + W'phi with the weights that the training left. Hindsight: with the \
+                best weights for that lap, which nobody has beforehand. Online: following and learning on.";
     let names: Vec<String> = o.study.unseen().iter().map(|c| c.name.to_owned()).collect();
     let mut header = vec!["law".to_owned()];
     header.extend(names.iter().map(|n| format!("frozen, {n}")));
+    header.extend(names.iter().map(|n| format!("hindsight, {n}")));
     header.extend(names.iter().map(|n| format!("online, {n}")));
     let mut section = Section::new("Unseen laps", note, &header.iter().map(String::as_str).collect::<Vec<_>>());
     for t in &o.tried {
         let frozen = (0..names.len()).map(|lap| median(t, |s| s.frozen[lap]));
         let online = (0..names.len()).map(|lap| median(t, |s| s.online[lap]));
-        section.rows.push(row(t, frozen.chain(online)));
+        let hindsight = (0..names.len()).map(|lap| median(t, |s| s.hindsight[lap]));
+        section.rows.push(row(t, frozen.chain(hindsight).chain(online)));
     }
     section
 }

@@ -10,7 +10,7 @@ use super::{POLE, UNITS, Weights, decades, dot, midpoint_system, norm, regressor
 /// A memory that takes over at once what it fits, so that tests need no minutes.
 fn quick() -> MemorySettings<f64> {
     let default = MemorySettings::<f64>::default();
-    let long = LeastSquaresSettings { forgetting: 0.0, ridge: 1e-9, ..default.long };
+    let long = LeastSquaresSettings { lead: 0.0, forgetting: 0.0, ridge: 1e-9, ..default.long };
     MemorySettings { long, consolidation: 1e6, ..default }
 }
 

@@ -14,6 +14,8 @@ pub struct Score {
     pub table1: [f64; 4],
     /// RMSE on each unseen lap with the weights frozen that the training left.
     pub frozen: Vec<f64>,
+    /// The smallest RMSE that any frozen weights of the regressor reach on each unseen lap, chosen with hindsight.
+    pub hindsight: Vec<f64>,
     /// RMSE on each unseen lap while following and learning on.
     pub online: Vec<f64>,
     /// RMS of predictions on each unseen lap with the weights that acted at their starts, per horizon.

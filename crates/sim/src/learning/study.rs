@@ -2,6 +2,7 @@
 
 use controller::{Loop, Turn};
 use identifier::{Ledger, Sample};
+use nalgebra::{SMatrix, SVector};
 use nn_basis::dot;
 use robot_model::paper::State;
 
@@ -14,6 +15,9 @@ use crate::{Purpose, Recipe, SimError, Stream};
 
 /// Comparison weights are drawn between minus and plus this, rad/s².
 const COMPARISON_RANGE: f64 = 30.0;
+
+/// Keeps the normal equations of terms that a lap does not show solvable; far below any signal.
+const HINDSIGHT_RIDGE: f64 = 1e-9;
 
 /// What the study assumes besides the recipe of the reproduction.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,8 +99,9 @@ impl Study {
         let kept = [followers[0].kept(), followers[1].kept()];
         way.score.constants = followers[0].constants().zip(followers[1].constants()).map(|(left, right)| [left, right]);
         for course in &self.unseen {
-            let frozen = way.frozen(&kept, regressor, course);
+            let [frozen, best] = way.frozen(&kept, regressor, course);
             way.score.frozen.push(frozen);
+            way.score.hindsight.push(best);
             let mut errors = [Errors::default(); 2];
             let (squares, _) = way.follow(&mut followers, regressor, course, Some((&kept, &mut errors)))?;
             way.score.online.push(pooled(squares));
@@ -190,23 +195,36 @@ impl<const N: usize> Way<N> {
         Ok((squares, largest))
     }
 
-    /// RMSE of `d/dt x̂ = −a x̂ + Wᵀφ` with fixed weights, φ from the measured speeds of the lap.
-    fn frozen<R: Regressor<N>>(&self, weight: &[[f64; N]; 2], regressor: &R, course: &Course) -> f64 {
+    /// RMSE of `d/dt x̂ = −a x̂ + Wᵀφ` with fixed weights, φ from the measured speeds of the lap; and the smallest that any
+    /// fixed weights reach on this lap, chosen with hindsight: what the regressor itself cannot do.
+    fn frozen<R: Regressor<N>>(&self, weight: &[[f64; N]; 2], regressor: &R, course: &Course) -> [f64; 2] {
         let (run, h) = (&course.run, course.run.step);
         let measured = self.measured(course);
-        let (mut estimate, mut squares) = ([0.0; 2], [0.0; 2]);
-        for k in 0..run.torques.len() {
-            let speed = [0, 1].map(|i| 0.5 * (measured[k][i] + measured[k + 1][i]));
-            let body = middle(course, k);
-            let sight = Sight { speed, torque: run.torques[k], body: &body };
-            for i in 0..2 {
-                let g = dot(&weight[i], &regressor.phi(i, &sight)) + regressor.known(i, self.pole, &sight);
-                // The midpoint rule with a fixed right-hand side.
-                let damping = 0.5 * self.pole * h;
-                estimate[i] = ((1.0 - damping) * estimate[i] + h * g) / (1.0 + damping);
-                squares[i] += (run.states[k + 1].speed[i] - estimate[i]).powi(2) / run.torques.len() as f64;
+        let (damping, samples) = (0.5 * self.pole * h, run.torques.len() as f64);
+        // The midpoint rule with a fixed right-hand side.
+        let lag = |state: f64, drive: f64| ((1.0 - damping) * state + h * drive) / (1.0 + damping);
+        let mut frozen = [0.0; 2];
+        let mut best = [0.0; 2];
+        for i in 0..2 {
+            let (mut estimate, mut known, mut filtered) = (0.0, 0.0, SVector::<f64, N>::zeros());
+            let (mut normal, mut cross) = (SMatrix::<f64, N, N>::identity() * HINDSIGHT_RIDGE, SVector::zeros());
+            let mut energy = 0.0;
+            for k in 0..run.torques.len() {
+                let speed = [0, 1].map(|i| 0.5 * (measured[k][i] + measured[k + 1][i]));
+                let body = middle(course, k);
+                let sight = Sight { speed, torque: run.torques[k], body: &body };
+                let (phi, given) = (regressor.phi(i, &sight), regressor.known(i, self.pole, &sight));
+                estimate = lag(estimate, dot(&weight[i], &phi) + given);
+                known = lag(known, given);
+                filtered.zip_apply(&SVector::from(phi), |state, drive| *state = lag(*state, drive));
+                let truth = run.states[k + 1].speed[i];
+                frozen[i] += (truth - estimate).powi(2) / samples;
+                normal += filtered * filtered.transpose() / samples;
+                cross += filtered * ((truth - known) / samples);
+                energy += (truth - known).powi(2) / samples;
             }
+            best[i] = normal.cholesky().map_or(energy, |factor| (energy - cross.dot(&factor.solve(&cross))).max(0.0));
         }
-        pooled(squares)
+        [pooled(frozen), pooled(best)]
     }
 }
