@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use recordings::{Group, GroupFile, Input, Loss, Mapping, Read, ReadOptions, Source};
+use recordings::{Group, GroupFile, Loss, Mapping, Opened, Read, ReadOptions, Source, read_from};
 
 use crate::robot_file::RobotSpec;
 
@@ -78,38 +78,63 @@ struct Files {
     ignored: Vec<String>,
 }
 
-/// All files below `paths` (a folder's files, or a file itself), sorted within each folder.
+/// Endings of files that a mapping reads: `csv` of `imu_*.csv`, both of `*.{mcap,db3}`.
+fn endings(mapping: &Mapping) -> BTreeSet<&str> {
+    let ending = |pattern: &'_ str| pattern.rsplit_once('*').map_or(pattern.len(), |(start, _)| start.len() + 1);
+    let all = mapping.files.iter().flat_map(|f| f.pattern[ending(&f.pattern)..].split(['{', ',', '}']));
+    all.filter_map(|end| end.rsplit('.').next()).filter(|end| !end.is_empty()).collect()
+}
+
+/// All files below `paths` (a folder's files, or a file itself), sorted within each folder. A folder of bags is a folder
+/// of folders: where the mapping reads bags, those that hold one are looked into as well.
 ///
 /// In a folder, a file is meant when it fits the mapping or ends like something that does; notes beside are not.
 fn files(mapping: &Mapping, paths: &[PathBuf]) -> Result<Files> {
-    let endings: BTreeSet<&str> =
-        mapping.files.iter().filter_map(|f| f.pattern.rsplit_once('.').map(|(_, end)| end)).collect();
+    let endings = endings(mapping);
     let mut out = Files::default();
     for path in paths {
-        if !path.is_dir() {
+        if path.is_dir() {
+            folder(mapping, &endings, path, true, &mut out)?;
+        } else {
             let shown = path.display();
             ensure!(path.exists(), "there is no file or folder '{shown}'; give a recording, or a folder of recordings");
             out.meant.push(shown.to_string());
-            continue;
-        }
-        let mut inside = fs::read_dir(path)
-            .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
-            .with_context(|| format!("cannot list '{}'", path.display()))?;
-        inside.sort_by_key(std::fs::DirEntry::file_name);
-        for entry in inside {
-            let file = entry.path();
-            let name = file.display().to_string();
-            if entry.file_name().as_encoded_bytes().starts_with(b".") {
-                continue;
-            }
-            let ending = file.extension().and_then(|e| e.to_str()).unwrap_or_default();
-            let fits = mapping.files.iter().any(|f| f.run_id(&name).is_some());
-            let meant = fits || endings.iter().any(|e| e.eq_ignore_ascii_case(ending));
-            let list = if file.is_file() && meant { &mut out.meant } else { &mut out.ignored };
-            list.push(name);
         }
     }
     Ok(out)
+}
+
+/// Adds the files of a folder.
+fn folder(mapping: &Mapping, endings: &BTreeSet<&str>, path: &Path, descend: bool, out: &mut Files) -> Result<()> {
+    let mut inside = fs::read_dir(path)
+        .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
+        .with_context(|| format!("cannot list '{}'", path.display()))?;
+    inside.sort_by_key(fs::DirEntry::file_name);
+    let bags = mapping.files.iter().any(|f| f.topic.is_some());
+    for entry in inside {
+        let file = entry.path();
+        let name = file.display().to_string();
+        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
+        if file.is_dir() && descend && bags {
+            let mut below = Files::default();
+            folder(mapping, endings, &file, false, &mut below)?;
+            if below.meant.is_empty() {
+                out.ignored.push(name);
+            } else {
+                out.meant.append(&mut below.meant);
+                out.ignored.append(&mut below.ignored);
+            }
+            continue;
+        }
+        let ending = file.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let fits = mapping.files.iter().any(|f| f.run_id(&name).is_some());
+        let meant = fits || endings.iter().any(|e| e.eq_ignore_ascii_case(ending));
+        let list = if file.is_file() && meant { &mut out.meant } else { &mut out.ignored };
+        list.push(name);
+    }
+    Ok(())
 }
 
 /// Adds the files of a run that were not named but lie where they should: naming one of a pair is enough.
@@ -162,14 +187,14 @@ pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Resu
     }
     let names = run_names(&grouping.groups);
     for (group, run) in grouping.groups.iter().zip(&names) {
-        let bytes = group
+        let mut files = group
             .files
             .iter()
-            .map(|f| fs::read(&f.name).with_context(|| format!("cannot read '{}'", f.name)))
+            .map(|f| fs::File::open(&f.name).with_context(|| format!("cannot read '{}'", f.name)))
             .collect::<Result<Vec<_>>>()?;
-        let inputs: Vec<Input<'_>> =
-            group.files.iter().zip(&bytes).map(|(f, b)| Input { name: &f.name, bytes: b }).collect();
-        let read = recordings::read(mapping, run, &inputs, options)?;
+        let mut opened: Vec<Opened<'_>> =
+            group.files.iter().zip(&mut files).map(|(f, source)| Opened { name: &f.name, source }).collect();
+        let read = read_from(mapping, run, &mut opened, options)?;
         out.losses.extend(read.losses.iter().cloned());
         out.sources.extend(read.sources.iter().cloned());
         out.reads.push(read);
@@ -190,6 +215,15 @@ pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn endings_are_those_of_the_patterns() {
+        let of = |name: &str| {
+            endings(&Mapping::built_in(name).expect("built in")).into_iter().map(str::to_owned).collect::<Vec<_>>()
+        };
+        assert_eq!(of("husky-open"), ["csv"]);
+        assert_eq!(of("kobuki-bag"), ["db3", "mcap", "zstd"]);
+    }
 
     #[test]
     fn runs_take_as_much_of_their_path_as_tells_them_apart() {

@@ -1,5 +1,7 @@
 //! One cell of a table: bytes become a number, an instant, a gap or a complaint.
 
+use std::borrow::Cow;
+
 /// Why a cell holds no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CellError {
@@ -14,6 +16,17 @@ pub(crate) fn bare(cell: &[u8]) -> &[u8] {
     let cell = cell.trim_ascii();
     let inner = cell.strip_prefix(b"\"").and_then(|rest| rest.strip_suffix(b"\""));
     inner.map_or(cell, <[u8]>::trim_ascii)
+}
+
+/// The cell with a decimal point where it is written with a decimal comma; a point is then no number.
+pub(crate) fn with_point(cell: &[u8], comma: bool) -> Result<Cow<'_, [u8]>, CellError> {
+    if !comma {
+        return Ok(Cow::Borrowed(cell));
+    }
+    if cell.contains(&b'.') {
+        return Err(CellError::NotANumber);
+    }
+    Ok(Cow::Owned(cell.iter().map(|&byte| if byte == b',' { b'.' } else { byte }).collect()))
 }
 
 /// The number in a cell; `None` for an empty one.

@@ -1,5 +1,6 @@
 //! The crate's one error type.
 
+use crate::place::Place;
 use crate::signal::Signal;
 use crate::units::Unit;
 
@@ -30,6 +31,10 @@ pub enum RecordingError {
     )]
     DuplicateColumn { file: String, line: u64, column: String },
 
+    /// A unit in the header that contradicts the mapping.
+    #[error("{file}: line {line}: column `{column}` says {stated}, the mapping another unit; correct the mapping")]
+    HeaderUnit { file: String, line: u64, column: String, stated: String },
+
     /// None of the optional columns is there.
     #[error("{file}: line {line}: none of the columns of mapping {mapping} is here; {hint}")]
     NoSignals { file: String, line: u64, mapping: String, hint: String },
@@ -43,40 +48,40 @@ pub enum RecordingError {
     WrongFieldCount { file: String, line: u64, found: usize, expected: usize },
 
     /// A row with an empty time cell (strict reading).
-    #[error("{file}: line {line}, column {column}: the time is empty; give it or delete the line")]
-    NoTime { file: String, line: u64, column: String },
+    #[error("{file}: {place} {line}, column {column}: the time is empty; give it or delete the line")]
+    NoTime { file: String, place: Place, line: u64, column: String },
 
     /// Text where a number is expected.
     #[error(
-        "{file}: line {line}, column {column}: `{text}` is not a number; \
+        "{file}: {place} {line}, column {column}: `{text}` is not a number; \
          correct it, leave the cell empty, or read in tolerant mode to skip it"
     )]
-    NotANumber { file: String, line: u64, column: String, text: String },
+    NotANumber { file: String, place: Place, line: u64, column: String, text: String },
 
     /// NaN, infinity, or too large for the arithmetic.
     #[error(
-        "{file}: line {line}, column {column}: `{text}` is not a finite number in range; \
+        "{file}: {place} {line}, column {column}: `{text}` is not a finite number in range; \
          a missing sample is an empty cell (or read in tolerant mode to skip it)"
     )]
-    NotFinite { file: String, line: u64, column: String, text: String },
+    NotFinite { file: String, place: Place, line: u64, column: String, text: String },
 
     /// A negative number in a column that the mapping declares to be without sign.
     #[error(
-        "{file}: line {line}, column {column}: {text} is negative, but the mapping says magnitude_only; \
+        "{file}: {place} {line}, column {column}: {text} is negative, but the mapping says magnitude_only; \
          correct the mapping (magnitude_only = false)"
     )]
-    NegativeMagnitude { file: String, line: u64, column: String, text: String },
+    NegativeMagnitude { file: String, place: Place, line: u64, column: String, text: String },
 
     /// A stamp before the one above it.
     #[error(
-        "{file}: line {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
+        "{file}: {place} {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
          sort the rows, split the file there, or read in tolerant mode to skip them"
     )]
-    TimeBackwards { file: String, line: u64, column: String, before_s: f64, now_s: f64 },
+    TimeBackwards { file: String, place: Place, line: u64, column: String, before_s: f64, now_s: f64 },
 
     /// The same stamp twice (strict reading).
-    #[error("{file}: line {line}, column {column}: the stamp {now_s} s occurs twice; delete one of the lines")]
-    DuplicateStamp { file: String, line: u64, column: String, now_s: f64 },
+    #[error("{file}: {place} {line}, column {column}: the stamp {now_s} s occurs twice; delete one of the lines")]
+    DuplicateStamp { file: String, place: Place, line: u64, column: String, now_s: f64 },
 
     /// TOML that does not parse, an unknown key, a wrong type.
     #[error("{mapping}: line {line}: {message}")]
@@ -121,6 +126,34 @@ pub enum RecordingError {
     /// A signal that a caller cannot do without.
     #[error("recording {recording}: no signal {signal} ({}); map a column to it; mapped are: {mapped}", signal.unit())]
     MissingSignal { recording: String, signal: Signal, mapped: String },
+
+    /// The source failed while it was read.
+    #[error("{file}: reading failed at byte {byte}: {message}; try again, or copy the file first")]
+    CannotRead { file: String, byte: u64, message: String },
+
+    /// A file whose format has to be held in memory as a whole, and that is too large for it.
+    #[error("{file}: {bytes} bytes, but this format is read whole and {limit} is the limit; convert it to MCAP")]
+    TooLarge { file: String, bytes: u64, limit: u64 },
+
+    /// A file that cannot be read at all.
+    #[error("{file}: not a readable {format} file: {message}")]
+    NotReadable { file: String, format: &'static str, message: String },
+
+    /// A loss where none is accepted (strict reading).
+    #[error("{0}; read without strict mode to take what is left")]
+    Lost(String),
+
+    /// A topic that the mapping asks for.
+    #[error("{file}: no topic `{topic}` (needed by mapping {mapping}); {hint}")]
+    MissingTopic { file: String, topic: String, mapping: String, hint: String },
+
+    /// A field that a topic's message does not have.
+    #[error("{file}: `{topic}.{field}`: {message}")]
+    BadField { file: String, topic: String, field: String, message: String },
+
+    /// A topic whose messages cannot be decoded.
+    #[error("{file}: topic `{topic}` ({message_type}): {message}")]
+    BadTopic { file: String, topic: String, message_type: String, message: String },
 
     /// A channel whose stamps and values do not pair up.
     #[error("channel {channel}: {stamps} stamps but {values} values; give one stamp per value")]

@@ -18,7 +18,7 @@ pub struct Group {
 /// One file of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GroupFile {
-    /// Index into [`Mapping::files`].
+    /// Index into [`Mapping::files`], of the first where several read topics of the same file.
     pub entry: usize,
     /// The name as it was given.
     pub name: String,
@@ -46,30 +46,34 @@ impl Mapping {
     /// # Ok::<(), recordings::RecordingError>(())
     /// ```
     pub fn group<S: AsRef<str>>(&self, names: &[S]) -> Grouping {
-        let mut runs: BTreeMap<(&str, Vec<Part<'_>>), Vec<Option<&str>>> = BTreeMap::new();
+        let mut runs: BTreeMap<(&str, Vec<Part<'_>>), Vec<Vec<&str>>> = BTreeMap::new();
         let mut unmatched = Vec::new();
         for name in names.iter().map(AsRef::as_ref) {
-            let slot = self.entry_of(name).map(|(entry, id)| {
-                let folder = &name[..name.len() - base_name(name).len()];
-                let files = runs.entry((folder, parts(id))).or_insert_with(|| vec![None; self.files.len()]);
-                &mut files[entry]
-            });
-            match slot {
-                Some(slot @ None) => *slot = Some(name),
-                _ => unmatched.push(name.to_owned()),
+            let Some((entry, id)) = self.entry_of(name) else {
+                unmatched.push(name.to_owned());
+                continue;
+            };
+            let folder = &name[..name.len() - base_name(name).len()];
+            let files = runs.entry((folder, parts(id))).or_insert_with(|| vec![Vec::new(); self.files.len()]);
+            // A bag may have several parts, everything else one file.
+            if files[entry].contains(&name) || (self.files[entry].topic.is_none() && !files[entry].is_empty()) {
+                unmatched.push(name.to_owned());
+            } else {
+                files[entry].push(name);
             }
         }
-        let groups = runs.into_iter().map(|((folder, id), files)| {
+        let groups = runs.into_iter().map(|((folder, id), mut files)| {
             let id: String = id.iter().map(|part| part.text).collect();
-            let absent = self.files.iter().zip(&files).filter(|(_, file)| file.is_none());
+            let absent = |entry: &usize| files[*entry].is_empty() && self.leads(*entry);
+            let missing: Vec<usize> = (0..files.len()).filter(absent).collect();
+            for files in &mut files {
+                files.sort_by_key(|name| parts(name));
+            }
+            let there = files.iter().enumerate().flat_map(|(entry, files)| files.iter().map(move |name| (entry, name)));
             Group {
                 run: format!("{folder}{id}"),
-                missing: absent.map(|(entry, _)| format!("{folder}{}", entry.file_of(&id))).collect(),
-                files: files
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(entry, name)| name.map(|name| GroupFile { entry, name: name.to_owned() }))
-                    .collect(),
+                missing: missing.iter().map(|&entry| format!("{folder}{}", self.files[entry].file_of(&id))).collect(),
+                files: there.map(|(entry, name)| GroupFile { entry, name: (*name).to_owned() }).collect(),
             }
         });
         Grouping { groups: groups.collect(), unmatched }
@@ -78,13 +82,13 @@ impl Mapping {
 
 /// A stretch of digits or of anything else; digits compare as numbers (by length without leading zeros, then by text).
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Part<'a> {
+pub(crate) struct Part<'a> {
     rank: (bool, usize, &'a str),
     text: &'a str,
 }
 
 /// The id in parts that compare as people count.
-fn parts(id: &str) -> Vec<Part<'_>> {
+pub(crate) fn parts(id: &str) -> Vec<Part<'_>> {
     id.as_bytes()
         .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
         .scan(0, |start, chunk| {
@@ -109,6 +113,20 @@ mod tests {
         let runs: Vec<&str> = sorted.groups.iter().map(|group| group.run.as_str()).collect();
         assert_eq!(runs, ["a/run_2", "b/run_02", "b/run_2", "b/run_10"]);
         assert_eq!(sorted.unmatched, ["b/robot.json", "a/run_2.csv"]);
+    }
+
+    #[test]
+    fn parts_of_a_split_bag_are_one_run() {
+        let text = "[[files]]\ntopic = \"/imu\"\ntime = { column = \"log_time\" }\n\
+                    signals.gyro_z = { column = \"z\", unit = \"rad/s\" }";
+        let mapping = Mapping::parse("m.toml", text).unwrap();
+        let names =
+            ["x/walk/walk_10.mcap", "x/walk/walk_2.mcap", "x/walk/metadata.yaml", "x/run_1.db3", "x/run_2.db3.zstd"];
+        let sorted = mapping.group(&names);
+        let runs: Vec<(&str, usize)> = sorted.groups.iter().map(|group| (&*group.run, group.files.len())).collect();
+        assert_eq!(runs, [("x/run_1", 1), ("x/run_2", 1), ("x/walk/walk", 2)]);
+        assert_eq!(sorted.groups[2].files[0].name, "x/walk/walk_2.mcap");
+        assert_eq!(sorted.unmatched, ["x/walk/metadata.yaml"]);
     }
 
     #[test]

@@ -2,9 +2,11 @@
 
 use crate::cell::bare;
 use crate::error::RecordingError;
-use crate::mapping::{ColumnMapping, FileMapping};
+use crate::mapping::FileMapping;
 use crate::read::Input;
+use crate::samples::Found;
 use crate::suggest;
+use crate::units::{Unit, parse_unit};
 
 /// The header, and what is below it.
 pub(crate) struct Header<'a> {
@@ -20,12 +22,6 @@ pub(crate) struct Header<'a> {
     pub(crate) columns: Vec<Found<'a>>,
     /// The columns that no signal or time was read from.
     pub(crate) unused: Vec<String>,
-}
-
-/// A mapped column and where it is.
-pub(crate) struct Found<'a> {
-    pub(crate) position: usize,
-    pub(crate) mapped: &'a ColumnMapping,
 }
 
 impl<'a> Header<'a> {
@@ -48,13 +44,29 @@ impl<'a> Header<'a> {
             let known: Vec<&str> = names.iter().map(String::as_str).collect();
             hint(column, &known, file.delimiter)
         };
+        // By the whole name, or by the name before a unit in brackets.
         let position = |column: &str| {
-            let mut places = names.iter().enumerate().filter(|(_, name)| *name == column.trim());
-            match (places.next(), places.next()) {
-                (Some(_), Some(_)) => {
-                    Err(RecordingError::DuplicateColumn { file: name(), line, column: column.to_owned() })
+            let whole = |name: &&str| **name == *column.trim();
+            let without_unit = |name: &&str| split_unit(name).is_some_and(|(before, _)| before == column.trim());
+            let find = |is: &dyn Fn(&&str) -> bool| -> Vec<usize> {
+                (0..names.len()).filter(|&index| is(&names[index].as_str())).collect()
+            };
+            let places = Some(find(&whole)).filter(|places| !places.is_empty()).unwrap_or_else(|| find(&without_unit));
+            match places[..] {
+                [] => Ok(None),
+                [one] => Ok(Some(one)),
+                _ => Err(RecordingError::DuplicateColumn { file: name(), line, column: column.to_owned() }),
+            }
+        };
+        let same_unit = |index: usize, factor: f64, unit: Unit| {
+            let stated = split_unit(&names[index]).map(|(_, stated)| stated);
+            let meaning = stated.and_then(|stated| Some((stated, parse_unit(stated)?)));
+            match meaning {
+                Some((stated, is)) if is.unit != unit || is.factor != factor => {
+                    let (column, stated) = (names[index].clone(), stated.to_owned());
+                    Err(RecordingError::HeaderUnit { file: name(), line, column, stated })
                 }
-                (found, _) => Ok(found.map(|(position, _)| position)),
+                _ => Ok(()),
             }
         };
         let missing = |column: &str, key: String| {
@@ -64,14 +76,20 @@ impl<'a> Header<'a> {
 
         let time = match &file.time.column {
             Some(column) => {
-                Some(position(column)?.ok_or_else(|| missing(column, "the time of mapping ".to_owned() + mapping))?)
+                let position = position(column)?;
+                let position = position.ok_or_else(|| missing(column, "the time of mapping ".to_owned() + mapping))?;
+                same_unit(position, file.time.ns_per_unit as f64 / 1e9, Unit::Second)?;
+                Some(position)
             }
             None => None,
         };
         let mut columns = Vec::new();
         for mapped in &file.columns {
             match position(&mapped.column)? {
-                Some(position) => columns.push(Found { position, mapped }),
+                Some(position) => {
+                    same_unit(position, mapped.unit.factor, mapped.unit.unit)?;
+                    columns.push(Found { position, mapped });
+                }
                 None if mapped.optional => {}
                 None => {
                     return Err(missing(&mapped.column, format!("{} of mapping {mapping}", mapped.signal)));
@@ -104,6 +122,14 @@ fn line_ends(bytes: &[u8]) -> u64 {
         _ => false,
     };
     (0..bytes.len()).filter(|&index| is_end(index)).count() as u64
+}
+
+/// A column's name and the unit behind it: `wz [rad/s]`, `speed (m/s)`.
+fn split_unit(name: &str) -> Option<(&str, &str)> {
+    let (open, inside) =
+        [('[', ']'), ('(', ')')].iter().find_map(|&(open, close)| Some((open, name.strip_suffix(close)?)))?;
+    let (before, unit) = inside.rsplit_once(open)?;
+    Some((before.trim(), unit.trim()))
 }
 
 /// The names in a header line, quotes and blanks around them removed.

@@ -8,7 +8,9 @@
 //!
 //! * [`Signal`] is the closed vocabulary; [`Unit`] is what a signal is in, always SI.
 //! * [`Mapping`] says which column of which file is which signal, in which unit and with which sign.
-//! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way.
+//! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way; [`read_from`] does
+//!   so from anything that can be read and searched, so that bags need not fit into memory.
+//! * [`contents`] tells what a bag holds, [`messages`] gives each message, [`FieldReader`] the fields of each.
 //! * [`write_csv`] is the way back; the built-in mapping `skid-steer-columns` reads what it wrote.
 //!
 //! ```
@@ -24,9 +26,12 @@
 //! # Ok::<(), recordings::RecordingError>(())
 //! ```
 
+mod bag;
 mod cell;
 mod channel;
+mod contents;
 mod error;
+mod fields;
 mod group;
 mod header;
 mod loss;
@@ -34,21 +39,28 @@ mod mapping;
 mod mapping_raw;
 mod mapping_text;
 mod mapping_toml;
+mod parquet;
+mod place;
 mod read;
 mod recording;
-mod row;
+mod samples;
 mod signal;
 mod suggest;
 mod table;
+mod topics;
 mod units;
 mod write;
 
+pub use bag::{LARGEST_IN_MEMORY, LARGEST_RECORD, Message, Passed, ReadSeek, Topic, messages};
 pub use channel::{Attributes, Channel};
+pub use contents::{Contents, TopicContents, contents};
 pub use error::RecordingError;
+pub use fields::{Field, FieldReader};
 pub use group::{Group, GroupFile, Grouping};
 pub use loss::{Loss, LossKind};
 pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping};
-pub use read::{Input, Policy, Read, ReadOptions, Source, UnusedColumn, read};
+pub use place::Place;
+pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
 pub use units::{Scale, Unit, parse_unit};

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::place::Place;
+
 /// How many places of one kind are named one by one.
 const PLACES_NAMED: usize = 5;
 
@@ -27,6 +29,30 @@ pub enum LossKind {
     EmptyColumn,
     /// A file that belongs to the run is not there.
     MissingFile,
+    /// Damaged bytes were skipped up to the next record that is whole.
+    Damage,
+    /// A chunk of messages whose content or checksum is wrong was dropped whole.
+    BadChunk,
+    /// A record, chunk or message above the limit of what is held in memory was skipped.
+    TooLarge,
+    /// The file stops before its end mark.
+    CutOff,
+    /// The summary at the end of the file is damaged.
+    BadSummary,
+    /// The checksum over all messages is wrong, and no damage was found elsewhere.
+    BadChecksum,
+    /// The file says that it holds messages that were not found.
+    MissingMessage,
+    /// A record of a kind that nobody knows was skipped.
+    UnknownRecord,
+    /// A message outside of the chunks of a file that has chunks was skipped: no checksum covers it.
+    StrayMessage,
+    /// A message of a topic that the file does not describe was skipped.
+    UnknownTopic,
+    /// A message that does not decode by its schema was skipped.
+    BadMessage,
+    /// The topic that the mapping asks for holds no message.
+    EmptyTopic,
 }
 
 impl LossKind {
@@ -47,6 +73,22 @@ impl LossKind {
             ),
             Self::EmptyColumn => ("column without a sample", "columns without a sample"),
             Self::MissingFile => ("file is missing; its signals are absent", "files are missing"),
+            Self::Damage => ("stretch of damaged bytes skipped", "stretches of damaged bytes skipped"),
+            Self::BadChunk => ("damaged chunk of messages dropped", "damaged chunks of messages dropped"),
+            Self::TooLarge => ("record above the size limit skipped", "records above the size limit skipped"),
+            Self::CutOff => ("file without its end: it was cut off", "files without their end"),
+            Self::BadSummary => ("damaged summary", "damaged summaries"),
+            Self::BadChecksum => ("wrong checksum over the messages", "wrong checksums over the messages"),
+            Self::MissingMessage => {
+                ("message not found that the file counts", "messages not found that the file counts")
+            }
+            Self::UnknownRecord => ("record of unknown kind skipped", "records of unknown kind skipped"),
+            Self::StrayMessage => {
+                ("message outside of the file's chunks skipped", "messages outside of the file's chunks skipped")
+            }
+            Self::UnknownTopic => ("message of an undescribed topic skipped", "messages of undescribed topics skipped"),
+            Self::BadMessage => ("message skipped: it does not decode", "messages skipped: they do not decode"),
+            Self::EmptyTopic => ("topic without a message", "topics without a message"),
         }
     }
 }
@@ -60,7 +102,9 @@ pub struct Loss {
     pub file: String,
     /// The column, where one cell or column is meant.
     pub column: Option<String>,
-    /// The first few lines (from 1) at which it happened.
+    /// What `lines` counts.
+    pub place: Place,
+    /// The first few places at which it happened.
     pub lines: Vec<u64>,
     /// How often it happened.
     pub count: usize,
@@ -74,12 +118,11 @@ impl fmt::Display for Loss {
             write!(f, ", column {column}")?;
         }
         for (index, line) in self.lines.iter().enumerate() {
-            let lead = match (index, self.count) {
-                (0, 1) => ", line",
-                (0, _) => ", lines",
-                _ => ",",
-            };
-            write!(f, "{lead} {line}")?;
+            match (index, self.count) {
+                (0, 1) => write!(f, ", {} {line}", self.place)?,
+                (0, _) => write!(f, ", {}s {line}", self.place)?,
+                _ => write!(f, ", {line}")?,
+            }
         }
         if !self.lines.is_empty() && self.count > self.lines.len() {
             f.write_str(" and more")?;
@@ -92,13 +135,14 @@ impl fmt::Display for Loss {
 #[derive(Debug)]
 pub(crate) struct Ledger<'a> {
     file: &'a str,
+    place: Place,
     losses: Vec<Loss>,
 }
 
 impl<'a> Ledger<'a> {
-    /// An empty ledger for a file.
-    pub(crate) const fn new(file: &'a str) -> Self {
-        Self { file, losses: Vec::new() }
+    /// An empty ledger for a file whose places are counted in `place`.
+    pub(crate) const fn new(file: &'a str, place: Place) -> Self {
+        Self { file, place, losses: Vec::new() }
     }
 
     /// Counts one loss; `line` is asked only while places are still named.
@@ -106,13 +150,23 @@ impl<'a> Ledger<'a> {
         let same = |loss: &Loss| loss.kind == kind && loss.column.as_deref() == column;
         let index = self.losses.iter().position(same).unwrap_or_else(|| {
             let column = column.map(str::to_owned);
-            self.losses.push(Loss { kind, file: self.file.to_owned(), column, lines: Vec::new(), count: 0 });
+            let (file, place) = (self.file.to_owned(), self.place);
+            self.losses.push(Loss { kind, file, column, place, lines: Vec::new(), count: 0 });
             self.losses.len() - 1
         });
         let loss = &mut self.losses[index];
         loss.count += 1;
         if loss.count <= PLACES_NAMED {
             loss.lines.extend(line());
+        }
+    }
+
+    /// Counts losses whose places are not known.
+    pub(crate) fn add_many(&mut self, kind: LossKind, count: u64) {
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        if count > 0 {
+            let (file, place) = (self.file.to_owned(), self.place);
+            self.losses.push(Loss { kind, file, column: None, place, lines: Vec::new(), count });
         }
     }
 
@@ -141,7 +195,7 @@ mod tests {
 
     #[test]
     fn losses_are_counted_and_the_first_places_named() {
-        let mut ledger = Ledger::new("a.csv");
+        let mut ledger = Ledger::new("a.csv", Place::Line);
         for line in 3..10 {
             ledger.add(LossKind::FieldCount, None, || Some(line));
         }

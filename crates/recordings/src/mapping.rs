@@ -4,12 +4,18 @@ use crate::channel::Attributes;
 use crate::error::RecordingError;
 use crate::signal::Signal;
 use crate::suggest;
+use crate::units::Scale;
 
 /// The mappings that are built in, by name, as the TOML text that a user can copy and change.
 pub const BUILT_IN_MAPPINGS: &[(&str, &str)] = &[
     ("skid-steer-columns", include_str!("../mappings/skid-steer-columns.toml")),
     ("husky-open", include_str!("../mappings/husky-open.toml")),
+    ("husky-bag", include_str!("../mappings/husky-bag.toml")),
+    ("kobuki-bag", include_str!("../mappings/kobuki-bag.toml")),
 ];
+
+/// The files that an entry for a topic is for where it names no pattern: every storage of rosbag2.
+pub(crate) const BAG_PATTERN: &str = "*.{mcap,db3,mcap.zstd,db3.zstd}";
 
 /// How the files of one kind of run become signals. Made by [`Mapping::parse`] or [`Mapping::built_in`].
 #[derive(Debug, Clone, PartialEq)]
@@ -25,10 +31,17 @@ pub struct Mapping {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FileMapping {
-    /// File name with one `*` in the place of the run's id: `imu_*.csv`.
+    /// File name with one `*` in the place of the run's id: `imu_*.csv`; a choice of endings stands in braces:
+    /// `*.{mcap,db3}`.
     pub pattern: String,
-    /// What stands between fields.
+    /// The topic of a bag whose messages are the rows; `None` for CSV and Parquet.
+    pub topic: Option<String>,
+    /// Name of the clock, where the mapping says that it is one of its own or shared with other topics.
+    pub clock: Option<String>,
+    /// What stands between fields of CSV.
     pub delimiter: u8,
+    /// Numbers in CSV have a decimal comma.
+    pub decimal_comma: bool,
     /// When a row was taken.
     pub time: TimeMapping,
     /// The signals in the file, in the order of [`Signal::ALL`].
@@ -53,8 +66,10 @@ pub struct TimeMapping {
 pub struct ColumnMapping {
     /// What it measures.
     pub signal: Signal,
-    /// Its name in the header.
+    /// Its name in the header, or the field's path in a message: `angular_velocity.z`, `velocity[wheel_left_joint]`.
     pub column: String,
+    /// Its unit as the mapping says it.
+    pub unit: Scale,
     /// Number in SI = factor * number as written: unit, sign and scale together.
     pub factor: f64,
     /// True when a file without the column is as good.
@@ -79,12 +94,19 @@ impl Mapping {
 
     /// All patterns, for messages.
     pub(crate) fn patterns(&self) -> String {
-        self.files.iter().map(|file| file.pattern.as_str()).collect::<Vec<_>>().join(", ")
+        let mut patterns: Vec<&str> = self.files.iter().map(|file| file.pattern.as_str()).collect();
+        patterns.dedup();
+        patterns.join(", ")
+    }
+
+    /// True for the first entry with its pattern; later ones read other topics of the same files.
+    pub(crate) fn leads(&self, entry: usize) -> bool {
+        self.files[..entry].iter().all(|file| file.pattern != self.files[entry].pattern)
     }
 
     /// The first entry that a file name fits, and the run's id in it.
     pub(crate) fn entry_of<'n>(&self, file: &'n str) -> Option<(usize, &'n str)> {
-        self.files.iter().enumerate().find_map(|(index, entry)| Some((index, entry.run_id(file)?)))
+        self.files.iter().enumerate().find_map(|(index, entry)| Some((index, entry.whole_run_id(file)?)))
     }
 }
 
@@ -100,8 +122,25 @@ impl FileMapping {
     /// ```
     pub fn run_id<'n>(&self, file: &'n str) -> Option<&'n str> {
         let (prefix, suffix) = self.pattern.split_once('*')?;
-        let id = base_name(file).strip_prefix(prefix)?.strip_suffix(suffix)?;
-        (!id.is_empty()).then_some(id)
+        let rest = base_name(file).strip_prefix(prefix)?;
+        let cut = |suffix: &str| rest.strip_suffix(suffix).filter(|id| !id.is_empty());
+        let Some((before, choice)) = suffix.strip_suffix('}').and_then(|suffix| suffix.split_once('{')) else {
+            return cut(suffix);
+        };
+        // The longest ending that fits leaves the shortest id.
+        choice.split(',').filter_map(|ending| cut(&format!("{before}{ending}"))).min_by_key(|id| id.len())
+    }
+
+    /// The run's id of a file that may be one part of a bag: in a folder `walk`, `walk_0.mcap` and `walk_1.mcap` are
+    /// parts of one run, as rosbag2 splits them.
+    pub(crate) fn whole_run_id<'n>(&self, file: &'n str) -> Option<&'n str> {
+        let id = self.run_id(file)?;
+        let folder = base_name(file[..file.len() - base_name(file).len()].trim_end_matches(['/', '\\']));
+        let prefix = self.pattern.split_once('*')?.0;
+        let is_part = |number: &str| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+        let whole =
+            id.rsplit_once('_').filter(|(whole, number)| is_part(number) && folder == format!("{prefix}{whole}"));
+        Some(whole.filter(|_| self.topic.is_some()).map_or(id, |(whole, _)| whole))
     }
 
     /// The file name for a run.

@@ -17,8 +17,11 @@ pub(crate) struct RawMapping {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawFile {
-    pub(crate) pattern: Spanned<String>,
+    pub(crate) pattern: Option<Spanned<String>>,
+    pub(crate) topic: Option<Spanned<String>>,
+    pub(crate) clock: Option<String>,
     pub(crate) delimiter: Option<Spanned<String>>,
+    pub(crate) decimal: Option<Spanned<String>>,
     pub(crate) time: Spanned<RawTime>,
     pub(crate) signals: BTreeMap<Spanned<String>, RawSignal>,
 }

@@ -4,7 +4,8 @@ use toml::Spanned;
 
 use crate::channel::Attributes;
 use crate::error::RecordingError;
-use crate::mapping::{ColumnMapping, FileMapping, Mapping, TimeMapping};
+use crate::fields::LOG_TIME;
+use crate::mapping::{BAG_PATTERN, ColumnMapping, FileMapping, Mapping, TimeMapping};
 use crate::mapping_raw::{Kind, RawFile, RawMapping, RawSignal, RawTime};
 use crate::mapping_text::Text;
 use crate::signal::Signal;
@@ -41,14 +42,28 @@ impl Mapping {
 
 impl Text<'_> {
     fn file(&self, raw: RawFile, before: &[FileMapping]) -> Result<FileMapping, RecordingError> {
-        let pattern_at = raw.pattern.span().start;
-        let pattern = raw.pattern.into_inner();
+        let time_at = raw.time.span().start;
+        let topic_at = raw.topic.as_ref().map(|topic| topic.span().start);
+        let topic = raw.topic.map(Spanned::into_inner);
+        let (pattern_at, pattern) = match raw.pattern {
+            Some(pattern) => (pattern.span().start, pattern.into_inner()),
+            None if topic.is_some() => (topic_at.unwrap_or(time_at), BAG_PATTERN.to_owned()),
+            None => {
+                let message = "give the files' names, such as \"*.csv\", or the `topic` of a bag";
+                return Err(self.value(time_at, "pattern", message));
+            }
+        };
         if pattern.matches('*').count() != 1 || pattern.contains(['/', '\\']) {
             let message = format!("`{pattern}` needs one `*` in the place of the run's id and no folder");
             return Err(self.value(pattern_at, "pattern", message));
         }
-        if before.iter().any(|file| file.pattern == pattern) {
-            return Err(self.value(pattern_at, "pattern", format!("`{pattern}` is given twice")));
+        let is_topic = |other: &FileMapping| topic.is_some() && other.topic.is_some() && other.topic != topic;
+        if before.iter().any(|other| other.pattern == pattern && !is_topic(other)) {
+            let message = match &topic {
+                Some(topic) => format!("topic `{topic}` of `{pattern}` is given twice"),
+                None => format!("`{pattern}` is given twice"),
+            };
+            return Err(self.value(pattern_at, "pattern", message));
         }
         let delimiter = match raw.delimiter.as_ref().map(|text| text.get_ref().as_bytes()) {
             None => b',',
@@ -58,13 +73,26 @@ impl Text<'_> {
                 return Err(self.value(at, "delimiter", "give one character such as \",\" \";\" or \"\\t\""));
             }
         };
-        let time = self.time(raw.time)?;
+        let decimal_comma = match raw.decimal.as_ref().map(|text| (text.get_ref().as_str(), text.span().start)) {
+            None | Some((".", _)) => false,
+            Some((",", at)) if delimiter == b',' => {
+                let message = "a comma cannot stand both in numbers and between fields; set `delimiter`";
+                return Err(self.value(at, "decimal", message));
+            }
+            Some((",", _)) => true,
+            Some((_, at)) => return Err(self.value(at, "decimal", "give \".\" or \",\"")),
+        };
+        if let Some(at) = topic_at.filter(|_| decimal_comma || delimiter != b',') {
+            return Err(self.value(at, "topic", "messages have neither `delimiter` nor `decimal`"));
+        }
+        let time = self.time(raw.time, topic.is_some())?;
         let mut columns = Vec::new();
         for (key, signal) in raw.signals {
             let column = self.column(&key, signal)?;
             let twice = before.iter().find(|file| file.columns.iter().any(|other| other.signal == column.signal));
             if let Some(file) = twice {
-                let message = format!("already read from `{}`; a run has each signal once", file.pattern);
+                let from = file.topic.as_ref().unwrap_or(&file.pattern);
+                let message = format!("already read from `{from}`; a run has each signal once");
                 return Err(self.value(key.span().start, key.get_ref(), message));
             }
             columns.push(column);
@@ -73,10 +101,10 @@ impl Text<'_> {
             return Err(self.value(pattern_at, "signals", format!("`{pattern}` has no signal; give at least one")));
         }
         columns.sort_by_key(|column| column.signal);
-        Ok(FileMapping { pattern, delimiter, time, columns })
+        Ok(FileMapping { pattern, topic, clock: raw.clock, delimiter, decimal_comma, time, columns })
     }
 
-    fn time(&self, raw: Spanned<RawTime>) -> Result<TimeMapping, RecordingError> {
+    fn time(&self, raw: Spanned<RawTime>, of_topic: bool) -> Result<TimeMapping, RecordingError> {
         let at = raw.span().start;
         let RawTime { column, unit, rate_hz } = raw.into_inner();
         let rate_at = rate_hz.as_ref().map_or(at, |rate| rate.span().start);
@@ -84,10 +112,20 @@ impl Text<'_> {
         if rate_hz.is_some_and(|rate| !rate.is_finite() || rate <= 0.0) {
             return Err(self.value(rate_at, "time.rate_hz", "the rate must be finite and above zero"));
         }
+        let is_stamp = |column: &str| column == LOG_TIME || column.ends_with("stamp");
+        if let (true, Some(unit), Some(_)) = (of_topic, &unit, column.as_deref().filter(|column| is_stamp(column))) {
+            return Err(self.value(unit.span().start, "time.unit", "a stamp is in ns by itself; leave out `unit`"));
+        }
         let ns_per_unit = match (&column, unit) {
             (Some(_), Some(unit)) => {
                 let scale = self.unit(&unit, "time.unit", Unit::Second, |_| None)?;
                 (scale.factor * NS_PER_S).round() as i64
+            }
+            // Stamps of messages are in ns by themselves.
+            (Some(_), None) if of_topic => 1,
+            (None, _) if of_topic => {
+                let message = "give `column`: \"header.stamp\", \"log_time\" or another field of the message";
+                return Err(self.value(at, "time", message));
             }
             (Some(_), None) => {
                 return Err(self.value(at, "time", "the column's `unit` is missing, such as \"s\""));
@@ -152,6 +190,7 @@ impl Text<'_> {
         if column.trim().is_empty() {
             return Err(self.value(column_at, &format!("{name}.column"), "give the column's name"));
         }
-        Ok(ColumnMapping { signal, column, factor: sign * scale * unit.factor, optional: raw.optional, attributes })
+        let factor = sign * scale * unit.factor;
+        Ok(ColumnMapping { signal, column, unit, factor, optional: raw.optional, attributes })
     }
 }

@@ -1,13 +1,21 @@
 //! The files of one run become one recording.
 
-use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
+use std::io::Cursor;
 
+use crate::bag::{Format, ReadSeek, read_whole};
+use crate::channel::Channel;
 use crate::error::RecordingError;
+use crate::fields::LOG_TIME;
+use crate::group::parts;
 use crate::header::Header;
-use crate::loss::{Ledger, Loss, LossKind};
-use crate::mapping::{Mapping, base_name};
+use crate::loss::{Loss, LossKind};
+use crate::mapping::{FileMapping, Mapping, base_name};
+use crate::parquet;
+use crate::place::Place;
 use crate::recording::{Clock, Recording};
 use crate::table::read_rows;
+use crate::topics::read_bags;
 
 /// A file as the caller gives it: its name and its bytes.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +24,20 @@ pub struct Input<'a> {
     pub name: &'a str,
     /// Contents.
     pub bytes: &'a [u8],
+}
+
+/// A file as the caller opened it.
+pub struct Opened<'a> {
+    /// Name or path; its last part is matched against the mapping's patterns.
+    pub name: &'a str,
+    /// Where its bytes come from.
+    pub source: &'a mut dyn ReadSeek,
+}
+
+impl std::fmt::Debug for Opened<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Opened").field("name", &self.name).finish_non_exhaustive()
+    }
 }
 
 /// What to do with input that is not as it should be.
@@ -49,12 +71,12 @@ pub struct Source {
     pub sha256: String,
 }
 
-/// A column that was there and that the mapping does not use.
+/// A column or topic that was there and that the mapping does not use.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnusedColumn {
     /// The file.
     pub file: String,
-    /// The column's name.
+    /// The name of the column or topic.
     pub column: String,
 }
 
@@ -65,74 +87,171 @@ pub struct Read {
     pub recording: Recording,
     /// What could not be read.
     pub losses: Vec<Loss>,
-    /// The files, in the order of the mapping's entries; `sources[i]` carries clock `i` of the recording.
+    /// The files, in the order of the mapping's entries.
     pub sources: Vec<Source>,
-    /// Columns that the mapping does not use: no loss, worth telling.
+    /// Columns and topics that the mapping does not use: no loss, worth telling.
     pub unused: Vec<UnusedColumn>,
 }
 
 /// Reads the files of one run (see [`Mapping::group`]) into a recording named `run`.
 ///
-/// Each file has a clock of its own. A file of the run that is not among `inputs` is a [`LossKind::MissingFile`].
+/// Each CSV or Parquet file has a clock of its own; so have the log times and the header stamps of a bag, unless the
+/// mapping says otherwise. A file of the run that is not among `inputs` is a [`LossKind::MissingFile`].
 ///
 /// # Errors
-/// When a file fits no pattern or is given twice, is empty, is no text, lacks a column, or holds what
-/// [`ReadOptions::policy`] does not let pass.
+/// When a file fits no pattern or is given twice, is empty, is no text, lacks a column, a topic or a field, or holds
+/// what [`ReadOptions::policy`] does not let pass.
 pub fn read(mapping: &Mapping, run: &str, inputs: &[Input<'_>], options: &ReadOptions) -> Result<Read, RecordingError> {
-    let mut by_entry: Vec<Option<(&Input<'_>, &str)>> = vec![None; mapping.files.len()];
+    let mut cursors: Vec<Cursor<&[u8]>> = inputs.iter().map(|input| Cursor::new(input.bytes)).collect();
+    let mut opened: Vec<Opened<'_>> =
+        inputs.iter().zip(&mut cursors).map(|(input, source)| Opened { name: input.name, source }).collect();
+    read_from(mapping, run, &mut opened, options)
+}
+
+/// As [`read`], from anything that can be read and searched: MCAP files need not fit into memory.
+///
+/// # Errors
+/// As [`read`], and when a source fails.
+pub fn read_from<'a>(
+    mapping: &Mapping,
+    run: &str,
+    inputs: &mut [Opened<'a>],
+    options: &ReadOptions,
+) -> Result<Read, RecordingError> {
+    let mut by_entry: Vec<Vec<&mut Opened<'a>>> = mapping.files.iter().map(|_| Vec::new()).collect();
+    let mut first: Option<(usize, &str, &str)> = None;
     for input in inputs {
         let (entry, id) = mapping.entry_of(input.name).ok_or_else(|| RecordingError::UnmatchedFile {
             file: input.name.to_owned(),
             mapping: mapping.name.clone(),
             patterns: mapping.patterns(),
         })?;
-        if by_entry[entry].replace((input, id)).is_some() {
+        let twice = by_entry[entry].iter().any(|other| other.name == input.name);
+        if twice || (mapping.files[entry].topic.is_none() && !by_entry[entry].is_empty()) {
             let pattern = mapping.files[entry].pattern.clone();
             return Err(RecordingError::FileTwice { file: input.name.to_owned(), pattern });
         }
+        first = first.filter(|&(other, ..)| other <= entry).or(Some((entry, input.name, id)));
+        by_entry[entry].push(input);
     }
-    let Some((first, id)) = by_entry.iter().flatten().next().copied() else {
+    let Some((_, name, id)) = first else {
         return Err(RecordingError::NoFiles { run: run.to_owned() });
     };
-    let folder = &first.name[..first.name.len() - base_name(first.name).len()];
+    let folder = &name[..name.len() - base_name(name).len()];
 
-    let (mut clocks, mut channels) = (Vec::new(), Vec::new());
-    let (mut losses, mut sources, mut unused) = (Vec::new(), Vec::new(), Vec::new());
-    for (file, slot) in mapping.files.iter().zip(&by_entry) {
-        let Some((input, _)) = slot else {
-            let file = format!("{folder}{}", file.file_of(id));
-            losses.push(Loss { kind: LossKind::MissingFile, file, column: None, lines: Vec::new(), count: 1 });
-            continue;
-        };
-        let header = Header::find(input, file, &mapping.name)?;
-        let mut ledger = Ledger::new(input.name);
-        channels.extend(read_rows(input, file, &header, clocks.len(), options.policy, &mut ledger)?);
-        losses.extend(ledger.into_losses());
-        let name = input.name.to_owned();
-        clocks.push(Clock { name: name.clone(), nominal_rate_hz: file.time.rate_hz });
-        unused.extend(header.unused.into_iter().map(|column| UnusedColumn { file: name.clone(), column }));
-        sources.push(Source { name, bytes: input.bytes.len(), sha256: sha256(input.bytes) });
+    let mut gathering = Gathering { mapping, policy: options.policy, ..Gathering::new(mapping) };
+    for (entry, mut files) in by_entry.into_iter().enumerate().filter(|(entry, _)| mapping.leads(*entry)) {
+        files.sort_by_key(|file| parts(file.name));
+        match (&mut files[..], &mapping.files[entry].topic) {
+            ([], _) => {
+                let file = format!("{folder}{}", mapping.files[entry].file_of(id));
+                let kind = LossKind::MissingFile;
+                let loss = Loss { kind, file, column: None, place: Place::Line, lines: Vec::new(), count: 1 };
+                gathering.losses.push(loss);
+            }
+            (files, Some(_)) => gathering.bags(entry, files)?,
+            ([file, ..], None) => gathering.table(entry, file)?,
+        }
     }
+    let Gathering { clocks, channels, losses, sources, unused, .. } = gathering;
     Ok(Read { recording: Recording::new(run, clocks, channels)?, losses, sources, unused })
 }
 
-/// The SHA-256 of bytes as hexadecimal digits.
-fn sha256(bytes: &[u8]) -> String {
-    use std::fmt::Write as _;
-    let mut text = String::with_capacity(64);
-    for byte in Sha256::digest(bytes) {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
+/// What has been read so far.
+struct Gathering<'m> {
+    mapping: &'m Mapping,
+    policy: Policy,
+    clocks: Vec<Clock>,
+    channels: Vec<Channel>,
+    losses: Vec<Loss>,
+    sources: Vec<Source>,
+    unused: Vec<UnusedColumn>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sha256_is_that_of_fips_180() {
-        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+impl<'m> Gathering<'m> {
+    fn new(mapping: &'m Mapping) -> Self {
+        let (channels, losses, sources, unused) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { mapping, policy: Policy::Normal, clocks: Vec::new(), channels, losses, sources, unused }
     }
+
+    /// Reads a file that is one table: CSV or Parquet.
+    fn table(&mut self, entry: usize, input: &mut Opened<'_>) -> Result<(), RecordingError> {
+        let (name, file, clock) = (input.name, &self.mapping.files[entry], self.clocks.len());
+        let whole = read_whole(name, &mut *input.source)?;
+        if whole.broken_at.is_some() {
+            let message = "the compressed file is damaged or cut off".to_owned();
+            return Err(RecordingError::NotReadable { file: name.to_owned(), format: "zstd", message });
+        }
+        let (bytes, sha256) = (whole.file_bytes, whole.sha256);
+        let (mapping, policy) = (&self.mapping.name, self.policy);
+        let unused = if Format::of(name, &whole.bytes) == Format::Parquet {
+            let table = parquet::read_rows(name, whole.bytes, file, mapping, clock, policy, &mut self.losses)?;
+            self.channels.extend(table.channels);
+            table.unused
+        } else {
+            let header = Header::find(&Input { name, bytes: &whole.bytes }, file, mapping)?;
+            self.channels.extend(read_rows(name, file, &header, clock, policy, &mut self.losses)?);
+            header.unused
+        };
+        self.clocks.push(Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz });
+        self.unused.extend(unused.into_iter().map(|column| UnusedColumn { file: name.to_owned(), column }));
+        self.sources.push(Source { name: name.to_owned(), bytes: bytes as usize, sha256 });
+        Ok(())
+    }
+
+    /// Reads the parts of a bag for all entries with the pattern of entry `first`.
+    fn bags(&mut self, first: usize, parts: &mut [&mut Opened<'_>]) -> Result<(), RecordingError> {
+        let pattern = &self.mapping.files[first].pattern;
+        let entries: Vec<&FileMapping> = self.mapping.files.iter().filter(|file| file.pattern == *pattern).collect();
+        let names: Vec<&str> = parts.iter().map(|part| part.name).collect();
+        self.losses.extend(missing_parts(&names, &self.mapping.files[first]));
+        let clocks: Vec<usize> = entries.iter().map(|entry| self.clock(names[0], entry)).collect();
+        let bags = read_bags(&self.mapping.name, parts, &entries, &clocks, self.policy)?;
+        self.channels.extend(bags.channels.into_iter().flatten());
+        let wanted = |topic: &str| entries.iter().any(|entry| entry.topic.as_deref() == Some(topic));
+        for (name, part) in names.iter().map(|&name| name.to_owned()).zip(bags.parts) {
+            for topic in part.topics.into_iter().filter(|topic| !wanted(&topic.name)) {
+                self.unused.push(UnusedColumn { file: name.clone(), column: topic.name });
+            }
+            self.losses.extend(part.losses);
+            self.sources.push(Source { name, bytes: part.bytes as usize, sha256: part.sha256 });
+        }
+        self.losses.extend(bags.losses);
+        Ok(())
+    }
+
+    /// The clock of a topic: the one that the mapping names, or that of the bag's log times or stamps.
+    fn clock(&mut self, bag: &str, entry: &FileMapping) -> usize {
+        let log = entry.time.column.as_deref() == Some(LOG_TIME);
+        let name = match &entry.clock {
+            Some(clock) => format!("{bag} {clock}"),
+            None if log => format!("{bag} log"),
+            None => format!("{bag} stamps"),
+        };
+        let rate = entry.time.rate_hz;
+        if let Some(index) = self.clocks.iter().position(|clock| clock.name == name) {
+            let clock = &mut self.clocks[index];
+            clock.nominal_rate_hz = clock.nominal_rate_hz.filter(|&other| Some(other) == rate);
+            return index;
+        }
+        self.clocks.push(Clock { name, nominal_rate_hz: rate });
+        self.clocks.len() - 1
+    }
+}
+
+/// The numbers that are left out between the parts of a split bag.
+fn missing_parts(names: &[&str], entry: &FileMapping) -> Vec<Loss> {
+    let number = |name: &str| -> Option<u32> {
+        let (id, whole) = (entry.run_id(name)?, entry.whole_run_id(name)?);
+        id.strip_prefix(whole)?.strip_prefix('_')?.parse().ok()
+    };
+    let numbers: BTreeSet<u32> = names.iter().filter_map(|name| number(name)).collect();
+    let Some(&last) = numbers.last() else { return Vec::new() };
+    let count = (last as usize + 1).saturating_sub(numbers.len());
+    let Some(lost) = (0..=last).find(|number| !numbers.contains(number)) else { return Vec::new() };
+    let folder = &names[0][..names[0].len() - base_name(names[0]).len()];
+    let id = entry.whole_run_id(names[0]).unwrap_or_default();
+    let file = format!("{folder}{}", entry.file_of(&format!("{id}_{lost}")));
+    let kind = LossKind::MissingFile;
+    vec![Loss { kind, file, column: None, place: Place::Line, lines: Vec::new(), count }]
 }

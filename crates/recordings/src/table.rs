@@ -2,22 +2,24 @@
 
 use csv::ByteRecord;
 
+use crate::cell::{self, CellError};
 use crate::channel::Channel;
 use crate::error::RecordingError;
 use crate::header::Header;
-use crate::loss::{Ledger, LossKind, in_words};
+use crate::loss::{Loss, LossKind};
 use crate::mapping::FileMapping;
-use crate::read::{Input, Policy};
-use crate::row::{Gathered, Row};
+use crate::place::Place;
+use crate::read::Policy;
+use crate::samples::{Row, Samples, shown};
 
 /// Reads the rows below `header`; the channels that hold samples, on clock `clock`.
 pub(crate) fn read_rows(
-    input: &Input<'_>,
+    name: &str,
     file: &FileMapping,
     header: &Header<'_>,
     clock: usize,
     policy: Policy,
-    ledger: &mut Ledger<'_>,
+    losses: &mut Vec<Loss>,
 ) -> Result<Vec<Channel>, RecordingError> {
     let mut rows = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -26,36 +28,54 @@ pub(crate) fn read_rows(
         .quoting(false)
         .delimiter(file.delimiter)
         .from_reader(header.body);
-    let mut gathered: Vec<Gathered> = header.columns.iter().map(|_| Gathered::default()).collect();
+    let mut samples = Samples::new(name, Place::Line, policy, (&file.time, header.time), header.columns.clone());
     let mut record = ByteRecord::new();
-    let mut last_ns = None;
     let mut number = 0_u64;
     // Reading from memory without UTF-8 checks and with any number of fields cannot fail; an error ends the rows.
     while rows.read_byte_record(&mut record).unwrap_or(false) {
         let offset = record.position().map_or(0, csv::Position::byte);
-        let mut row = Row { input, header, file, policy, record: &record, number, offset, ledger };
-        row.take(&mut last_ns, &mut gathered)?;
+        if record.len() == header.width {
+            samples.take(&Line { header, comma: file.decimal_comma, record: &record, offset }, number)?;
+        } else {
+            let line = || header.line_at(offset);
+            let error = || {
+                let (found, expected) = (record.len(), header.width);
+                RecordingError::WrongFieldCount { file: name.to_owned(), line: line(), found, expected }
+            };
+            samples.lose_row(LossKind::FieldCount, line, error)?;
+        }
         number += 1;
     }
     if number == 0 {
-        return Err(RecordingError::NoRows { file: input.name.to_owned(), line: header.line });
+        return Err(RecordingError::NoRows { file: name.to_owned(), line: header.line });
     }
-    let (mut channels, mut empty) = (Vec::new(), Vec::new());
-    for (found, samples) in header.columns.iter().zip(gathered) {
-        let mapped = found.mapped;
-        if samples.t_ns.is_empty() {
-            empty.push(mapped);
-            continue;
-        }
-        let channel = Channel::new(mapped.signal, clock, samples.t_ns, samples.values)?;
-        channels.push(channel.with_attributes(mapped.attributes).with_column(&mapped.column));
+    samples.finish(clock, losses)
+}
+
+/// A line below the header.
+struct Line<'a> {
+    header: &'a Header<'a>,
+    /// Numbers are written with a decimal comma.
+    comma: bool,
+    record: &'a ByteRecord,
+    /// Byte in the body at which the line starts.
+    offset: u64,
+}
+
+impl Row for Line<'_> {
+    fn number(&self, position: usize) -> Result<Option<f64>, CellError> {
+        cell::number(&cell::with_point(&self.record[position], self.comma)?)
     }
-    if channels.is_empty() {
-        let losses = in_words(ledger.losses());
-        return Err(RecordingError::NoSamples { file: input.name.to_owned(), losses });
+
+    fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError> {
+        cell::instant_ns(&cell::with_point(&self.record[position], self.comma)?, ns_per_unit)
     }
-    for mapped in empty.iter().filter(|mapped| !mapped.optional) {
-        ledger.add(LossKind::EmptyColumn, Some(&mapped.column), || None);
+
+    fn text(&self, position: usize) -> String {
+        shown(&String::from_utf8_lossy(cell::bare(&self.record[position])))
     }
-    Ok(channels)
+
+    fn place(&self) -> u64 {
+        self.header.line_at(self.offset)
+    }
 }

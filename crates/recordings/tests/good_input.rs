@@ -38,6 +38,41 @@ fn units_signs_gaps_and_unused_columns() {
     assert!(read.losses.is_empty());
 }
 
+/// A table as a German spreadsheet writes it.
+const EUROPEAN: &str = r#"
+[[files]]
+pattern = "*.csv"
+delimiter = ";"
+decimal = ","
+time = { column = "t", unit = "ms" }
+[files.signals]
+gyro_z = { column = "wz", unit = "deg/s" }
+body_vx = { column = "v", unit = "km/h" }
+"#;
+
+#[test]
+fn decimal_commas_and_units_in_the_header() {
+    let text = "\u{feff}t [ms];wz (deg/s);v;\n0,5;\"180,0\";3,6;\n1,25;;-7,2;\n";
+    let read = read_one(EUROPEAN, text.as_bytes()).unwrap();
+    let gyro = read.recording.get(Signal::GyroZ).unwrap();
+    assert_eq!((gyro.t_ns(), gyro.values()), (&[500_000][..], &[std::f64::consts::PI][..]));
+    assert_eq!(
+        read.recording.get(Signal::BodyVx).unwrap().samples().collect::<Vec<_>>(),
+        [(500_000, 1.0), (1_250_000, -2.0)]
+    );
+
+    let message = |text: &str| read_one(EUROPEAN, text.as_bytes()).unwrap_err().to_string();
+    assert!(message("t;wz;v\n0;1.5;1\n").contains("column wz: `1.5` is not a number"));
+    assert_eq!(
+        message("t;wz [rad/s];v\n0;1,5;1\n"),
+        "a.csv: line 1: column `wz [rad/s]` says rad/s, the mapping another unit; correct the mapping"
+    );
+    assert!(message("t [s];wz;v\n0;1,5;1\n").contains("column `t [s]` says s"));
+    assert!(message("t;wz [a];wz [b];v\n0;1;1;1\n").contains("column `wz` occurs more than once"));
+    let both = Mapping::parse("m.toml", &EUROPEAN.replace("\";\"", "\",\"")).unwrap_err().to_string();
+    assert!(both.contains("a comma cannot stand both in numbers and between fields"), "{both}");
+}
+
 #[test]
 fn a_file_without_stamps_counts_rows() {
     let mapping = "[[files]]\npattern = \"*.csv\"\ntime = { rate_hz = 4 }\n\

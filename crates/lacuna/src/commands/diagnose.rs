@@ -30,7 +30,7 @@ A case folder:
   heldout/      inputs whose response is to be predicted (may be missing)
 
 Built-in robots: husky-a200, hendzel-trojnacki-2014
-Built-in mappings: skid-steer-columns, husky-open
+Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag (ROS 2 bags)
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

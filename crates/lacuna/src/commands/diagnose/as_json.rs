@@ -56,6 +56,7 @@ pub(super) fn render(diagnosis: &Diagnosis, from: &Provenance<'_>) -> Result<Val
 
 fn loss(l: &Loss) -> Value {
     json!({
-        "kind": format!("{:?}", l.kind), "file": l.file, "column": l.column, "lines": l.lines, "count": l.count,
+        "kind": format!("{:?}", l.kind), "file": l.file, "column": l.column, "place": l.place.to_string(), "lines": l.lines,
+        "count": l.count,
     })
 }

@@ -1,0 +1,162 @@
+//! Records of an MCAP file become topics and messages.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::sync::Arc;
+
+use mcap::records::{Channel, Record, SchemaHeader, op};
+
+use super::{LARGEST_RECORD, Message, Sink, Topic};
+use crate::error::RecordingError;
+use crate::loss::{Ledger, LossKind};
+
+/// What schema and channel records have told so far.
+#[derive(Default)]
+struct Described {
+    schemas: HashMap<u16, (SchemaHeader, Arc<[u8]>)>,
+    channels: HashMap<u16, Channel>,
+    /// Bytes of all records taken.
+    bytes: usize,
+}
+
+impl Described {
+    /// Takes a schema or channel record, the first of each number; false when it does not parse, or when there is more
+    /// of them than is held in memory.
+    fn take(&mut self, kind: u8, content: &[u8]) -> bool {
+        if self.bytes + content.len() > LARGEST_RECORD {
+            return false;
+        }
+        match mcap::parse_record(kind, content) {
+            Ok(Record::Schema { header, data }) => {
+                if let Entry::Vacant(new) = self.schemas.entry(header.id) {
+                    self.bytes += content.len();
+                    new.insert((header, data.as_ref().into()));
+                }
+            }
+            Ok(Record::Channel(channel)) => {
+                if let Entry::Vacant(new) = self.channels.entry(channel.id) {
+                    self.bytes += content.len();
+                    new.insert(channel);
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// Where a record stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Where {
+    /// In a chunk, whose checksum was right.
+    Chunk,
+    /// Outside, in a file that keeps its messages in chunks.
+    OutsideChunks,
+    /// In a file without chunks.
+    Unchunked,
+}
+
+/// The records of a file as they pass.
+#[derive(Default)]
+pub(super) struct Records {
+    /// What chunks said, what the summary says, and what stands outside of both: in the order of trust.
+    described: [Described; 3],
+    pub(super) topics: Vec<Topic>,
+    /// Topic of each channel that was met.
+    topic_of: HashMap<u16, usize>,
+    /// Messages met, those given on and those that could not be.
+    pub(super) met: u64,
+}
+
+impl Records {
+    /// No record yet; the summary's descriptions serve where the data's are lost.
+    pub(super) fn new(summary: &[(u8, Vec<u8>)]) -> Self {
+        let mut records = Self::default();
+        for (kind, content) in summary {
+            records.described[1].take(*kind, content);
+        }
+        records
+    }
+
+    /// Takes a schema, channel or message record that starts at `byte`; others do not matter here.
+    pub(super) fn take(
+        &mut self,
+        kind: u8,
+        content: &[u8],
+        (place, byte): (Where, u64),
+        each: &mut Sink<'_>,
+        ledger: &mut Ledger<'_>,
+    ) -> Result<(), RecordingError> {
+        match kind {
+            op::SCHEMA | op::CHANNEL => {
+                let trust = if place == Where::Chunk { 0 } else { 2 };
+                if !self.described[trust].take(kind, content) {
+                    ledger.add(LossKind::Damage, None, || Some(byte));
+                }
+                Ok(())
+            }
+            // No checksum covers it, and no writer mixes: a record whose kind is damaged looks like this.
+            op::MESSAGE if place == Where::OutsideChunks => {
+                ledger.add(LossKind::StrayMessage, None, || Some(byte));
+                Ok(())
+            }
+            op::MESSAGE => self.message(content, byte, each, ledger),
+            _ => Ok(()),
+        }
+    }
+
+    fn message(
+        &mut self,
+        content: &[u8],
+        byte: u64,
+        each: &mut Sink<'_>,
+        ledger: &mut Ledger<'_>,
+    ) -> Result<(), RecordingError> {
+        let Ok(Record::Message { header, data }) = mcap::parse_record(op::MESSAGE, content) else {
+            ledger.add(LossKind::Damage, None, || Some(byte));
+            return Ok(());
+        };
+        self.met += 1;
+        let Some(topic_index) = self.index_of(header.channel_id) else {
+            ledger.add(LossKind::UnknownTopic, None, || Some(byte));
+            return Ok(());
+        };
+        let Ok(log_time_ns) = i64::try_from(header.log_time) else {
+            ledger.add(LossKind::BadMessage, None, || Some(byte));
+            return Ok(());
+        };
+        each(Message { topic_index, topic: &self.topics[topic_index], log_time_ns, bytes: &data })
+    }
+
+    fn index_of(&mut self, channel: u16) -> Option<usize> {
+        if let Some(&index) = self.topic_of.get(&channel) {
+            return Some(index);
+        }
+        let topic = self.topic(channel)?;
+        // Two channels may carry one topic.
+        let index = self.topics.iter().position(|other| *other == topic).unwrap_or_else(|| {
+            self.topics.push(topic);
+            self.topics.len() - 1
+        });
+        self.topic_of.insert(channel, index);
+        Some(index)
+    }
+
+    fn topic(&self, id: u16) -> Option<Topic> {
+        let channel = self.described.iter().find_map(|described| described.channels.get(&id))?;
+        let schema = self.described.iter().find_map(|described| described.schemas.get(&channel.schema_id));
+        let schema = schema.filter(|_| channel.schema_id != 0);
+        if schema.is_none() && channel.schema_id != 0 {
+            return None;
+        }
+        let (message_type, schema_encoding) =
+            schema.map(|(header, _)| (header.name.clone(), header.encoding.clone())).unwrap_or_default();
+        Some(Topic {
+            name: channel.topic.clone(),
+            message_type,
+            encoding: channel.message_encoding.clone(),
+            schema_encoding,
+            schema: schema.map(|(_, data)| Arc::clone(data)).unwrap_or_default(),
+        })
+    }
+}

@@ -1,0 +1,270 @@
+//! The way to the wanted fields of a CDR message, worked out once for a topic.
+
+use std::rc::Rc;
+
+use re_cdr::{ByteOrder, CdrReader};
+
+use super::cdr::{self, Undecodable, Walk};
+use super::path::{MOST_NAMES, NAME_LISTS, Part, Path};
+use super::schema::{Layout, Number, Size, Type};
+use super::{Cell, Trouble};
+
+/// What to do with a message.
+#[derive(Debug)]
+pub(super) struct Plan {
+    root: Node,
+}
+
+/// What to do with a field.
+#[derive(Debug)]
+enum Node {
+    Skip(Type),
+    /// A number into these cells.
+    Number(Number, Vec<usize>),
+    /// Seconds and nanoseconds, together or one of them, into these cells.
+    Stamp(Vec<(usize, Of)>),
+    Message {
+        fields: Vec<Node>,
+        /// Where the list of names is, when a list beside is looked up by name.
+        names: Option<usize>,
+        layout: Rc<Layout>,
+    },
+    List {
+        of: Type,
+        size: Size,
+        items: Vec<(Pick, Node)>,
+    },
+}
+
+/// What is wanted of a stamp.
+#[derive(Debug, Clone, Copy)]
+enum Of {
+    Both,
+    Seconds,
+    Nanoseconds,
+}
+
+/// Which item of a list.
+#[derive(Debug, Clone, PartialEq)]
+enum Pick {
+    At(usize),
+    Named(String),
+}
+
+/// A path that is still to be followed, and its cell.
+type Open<'p> = (usize, &'p [Part]);
+
+impl Plan {
+    /// The plan of reading these paths from messages of this layout.
+    pub(super) fn new(layout: &Rc<Layout>, paths: &[Path]) -> Result<Self, Trouble> {
+        let open: Vec<Open<'_>> = paths.iter().enumerate().map(|(cell, path)| (cell, path.as_slice())).collect();
+        // Nobody agrees on the bytes of wide text, and what stands behind it would be guessed.
+        if let Some(field) = &layout.wide {
+            return Err(Trouble::Topic(format!("field `{field}` is a wstring, which is not read")));
+        }
+        Ok(Self { root: message(layout, &open)? })
+    }
+
+    /// Reads a message into one cell per path.
+    pub(super) fn read(&self, message: &[u8], cells: &mut [Cell]) -> Result<(), Undecodable> {
+        struct Filling<'a> {
+            root: &'a Node,
+            body: &'a [u8],
+            cells: &'a mut [Cell],
+        }
+        impl Walk for Filling<'_> {
+            fn walk<B: ByteOrder>(&mut self, reader: &mut CdrReader<'_, B>) -> Result<(), Undecodable> {
+                fill(self.root, self.body, reader, None, self.cells)
+            }
+        }
+        let body = message.get(4..).ok_or(Undecodable)?;
+        cdr::walk(message, &mut Filling { root: &self.root, body, cells })
+    }
+}
+
+fn node(ty: &Type, name: &str, open: &[Open<'_>]) -> Result<Node, Trouble> {
+    let Some(&(first, _)) = open.first() else { return Ok(Node::Skip(ty.clone())) };
+    let ended: Vec<usize> = open.iter().filter(|(_, rest)| rest.is_empty()).map(|&(cell, _)| cell).collect();
+    let complain = |cell: usize, message: String| Err(Trouble::Field(cell, message));
+    match ty {
+        Type::Number(_) if ended.len() < open.len() => {
+            let beyond = open.iter().find(|(_, rest)| !rest.is_empty()).map_or(first, |&(cell, _)| cell);
+            complain(beyond, format!("`{name}` is a number; nothing is inside it"))
+        }
+        Type::Number(number) => Ok(Node::Number(*number, ended)),
+        Type::Text | Type::WideText => complain(first, format!("`{name}` is text, not a number")),
+        Type::Message(layout) if layout.is_stamp() => stamp(layout, open),
+        Type::Message(layout) => match ended.first() {
+            Some(&cell) => complain(cell, format!("`{name}` is a message; its fields are: {}", names_of(layout))),
+            None => message(layout, open),
+        },
+        Type::List { of, size } => list(of, *size, name, open),
+    }
+}
+
+fn stamp(layout: &Rc<Layout>, open: &[Open<'_>]) -> Result<Node, Trouble> {
+    let of = |&(cell, rest): &Open<'_>| match rest {
+        [] => Some((cell, Of::Both)),
+        [Part::Field(field)] if field == "sec" => Some((cell, Of::Seconds)),
+        [Part::Field(field)] if field == "nanosec" => Some((cell, Of::Nanoseconds)),
+        _ => None,
+    };
+    match open.iter().map(of).collect() {
+        Some(wanted) => Ok(Node::Stamp(wanted)),
+        // Something else is wanted, and the complaint is that of any message.
+        None => message(layout, open),
+    }
+}
+
+fn message<'p>(layout: &Rc<Layout>, open: &[Open<'p>]) -> Result<Node, Trouble> {
+    for &(cell, rest) in open {
+        let known = matches!(rest.first(), Some(Part::Field(name)) if layout.fields.iter().any(|(f, _)| f == name));
+        if known {
+            continue;
+        }
+        let wanted = rest.first().map_or(String::new(), |part| match part {
+            Part::Field(name) | Part::Name(name) => name.clone(),
+            Part::Index(index) => index.to_string(),
+        });
+        let fields: Vec<&str> = layout.fields.iter().map(|(name, _)| name.as_str()).collect();
+        let hint = crate::suggest::hint(&wanted, &fields).replacen("known are:", "its fields are:", 1);
+        return Err(Trouble::Field(cell, format!("{} has no field `{wanted}`; {hint}", layout.name)));
+    }
+    let (mut fields, mut names) = (Vec::new(), None);
+    for (name, ty) in &layout.fields {
+        let inside = |&(cell, rest): &Open<'p>| match rest {
+            [Part::Field(field), rest @ ..] if *field == *name => Some((cell, rest)),
+            _ => None,
+        };
+        let inner: Vec<Open<'p>> = open.iter().filter_map(inside).collect();
+        if let Some(&(cell, _)) = inner.iter().find(|(_, rest)| matches!(rest.first(), Some(Part::Name(_)))) {
+            names = layout.names();
+            if names.is_none() {
+                let message = format!("no list of names ({}) stands beside `{name}`", NAME_LISTS.join(", "));
+                return Err(Trouble::Field(cell, message));
+            }
+        }
+        fields.push(node(ty, name, &inner)?);
+    }
+    Ok(Node::Message { fields, names, layout: Rc::clone(layout) })
+}
+
+fn list(of: &Type, size: Size, name: &str, open: &[Open<'_>]) -> Result<Node, Trouble> {
+    let mut picked: Vec<(Pick, Vec<Open<'_>>)> = Vec::new();
+    for &(cell, rest) in open {
+        let (pick, rest) = match rest {
+            [Part::Index(index), rest @ ..] => (Pick::At(*index), rest),
+            [Part::Name(name), rest @ ..] => (Pick::Named(name.clone()), rest),
+            _ => return Err(Trouble::Field(cell, format!("`{name}` is a list; say which item: {name}[0]"))),
+        };
+        if let (Pick::At(index), Size::Fixed(count) | Size::AtMost(count)) = (&pick, size)
+            && *index >= count
+        {
+            let message = format!("`{name}` has at most {count} items, counted from 0");
+            return Err(Trouble::Field(cell, message));
+        }
+        match picked.iter_mut().find(|(other, _)| *other == pick) {
+            Some((_, open)) => open.push((cell, rest)),
+            None => picked.push((pick, vec![(cell, rest)])),
+        }
+    }
+    let mut items = Vec::new();
+    for (pick, open) in picked {
+        items.push((pick, node(of, name, &open)?));
+    }
+    Ok(Node::List { of: of.clone(), size, items })
+}
+
+fn names_of(layout: &Layout) -> String {
+    layout.fields.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+/// Follows a node; `names` are those beside the list that it may be.
+fn fill<B: ByteOrder>(
+    node: &Node,
+    body: &[u8],
+    reader: &mut CdrReader<'_, B>,
+    names: Option<&[&str]>,
+    cells: &mut [Cell],
+) -> Result<(), Undecodable> {
+    match node {
+        Node::Skip(ty) => cdr::skip(reader, ty),
+        Node::Number(number, into) => {
+            let value = cdr::number(reader, *number)?;
+            for &cell in into {
+                cells[cell] = value;
+            }
+            Ok(())
+        }
+        Node::Stamp(into) => {
+            let (seconds, ns) = cdr::stamp(reader)?;
+            for &(cell, of) in into {
+                cells[cell] = Cell::Whole(match of {
+                    Of::Both => seconds * 1_000_000_000 + ns,
+                    Of::Seconds => seconds,
+                    Of::Nanoseconds => ns,
+                });
+            }
+            Ok(())
+        }
+        Node::Message { fields, names, layout } => {
+            let here;
+            let names = match names {
+                Some(index) => {
+                    here = read_names::<B>(body, reader.position(), layout, *index)?;
+                    Some(here.as_slice())
+                }
+                None => None,
+            };
+            fields.iter().try_for_each(|field| fill(field, body, reader, names, cells))
+        }
+        Node::List { of, size, items } => {
+            let count = cdr::length(reader, *size, of)?;
+            let place = |pick: &Pick| match pick {
+                Pick::At(index) => Some(*index),
+                // A name that stands there twice names nothing.
+                Pick::Named(name) => {
+                    let mut found = names?.iter().enumerate().filter(|(_, other)| *other == name);
+                    let index = found.next()?.0;
+                    found.next().is_none().then_some(index)
+                }
+            };
+            let mut wanted: Vec<(usize, &Node)> =
+                items.iter().filter_map(|(pick, node)| Some((place(pick)?, node))).collect();
+            wanted.sort_by_key(|(index, _)| *index);
+            let (mut next, mut last) = (0, reader.position());
+            for (index, node) in wanted {
+                if index >= count {
+                    break;
+                }
+                if index < next {
+                    // The same item again, once by name and once by number.
+                    fill(node, body, &mut cdr::again::<B>(body, last)?, None, cells)?;
+                    continue;
+                }
+                cdr::skip_items(reader, of, index - next)?;
+                last = reader.position();
+                fill(node, body, reader, None, cells)?;
+                next = index + 1;
+            }
+            cdr::skip_items(reader, of, count - next)
+        }
+    }
+}
+
+/// The list of names of the message that starts here.
+fn read_names<'a, B: ByteOrder>(
+    body: &'a [u8],
+    position: usize,
+    layout: &Layout,
+    index: usize,
+) -> Result<Vec<&'a str>, Undecodable> {
+    let mut reader = cdr::again::<B>(body, position)?;
+    layout.fields[..index].iter().try_for_each(|(_, ty)| cdr::skip(&mut reader, ty))?;
+    let Some((_, Type::List { of, size })) = layout.fields.get(index) else { return Err(Undecodable) };
+    let count = cdr::length(&mut reader, *size, of)?;
+    if count > MOST_NAMES {
+        return Err(Undecodable);
+    }
+    (0..count).map(|_| Ok(reader.read_str()?)).collect()
+}

@@ -1,0 +1,154 @@
+//! A Parquet table against one entry of a mapping.
+//!
+//! Pages carry no checksum of their own and the library may panic on damaged ones: any trouble refuses the file.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::{Field, Row as ParquetRow};
+use parquet::schema::types::Type;
+
+use crate::cell::CellError;
+use crate::channel::Channel;
+use crate::error::RecordingError;
+use crate::fields::Cell;
+use crate::loss::Loss;
+use crate::mapping::FileMapping;
+use crate::place::Place;
+use crate::read::Policy;
+use crate::samples::{Found, Row, Samples};
+use crate::suggest;
+
+/// What a table gave.
+pub(crate) struct Table {
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) unused: Vec<String>,
+}
+
+/// Reads the mapped columns; the channels that hold samples, on clock `clock`.
+pub(crate) fn read_rows(
+    name: &str,
+    bytes: Vec<u8>,
+    file: &FileMapping,
+    mapping: &str,
+    clock: usize,
+    policy: Policy,
+    losses: &mut Vec<Loss>,
+) -> Result<Table, RecordingError> {
+    let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
+    let read = AssertUnwindSafe(|| {
+        let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
+        let schema = reader.metadata().file_metadata().schema();
+        let names: Vec<&str> = schema.get_fields().iter().map(|field| field.name()).collect();
+        let chosen = Chosen::of(&names, name, file, mapping)?;
+        let fields = schema.get_fields().iter().filter(|field| chosen.names.contains(&field.name())).cloned().collect();
+        let wanted = Type::group_type_builder(schema.name()).with_fields(fields).build();
+        let wanted = wanted.map_err(|error| refuse(error.to_string()))?;
+        let rows = reader.get_row_iter(Some(wanted)).map_err(|error| refuse(error.to_string()))?;
+        let mut samples = Samples::new(name, Place::Row, policy, (&file.time, chosen.time), chosen.columns);
+        for (number, row) in (0..).zip(rows) {
+            let row = row.map_err(|error| refuse(error.to_string()))?;
+            samples.take(&TableRow { row, number }, number)?;
+        }
+        let unused = names.iter().filter(|name| !chosen.names.contains(name)).map(|&name| name.to_owned()).collect();
+        let mut lost = Vec::new();
+        let channels = samples.finish(clock, &mut lost)?;
+        Ok((Table { channels, unused }, lost))
+    });
+    let (table, lost) = catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))?;
+    losses.extend(lost);
+    Ok(table)
+}
+
+/// The columns that are read, in the order of the file, and where they are among these.
+struct Chosen<'a> {
+    names: Vec<&'a str>,
+    time: Option<usize>,
+    columns: Vec<Found<'a>>,
+}
+
+impl<'a> Chosen<'a> {
+    fn of(all: &[&'a str], name: &str, file: &'a FileMapping, mapping: &str) -> Result<Self, RecordingError> {
+        let missing = |column: &str, key: String| {
+            let hint = suggest::hint(column, all).replacen("known are:", "the columns are:", 1);
+            RecordingError::MissingColumn { file: name.to_owned(), line: 1, column: column.to_owned(), key, hint }
+        };
+        let there = |column: &str| all.contains(&column);
+        if let Some(column) = file.time.column.as_deref().filter(|column| !there(column)) {
+            return Err(missing(column, format!("the time of mapping {mapping}")));
+        }
+        let lacking = file.columns.iter().find(|mapped| !mapped.optional && !there(&mapped.column));
+        if let Some(mapped) = lacking {
+            return Err(missing(&mapped.column, format!("{} of mapping {mapping}", mapped.signal)));
+        }
+        let is_time = |column: &str| file.time.column.as_deref() == Some(column);
+        let is_mapped = |column: &str| file.columns.iter().any(|mapped| mapped.column == column);
+        let names: Vec<&str> = all.iter().copied().filter(|column| is_time(column) || is_mapped(column)).collect();
+        let position = |column: &str| names.iter().position(|other| *other == column);
+        let columns: Vec<Found<'a>> = file
+            .columns
+            .iter()
+            .filter_map(|mapped| Some(Found { position: position(&mapped.column)?, mapped }))
+            .collect();
+        if columns.is_empty() {
+            let (file, mapping, hint) = (name.to_owned(), mapping.to_owned(), format!("columns: {}", all.join(", ")));
+            return Err(RecordingError::NoSignals { file, line: 1, mapping, hint });
+        }
+        let time = file.time.column.as_deref().and_then(position);
+        Ok(Self { names, time, columns })
+    }
+}
+
+/// A row of the chosen columns.
+struct TableRow {
+    row: ParquetRow,
+    /// Number of the row, from 0.
+    number: u64,
+}
+
+impl TableRow {
+    fn field(&self, position: usize) -> Option<&Field> {
+        self.row.get_column_iter().nth(position).map(|(_, field)| field)
+    }
+
+    /// The cell, with the nanoseconds in its unit where it is an instant by itself.
+    fn cell(&self, position: usize) -> Option<(Cell, Option<i64>)> {
+        let whole = |value: i64| (Cell::Whole(value.into()), None);
+        Some(match self.field(position)? {
+            Field::Null => (Cell::Gap, None),
+            Field::Bool(yes) => whole((*yes).into()),
+            Field::Byte(value) => whole((*value).into()),
+            Field::Short(value) => whole((*value).into()),
+            Field::Int(value) => whole((*value).into()),
+            Field::Long(value) => whole(*value),
+            Field::UByte(value) => whole((*value).into()),
+            Field::UShort(value) => whole((*value).into()),
+            Field::UInt(value) => whole((*value).into()),
+            Field::ULong(value) => (Cell::Whole((*value).into()), None),
+            Field::Float(value) => (Cell::real((*value).into()), None),
+            Field::Double(value) => (Cell::real(*value), None),
+            Field::TimestampMillis(value) => (Cell::Whole((*value).into()), Some(1_000_000)),
+            Field::TimestampMicros(value) => (Cell::Whole((*value).into()), Some(1_000)),
+            _ => return None,
+        })
+    }
+}
+
+impl Row for TableRow {
+    fn number(&self, position: usize) -> Result<Option<f64>, CellError> {
+        self.cell(position).ok_or(CellError::NotANumber)?.0.number()
+    }
+
+    fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError> {
+        let (cell, own) = self.cell(position).ok_or(CellError::NotANumber)?;
+        cell.instant_ns(own.unwrap_or(ns_per_unit))
+    }
+
+    fn text(&self, position: usize) -> String {
+        crate::samples::shown(self.field(position).map(ToString::to_string).unwrap_or_default().trim_matches('"'))
+    }
+
+    fn place(&self) -> u64 {
+        self.number + 1
+    }
+}

@@ -1,0 +1,245 @@
+//! Rows become samples: the one way in which CSV lines, messages of a topic and rows of Parquet do.
+
+use crate::cell::CellError;
+use crate::channel::Channel;
+use crate::error::RecordingError;
+use crate::loss::{Ledger, LossKind, in_words};
+use crate::mapping::{ColumnMapping, TimeMapping};
+use crate::place::Place;
+use crate::read::Policy;
+
+/// A mapped column and where it is in a row.
+#[derive(Clone, Copy)]
+pub(crate) struct Found<'a> {
+    pub(crate) position: usize,
+    pub(crate) mapped: &'a ColumnMapping,
+}
+
+/// One row: cells by position.
+pub(crate) trait Row {
+    /// The number in a cell; `None` for an empty one.
+    fn number(&self, position: usize) -> Result<Option<f64>, CellError>;
+    /// The instant in a cell whose unit is `ns_per_unit` nanoseconds; `None` for an empty one.
+    fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError>;
+    /// A cell as a message shows it.
+    fn text(&self, position: usize) -> String;
+    /// Where the row is, asked only for messages.
+    fn place(&self) -> u64;
+}
+
+/// What a table is read by, and the samples read so far.
+pub(crate) struct Samples<'a> {
+    file: &'a str,
+    place: Place,
+    policy: Policy,
+    time: &'a TimeMapping,
+    /// Position of the time; without one, rows are counted.
+    time_at: Option<usize>,
+    /// What stands before a column's name in messages: the topic.
+    prefix: String,
+    columns: Vec<Found<'a>>,
+    gathered: Vec<(Vec<i64>, Vec<f64>)>,
+    last_ns: Option<i64>,
+    ledger: Ledger<'a>,
+}
+
+impl<'a> Samples<'a> {
+    /// No samples yet of these columns.
+    pub(crate) fn new(
+        file: &'a str,
+        place: Place,
+        policy: Policy,
+        time: (&'a TimeMapping, Option<usize>),
+        columns: Vec<Found<'a>>,
+    ) -> Self {
+        let gathered = columns.iter().map(|_| (Vec::new(), Vec::new())).collect();
+        let ledger = Ledger::new(file, place);
+        let (time, time_at) = time;
+        Self { file, place, policy, time, time_at, prefix: String::new(), columns, gathered, last_ns: None, ledger }
+    }
+
+    /// The same, of a topic.
+    pub(crate) fn of_topic(mut self, topic: &str) -> Self {
+        self.prefix = format!("{topic}.");
+        self
+    }
+
+    /// Adds a row's samples, or counts why not; `number` is the row's from 0, lost ones counted.
+    pub(crate) fn take(&mut self, row: &impl Row, number: u64) -> Result<(), RecordingError> {
+        let Some(now_ns) = self.instant(row, number)? else {
+            return Ok(());
+        };
+        if let Some(before_ns) = self.last_ns.filter(|&before_ns| now_ns < before_ns) {
+            return self.lose(row, LossKind::TimeBackwards, None, self.if_tolerant(), |of, line| {
+                let (file, place, column) = (of.file.to_owned(), of.place, of.time_column());
+                let (before_s, now_s) = (seconds(before_ns), seconds(now_ns));
+                RecordingError::TimeBackwards { file, place, line, column, before_s, now_s }
+            });
+        }
+        self.last_ns = Some(now_ns);
+        let mut repeated = false;
+        for index in 0..self.columns.len() {
+            let Some(value) = self.value(row, self.columns[index])? else {
+                continue;
+            };
+            let (t_ns, values) = &mut self.gathered[index];
+            if t_ns.last() == Some(&now_ns) {
+                repeated = true;
+            } else {
+                t_ns.push(now_ns);
+                values.push(value);
+            }
+        }
+        if !repeated {
+            return Ok(());
+        }
+        self.lose(row, LossKind::DuplicateStamp, None, self.unless_strict(), |of, line| {
+            let (file, place, column) = (of.file.to_owned(), of.place, of.time_column());
+            RecordingError::DuplicateStamp { file, place, line, column, now_s: seconds(now_ns) }
+        })
+    }
+
+    /// Counts a row that is no row, and goes on unless reading is strict.
+    pub(crate) fn lose_row(
+        &mut self,
+        kind: LossKind,
+        line: impl Fn() -> u64,
+        error: impl FnOnce() -> RecordingError,
+    ) -> Result<(), RecordingError> {
+        if !self.unless_strict() {
+            return Err(error());
+        }
+        self.ledger.add(kind, None, || Some(line()));
+        Ok(())
+    }
+
+    /// The channels that hold samples, on clock `clock`. The losses go to `losses`.
+    pub(crate) fn finish(
+        mut self,
+        clock: usize,
+        losses: &mut Vec<crate::Loss>,
+    ) -> Result<Vec<Channel>, RecordingError> {
+        let (mut channels, mut empty) = (Vec::new(), Vec::new());
+        for (found, (t_ns, values)) in self.columns.iter().zip(std::mem::take(&mut self.gathered)) {
+            let mapped = found.mapped;
+            if t_ns.is_empty() {
+                empty.push(mapped);
+                continue;
+            }
+            let channel = Channel::new(mapped.signal, clock, t_ns, values)?;
+            let column = format!("{}{}", self.prefix, mapped.column);
+            channels.push(channel.with_attributes(mapped.attributes).with_column(column));
+        }
+        if channels.is_empty() {
+            let losses = in_words(self.ledger.losses());
+            return Err(RecordingError::NoSamples { file: self.file.to_owned(), losses });
+        }
+        for mapped in empty.iter().filter(|mapped| !mapped.optional) {
+            self.ledger.add(LossKind::EmptyColumn, Some(&format!("{}{}", self.prefix, mapped.column)), || None);
+        }
+        losses.extend(self.ledger.into_losses());
+        Ok(channels)
+    }
+
+    /// When the row was taken; `None` when that is lost.
+    fn instant(&mut self, row: &impl Row, number: u64) -> Result<Option<i64>, RecordingError> {
+        let TimeMapping { ns_per_unit, rate_hz, .. } = *self.time;
+        let Some(position) = self.time_at else {
+            let period_ns = 1e9 / rate_hz.unwrap_or(1.0);
+            return Ok(crate::cell::rounded_ns(number as f64 * period_ns));
+        };
+        let lost = match row.instant_ns(position, ns_per_unit) {
+            Ok(Some(now_ns)) => return Ok(Some(now_ns)),
+            Ok(None) => self.lose(row, LossKind::NoTime, None, self.unless_strict(), |of, line| {
+                let (file, place, column) = (of.file.to_owned(), of.place, of.time_column());
+                RecordingError::NoTime { file, place, line, column }
+            }),
+            Err(problem) => self.lose(row, LossKind::BadTime, None, self.if_tolerant(), |of, line| {
+                of.cell_error(problem, line, of.time_column(), row.text(position))
+            }),
+        };
+        lost.map(|()| None)
+    }
+
+    /// The sample of a mapped column in SI; `None` for a gap.
+    fn value(&mut self, row: &impl Row, found: Found<'a>) -> Result<Option<f64>, RecordingError> {
+        let Found { position, mapped } = found;
+        let column = || format!("{}{}", self.prefix, mapped.column);
+        let problem = match row.number(position) {
+            Ok(None) => return Ok(None),
+            Ok(Some(value)) if value < 0.0 && mapped.attributes.magnitude_only => {
+                let (column, tolerant) = (column(), self.if_tolerant());
+                let lost = self.lose(row, LossKind::NegativeMagnitude, Some(&column), tolerant, |of, line| {
+                    let (file, place, column) = (of.file.to_owned(), of.place, column.clone());
+                    RecordingError::NegativeMagnitude { file, place, line, column, text: row.text(position) }
+                });
+                return lost.map(|()| None);
+            }
+            Ok(Some(value)) => {
+                let in_si = value * mapped.factor;
+                if in_si.is_finite() {
+                    return Ok(Some(in_si));
+                }
+                CellError::NotFinite
+            }
+            Err(problem) => problem,
+        };
+        let (column, tolerant) = (column(), self.if_tolerant());
+        let lost = self.lose(row, LossKind::BadCell, Some(&column), tolerant, |of, line| {
+            of.cell_error(problem, line, column.clone(), row.text(position))
+        });
+        lost.map(|()| None)
+    }
+
+    /// Counts a loss where the policy lets the reading go on, and ends it otherwise.
+    fn lose(
+        &mut self,
+        row: &impl Row,
+        kind: LossKind,
+        column: Option<&str>,
+        go_on: bool,
+        error: impl FnOnce(&Self, u64) -> RecordingError,
+    ) -> Result<(), RecordingError> {
+        if !go_on {
+            return Err(error(self, row.place()));
+        }
+        self.ledger.add(kind, column, || Some(row.place()));
+        Ok(())
+    }
+
+    fn unless_strict(&self) -> bool {
+        self.policy != Policy::Strict
+    }
+
+    fn if_tolerant(&self) -> bool {
+        self.policy == Policy::Tolerant
+    }
+
+    fn cell_error(&self, problem: CellError, line: u64, column: String, text: String) -> RecordingError {
+        let (file, place) = (self.file.to_owned(), self.place);
+        match problem {
+            CellError::NotANumber => RecordingError::NotANumber { file, place, line, column, text },
+            CellError::NotFinite => RecordingError::NotFinite { file, place, line, column, text },
+        }
+    }
+
+    fn time_column(&self) -> String {
+        let column = self.time.column.as_deref();
+        column.map_or_else(|| "(row number)".to_owned(), |column| format!("{}{column}", self.prefix))
+    }
+}
+
+/// Text as a message shows it: its first characters, none that a terminal would obey.
+pub(crate) fn shown(text: &str) -> String {
+    /// Characters shown.
+    const SHOWN: usize = 40;
+    let mut shown: String = text.chars().take(SHOWN).flat_map(char::escape_debug).collect();
+    if text.chars().count() > SHOWN {
+        shown.push('…');
+    }
+    shown
+}
+
+fn seconds(ns: i64) -> f64 {
+    ns as f64 / 1e9
+}

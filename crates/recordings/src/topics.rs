@@ -1,0 +1,184 @@
+//! The bags of one run against the entries of a mapping that name topics: messages become samples.
+
+use crate::bag::{Message, Passed, messages};
+use crate::channel::Channel;
+use crate::error::RecordingError;
+use crate::fields::{Cell, LOG_TIME, MessageRow, Reader, Trouble};
+use crate::loss::{Loss, LossKind, in_words};
+use crate::mapping::FileMapping;
+use crate::place::Place;
+use crate::read::{Opened, Policy};
+use crate::samples::{Found, Samples};
+use crate::suggest;
+
+/// One topic that is wanted.
+struct Wanted<'a> {
+    file: &'a FileMapping,
+    topic: &'a str,
+    samples: Option<Samples<'a>>,
+    /// The reader of each topic of the current bag, where the topic is this one.
+    readers: Vec<Option<TopicReader>>,
+    /// The fields that the messages have: all but optional ones.
+    kept: Vec<&'a str>,
+    /// Messages met, over all parts.
+    met: u64,
+}
+
+/// Reads the wanted fields of one topic of one bag.
+struct TopicReader {
+    reader: Reader,
+    /// The time is the log's, put behind the fields.
+    log_time: bool,
+}
+
+/// What the bags of a run hold.
+pub(crate) struct Bags {
+    /// The channels of each entry.
+    pub(crate) channels: Vec<Vec<Channel>>,
+    /// What each part is, in their order.
+    pub(crate) parts: Vec<Passed>,
+    /// What could not be read of messages.
+    pub(crate) losses: Vec<Loss>,
+}
+
+/// Reads the parts of a bag, in their order, against entries that name topics; channels of entry `i` are on clock
+/// `clocks[i]`.
+pub(crate) fn read_bags<'a, 'n: 'a>(
+    mapping: &str,
+    parts: &mut [&mut Opened<'n>],
+    entries: &[&'a FileMapping],
+    clocks: &[usize],
+    policy: Policy,
+) -> Result<Bags, RecordingError> {
+    let mut wanted: Vec<Wanted<'a>> = entries
+        .iter()
+        .filter_map(|file| {
+            let topic = file.topic.as_deref()?;
+            Some(Wanted { file, topic, samples: None, readers: Vec::new(), kept: Vec::new(), met: 0 })
+        })
+        .collect();
+    let mut passed = Vec::new();
+    for part in parts.iter_mut() {
+        let name = part.name;
+        for wanted in &mut wanted {
+            wanted.readers.clear();
+        }
+        let pass = messages(name, &mut *part.source, &mut |message| {
+            wanted.iter_mut().try_for_each(|wanted| wanted.take(name, &message, policy))
+        })?;
+        if policy == Policy::Strict && !pass.losses.is_empty() {
+            return Err(RecordingError::Lost(in_words(&pass.losses)));
+        }
+        passed.push(pass);
+    }
+    let name = parts.first().map_or("", |part| part.name);
+    let (mut channels, mut losses) = (Vec::new(), Vec::new());
+    for (wanted, &clock) in wanted.into_iter().zip(clocks) {
+        channels.push(if let Some(samples) = wanted.samples {
+            samples.finish(clock, &mut losses)?
+        } else {
+            losses.extend(missing(name, wanted.file, wanted.topic, mapping, &passed)?);
+            Vec::new()
+        });
+    }
+    if channels.iter().all(Vec::is_empty) {
+        let losses: Vec<String> = passed.iter().flat_map(|pass| &pass.losses).map(ToString::to_string).collect();
+        let losses =
+            if losses.is_empty() { "none of the mapped topics is there".to_owned() } else { losses.join("; ") };
+        return Err(RecordingError::NoSamples { file: name.to_owned(), losses });
+    }
+    Ok(Bags { channels, parts: passed, losses })
+}
+
+/// What to say of a topic without a message: nothing where it may be missing, a loss where the bag is damaged.
+fn missing(
+    file: &str,
+    entry: &FileMapping,
+    topic: &str,
+    mapping: &str,
+    passed: &[Passed],
+) -> Result<Option<Loss>, RecordingError> {
+    if entry.columns.iter().all(|column| column.optional) {
+        return Ok(None);
+    }
+    if passed.iter().any(|pass| !pass.losses.is_empty()) {
+        let (kind, file, column) = (LossKind::EmptyTopic, file.to_owned(), Some(topic.to_owned()));
+        return Ok(Some(Loss { kind, file, column, place: Place::Message, lines: Vec::new(), count: 1 }));
+    }
+    let mut known: Vec<&str> = passed.iter().flat_map(|pass| &pass.topics).map(|topic| topic.name.as_str()).collect();
+    known.sort_unstable();
+    known.dedup();
+    let hint = suggest::hint(topic, &known).replacen("known are:", "topics with messages are:", 1);
+    let (file, topic, mapping) = (file.to_owned(), topic.to_owned(), mapping.to_owned());
+    Err(RecordingError::MissingTopic { file, topic, mapping, hint })
+}
+
+impl<'a> Wanted<'a> {
+    fn take(&mut self, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<(), RecordingError> {
+        if message.topic.name != self.topic {
+            return Ok(());
+        }
+        if self.readers.len() <= message.topic_index {
+            self.readers.resize_with(message.topic_index + 1, || None);
+        }
+        if self.readers[message.topic_index].is_none() {
+            let reader = self.reader(name, message, policy)?;
+            self.readers[message.topic_index] = Some(reader);
+        }
+        let (Some(reader), Some(samples)) = (&self.readers[message.topic_index], &mut self.samples) else {
+            return Ok(());
+        };
+        self.met += 1;
+        let number = self.met;
+        let Some(mut cells) = reader.reader.read(message.bytes) else {
+            let error = || {
+                let topic = self.topic;
+                RecordingError::Lost(format!("{name}: message {number} of `{topic}` does not decode by its schema"))
+            };
+            return samples.lose_row(LossKind::BadMessage, || number, error);
+        };
+        if reader.log_time {
+            cells.push(Cell::Whole(message.log_time_ns.into()));
+        }
+        samples.take(&MessageRow { cells: &cells, number }, number - 1)
+    }
+
+    /// The reader of the topic of this message: the mapped fields, then the time.
+    fn reader(&mut self, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<TopicReader, RecordingError> {
+        let time = self.file.time.column.as_deref().unwrap_or(LOG_TIME);
+        let log_time = time == LOG_TIME;
+        let mut columns: Vec<_> = self.file.columns.iter().collect();
+        let reader = loop {
+            let mut fields: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
+            fields.extend((!log_time).then_some(time));
+            match Reader::new(message.topic, &fields) {
+                Ok(reader) => break reader,
+                Err(Trouble::Field(index, _)) if columns.get(index).is_some_and(|column| column.optional) => {
+                    columns.remove(index);
+                }
+                Err(Trouble::Field(index, what)) => {
+                    let (topic, field) = (self.topic.to_owned(), fields[index].to_owned());
+                    return Err(RecordingError::BadField { file: name.to_owned(), topic, field, message: what });
+                }
+                Err(Trouble::Topic(what)) => {
+                    let (topic, message_type) = (self.topic.to_owned(), message.topic.message_type.clone());
+                    return Err(RecordingError::BadTopic { file: name.to_owned(), topic, message_type, message: what });
+                }
+            }
+        };
+        let time_at = columns.len();
+        let kept: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
+        if self.samples.is_some() && self.kept != kept {
+            let what = "messages of another type, without some of the fields, follow on this topic".to_owned();
+            let (topic, message_type) = (self.topic.to_owned(), message.topic.message_type.clone());
+            return Err(RecordingError::BadTopic { file: name.to_owned(), topic, message_type, message: what });
+        }
+        self.kept = kept;
+        let found = columns.iter().enumerate().map(|(position, mapped)| Found { position, mapped }).collect();
+        if self.samples.is_none() {
+            let time = (&self.file.time, Some(time_at));
+            self.samples = Some(Samples::new(name, Place::Message, policy, time, found).of_topic(self.topic));
+        }
+        Ok(TopicReader { reader, log_time })
+    }
+}
