@@ -11,7 +11,10 @@
 //! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way; [`read_from`] does
 //!   so from anything that can be read and searched, so that bags need not fit into memory.
 //! * [`contents`] tells what a bag holds, [`messages`] gives each message, [`FieldReader`] the fields of each.
-//! * [`write_csv`] is the way back; the built-in mapping `skid-steer-columns` reads what it wrote.
+//! * [`Quality`] is what can be measured of a channel without knowing what it means: rate, gaps, jumps, saturation ...
+//! * [`Fingerprint`] tells the same data in another file.
+//! * [`write_csv`], [`write_mcap`] and [`write_parquet`] are the way back; the built-in mapping `skid-steer-columns` reads
+//!   the CSV.
 //!
 //! ```
 //! use recordings::{Input, Mapping, ReadOptions, Signal, read};
@@ -32,6 +35,7 @@ mod channel;
 mod contents;
 mod error;
 mod fields;
+mod fingerprint;
 mod group;
 mod header;
 mod loss;
@@ -41,6 +45,7 @@ mod mapping_text;
 mod mapping_toml;
 mod parquet;
 mod place;
+mod quality;
 mod read;
 mod recording;
 mod samples;
@@ -50,18 +55,27 @@ mod table;
 mod topics;
 mod units;
 mod write;
+mod write_mcap;
+mod write_parquet;
 
 pub use bag::{LARGEST_IN_MEMORY, LARGEST_RECORD, Message, Passed, ReadSeek, Topic, messages};
 pub use channel::{Attributes, Channel};
 pub use contents::{Contents, TopicContents, contents};
 pub use error::RecordingError;
 pub use fields::{Field, FieldReader};
+pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
 pub use group::{Group, GroupFile, Grouping};
 pub use loss::{Loss, LossKind};
 pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping};
 pub use place::Place;
+pub use quality::{
+    At, Extreme, Finding, FindingKind, Gaps, Grid, Quality, QualityMeter, Severity, Stretch, Tally, Timing, Values,
+    Wrap,
+};
 pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
 pub use units::{Scale, Unit, parse_unit};
 pub use write::write_csv;
+pub use write_mcap::write_mcap;
+pub use write_parquet::write_parquet;
