@@ -12,10 +12,11 @@ use clap::{Parser, Subcommand};
 mod commands;
 mod console;
 
-use commands::{Outcome, Usage, diagnose, effects, explain, identify};
+use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, identify};
 
 const EXAMPLES: &str = "\
 Examples:
+  lacuna check walk/                           what is inside a bag, and how good it is
   lacuna diagnose case/                        a folder with robot.toml, reference/, recordings/
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
@@ -38,6 +39,10 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Tell what is inside recordings, and how good it is.
+    Check(check::Args),
+    /// Write a recording in another format.
+    Convert(convert::Args),
     /// Compare recordings with a robot's simulation and name what it lacks.
     Diagnose(diagnose::Args),
     /// Follow a recording with the online neural identifier and check its certificate.
@@ -52,6 +57,8 @@ fn main() -> ExitCode {
     console::report_panics();
     let cli = Cli::parse();
     let outcome = match &cli.command {
+        Command::Check(args) => check::run(args, cli.verbose),
+        Command::Convert(args) => convert::run(args),
         Command::Diagnose(args) => diagnose::run(args, cli.verbose),
         Command::Identify(args) => identify::run(args),
         Command::Effects(args) => effects::run(args),

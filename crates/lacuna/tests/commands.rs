@@ -12,6 +12,8 @@ fn help_has_examples_for_every_command() {
     let bench = Bench::new();
     for args in [
         &["--help"][..],
+        &["check", "--help"],
+        &["convert", "--help"],
         &["diagnose", "--help"],
         &["identify", "--help"],
         &["effects", "--help"],

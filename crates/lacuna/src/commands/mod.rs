@@ -4,6 +4,8 @@ use clap::ValueEnum;
 use recordings::{Policy, ReadOptions, Source};
 use serde_json::{Value, json};
 
+pub(crate) mod check;
+pub(crate) mod convert;
 pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;

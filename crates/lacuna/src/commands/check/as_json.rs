@@ -1,0 +1,61 @@
+//! What was found, for programs.
+
+use recordings::Contents;
+use serde_json::{Value, json};
+
+use super::{Checked, Measured};
+use crate::commands::program;
+
+/// Version of this form.
+const FORMAT: u32 = 1;
+
+pub(super) fn render(c: &Checked) -> Value {
+    json!({
+        "format": FORMAT,
+        "program": program(),
+        "bags": c.bags.iter().map(|(name, contents)| bag(name, contents)).collect::<Vec<_>>(),
+        "mapping": c.mapping.as_ref().map(|(name, named)| json!({ "name": name, "named_by_user": named })),
+        "recordings": c.recordings.iter().map(|r| json!({
+            "name": r.name,
+            "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
+        "same_content": c.same,
+        "lost": c.lost,
+    })
+}
+
+fn bag(name: &str, contents: &Contents) -> Value {
+    let topics: Vec<Value> = contents
+        .topics
+        .iter()
+        .map(|t| {
+            let fields = t.fields.as_ref().map(|f| f.iter().map(|f| f.path.clone()).collect::<Vec<_>>());
+            json!({
+                "name": t.name, "type": t.message_type, "encoding": t.encoding, "messages": t.count,
+                "undecodable": t.undecodable, "first_log_time_ns": t.log_time_ns.0, "last_log_time_ns": t.log_time_ns.1,
+                "fields": fields.as_ref().ok(), "not_decoded": fields.as_ref().err(),
+            })
+        })
+        .collect();
+    json!({ "file": name, "bytes": contents.bytes, "sha256": contents.sha256, "topics": topics })
+}
+
+fn channel(m: &Measured) -> Value {
+    let (q, t) = (&m.quality, &m.quality.timing);
+    let findings: Vec<Value> = q
+        .findings(m.unit)
+        .iter()
+        .map(|f| {
+            json!({
+                "kind": format!("{:?}", f.kind), "severity": format!("{:?}", f.severity), "number": f.number,
+                "sample": f.at.map(|at| at.sample), "t_ns": f.at.map(|at| at.t_ns), "text": f.to_string(),
+            })
+        })
+        .collect();
+    json!({
+        "signal": m.name, "column": m.column, "unit": m.unit, "samples": t.samples, "rate_hz": t.rate_hz(),
+        "jitter_s": t.jitter_mad_s, "gaps": t.gaps.tally.count, "longest_gap_s": t.gaps.longest_s,
+        "duplicates": t.duplicates.count, "out_of_order": t.out_of_order.count, "missing": q.values.missing.count,
+        "step": q.grid.map(|g| g.step), "noise": q.noise, "findings": findings,
+    })
+}

@@ -1,0 +1,108 @@
+//! What was found, for people.
+
+use lacuna::text_table::{TextTable, number};
+use recordings::{Contents, Severity};
+
+use super::{Checked, Mapped};
+use crate::commands::listed;
+use crate::console::heading;
+
+pub(super) fn render(c: &Checked, fields: bool) -> String {
+    let mut out = String::new();
+    for (name, contents) in &c.bags {
+        out += &bag(name, contents, fields);
+    }
+    match &c.mapping {
+        Some((name, true)) => out += &format!("\nMapping: {name}.\n"),
+        Some((name, false)) => out += &format!("\nThe built-in mapping {name} fits these recordings.\n"),
+        None => {
+            out += "\nNo built-in mapping fits, so that nobody knows which field is which signal. Write one that names them \
+                    (--fields lists the fields) and give it with --mapping.\n";
+        }
+    }
+    for recording in &c.recordings {
+        out += &channels(recording);
+    }
+    let same: Vec<String> = c.same.iter().map(|group| group.join(" and ")).collect();
+    out += &listed("The same data, whatever the file", &same);
+    out += &listed("Lost", &c.lost);
+    out.trim_start().to_owned()
+}
+
+fn bag(name: &str, contents: &Contents, fields: bool) -> String {
+    let mut table = TextTable::new(&["topic", "type", ">messages", ">Hz", ">from s", ">to s", ">numeric fields"]);
+    let start = contents.topics.iter().map(|t| t.log_time_ns.0).min().unwrap_or(0);
+    let mut trouble = Vec::new();
+    let mut listing = String::new();
+    for topic in &contents.topics {
+        let (from, to) = topic.log_time_ns;
+        let seconds = |t: i64| (t - start) as f64 * 1e-9;
+        let span = seconds(to) - seconds(from);
+        let rate = if span > 0.0 { number((topic.count - 1) as f64 / span) } else { "-".into() };
+        let (count, shown) = match &topic.fields {
+            Ok(fields) => (fields.len().to_string(), fields.as_slice()),
+            Err(why) => {
+                trouble.push(format!("{}: {why}", topic.name));
+                ("-".into(), &[][..])
+            }
+        };
+        if topic.undecodable > 0 {
+            trouble.push(format!("{}: {} messages do not decode by their schema", topic.name, topic.undecodable));
+        }
+        table.row([
+            topic.name.clone(),
+            topic.message_type.clone(),
+            topic.count.to_string(),
+            rate,
+            format!("{:.2}", seconds(from)),
+            format!("{:.2}", seconds(to)),
+            count,
+        ]);
+        if fields {
+            for field in shown {
+                listing += &format!("  {}.{}\n", topic.name, field.path);
+            }
+        }
+    }
+    let mut out = format!("\n{}{}", heading(name), table.render());
+    out += &format!("  {} bytes, SHA-256 {}\n", contents.bytes, contents.sha256);
+    if fields {
+        out += &format!("\n{}{listing}", heading("Fields"));
+    }
+    out + &listed("Not decoded", &trouble)
+}
+
+fn channels(recording: &Mapped) -> String {
+    let mut table = TextTable::new(&[
+        "signal",
+        "column",
+        ">samples",
+        ">Hz",
+        ">jitter ms",
+        ">gaps",
+        ">longest s",
+        ">step",
+        ">noise",
+        "unit",
+    ]);
+    let mut findings = Vec::new();
+    for channel in &recording.channels {
+        let (q, t) = (&channel.quality, &channel.quality.timing);
+        let some = |v: Option<f64>| v.map_or_else(|| "-".to_owned(), number);
+        table.row([
+            channel.name.clone(),
+            channel.column.clone(),
+            t.samples.to_string(),
+            some(t.rate_hz()),
+            number(t.jitter_mad_s * 1e3),
+            t.gaps.tally.count.to_string(),
+            number(t.gaps.longest_s),
+            some(q.grid.map(|g| g.step)),
+            some(q.noise),
+            channel.unit.to_owned(),
+        ]);
+        let told = q.findings(channel.unit).into_iter().filter(|f| f.severity > Severity::Note);
+        findings.extend(told.map(|f| format!("{}: {f}", channel.name)));
+    }
+    format!("\n{}{}{}", heading(&recording.name), table.render(), listed("Worth a look", &findings))
+}

@@ -1,0 +1,120 @@
+//! `lacuna check` and `lacuna convert`.
+
+mod common;
+
+use std::path::Path;
+
+use common::{Bench, drive};
+use serde_json::Value;
+
+const RUN: &str = "case/recordings/run_1.csv";
+
+fn check(bench: &Bench, args: &[&str]) -> (Option<i32>, Value) {
+    let run = bench.run(&[&["check"], args, &["--json", "-"]].concat());
+    (run.code(), serde_json::from_str(&run.out()).unwrap_or_else(|_| panic!("{}", run.err())))
+}
+
+#[test]
+fn a_table_is_mapped_by_itself_and_its_channels_are_measured() {
+    let bench = Bench::new();
+    let run = bench.run(&["check", RUN]);
+    assert_eq!((run.code(), run.err().as_str()), (Some(0), ""));
+    assert!(run.out().contains("The built-in mapping skid-steer-columns fits these recordings."), "{}", run.out());
+    let (code, json) = check(&bench, &[RUN]);
+    assert_eq!(code, Some(0));
+    let channel = &json["recordings"][0]["channels"][0];
+    assert_eq!((channel["samples"].as_u64(), channel["unit"].as_str()), (Some(300), Some("rad/s")));
+    assert!((channel["rate_hz"].as_f64().unwrap() - 100.0).abs() < 1e-6, "{channel}");
+}
+
+#[test]
+fn gaps_and_lost_rows_are_told_and_end_with_3() {
+    let bench = Bench::new();
+    let mut rows: Vec<String> = drive(300, 0.5).lines().map(str::to_owned).collect();
+    rows.drain(101..151);
+    rows[200].push_str(",1");
+    bench.write(RUN, &(rows.join("\n") + "\n"));
+    let run = bench.run(&["check", RUN]);
+    assert_eq!(run.code(), Some(3));
+    assert!(run.out().contains("1 gap, the longest 0.51 s"), "{}", run.out());
+    assert!(run.out().contains("Lost"), "{}", run.out());
+}
+
+#[test]
+fn the_same_data_under_another_name_is_found() {
+    let bench = Bench::new();
+    bench.write("two/a.csv", &drive(300, 0.5));
+    bench.write("two/b.csv", &(drive(300, 0.5) + "\n"));
+    bench.write("two/c.csv", &drive(300, 0.9));
+    let (_, json) = check(&bench, &["two"]);
+    let same = json["same_content"].as_array().unwrap();
+    assert_eq!(same.len(), 1, "{same:?}");
+    assert_eq!(same[0].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn what_no_mapping_fits_is_refused_with_what_was_tried() {
+    let bench = Bench::empty();
+    bench.write("x.csv", "a,b\n1,2\n");
+    let run = bench.run(&["check", "x.csv"]);
+    assert_eq!(run.code(), Some(1));
+    assert!(run.err().contains("no built-in mapping fits") && run.err().contains("--mapping"), "{}", run.err());
+    assert!(bench.run(&["check", "nowhere"]).err().contains("no file or folder 'nowhere'"));
+}
+
+#[test]
+fn a_recording_goes_to_mcap_and_its_bag_is_checked() {
+    let bench = Bench::new();
+    let run = bench.run(&["convert", RUN, "--out", "run.mcap"]);
+    assert_eq!((run.code(), run.err().as_str()), (Some(0), ""));
+    assert_eq!(run.out(), "4 channels with 1200 samples written to run.mcap\n");
+    let run = bench.run(&["check", "run.mcap", "--fields"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for part in ["wheel_speed_left", "torque_right", "300", "SHA-256", "value", "No built-in mapping fits"] {
+        assert!(run.out().contains(part), "{part}: {}", run.out());
+    }
+}
+
+#[test]
+fn csv_to_csv_changes_no_value() {
+    let bench = Bench::new();
+    assert_eq!(bench.run(&["convert", RUN, "--out", "a.csv"]).code(), Some(0));
+    assert_eq!(bench.run(&["convert", "a.csv", "--out", "b.csv"]).code(), Some(0));
+    assert_eq!(bench.read("a.csv"), bench.read("b.csv"));
+    let (_, json) = check(&bench, &[RUN, "a.csv"]);
+    assert_eq!(json["same_content"][0].as_array().map(Vec::len), Some(2), "{json}");
+}
+
+#[test]
+fn a_file_that_is_there_is_kept_and_an_ending_must_say_the_format() {
+    let bench = Bench::new();
+    bench.write("out.parquet", "mine");
+    let run = bench.run(&["convert", RUN, "--out", "out.parquet"]);
+    assert_eq!(run.code(), Some(1));
+    assert!(run.err().contains("--force"), "{}", run.err());
+    assert_eq!(bench.read("out.parquet"), "mine");
+    assert_eq!(bench.run(&["convert", RUN, "--out", "out.parquet", "--force"]).code(), Some(0));
+    let run = bench.run(&["convert", RUN, "--out", "out.xlsx"]);
+    assert_eq!(run.code(), Some(2));
+    assert!(run.err().contains(".mcap, .parquet or .csv"), "{}", run.err());
+}
+
+#[test]
+fn bags_of_known_robots_are_mapped_by_themselves() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ros2-bags");
+    if !data.exists() {
+        eprintln!("SKIPPED: no recordings at {}", data.display());
+        return;
+    }
+    let bench = Bench::empty();
+    for (folder, mapping, signals) in [
+        ("kobuki_run_a_mcap", "kobuki-bag", 7),
+        ("kobuki_run_a_sqlite3", "kobuki-bag", 7),
+        ("husky_asphalt_00_mcap", "husky-bag", 10),
+    ] {
+        let (code, json) = check(&bench, &[&data.join(folder).display().to_string()]);
+        assert_eq!(code, Some(0));
+        assert_eq!(json["mapping"]["name"], mapping);
+        assert_eq!(json["recordings"][0]["channels"].as_array().map(Vec::len), Some(signals), "{json}");
+    }
+}
