@@ -9,6 +9,7 @@ pub mod case_folder;
 mod flat_robot;
 pub mod inputs;
 pub mod predictions;
+pub mod propose;
 mod robot_error;
 pub mod robot_file;
 mod robot_parameters;

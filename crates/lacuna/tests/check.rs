@@ -118,3 +118,25 @@ fn bags_of_known_robots_are_mapped_by_themselves() {
         assert_eq!(json["recordings"][0]["channels"].as_array().map(Vec::len), Some(signals), "{json}");
     }
 }
+
+#[test]
+fn a_proposed_mapping_reads_the_bag_it_was_proposed_for() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ros2-bags/kobuki_run_a_mcap");
+    if !data.exists() {
+        eprintln!("SKIPPED: no recordings at {}", data.display());
+        return;
+    }
+    let (bench, data) = (Bench::empty(), data.display().to_string());
+    let run = bench.run(&["check", &data, "--write-mapping", "map.toml"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert!(run.out().contains("effort taken for torques"), "{}", run.out());
+    let (code, json) = check(&bench, &[&data, "--mapping", "map.toml"]);
+    assert_eq!(code, Some(0), "{json}");
+    let signals: Vec<&str> =
+        json["recordings"][0]["channels"].as_array().unwrap().iter().map(|c| c["signal"].as_str().unwrap()).collect();
+    for signal in ["wheel_angle_left", "wheel_speed_right", "torque_left", "gyro_z"] {
+        assert!(signals.contains(&signal), "{signal}: {signals:?}");
+    }
+    let again = bench.run(&["check", &data, "--write-mapping", "map.toml"]);
+    assert!(again.code() == Some(1) && again.err().contains("there already"), "{}", again.err());
+}

@@ -7,6 +7,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args as ClapArgs;
 use lacuna::case_folder;
 use lacuna::inputs::{self, Loaded};
+use lacuna::propose;
 use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Quality, contents, group_by_content};
 
 use super::{Outcome, Reading};
@@ -19,6 +20,7 @@ const EXAMPLES: &str = "\
 Examples:
   lacuna check walk/                                   a rosbag2 folder: topics, fields, what is lost
   lacuna check walk_0.mcap --fields                    with every field that a mapping can name
+  lacuna check walk/ --write-mapping map.toml          a mapping to look through and use with --mapping map.toml
   lacuna check FLOORING --mapping husky-open           the channels of CSV recordings
 
 Without --mapping the built-in mappings are tried; the first that fits is used and named.
@@ -41,6 +43,9 @@ pub(crate) struct Args {
     /// List the numeric fields of every topic.
     #[arg(long)]
     fields: bool,
+    /// Propose a mapping for the first bag, by message types and joint names, and write it to a file.
+    #[arg(long, value_name = "FILE")]
+    write_mapping: Option<PathBuf>,
     /// What to do with bad rows and cells of recordings.
     #[arg(long, value_enum, default_value_t)]
     reading: Reading,
@@ -72,6 +77,8 @@ struct Checked {
     recordings: Vec<Mapped>,
     /// Recordings of the same data.
     same: Vec<Vec<String>>,
+    /// Where a proposed mapping was written, and what was inferred for it.
+    proposed: Option<(String, Vec<String>)>,
     lost: Vec<String>,
 }
 
@@ -102,7 +109,8 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             lost.push(loss);
         }
     }
-    let checked = Checked { bags, mapping, recordings: recordings.collect(), same, lost };
+    let proposed = args.write_mapping.as_deref().map(|target| propose_to(target, &bags)).transpose()?;
+    let checked = Checked { bags, mapping, recordings: recordings.collect(), same, proposed, lost };
     drop(progress);
     if let Some(target) = &args.json {
         emit_json(target, &as_json::render(&checked))?;
@@ -111,6 +119,19 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         emit(&as_text::render(&checked, args.fields))?;
     }
     Ok(Outcome::of(&checked.lost))
+}
+
+/// Writes a proposed mapping.
+fn propose_to(target: &Path, bags: &[(String, Contents)]) -> Result<(String, Vec<String>)> {
+    let shown = target.display().to_string();
+    let (bag, contents) =
+        bags.first().context("--write-mapping needs a bag; of a table nobody knows what a column means")?;
+    let name = target.file_stem().map_or_else(|| shown.clone(), |stem| stem.to_string_lossy().into_owned());
+    let proposal = propose::mapping(&name, contents)
+        .with_context(|| format!("{bag}: no topic has joints, an inertial unit or a pose that a mapping could name"))?;
+    ensure!(!target.exists(), "'{shown}' is there already; name another file for the mapping");
+    std::fs::write(target, proposal.toml).with_context(|| format!("cannot write '{shown}'"))?;
+    Ok((shown, proposal.inferred))
 }
 
 fn measure(channel: &recordings::Channel) -> Measured {

@@ -20,6 +20,7 @@ pub(super) fn render(c: &Checked) -> Value {
             "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
         "same_content": c.same,
+        "proposed_mapping": c.proposed.as_ref().map(|(file, inferred)| json!({ "file": file, "inferred": inferred })),
         "lost": c.lost,
     })
 }
@@ -37,7 +38,10 @@ fn bag(name: &str, contents: &Contents) -> Value {
             })
         })
         .collect();
-    json!({ "file": name, "bytes": contents.bytes, "sha256": contents.sha256, "topics": topics })
+    json!({
+        "file": name, "bytes": contents.bytes, "sha256": contents.sha256, "unchecked_messages": contents.unchecked,
+        "topics": topics,
+    })
 }
 
 fn channel(m: &Measured) -> Value {

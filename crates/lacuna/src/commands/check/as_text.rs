@@ -1,7 +1,7 @@
 //! What was found, for people.
 
 use lacuna::text_table::{TextTable, number};
-use recordings::{Contents, Severity};
+use recordings::{Contents, Field, Severity};
 
 use super::{Checked, Mapped};
 use crate::commands::listed;
@@ -17,8 +17,14 @@ pub(super) fn render(c: &Checked, fields: bool) -> String {
         Some((name, false)) => out += &format!("\nThe built-in mapping {name} fits these recordings.\n"),
         None => {
             out += "\nNo built-in mapping fits, so that nobody knows which field is which signal. Write one that names them \
-                    (--fields lists the fields) and give it with --mapping.\n";
+                    (--fields lists the fields, --write-mapping proposes one) and give it with --mapping.\n";
         }
+    }
+    if let Some((target, inferred)) = &c.proposed {
+        out += &format!(
+            "\nMapping proposed: {target}. Use it with --mapping {target}, after a look at what was inferred.\n"
+        );
+        out += &listed("Inferred", inferred);
     }
     for recording in &c.recordings {
         out += &channels(recording);
@@ -60,7 +66,7 @@ fn bag(name: &str, contents: &Contents, fields: bool) -> String {
         ]);
         if fields {
             for field in shown {
-                listing += &format!("  {}.{}\n", topic.name, field.path);
+                listing += &format!("  {}.{}{}\n", topic.name, field.path, items(field));
             }
         }
     }
@@ -70,6 +76,16 @@ fn bag(name: &str, contents: &Contents, fields: bool) -> String {
         out += &format!("\n{}{listing}", heading("Fields"));
     }
     out + &listed("Not decoded", &trouble)
+}
+
+/// What a list holds, as a mapping addresses it.
+fn items(field: &Field) -> String {
+    match field.lengths {
+        None => String::new(),
+        Some((_, 0)) => "[] (always empty)".to_owned(),
+        Some(_) if !field.names.is_empty() => format!("[{}]", field.names.join(" | ")),
+        Some((_, most)) => format!("[0 .. {}]", most - 1),
+    }
 }
 
 fn channels(recording: &Mapped) -> String {
