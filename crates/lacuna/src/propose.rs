@@ -115,13 +115,15 @@ impl Draft {
     fn joints(&mut self, topic: &TopicContents) -> Vec<(String, String, &'static str)> {
         let lower = topic.name.to_lowercase();
         let command = COMMANDS.iter().any(|word| lower.contains(word));
+        let current = lower.contains("current");
         let mut out = Vec::new();
         for (list, signal, unit) in [
             ("position", "wheel_angle", "rad"),
             ("velocity", if command { "command_speed" } else { "wheel_speed" }, "rad/s"),
-            ("effort", "torque", "N m"),
+            if current { ("effort", "current", "A") } else { ("effort", "torque", "N m") },
         ] {
             let Some(field) = fields(topic).iter().find(|f| f.path == list) else { continue };
+            let before = out.len();
             for side in ["left", "right"] {
                 let Some(joint) = self.joint(topic, field, side) else { continue };
                 let signal = format!("{signal}_{side}");
@@ -129,11 +131,25 @@ impl Draft {
                     out.push((signal, format!("{list}[{joint}]"), unit));
                 }
             }
-            if list == "effort" && out.iter().any(|(signal, ..)| signal.starts_with("torque")) {
-                let what = "effort taken for torques of a side in N m; where the driver gives currents, make it current_left \
-                            and current_right in A";
-                self.inferred.push(format!("{}: {what}", topic.name));
-            }
+            let what = match out[before..]
+                .last()
+                .map(|(signal, ..)| signal.trim_end_matches("_right").trim_end_matches("_left"))
+            {
+                Some("torque") => {
+                    "effort taken for torques of a side in N m; where the driver gives currents, make it current_left and \
+                     current_right in A"
+                }
+                Some("current") => {
+                    "effort taken for currents in A, as the topic's name says; where they have no sign, add \
+                     magnitude_only = true"
+                }
+                Some("wheel_speed") => {
+                    "speeds taken for measured ones; where the driver repeats its set-points, make them command_speed_left \
+                     and command_speed_right"
+                }
+                _ => continue,
+            };
+            self.inferred.push(format!("{}: {what}", topic.name));
         }
         out
     }
