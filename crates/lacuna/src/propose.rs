@@ -233,6 +233,8 @@ mod tests {
         assert_eq!((speeds.topic.as_deref(), speeds.columns.len()), (Some("/joint_states"), 4));
         assert_eq!(speeds.time.rate_hz, Some(50.0));
         assert_eq!(parsed.files[1].columns.len(), 2);
+        let told: std::collections::BTreeSet<&String> = proposal.inferred.iter().collect();
+        assert_eq!(told.len(), proposal.inferred.len(), "said twice: {:?}", proposal.inferred);
         for part in
             ["of front_left_wheel, rear_left_wheel the first", "effort taken for torques", "/odom: left out", "REP 103"]
         {
