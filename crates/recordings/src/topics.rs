@@ -72,12 +72,14 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
         passed.push(pass);
     }
     let name = parts.first().map_or("", |part| part.name);
+    // A bag that has others of the topics is the right one, and one of them was not recorded: a loss, as a missing file is.
+    let rest_is_there = policy != Policy::Strict && wanted.iter().any(|wanted| wanted.samples.is_some());
     let (mut channels, mut losses) = (Vec::new(), Vec::new());
     for (wanted, &clock) in wanted.into_iter().zip(clocks) {
         channels.push(if let Some(samples) = wanted.samples {
             samples.finish(clock, &mut losses)?
         } else {
-            losses.extend(missing(name, wanted.file, wanted.topic, mapping, &passed)?);
+            losses.extend(missing(name, wanted.file, wanted.topic, mapping, &passed, rest_is_there)?);
             Vec::new()
         });
     }
@@ -90,24 +92,28 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
     Ok(Bags { channels, parts: passed, losses })
 }
 
-/// What to say of a topic without a message: nothing where it may be missing, a loss where the bag is damaged.
+/// What to say of a topic without a message: nothing where it may be missing, a loss where the bag is damaged, or where
+/// it holds others of the topics and none with a similar name; else an error.
 fn missing(
     file: &str,
     entry: &FileMapping,
     topic: &str,
     mapping: &str,
     passed: &[Passed],
+    rest_is_there: bool,
 ) -> Result<Option<Loss>, RecordingError> {
     if entry.columns.iter().all(|column| column.optional) {
         return Ok(None);
     }
-    if passed.iter().any(|pass| !pass.losses.is_empty()) {
-        let (kind, file, column) = (LossKind::EmptyTopic, file.to_owned(), Some(topic.to_owned()));
-        return Ok(Some(Loss { kind, file, column, place: Place::Message, lines: Vec::new(), count: 1 }));
-    }
     let mut known: Vec<&str> = passed.iter().flat_map(|pass| &pass.topics).map(|topic| topic.name.as_str()).collect();
     known.sort_unstable();
     known.dedup();
+    // A name that is nearly there is a slip of the pen in the mapping, not a topic that was not recorded.
+    let not_recorded = rest_is_there && suggest::nearest(topic, known.iter().copied()).is_none();
+    if not_recorded || passed.iter().any(|pass| !pass.losses.is_empty()) {
+        let (kind, file, column) = (LossKind::EmptyTopic, file.to_owned(), Some(topic.to_owned()));
+        return Ok(Some(Loss { kind, file, column, place: Place::Message, lines: Vec::new(), count: 1 }));
+    }
     let hint = suggest::hint(topic, &known).replacen("known are:", "topics with messages are:", 1);
     let (file, topic, mapping) = (file.to_owned(), topic.to_owned(), mapping.to_owned());
     Err(RecordingError::MissingTopic { file, topic, mapping, hint })

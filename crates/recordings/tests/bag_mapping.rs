@@ -80,6 +80,18 @@ fn a_damaged_bag_is_an_error_only_where_reading_is_strict() {
 }
 
 #[test]
+fn a_topic_that_was_not_recorded_is_a_loss_beside_others_that_were() {
+    let bytes = bag(&messages(20));
+    let files = [("walk.mcap", &*bytes)];
+    let mapping = MAPPING.replace("\"/gyro\"", "\"/imu/data\"");
+    let read = run(&mapping, Policy::Normal, &files).unwrap();
+    assert_eq!(read.losses.len(), 1, "{:?}", read.losses);
+    assert_eq!((read.losses[0].kind, read.losses[0].column.as_deref()), (LossKind::EmptyTopic, Some("/imu/data")));
+    assert!(read.recording.get(Signal::GyroZ).is_none());
+    assert!(message(run(&mapping, Policy::Strict, &files)).contains("no topic `/imu/data`"));
+}
+
+#[test]
 fn missing_topics_fields_and_messages_are_named() {
     let bytes = bag(&messages(20));
     let files = [("walk.mcap", &*bytes)];
