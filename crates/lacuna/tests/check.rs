@@ -28,6 +28,19 @@ fn a_table_is_mapped_by_itself_and_its_channels_are_measured() {
 }
 
 #[test]
+fn what_the_signals_permit_is_said() {
+    let bench = Bench::new();
+    let (_, json) = check(&bench, &[RUN]);
+    let sharper = "sharper with gyro_z, accel_x, accel_y, pose_x, pose_y, pose_yaw";
+    assert_eq!(json["recordings"][0]["diagnoses"][0], format!("torque-driven robot: permitted; {sharper}"));
+    bench.write("x.csv", "time_s,gyro_z_rad_s,torque_left_Nm\n0.00,0.1,1\n0.01,0.2,2\n0.02,0.1,3\n");
+    let (_, json) = check(&bench, &["x.csv"]);
+    let missing =
+        "there is no torque_right, no wheel_angle_left or wheel_speed_left, no wheel_angle_right or wheel_speed_right";
+    assert_eq!(json["recordings"][0]["diagnoses"][0], format!("torque-driven robot: not permitted, {missing}"));
+}
+
+#[test]
 fn gaps_and_lost_rows_are_told_and_end_with_3() {
     let bench = Bench::new();
     let mut rows: Vec<String> = drive(300, 0.5).lines().map(str::to_owned).collect();

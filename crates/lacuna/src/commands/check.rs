@@ -15,6 +15,7 @@ use crate::console::{Progress, emit, emit_json};
 
 mod as_json;
 mod as_text;
+mod permits;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,6 +67,8 @@ struct Measured {
 struct Mapped {
     name: String,
     channels: Vec<Measured>,
+    /// Which diagnoses the signals permit, in sentences.
+    permits: Vec<String>,
 }
 
 /// All that was found.
@@ -101,6 +104,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let recordings = loaded.reads.iter().zip(&names).map(|(read, name)| Mapped {
         name: name.clone(),
         channels: read.recording.channels().iter().map(measure).collect(),
+        permits: permits::permits(&read.recording),
     });
     // What a mapping reads of a bag is lost there as well: told once.
     let mut lost: Vec<String> = loaded.lost().collect();

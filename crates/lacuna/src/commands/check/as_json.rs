@@ -18,6 +18,7 @@ pub(super) fn render(c: &Checked) -> Value {
         "recordings": c.recordings.iter().map(|r| json!({
             "name": r.name,
             "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
+            "diagnoses": r.permits,
         })).collect::<Vec<_>>(),
         "same_content": c.same,
         "proposed_mapping": c.proposed.as_ref().map(|(file, inferred)| json!({ "file": file, "inferred": inferred })),

@@ -120,5 +120,7 @@ fn channels(recording: &Mapped) -> String {
         let told = q.findings(channel.unit).into_iter().filter(|f| f.severity > Severity::Note);
         findings.extend(told.map(|f| format!("{}: {f}", channel.name)));
     }
-    format!("\n{}{}{}", heading(&recording.name), table.render(), listed("Worth a look", &findings))
+    let heading = heading(&recording.name);
+    let (worth, permits) = (listed("Worth a look", &findings), listed("Diagnoses", &recording.permits));
+    format!("\n{heading}{}{worth}{permits}", table.render())
 }
