@@ -2,6 +2,7 @@
 
 use nn_basis::{Scalar, dot, real};
 
+use crate::certificate::difference;
 use crate::error::{IdentifierError, positive};
 use crate::{Certificate, Law, Midpoint, Model, Sample, Step};
 
@@ -61,7 +62,7 @@ impl<T: Scalar, L: Law<T, N>, const N: usize> Law<T, N> for Leaky<T, L> {
         let (half, gain) = (real::<T>(0.5), self.law.gain());
         let free = self.law.advance(pole, &step.before, &step.sample);
         let c = self.law.certify(pole, &free, comparison);
-        let moved = half * crate::certificate::difference(&free.after.weight, &step.after.weight, comparison) / gain;
+        let moved = half * difference(&free.after.weight, &step.after.weight, comparison) / gain;
         let leak = step.sample.h * self.strength(free.error);
         let weight = &step.after.weight;
         // h s Ŵᵀ(W* − Ŵ) − ½ γ h² s² ‖Ŵ‖², the same without the three squares.

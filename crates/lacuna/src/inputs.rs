@@ -104,19 +104,24 @@ fn files(mapping: &Mapping, paths: &[PathBuf]) -> Result<Files> {
     Ok(out)
 }
 
+/// What lies in a folder, hidden files aside, in the order of the names.
+///
+/// # Errors
+/// When it cannot be listed.
+pub fn list(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut inside = fs::read_dir(folder)
+        .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
+        .with_context(|| format!("cannot list '{}'", folder.display()))?;
+    inside.sort_by_key(fs::DirEntry::file_name);
+    inside.retain(|entry| !entry.file_name().as_encoded_bytes().starts_with(b"."));
+    Ok(inside.iter().map(fs::DirEntry::path).collect())
+}
+
 /// Adds the files of a folder.
 fn folder(mapping: &Mapping, endings: &BTreeSet<&str>, path: &Path, descend: bool, out: &mut Files) -> Result<()> {
-    let mut inside = fs::read_dir(path)
-        .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
-        .with_context(|| format!("cannot list '{}'", path.display()))?;
-    inside.sort_by_key(fs::DirEntry::file_name);
     let bags = mapping.files.iter().any(|f| f.topic.is_some());
-    for entry in inside {
-        let file = entry.path();
+    for file in list(path)? {
         let name = file.display().to_string();
-        if entry.file_name().as_encoded_bytes().starts_with(b".") {
-            continue;
-        }
         if file.is_dir() && descend && bags {
             let mut below = Files::default();
             folder(mapping, endings, &file, false, &mut below)?;

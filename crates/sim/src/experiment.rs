@@ -4,10 +4,10 @@ use identifier::{AngleRow, Euler, Exponential, Law, Midpoint, Step};
 use nn_basis::{Basis, Constant};
 use rayon::prelude::*;
 
-use crate::identification::{comparison, follow};
+use crate::identification::follow;
 use crate::network_recipe::SIGNALS;
 use crate::recipe::WIDE;
-use crate::{Purpose, Recipe, RobotSet, Scheme, SimError, Stream, Trajectory, UNITS};
+use crate::{Purpose, Recipe, RobotSet, Scheme, SimError, Stream, Trajectory, UNITS, comparison};
 
 /// Quality of one output of one identifier. Errors are x̃ = x − x̂ of a wheel speed at the samples 1..=n, rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]

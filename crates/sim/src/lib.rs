@@ -36,6 +36,7 @@ mod trajectory;
 
 pub use error::SimError;
 pub use experiment::{Draw, Experiment, OutputIndices, Trace};
+pub use identification::comparison;
 pub use network_recipe::{Input, NetworkRecipe, SIGNALS, Scaling, Signals};
 pub use random::{Purpose, Stream};
 pub use recipe::{

@@ -15,6 +15,11 @@ pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     Some(sorted[low] + (place - low as f64) * (sorted[high] - sorted[low]))
 }
 
+/// The median; not a number if there are no values.
+pub fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+    quantile(&sorted(values), 0.5).unwrap_or(f64::NAN)
+}
+
 /// Share of sorted values below `value`, in percent; 0 if there are none.
 pub fn percentile_of(sorted: &[f64], value: f64) -> f64 {
     100.0 * sorted.partition_point(|v| *v < value) as f64 / sorted.len().max(1) as f64
@@ -27,7 +32,7 @@ pub fn share<T>(items: &[T], test: impl Fn(&T) -> bool) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{percentile_of, quantile, share, sorted};
+    use super::{median, percentile_of, quantile, share, sorted};
 
     #[test]
     fn known_order_statistics() {
@@ -37,5 +42,7 @@ mod tests {
         assert_eq!(percentile_of(&v, 2.5), 50.0);
         assert_eq!(share(&v, |x| *x > 1.0), 75.0);
         assert_eq!(quantile(&[], 0.5), None);
+        assert_eq!(median([3.0, 1.0, 2.0, 4.0]), 2.5);
+        assert!(median([]).is_nan());
     }
 }

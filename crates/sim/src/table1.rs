@@ -3,7 +3,7 @@
 //! The paper leaves open its robot, path, gains and first layer, so its digits cannot be reproduced by anybody. Judged
 //! is the kind: rules (a) to (e) of [`judge`], fixed before the comparison.
 
-use crate::statistics::{percentile_of, quantile, share, sorted};
+use crate::statistics::{median, percentile_of, quantile, share, sorted};
 use crate::{Draw, EVENTS, Windows};
 
 /// Names of the indices of Table 1.
@@ -126,7 +126,7 @@ pub fn judge(draws: &[Draw], windows: &Windows) -> Vec<Check> {
 
 fn events(draws: &[Draw], windows: &Windows, checks: &mut Vec<Check>) {
     for (wheel, name) in ["x3", "x4"].into_iter().enumerate() {
-        let median = |f: &dyn Fn(&Draw) -> f64| quantile(&sorted(draws.iter().map(f)), 0.5).unwrap_or(f64::NAN);
+        let median = |f: &dyn Fn(&Draw) -> f64| median(draws.iter().map(f));
         let quiet = median(&|d| d.output[wheel].quiet_rms);
         for (i, event) in EVENTS.iter().enumerate() {
             let contrast = median(&|d| d.output[wheel].peak[i]) / quiet;

@@ -1,7 +1,7 @@
 //! What is asked of the law that retains, and what was found.
 
 use sim::learning::{Contender, Score, Tried};
-use sim::statistics::{quantile, sorted};
+use sim::statistics;
 
 use super::Outcome;
 use crate::output::{Asked, Figure};
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-10;
 
 /// Median of a score over the draws.
 pub(super) fn median(tried: &Tried, of: impl Fn(&Score) -> f64) -> f64 {
-    quantile(&sorted(tried.scores.iter().map(of)), 0.5).unwrap_or(f64::NAN)
+    statistics::median(tried.scores.iter().map(of))
 }
 
 /// Root mean square over the unseen laps that go the same way round.
@@ -29,7 +29,7 @@ pub(super) fn all_laps(score: &Score) -> f64 {
     (score.lap.iter().map(|l| l * l).sum::<f64>() / score.lap.len().max(1) as f64).sqrt()
 }
 
-/// Steps whose certificate was violated make a run count.
+/// Runs in which the certificate of a step, or a mean-square bound, was violated.
 pub(super) fn violated(tried: &Tried) -> usize {
     tried.scores.iter().filter(|s| !s.bounds_hold || s.residual.is_nan() || s.residual > ROUNDING).count()
 }
@@ -37,8 +37,7 @@ pub(super) fn violated(tried: &Tried) -> usize {
 /// Median over the draws of one contender's score over another's in the same draw.
 fn ratio(a: Option<&Tried>, b: Option<&Tried>, of: impl Fn(&Score) -> f64) -> f64 {
     let (Some(a), Some(b)) = (a, b) else { return f64::NAN };
-    let ratios = a.scores.iter().zip(&b.scores).map(|(a, b)| of(a) / of(b));
-    quantile(&sorted(ratios), 0.5).unwrap_or(f64::NAN)
+    statistics::median(a.scores.iter().zip(&b.scores).map(|(a, b)| of(a) / of(b)))
 }
 
 /// All figures, those with a target first.
@@ -48,9 +47,9 @@ pub(super) fn all(o: &Outcome) -> Vec<Figure> {
     let kept = |h: usize| move |s: &Score| same_way(|lap| s.ahead_kept[lap][h]);
     let acting = |h: usize| move |s: &Score| same_way(|lap| s.ahead_acting[lap][h]);
     let free = |name: &str, value: f64| Figure::free(name, value, "");
-    let laps = memory.map_or(f64::NAN, |m| median(m, |s| s.lap.last().copied().unwrap_or(f64::NAN) / s.lap[0]));
     let violations = o.tried.iter().chain(&o.steady).map(violated).sum::<usize>() as f64;
     let last = |s: &Score| s.lap.last().copied().unwrap_or(f64::NAN);
+    let laps = memory.map_or(f64::NAN, |m| median(m, |s| last(s) / s.lap[0]));
     vec![
         free("frozen weights on unseen laps: the paper's law over memory", ratio(paper, memory, frozen))
             .asked(Asked::AtLeast(25.0)),

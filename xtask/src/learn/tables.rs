@@ -144,10 +144,7 @@ fn constants(o: &Outcome) -> Option<Section> {
     let of = |tried: &[Tried]| {
         let t = tried.iter().find(|t| t.contender == Contender::StructuredMemory)?;
         let each: Vec<[Structured<f64>; 2]> = t.scores.iter().filter_map(|s| s.constants).collect();
-        let value = |side: usize, i: usize| {
-            let values = each.iter().map(|c| c[side].to_array()[i]);
-            sim::statistics::quantile(&sim::statistics::sorted(values), 0.5).unwrap_or(f64::NAN)
-        };
+        let value = |side: usize, i: usize| sim::statistics::median(each.iter().map(|c| c[side].to_array()[i]));
         Some([0, 1].map(|side| std::array::from_fn::<f64, 7, _>(|i| value(side, i))))
     };
     let (steady, changing) = (of(&o.steady)?, of(&o.tried)?);

@@ -2,7 +2,7 @@
 
 use report::page::{Cell, Tone};
 use sim::EVENTS;
-use sim::statistics::{quantile, share, sorted};
+use sim::statistics::{self, share};
 use sim::table1::{Check, NAMES, PAPER, within};
 
 use super::{Ensemble, Outcome};
@@ -89,7 +89,7 @@ fn found(check: &Check) -> String {
 }
 
 fn median(e: &Ensemble, of: impl Fn(&sim::Draw) -> f64) -> f64 {
-    quantile(&sorted(e.draws.iter().map(of)), 0.5).unwrap_or(f64::NAN)
+    statistics::median(e.draws.iter().map(of))
 }
 
 fn windows(o: &Outcome) -> Section {

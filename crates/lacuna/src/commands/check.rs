@@ -155,23 +155,15 @@ fn bag_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
         ensure!(path.exists(), "there is no file or folder '{}'", path.display());
         if path.is_dir() {
             let mut folders = vec![path.clone()];
-            folders.extend(sorted(path)?.into_iter().filter(|p| p.is_dir()));
+            folders.extend(inputs::list(path)?.into_iter().filter(|p| p.is_dir()));
             for folder in folders {
-                out.extend(sorted(&folder)?.into_iter().filter(|p| p.is_file() && is_bag(p)));
+                out.extend(inputs::list(&folder)?.into_iter().filter(|p| p.is_file() && is_bag(p)));
             }
         } else if is_bag(path) {
             out.push(path.clone());
         }
     }
     Ok(out)
-}
-
-fn sorted(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut inside = std::fs::read_dir(folder)
-        .and_then(|entries| entries.map(|e| e.map(|e| e.path())).collect::<std::io::Result<Vec<_>>>())
-        .with_context(|| format!("cannot list '{}'", folder.display()))?;
-    inside.sort();
-    Ok(inside)
 }
 
 /// The recordings as a mapping reads them: the one that was named, else the first built-in one that fits all.

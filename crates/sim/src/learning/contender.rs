@@ -105,11 +105,6 @@ impl Contender {
     pub fn sees_the_body(self) -> bool {
         matches!(self, Self::Structured | Self::StructuredMemory)
     }
-
-    /// Whether another draw of first layers changes it; else only the noise differs between draws.
-    pub fn is_drawn(self) -> bool {
-        !matches!(self, Self::Nothing | Self::Constant) && !self.sees_the_body()
-    }
 }
 
 impl Study {

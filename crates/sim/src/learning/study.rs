@@ -11,10 +11,7 @@ use super::follower::Follower;
 use super::free_run::{BETWEEN_STARTS, Errors, Start};
 use super::regressor::{Regressor, Sight};
 use super::score::Score;
-use crate::{Purpose, Recipe, SimError, Stream};
-
-/// Comparison weights are drawn between minus and plus this, rad/s².
-const COMPARISON_RANGE: f64 = 30.0;
+use crate::{Recipe, SimError, comparison};
 
 /// Keeps the normal equations of terms that a lap does not show solvable; far below any signal.
 const HINDSIGHT_RIDGE: f64 = 1e-9;
@@ -84,10 +81,16 @@ impl Study {
         seed: u64,
         draw: u64,
     ) -> Result<Score, SimError> {
-        let mut stream = Stream::new(seed, Purpose::Comparison, draw);
-        let drawn = [0; 2].map(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)));
         let pole = self.recipe.recipe.identifier.pole;
-        let mut way = Way { noise: self.recipe.noise, pole, seed, draw, lap: 0, score: Score::default(), drawn };
+        let mut way = Way {
+            noise: self.recipe.noise,
+            pole,
+            seed,
+            draw,
+            lap: 0,
+            score: Score::default(),
+            drawn: comparison(seed, draw),
+        };
         way.score.bounds_hold = true;
         for lap in 0..self.recipe.laps {
             let (squares, largest) = way.follow(&mut followers, regressor, &self.training, None)?;

@@ -4,14 +4,12 @@ use anyhow::Result;
 use identifier::{AngleRow, Identifier, Ledger, Midpoint};
 use nn_basis::{Basis, Constant};
 use robot_model::Robot;
-use sim::{Purpose, Recipe, SIGNALS, Stream, UNITS};
+use sim::{Purpose, Recipe, SIGNALS, Stream, UNITS, comparison};
 
 use super::samples::{Samples, Stretch};
 
 /// Errors are also counted without the first second of each stretch, in which the weights grow from zero.
 pub(super) const SETTLED: f64 = 1.0;
-/// Drawn comparison weights lie between minus and plus this, rad/s²: the size that weights take in the paper's run.
-const COMPARISON_RANGE: f64 = 30.0;
 /// What a unit of the network is when its input says nothing: the regressor of the baseline.
 const HALF: f64 = 0.5;
 
@@ -119,15 +117,12 @@ pub(super) fn follow(samples: &Samples, robot: &Robot<f64>, seed: u64) -> Result
     let scale = [1.0, 1.0, speed_scale, speed_scale, torque_scale, torque_scale];
     let mut stream = Stream::new(seed, Purpose::IdentifierLayer, 0);
     let layers = [network.layer(&mut stream, scale)?, network.layer(&mut stream, scale)?];
-    let mut stream = Stream::new(seed, Purpose::Comparison, 0);
-    let drawn: Weights =
-        std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)));
 
     // The certificate holds against any weights; those learned at the end are only known after a first pass.
     let (pole, gain) = (recipe.pole, recipe.gain);
     let law = Midpoint::new(gain)?;
     let learned = run(samples, &layers, pole, law, &[])?.map(|s| s.weights);
-    let comparisons = [[[0.0; UNITS]; 2], drawn, learned];
+    let comparisons = [[[0.0; UNITS]; 2], comparison(seed, 0), learned];
     let flat = [Constant::new([HALF; UNITS])?; 2];
     Ok(Followed {
         sides: run(samples, &layers, pole, law, &comparisons)?,
