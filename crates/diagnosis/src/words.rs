@@ -5,7 +5,7 @@ use robot_model::Card;
 use crate::hypothesis::{Place, Variant};
 use crate::locate;
 use crate::redundancy::Fault;
-use crate::steady::{NINETY, UNNAMED_STRAIGHT};
+use crate::steady::NINETY;
 use crate::verdict::{Cause, Diagnosis, Verdict};
 
 pub(crate) fn side(s: usize) -> &'static str {
@@ -104,86 +104,6 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
 }
 
 /// The drive that reveals an effect best.
-fn revealed_by(id: &str) -> Option<&'static str> {
+pub(crate) fn revealed_by(id: &str) -> Option<&'static str> {
     robot_model::effects::catalogue::<f64>().iter().map(|e| e.card()).find(|c| c.id == id).map(|c| c.revealed_by)
-}
-
-/// The answer of a speed-driven case in sentences.
-pub(crate) fn steady(d: &Diagnosis, loads: &crate::steady::Loads, set_points: bool) -> Vec<String> {
-    let mut out = Vec::new();
-    match d.verdict {
-        Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
-        Verdict::NoMismatch => out.push("No mismatch that these loads could name.".to_owned()),
-        Verdict::Unknown => {
-            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
-        }
-        Verdict::Explained => {
-            let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
-            for class in &d.indistinguishable {
-                let names: Vec<String> = class.iter().map(|i| name(i)).collect();
-                let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
-                let tail = if names.len() > 1 {
-                    "; these recordings cannot tell them apart".to_owned()
-                } else {
-                    format!(", {size}")
-                };
-                out.push(format!("Missing: {}{tail}.", names.join(" or ")));
-                // The drives that reveal the members split the class; the first three are enough to begin with.
-                let mut drives: Vec<&str> = Vec::new();
-                for drive in class.iter().filter_map(|id| revealed_by(id)) {
-                    if !drives.contains(&drive) && drives.len() < 3 {
-                        drives.push(drive);
-                    }
-                }
-                if class.len() > 1 {
-                    out.push(format!("To tell them apart, record: {}.", drives.join("; ")));
-                }
-            }
-        }
-    }
-    let pooled = |r: &&crate::steady::Ratio| {
-        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
-    };
-    for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
-        out.push(load(r));
-    }
-    if set_points && !loads.ratios.is_empty() {
-        out.push("All figures compare set speeds, not measured ones.".to_owned());
-    }
-    out
-}
-
-fn load(r: &crate::steady::Ratio) -> String {
-    use crate::steady::Quantity;
-    let [slow, fast] = r.range;
-    let at = match r.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => format!(" at {slow:.2} to {fast:.2} m/s"),
-        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
-        _ => String::new(),
-    };
-    let what = r.quantity.name();
-    let [a, b] = r.interval;
-    if r.quantity == Quantity::EffectiveTrack {
-        return format!(
-            "{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of the references'.",
-            r.recording, r.value, r.half, r.ratio
-        );
-    }
-    if r.quantity == Quantity::Asymmetry {
-        return format!("{}: {what}{at} {:+.2} beyond the references' [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
-    }
-    let judgement = if a > 1.0 || b < 1.0 {
-        if r.quantity == Quantity::StraightLoad && a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT {
-            ": differs, but cold drive trains vary as much: unexplained"
-        } else {
-            ""
-        }
-    } else {
-        ": no difference"
-    };
-    let firm = if r.firm { "" } else { ", tentative" };
-    format!(
-        "{}: {what}{at} {:.2} times the references' [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
-        r.recording, r.ratio, r.seconds
-    )
 }

@@ -66,11 +66,14 @@ impl CaseFolder {
         mapping: &Mapping,
         options: &ReadOptions,
     ) -> Result<Self> {
+        let perhaps = |paths: &[PathBuf]| -> Result<Loaded> {
+            if paths.is_empty() { Ok(Loaded::default()) } else { load(mapping, paths, options) }
+        };
         let case = Self {
-            robot,
-            reference: load(mapping, reference, options)?,
+            reference: perhaps(reference)?,
             recordings: load(mapping, recordings, options)?,
-            held_out: if held_out.is_empty() { Loaded::default() } else { load(mapping, held_out, options)? },
+            held_out: perhaps(held_out)?,
+            robot,
         };
         case.refuse_twins()?;
         Ok(case)
@@ -140,7 +143,7 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed, or a robot file without torque per current.
     pub fn speed_driven(&self) -> Result<diagnosis::SteadyCase> {
-        let [torque_per_current, _] = self.robot.torque_per_current.with_context(|| {
+        let [torque_per_current, torque_sigma] = self.robot.torque_per_current.with_context(|| {
             format!(
                 "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
                 self.robot.name
@@ -159,6 +162,7 @@ impl CaseFolder {
         Ok(diagnosis::SteadyCase {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
+            torque_sigma: torque_sigma / torque_per_current,
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
         })

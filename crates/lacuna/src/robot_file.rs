@@ -52,8 +52,9 @@ pub struct RobotSpec {
 pub(crate) const USUAL_POSE_SIGMA: f64 = 0.004;
 
 /// Robots that are built in.
-pub const BUILT_IN: [(&str, &str); 2] = [
+pub const BUILT_IN: &[(&str, &str)] = &[
     ("husky-a200", include_str!("../robots/husky-a200.toml")),
+    ("kobuki", include_str!("../robots/kobuki.toml")),
     ("hendzel-trojnacki-2014", include_str!("../robots/hendzel-trojnacki-2014.toml")),
 ];
 
@@ -64,7 +65,7 @@ impl RobotSpec {
     /// When there is none of this name.
     pub fn built_in(name: &str) -> Result<Self, RobotFileError> {
         let (_, text) = BUILT_IN.iter().find(|b| b.0 == name).ok_or_else(|| {
-            let hint = suggest::hint(name, &BUILT_IN.map(|b| b.0));
+            let hint = suggest::hint(name, &BUILT_IN.iter().map(|b| b.0).collect::<Vec<_>>());
             RobotFileError::Unknown { name: name.to_owned(), hint }
         })?;
         Self::parse(&format!("{name}.toml"), text)

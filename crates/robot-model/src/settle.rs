@@ -6,8 +6,11 @@ use crate::plant::Plant;
 use crate::scalar::real;
 use crate::state::State;
 
-/// Steps of the search for a steady motion: the last one is a thousand seconds long.
-const SETTLING: usize = 25;
+/// Steps of the search for a steady motion: were none rejected, the last would be years long.
+const SETTLING: usize = 50;
+/// The first step and the shortest, s.
+const FIRST_STEP: f64 = 1e-2;
+const LEAST_STEP: f64 = 1e-5;
 
 impl<T: RealField + Copy> Plant<'_, T> {
     /// Body motion at which a robot whose wheels turn at `speed` stays: velocity of the centre of mass and yaw rate
@@ -24,7 +27,7 @@ impl<T: RealField + Copy> Plant<'_, T> {
             (nalgebra::Vector3::from(at.rate), at.needed)
         };
         let shift = real::<T>(1e-5);
-        let mut h = real::<T>(1e-2);
+        let mut h = real::<T>(FIRST_STEP);
         for _ in 0..SETTLING {
             let v = [s.velocity[0], s.velocity[1], s.yaw_rate];
             let (here, needed) = rate(s, v);
@@ -38,9 +41,15 @@ impl<T: RealField + Copy> Plant<'_, T> {
             }
             let Some(inverse) = m.try_inverse() else { break };
             let change = inverse * here * h;
-            s.velocity[0] += change[0];
-            s.velocity[1] += change[1];
-            s.yaw_rate += change[2];
+            let next = [v[0] + change[0], v[1] + change[1], v[2] + change[2]];
+            // A long step may jump over the peak of the tyres' force and back: a shorter one does not.
+            let there = rate(s, next).0;
+            if h > real(LEAST_STEP) && there.dot(&here) < T::zero() && there.amax() > here.amax() * real(0.5) {
+                h *= real(0.25);
+                continue;
+            }
+            s.velocity = [next[0], next[1]];
+            s.yaw_rate = next[2];
             h *= real(1.6);
         }
         let (left, needed) = rate(s, [s.velocity[0], s.velocity[1], s.yaw_rate]);

@@ -6,6 +6,7 @@
 use serde::Serialize;
 
 use crate::steady::run::SpeedRun;
+use crate::steady::straight::{STRAIGHT, is_straight};
 
 /// What is measured in steady driving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -102,15 +103,13 @@ const STRETCH_GAP: f64 = 1.0;
 const PIECE: f64 = 5.0;
 /// Scatter of such a piece on one floor, relative: guards recordings of few pieces.
 const PIECE_SCATTER: f64 = 0.06;
-/// Below this speed a braking side starts to read without sign, m/s.
-const LEAST_SPEED: f64 = 0.12;
 /// Speed classes of straight driving, m/s: different speeds are never mixed.
 pub(crate) const CLASSES: [f64; 4] = [0.12, 0.30, 0.55, 5.0];
-/// Largest difference of the sides in straight driving and least in a turn, m/s.
-const STRAIGHT: f64 = 3.5 / 127.0;
+/// Least difference of the sides in a turn, m/s.
 const TURN: f64 = 4.5 / 127.0;
-/// How constant the speeds must have been, m/s, and for how long: loads wind up after a turn.
-const STRAIGHT_HOLD: (f64, f64) = (2.5 / 127.0, 1.5);
+/// How long a drive must have been straight, s: loads wind up after a turn. How constant a turn must have been, m/s,
+/// and for how long, s.
+const STRAIGHT_HOLD: f64 = 1.5;
 const TURN_HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
 /// For how long a turn must go on for its yaw rate to count, s.
 const TURN_AHEAD: f64 = 0.5;
@@ -154,15 +153,8 @@ fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
     [inner * outer.signum(), outer.abs()]
 }
 
-/// Median time between rows, s.
-fn period(run: &SpeedRun) -> f64 {
-    let mut gaps: Vec<f64> = run.time.windows(2).map(|w| w[1] - w[0]).collect();
-    gaps.sort_by(f64::total_cmp);
-    gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
-}
-
 fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Option<Clustered> {
-    let seconds = rows.len() as f64 * period(run);
+    let seconds = rows.len() as f64 * run.period();
     if seconds < LEAST_SECONDS {
         return None;
     }
@@ -194,21 +186,12 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let refuse = |quantity: Quantity, rows: usize, what: &str| Withheld {
         recording: run.name.clone(),
         quantity,
-        reason: format!("{:.1} s of {what}, {LEAST_SECONDS:.0} s are needed", rows as f64 * period(run)),
+        reason: format!("{:.1} s of {what}, {LEAST_SECONDS:.0} s are needed", rows as f64 * run.period()),
     };
     let all = || 0..run.time.len();
-    let straight: Vec<usize> = all()
-        .filter(|&i| {
-            let (l, r) = (run.speed[0][i], run.speed[1][i]);
-            l * r > 0.0
-                && l.abs().min(r.abs()) >= LEAST_SPEED
-                && (r - l).abs() <= STRAIGHT
-                && run.reads(i, 0)
-                && run.reads(i, 1)
-                && run.age(i, STRAIGHT_HOLD.0) >= STRAIGHT_HOLD.1
-        })
-        .collect();
-    let speed = |i: usize| 0.5 * (run.speed[0][i] + run.speed[1][i]).abs();
+    let straight: Vec<usize> =
+        all().filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, STRAIGHT_HOLD)).collect();
+    let speed = |i: usize| run.forward(i).abs();
     for class in CLASSES.windows(2) {
         let rows: Vec<usize> =
             straight.iter().copied().filter(|&i| speed(i) >= class[0] && speed(i) < class[1]).collect();
@@ -227,8 +210,9 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
             "steady straight driving with both sides reading",
         ));
     }
-    let turning: Vec<usize> =
-        all().filter(|&i| run.difference(i).abs() >= TURN && run.age(i, TURN_HOLD.0) >= TURN_HOLD.1).collect();
+    let turning: Vec<usize> = all()
+        .filter(|&i| run.difference(i).abs() >= TURN && run.age(i, TURN_HOLD.0) >= TURN_HOLD.1 * run.patience())
+        .collect();
     let spins: Vec<usize> = turning.iter().copied().filter(|&i| run.speed[0][i] * run.speed[1][i] < 0.0).collect();
     let ratio = |i: usize| run.difference(i).abs() / (run.speed[0][i] + run.speed[1][i]).abs().max(1e-9);
     let arcs: Vec<usize> =
@@ -268,9 +252,9 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let quantity = Quantity::EffectiveTrack;
     let refuse = |reason: String| Withheld { recording: run.name.clone(), quantity, reason };
     let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro".to_owned())) };
-    let mut rows: Vec<usize> = rows.filter(|&i| run.holds(i, TURN_HOLD.0, TURN_AHEAD)).collect();
+    let mut rows: Vec<usize> = rows.filter(|&i| run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
     rows.sort_unstable();
-    let seconds = rows.len() as f64 * period(run);
+    let seconds = rows.len() as f64 * run.period();
     if seconds < LEAST_SECONDS {
         return Err(refuse(format!("{seconds:.1} s of steady turning with a gyro, {LEAST_SECONDS:.0} s are needed")));
     }

@@ -4,35 +4,46 @@
 //! unsigned and on wandering clocks, so only steady stretches are compared: [`extract`](self) loads, compare them with
 //! the references', name the effects that could make the difference, and forecast recordings that were not used.
 
+mod answer;
+mod attitude;
+mod changes;
 mod clock;
 mod compare;
 mod extract;
+mod forecast;
+mod law;
+mod level;
 mod model;
 mod name;
 mod run;
-
-use std::collections::BTreeMap;
+mod standstill;
+mod straight;
+mod turning;
+mod words;
 
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 use serde::Serialize;
 
-use crate::diagnose::FORMAT;
+use crate::DiagnosisError;
 use crate::fit::tuned;
-use crate::hypothesis::Place;
-use crate::locate::Located;
-use crate::verdict::{Cause, Diagnosis, Estimate, FreeRun, Verdict};
-use crate::{DiagnosisError, words};
+use crate::verdict::{Diagnosis, FreeRun};
 
+use answer::{limits, verdict};
 use compare::{Reference, matching, references, scaled};
-use model::{Measured, Operating, Tuned, forecast, tune};
-use name::{Comparison, Difference, Named, Naming, name};
+use model::{Measured, Operating, Tuned, forecast, predicted, sensitivity, tune};
+use name::{Comparison, Difference, Naming, name};
 
+pub use changes::{Changes, Hidden, LoadChange};
+pub use clock::{Alignment, align};
 pub(crate) use compare::NINETY;
 pub use compare::Ratio;
 pub use extract::{Load, Quantity, Withheld};
+pub use forecast::Forecast;
 pub(crate) use name::UNNAMED_STRAIGHT;
-pub use run::SpeedRun;
+pub use run::{BodyRates, SpeedRun};
+pub use standstill::Standstill;
+pub use turning::{Turning, Way};
 
 /// A speed-driven case.
 #[derive(Debug, Clone)]
@@ -41,7 +52,9 @@ pub struct SteadyCase {
     pub robot: Robot<f64>,
     /// One sigma of each tunable constant.
     pub sigma: [f64; NUISANCES],
-    /// Recordings in which the simulation is right.
+    /// One sigma of the torque per current, relative; 0 where torques were recorded.
+    pub torque_sigma: f64,
+    /// Recordings in which the simulation is right; without any, the robot file says what is right.
     pub references: Vec<SpeedRun>,
     /// Recordings in which it is not.
     pub recordings: Vec<SpeedRun>,
@@ -58,25 +71,36 @@ pub struct Loads {
     pub references: Vec<Load>,
     /// Answers that recordings do not permit.
     pub withheld: Vec<Withheld>,
+    /// When inside a recording the straight load changes.
+    pub changes: Changes,
+    /// Turning told from the loads, where neither a gyro nor a difference of the speeds is known.
+    pub turning: Vec<Turning>,
+    /// Wheels that were told to turn a body that did not.
+    pub standstills: Vec<Standstill>,
+    /// Forecasts of the recordings' last thirds.
+    pub forecasts: Vec<Forecast>,
+    /// Clocks that were aligned by the turns.
+    pub clocks: Vec<ClockError>,
 }
 
-/// Effects within this many nats of the best (odds of 200) cannot be told from it: steady loads are few numbers, and
-/// the recordings were driven at different places. Widened from 3 after a look at the open sandy-loam runs, where 3
-/// left rolling resistance alone although every straight drive goes one way.
-const INDISTINGUISHABLE: f64 = 5.3;
-/// What is this much (nats) less probable than "nothing is missing" stands in for nothing.
-const LEAST_PLAUSIBLE: f64 = 2.0;
-/// Causes below this probability are not listed.
-const LISTED: f64 = 1e-3;
+/// The gyro's clock of a recording against that of the speeds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ClockError {
+    /// Name of the recording.
+    pub recording: String,
+    /// Smallest and largest lag in the recording, s.
+    pub lag: [f64; 2],
+    /// Median and 90 % quantile of the error on turns left out of the alignment, s; `None` below three turns.
+    pub error: Option<[f64; 2]>,
+    /// Error of each turn left out, s.
+    pub left_out: Vec<f64>,
+}
 
 /// Diagnoses a speed-driven case. `progress` is told the stage that begins.
 ///
 /// # Errors
-/// When references or recordings are missing, or permit no answer at all.
+/// When there is no recording, or nothing permits any answer.
 pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
-    if case.references.is_empty() {
-        return Err(DiagnosisError::Empty { what: "reference" });
-    }
     if case.recordings.is_empty() {
         return Err(DiagnosisError::Empty { what: "recording" });
     }
@@ -87,14 +111,16 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
         w.recording = format!("reference {}", w.recording);
     }
     let (loads, not_given) = all_loads(&case.recordings);
-    let refs = references(&reference_loads);
+    let by_file = case.references.is_empty();
+    let refs = if by_file { from_file(case, &robot, &loads) } else { references(&reference_loads) };
     if refs.is_empty() {
+        withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
     }
     let (ratios, pooled) = compare::ratios(&loads, &refs);
     progress("calibrating on the references");
-    let known: Vec<Measured> = refs.iter().map(of_reference).collect();
+    let known: Vec<Measured> = if by_file { Vec::new() } else { refs.iter().map(of_reference).collect() };
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
@@ -105,8 +131,13 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     let free_runs =
         naming.as_ref().map_or_else(Vec::new, |n| free_runs(case, &robot, &known, &differences, &calibrated, n));
     withheld.extend(not_given);
-    let mut out = verdict(case, naming.as_ref(), Loads { ratios, pooled, references: reference_loads, withheld });
+    progress("looking into the recordings");
+    let known_loads = (refs.as_slice(), reference_loads);
+    let loads = within(case, &robot, known_loads, (ratios, pooled), withheld);
+    let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
+    let mut out = verdict(case, naming.as_ref(), loads);
     out.free_runs = free_runs;
+    out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
     Ok(out)
@@ -121,6 +152,85 @@ fn all_loads(runs: &[SpeedRun]) -> (Vec<Load>, Vec<Withheld>) {
         withheld.extend(w);
     }
     (loads, withheld)
+}
+
+/// The robot file in the place of references: what it predicts where a load was measured, as uncertain as its constants.
+fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Reference> {
+    references(loads)
+        .into_iter()
+        .map(|r| {
+            let at = Operating { quantity: r.quantity, speed: r.speed };
+            let centre = predicted(robot, &[], at);
+            let by_constants = sensitivity(robot, &case.sigma, &[0.0; NUISANCES], &[at]);
+            let torque = if matches!(r.quantity, Quantity::EffectiveTrack | Quantity::Asymmetry) {
+                0.0
+            } else {
+                case.torque_sigma
+            };
+            let error = (0..NUISANCES).map(|k| by_constants[(0, k)].powi(2)).sum::<f64>().sqrt().hypot(torque);
+            Reference { centre, error, ..r }
+        })
+        .collect()
+}
+
+/// What is inside the recordings: changes, turning, standstills, forecasts, clocks.
+fn within(
+    case: &SteadyCase,
+    robot: &Robot<f64>,
+    (refs, references): (&[Reference], Vec<Load>),
+    (ratios, pooled): (Vec<Ratio>, Vec<Ratio>),
+    withheld: Vec<Withheld>,
+) -> Loads {
+    let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
+    let mut usual = changes::Usual::default();
+    for r in of(Quantity::StraightLoad) {
+        usual[r.class] = Some(r.centre.exp());
+    }
+    let straight = usual.iter().flatten().next().copied();
+    let track = of(Quantity::EffectiveTrack).next().map(|r| r.centre.exp());
+    let weight = robot.mass * robot.gravity * robot.wheel_radius;
+    let nominal =
+        straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
+    let mut out = Loads {
+        ratios,
+        pooled,
+        references,
+        withheld,
+        changes: Changes::default(),
+        turning: Vec::new(),
+        standstills: Vec::new(),
+        forecasts: Vec::new(),
+        clocks: Vec::new(),
+    };
+    for run in &case.recordings {
+        let found = changes::changes(run, &usual, weight);
+        out.changes.found.extend(found.found);
+        out.changes.hidden.extend(found.hidden);
+        let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
+        if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
+            out.turning.extend(turning::turning(run, straight));
+        }
+        if let Some(track) = track {
+            out.standstills.extend(standstill::standstills(run, track));
+        }
+        if let Some(nominal) = &nominal {
+            out.forecasts.extend(forecast::forecasts(run, nominal));
+        }
+    }
+    out.clocks = case.references.iter().chain(&case.recordings).filter_map(clock_error).collect();
+    out
+}
+
+/// How well a recording's clocks were aligned; `None` where there is one clock only.
+fn clock_error(run: &SpeedRun) -> Option<ClockError> {
+    let alignment = run.alignment.as_ref()?;
+    let lag = alignment.lag.iter().fold([f64::MAX, f64::MIN], |[a, b], l| [a.min(*l), b.max(*l)]);
+    (lag != [0.0; 2]).then(|| ClockError {
+        recording: run.name.clone(),
+        lag,
+        error: alignment.error(),
+        left_out: alignment.left_out.clone(),
+    })
 }
 
 fn of_reference(r: &Reference) -> Measured {
@@ -180,169 +290,5 @@ fn free_runs(
             placebo: None,
         });
     }
-    out
-}
-
-fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosis {
-    let mut out = Diagnosis {
-        format: FORMAT,
-        verdict: Verdict::Withheld,
-        sentences: Vec::new(),
-        ranked: Vec::new(),
-        indistinguishable: Vec::new(),
-        findings: Vec::new(),
-        cells: Vec::new(),
-        located: Located::default(),
-        free_runs: Vec::new(),
-        unexplained: None,
-        limits: Vec::new(),
-        trials: Vec::new(),
-        costs: [0.0; 3],
-        accusations: Vec::new(),
-        screened: Vec::new(),
-        tuning: BTreeMap::new(),
-        steady: None,
-        predictions: Vec::new(),
-    };
-    if let Some(naming) = naming {
-        weigh(naming, &mut out);
-    }
-    out.sentences = words::steady(&out, &loads, case.recordings.iter().any(|r| r.set_points));
-    out.steady = Some(loads);
-    out
-}
-
-/// Probabilities, kind of answer and classes from the evidence.
-fn weigh(naming: &Naming, out: &mut Diagnosis) {
-    // Left and right are one cause here: keep the better side of each set of effects.
-    let mut effects: Vec<&Named> = Vec::new();
-    for e in &naming.effects {
-        let mut ids = e.ids();
-        ids.sort_unstable();
-        let same = |o: &&&Named| {
-            let mut other = o.ids();
-            other.sort_unstable();
-            other == ids
-        };
-        if !effects.iter().any(|o| same(&o)) {
-            effects.push(e);
-        }
-    }
-    let top = effects.first().map_or(0.0, |e| e.score).max(naming.unknown).max(0.0);
-    let weight = |s: f64| (s - top).exp();
-    let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
-    let (none, unknown) = (weight(0.0) / sum, weight(naming.unknown) / sum);
-    out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
-    // An effect is as probable as all hypotheses that contain it; its size is that alone.
-    let mut causes: Vec<Cause> = Vec::new();
-    // Singles first: a size beside another effect is not the size alone.
-    let singles_first =
-        effects.iter().filter(|e| e.parts.len() == 1).chain(effects.iter().filter(|e| e.parts.len() > 1));
-    for e in singles_first {
-        let p = weight(e.score) / sum;
-        for part in 0..e.parts.len() {
-            match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
-                Some(c) => c.probability += p,
-                None => causes.push(cause(e, part, p)),
-            }
-        }
-    }
-    causes.retain(|c| c.probability > LISTED);
-    causes.push(Cause::plain("none", "nothing is missing", none));
-    causes.push(Cause::plain("unknown", "something that is not in the catalogue", unknown));
-    causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    out.ranked = causes;
-    let named = 1.0 - none - unknown;
-    out.verdict = if none >= named.max(unknown) {
-        Verdict::NoMismatch
-    } else if unknown > named {
-        Verdict::Unknown
-    } else {
-        Verdict::Explained
-    };
-    if out.verdict == Verdict::Explained
-        && let Some(best) = effects.first()
-    {
-        out.indistinguishable = (0..best.parts.len()).map(|k| class(&effects, best, k)).collect();
-    }
-}
-
-/// Effects that could stand in for one member of the best hypothesis, itself first.
-fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
-    let rest: Vec<&str> = best.ids().into_iter().enumerate().filter(|(i, _)| *i != member).map(|(_, id)| id).collect();
-    effects
-        .iter()
-        .filter(|e| {
-            e.parts.len() == best.parts.len() && e.score > (best.score - INDISTINGUISHABLE).max(-LEAST_PLAUSIBLE)
-        })
-        .filter_map(|e| {
-            let ids = e.ids();
-            let own: Vec<&str> = ids.iter().copied().filter(|id| !rest.contains(id)).collect();
-            (own.len() == 1).then(|| own[0].to_owned())
-        })
-        .collect()
-}
-
-fn cause(e: &Named, part: usize, probability: f64) -> Cause {
-    let variant = &e.parts[part];
-    let card = variant.card();
-    let (values, sigma) = e.of(part);
-    let parameters = variant
-        .free(1.0)
-        .iter()
-        .zip(values.iter().zip(sigma))
-        .filter_map(|(f, (&value, &sigma))| {
-            let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
-            let estimate = Estimate { value, sigma: Some(sigma).filter(|s| s.is_finite()), at_bound };
-            f.parameter.map(|i| (card.parameters[i].name.to_owned(), estimate))
-        })
-        .collect();
-    Cause {
-        magnitude: Some(variant.magnitude(values)),
-        sigma: sigma.first().copied().filter(|s| s.is_finite()),
-        unit: words::unit(card),
-        parameters,
-        side: if let Place::Side(s) = variant.place { Some(words::side(s)) } else { None },
-        ..Cause::plain(card.id, &words::variant(variant), probability)
-    }
-}
-
-/// What the data's defects do to the answer.
-fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
-    let mut out = Vec::new();
-    let all = || case.references.iter().chain(&case.recordings);
-    if all().any(|r| r.set_points) {
-        out.push(
-            "speeds are set-points, not measured: slip and speed errors of the drive cannot be told apart".to_owned(),
-        );
-    }
-    if all().any(|r| r.magnitude_only) {
-        out.push(
-            "currents carry no sign and have a dead band: a side that is dragged or brakes shows only a bound, so \
-             straight loads come from stretches in which both sides read"
-                .to_owned(),
-        );
-    }
-    let lag =
-        all().filter_map(|r| r.lag.as_ref()).flatten().fold((0.0_f64, 0.0_f64), |m, l| (m.0.min(*l), m.1.max(*l)));
-    if lag.1 - lag.0 > 0.0 {
-        out.push(format!(
-            "the gyro runs on another clock: aligned by the turns, lag from {:.2} s to {:.2} s",
-            lag.0, lag.1
-        ));
-    }
-    let named = |runs: &[SpeedRun], what: &str| -> Vec<String> {
-        runs.iter().filter(|r| r.yaw_rate.is_none()).map(|r| format!("{what} {}", r.name)).collect()
-    };
-    let blind = [named(&case.references, "reference"), named(&case.recordings, "recording")].concat();
-    if !blind.is_empty() {
-        out.push(format!("no gyro in {}: no effective track from there", blind.join(", ")));
-    }
-    if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
-        out.push("some straight loads are compared with references driven at another speed".to_owned());
-    }
-    out.push(
-        "mass and torque per current cannot be told apart on level ground: loads are compared as ratios".to_owned(),
-    );
     out
 }

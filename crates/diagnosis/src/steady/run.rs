@@ -3,7 +3,7 @@
 use recordings::{Channel, Recording, Signal};
 
 use crate::DiagnosisError;
-use crate::steady::clock;
+use crate::steady::clock::{self, Alignment};
 
 /// One recording of a speed-driven robot. Sides: 0 left, 1 right.
 #[derive(Debug, Clone)]
@@ -24,14 +24,53 @@ pub struct SpeedRun {
     pub magnitude_only: bool,
     /// Yaw rate at the rows after its clock was aligned, rad/s; `None` without a gyro.
     pub yaw_rate: Option<Vec<f64>>,
-    /// Lag of the gyro's clock at the rows, s.
-    pub lag: Option<Vec<f64>>,
+    /// The gyro's clock against the rows'; `None` without a gyro.
+    pub alignment: Option<Alignment>,
+    /// Turning rates of the body about all three axes, on the gyro's clock; `None` where one is missing.
+    pub body_rates: Option<BodyRates>,
+}
+
+/// Turning rates of the body, averaged over steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyRates {
+    /// Middle of each step on the gyro's clock, s.
+    pub time: Vec<f64>,
+    /// Length of a step, s.
+    pub step: f64,
+    /// About the forward, left and upward axis, rad/s.
+    pub rate: [Vec<f64>; 3],
+}
+
+impl BodyRates {
+    fn new(recording: &Recording) -> Option<Self> {
+        let axes = [Signal::GyroX, Signal::GyroY, Signal::GyroZ].map(|s| recording.get(s));
+        let [Some(x), Some(y), Some(z)] = axes else { return None };
+        let (time, _) = samples(z);
+        let (first, last) = (*time.first()?, *time.last()?);
+        let grid: Vec<f64> =
+            (0..=((last - first) / RATE_STEP) as usize).map(|k| first + k as f64 * RATE_STEP).collect();
+        let rate = [x, y, z].map(|channel| {
+            let (t, values) = samples(channel);
+            let mean = clock::box_mean(&t, values, RATE_STEP);
+            grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
+        });
+        Some(Self { time: grid, step: RATE_STEP, rate })
+    }
+}
+
+/// Times in s and values of a channel.
+fn samples(channel: &Channel) -> (Vec<f64>, &[f64]) {
+    (channel.t_ns().iter().map(|t| *t as f64 * 1e-9).collect(), channel.values())
 }
 
 /// Shortest recording that can hold three seconds of steady driving, rows.
 const LEAST_ROWS: usize = 20;
 /// Yaw rate is averaged over this long, s: wheel vibration is no turning.
 const GYRO_MEAN: f64 = 0.31;
+/// How much sooner a measured speed is steady than a set-point.
+const MEASURED_PATIENCE: f64 = 0.3;
+/// Steps of the body's turning rates, s.
+const RATE_STEP: f64 = 0.1;
 
 impl SpeedRun {
     /// Takes set (or measured) wheel speeds and currents (or torques) from a recording.
@@ -77,30 +116,43 @@ impl SpeedRun {
             set_points: kind == 1 || left.attributes().set_point,
             magnitude_only: attributes.magnitude_only,
             yaw_rate: None,
-            lag: None,
+            alignment: None,
+            body_rates: BodyRates::new(recording),
             name,
             time,
             speed,
         };
         if let Some(gyro) = recording.get(Signal::GyroZ) {
-            let t: Vec<f64> = gyro.t_ns().iter().map(|t| *t as f64 * 1e-9).collect();
-            let smooth = clock::box_mean(&t, gyro.values(), GYRO_MEAN);
+            let (t, values) = samples(gyro);
+            let smooth = clock::box_mean(&t, values, GYRO_MEAN);
             let turning: Vec<f64> = run.speed[1].iter().zip(&run.speed[0]).map(|(r, l)| r - l).collect();
-            let lag = if gyro.clock() == left.clock() {
-                vec![0.0; run.time.len()]
+            let alignment = if gyro.clock() == left.clock() {
+                Alignment { lag: vec![0.0; run.time.len()], left_out: Vec::new() }
             } else {
                 clock::align(&run.time, &turning, &t, &smooth)
             };
-            run.yaw_rate =
-                Some(run.time.iter().zip(&lag).map(|(a, b)| clock::interpolate(&t, &smooth, a + b)).collect());
-            run.lag = Some(lag);
+            let at = |(a, b): (&f64, &f64)| clock::interpolate(&t, &smooth, a + b);
+            run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
+            run.alignment = Some(alignment);
         }
         Ok(run)
     }
 
-    /// Rows whose both sides read above the dead band.
+    /// The recording up to a row.
+    pub(crate) fn head(&self, rows: usize) -> Self {
+        let cut = |z: &Vec<f64>| z[..rows].to_vec();
+        Self {
+            time: cut(&self.time),
+            speed: [0, 1].map(|j| cut(&self.speed[j])),
+            torque: [0, 1].map(|j| cut(&self.torque[j])),
+            yaw_rate: self.yaw_rate.as_ref().map(cut),
+            ..self.clone()
+        }
+    }
+
+    /// Whether a side reads at a row: above its dead band, or at all where it has none.
     pub(crate) fn reads(&self, i: usize, side: usize) -> bool {
-        self.torque[side][i].abs() > self.dead_band
+        self.dead_band <= 0.0 || self.torque[side][i].abs() > self.dead_band
     }
 
     /// Difference of the speeds, right less left, m/s.
@@ -108,11 +160,29 @@ impl SpeedRun {
         self.speed[1][i] - self.speed[0][i]
     }
 
+    /// Median time between rows, s.
+    pub(crate) fn period(&self) -> f64 {
+        let mut gaps: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
+        gaps.sort_by(f64::total_cmp);
+        gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// Mean speed of the sides at a row, m/s.
+    pub(crate) fn forward(&self, i: usize) -> f64 {
+        0.5 * (self.speed[0][i] + self.speed[1][i])
+    }
+
     /// For how long before row `i` both speeds have been within `tolerance` of its own, s.
     pub(crate) fn age(&self, i: usize, tolerance: f64) -> f64 {
         let near = |k: usize| (0..2).all(|j| (self.speed[j][k] - self.speed[j][i]).abs() <= tolerance);
         let first = (0..i).rev().take_while(|&k| near(k)).last().unwrap_or(i);
         self.time[i] - self.time[first]
+    }
+
+    /// Share of the usual waiting times that a change of speed takes to pass: measured speeds follow the robot, set-points
+    /// run ahead of it.
+    pub(crate) fn patience(&self) -> f64 {
+        if self.set_points { 1.0 } else { MEASURED_PATIENCE }
     }
 
     /// Whether both speeds stay within `tolerance` for `seconds` after row `i`.
@@ -215,7 +285,8 @@ pub(crate) mod tests {
         approx::assert_relative_eq!(run.torque[1][5], 12.0, epsilon = 1e-9);
         approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + DEAD_BAND_SLACK) * CONSTANT);
         // Speeds and gyro share a clock: nothing is to be aligned.
-        assert!(run.lag.expect("a gyro").iter().all(|l| *l == 0.0));
+        assert!(run.alignment.expect("a gyro").lag.iter().all(|l| *l == 0.0));
+        assert_eq!(run.body_rates, None);
     }
 
     #[test]

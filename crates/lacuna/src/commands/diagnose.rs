@@ -29,21 +29,21 @@ A case folder:
   recordings/   drives in which it was not
   heldout/      inputs whose response is to be predicted (may be missing)
 
-Built-in robots: husky-a200, hendzel-trojnacki-2014
+Built-in robots: husky-a200, kobuki, hendzel-trojnacki-2014
 Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag (ROS 2 bags)
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
 const USAGE: &str = "\
 lacuna diagnose [OPTIONS] <CASE>
-       lacuna diagnose [OPTIONS] --robot <NAME|FILE> --reference <PATH>... --recordings <PATH>...";
+       lacuna diagnose [OPTIONS] --robot <NAME|FILE> [--reference <PATH>...] --recordings <PATH>...";
 
 /// Arguments of `lacuna diagnose`.
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES, override_usage = USAGE)]
 pub(crate) struct Args {
     /// Folder with robot.toml (or robot.json), reference/, recordings/ and perhaps heldout/.
-    #[arg(required_unless_present_all = ["robot", "reference", "recordings"])]
+    #[arg(required_unless_present_all = ["robot", "recordings"])]
     case: Option<PathBuf>,
     /// Robot file, or name of a built-in robot.
     #[arg(long, value_name = "NAME|FILE")]
@@ -51,7 +51,8 @@ pub(crate) struct Args {
     /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
     #[arg(long, value_name = "NAME|FILE", default_value = "skid-steer-columns")]
     mapping: String,
-    /// Files or folders of drives in which the simulation was right.
+    /// Files or folders of drives in which the simulation was right; a speed-driven robot can do without, and is then
+    /// compared with its robot file.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     reference: Vec<PathBuf>,
     /// Files or folders of drives in which it was not.

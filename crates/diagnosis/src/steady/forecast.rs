@@ -1,0 +1,148 @@
+//! The last third of a recording forecast from its set speeds, with everything fitted on the first two.
+
+use serde::Serialize;
+
+use crate::steady::extract::{Quantity, extract};
+use crate::steady::law::{Law, error, fit, torques};
+use crate::steady::run::SpeedRun;
+use crate::verdict::FreeRun;
+
+/// Recordings shorter than this are not split, s; nor those that turn less in either part, s.
+const LEAST_SECONDS: f64 = 15.0;
+const LEAST_TURNING: f64 = 3.0;
+/// Difference of the speeds in a turn, m/s.
+const TURN: f64 = 0.04;
+/// Lags of the body behind its set speeds that are tried, s.
+const LAGS: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+
+/// Errors of the forecast of a recording's last third, rms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Forecast {
+    /// Name of the recording.
+    pub recording: String,
+    /// What is forecast, with its unit.
+    pub quantity: &'static str,
+    /// From, until, s.
+    pub interval: [f64; 2],
+    /// With the references' constants.
+    pub nominal: f64,
+    /// Re-tuned without the effect: the level of the first two thirds.
+    pub retuned: f64,
+    /// With the law and its constants from the first two thirds.
+    pub corrected: f64,
+    /// With wrong laws of the same freedom, by the effect that they stand for.
+    pub placebos: Vec<(&'static str, f64)>,
+}
+
+impl Forecast {
+    /// As one of the diagnosis's free runs.
+    pub(crate) fn free_run(&self) -> FreeRun {
+        FreeRun {
+            recording: self.recording.clone(),
+            quantity: format!("{}, last third", self.quantity),
+            nominal: self.nominal,
+            retuned: self.retuned,
+            corrected: self.corrected,
+            placebo: self.placebos.iter().map(|p| p.1).min_by(f64::total_cmp),
+        }
+    }
+}
+
+/// What the references say of the forecast: torques by the law, and the effective track in m.
+pub(crate) struct Nominal {
+    constants: Option<[f64; crate::steady::law::CONSTANTS]>,
+    track: f64,
+    straight: f64,
+}
+
+impl Nominal {
+    /// Median of the constants that fit each reference. `straight` is their straight load, N m.
+    pub(crate) fn new(references: &[SpeedRun], straight: f64, track: f64) -> Self {
+        let fits: Vec<_> = references
+            .iter()
+            .filter(|r| turning_seconds(r, 0, r.time.len()) >= LEAST_TURNING)
+            .map(|r| fit(Law::Turning, r, r.time.len(), straight))
+            .collect();
+        let median = |k: usize| {
+            let mut all: Vec<f64> = fits.iter().map(|c| c[k]).collect();
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        };
+        Self { constants: (!fits.is_empty()).then(|| std::array::from_fn(median)), track, straight }
+    }
+}
+
+fn turning_seconds(run: &SpeedRun, from: usize, until: usize) -> f64 {
+    (from..until).filter(|&i| run.difference(i).abs() > TURN).count() as f64 * run.period()
+}
+
+/// Forecasts of torques and yaw rate; none of a recording that is short or does not turn in both parts.
+pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
+    let rows = run.time.len();
+    let (first, last) = (run.time[0], run.time[rows - 1]);
+    let split = run.time.partition_point(|t| *t < first + (last - first) * 2.0 / 3.0);
+    let turns = turning_seconds(run, 0, split) >= LEAST_TURNING && turning_seconds(run, split, rows) >= LEAST_TURNING;
+    if last - first < LEAST_SECONDS || !turns {
+        return Vec::new();
+    }
+    let mut out = Vec::new();
+    if let Some(constants) = &nominal.constants {
+        let of = |law| error(&torques(law, &fit(law, run, split, nominal.straight), run), run, split);
+        out.push(Forecast {
+            recording: run.name.clone(),
+            quantity: "torque of a side, N m",
+            interval: [run.time[split], last],
+            nominal: error(&torques(Law::Turning, constants, run), run, split),
+            retuned: error(&vec![level(run, split); rows], run, split),
+            corrected: of(Law::Turning),
+            placebos: Law::PLACEBOS.into_iter().map(|law| (law.effect(), of(law))).collect(),
+        });
+    }
+    if let Some(yaw) = &run.yaw_rate {
+        let rms = |b: f64, lag: f64, from: usize, until: usize| {
+            let follow = followed(run, lag);
+            let squares = (from..until).map(|i| (follow[i] / b - yaw[i]).powi(2)).sum::<f64>();
+            (squares / (until - from).max(1) as f64).sqrt()
+        };
+        let lag_of = |b: f64| {
+            LAGS.into_iter().min_by(|x, y| rms(b, *x, 0, split).total_cmp(&rms(b, *y, 0, split))).unwrap_or(0.0)
+        };
+        let own = effective_track(&run.head(split)).unwrap_or(nominal.track);
+        let mean = yaw[..split].iter().sum::<f64>() / split.max(1) as f64;
+        let level =
+            (yaw[split..].iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (rows - split).max(1) as f64).sqrt();
+        out.push(Forecast {
+            recording: run.name.clone(),
+            quantity: "yaw rate, rad/s",
+            interval: [run.time[split], last],
+            nominal: rms(nominal.track, 0.0, split, rows),
+            retuned: level,
+            corrected: rms(own, lag_of(own), split, rows),
+            placebos: Vec::new(),
+        });
+    }
+    out
+}
+
+/// Effective track from steady turning, m.
+fn effective_track(run: &SpeedRun) -> Option<f64> {
+    extract(run).0.into_iter().find(|l| l.quantity == Quantity::EffectiveTrack).map(|l| l.value)
+}
+
+/// Mean torques of the rows before `until`.
+fn level(run: &SpeedRun, until: usize) -> [f64; 2] {
+    [0, 1].map(|j| run.torque[j][..until].iter().sum::<f64>() / until.max(1) as f64)
+}
+
+/// Difference of the speeds behind a first-order lag, m/s.
+fn followed(run: &SpeedRun, lag: f64) -> Vec<f64> {
+    let mut x = run.difference(0);
+    (0..run.time.len())
+        .map(|i| {
+            let dt = if i > 0 { run.time[i] - run.time[i - 1] } else { 0.0 };
+            let share = if lag > 0.0 { 1.0 - (-dt / lag).exp() } else { 1.0 };
+            x += share * (run.difference(i) - x);
+            x
+        })
+        .collect()
+}
