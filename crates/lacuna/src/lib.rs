@@ -14,6 +14,7 @@ mod robot_error;
 pub mod robot_file;
 mod robot_parameters;
 mod robot_text;
+pub mod skeleton;
 pub mod suggest;
 pub mod text_table;
 

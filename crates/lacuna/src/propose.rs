@@ -46,8 +46,7 @@ pub fn mapping(name: &str, contents: &Contents) -> Option<Proposal> {
     lines.extend(draft.inferred.iter().map(|sentence| format!("# - {sentence}")));
     lines.push(format!("name = {}", quoted(name)));
     for entry in &entries {
-        let stamped = fields(entry.topic).iter().any(|f| f.path == "header.stamp");
-        let time = if stamped { "header.stamp" } else { "log_time" };
+        let time = if stamped(entry.topic) { "header.stamp" } else { "log_time" };
         lines.push(format!("\n[[files]]\ntopic = {}", quoted(&entry.topic.name)));
         lines.push(format!("time = {{ column = \"{time}\"{} }}\n\n[files.signals]", rate(entry.topic)));
         let column = |(signal, field, unit): &(String, String, &str)| {
@@ -70,6 +69,12 @@ fn rate(topic: &TopicContents) -> String {
     // Half a hertz is what a name-plate rate is rounded to.
     let rate = if rate > 5.0 { (2.0 * rate).round() / 2.0 } else { (100.0 * rate).round() / 100.0 };
     format!(", rate_hz = {rate}")
+}
+
+/// Whether a topic has header stamps, and its driver sets them.
+fn stamped(topic: &TopicContents) -> bool {
+    let unset = topic.stamps.as_ref().is_some_and(|stamps| stamps.set == 0);
+    !unset && fields(topic).iter().any(|f| f.path == "header.stamp")
 }
 
 fn fields(topic: &TopicContents) -> &[Field] {
@@ -98,6 +103,10 @@ impl Draft {
             }
             _ => Vec::new(),
         };
+        let has_header = fields(topic).iter().any(|f| f.path == "header.stamp");
+        if has_header && !stamped(topic) && !signals.is_empty() {
+            self.inferred.push(format!("{}: log times taken, header.stamp is 0 in every message", topic.name));
+        }
         Some(Entry { topic, signals })
     }
 
@@ -206,6 +215,7 @@ mod tests {
             count: 501,
             undecodable: 0,
             log_time_ns: (0, 10_000_000_000),
+            stamps: None,
             fields: Ok(fields.iter().map(field).collect()),
         }
     }

@@ -66,12 +66,45 @@ fn the_same_data_under_another_name_is_found() {
 }
 
 #[test]
-fn what_no_mapping_fits_is_refused_with_what_was_tried() {
+fn a_table_that_no_mapping_fits_shows_its_columns_and_gets_a_skeleton() {
     let bench = Bench::empty();
-    bench.write("x.csv", "a,b\n1,2\n");
+    bench.write("x.csv", "zeit;links;notiz\n0,00;1,5;an\n0,01;;an\n0,02;-2,5;aus\n0,03;0,5\n");
+    let run = bench.run(&["check", "x.csv", "--write-mapping", "map.toml"]);
+    assert_eq!(run.code(), Some(3), "{}", run.err());
+    for part in [
+        "zeit          3      0      0       0  0.02000  a time: 0.02000 s at 100.0 Hz, in s\n",
+        "links         2      1      0  -2.500    1.500\n",
+        "notiz         0      0      3       -        -  text: an\n",
+        "fields stand between semicolons, numbers have a decimal comma",
+        "zeit is the time: it rises; in s, as most are; nothing says so",
+        "Skeleton of a mapping: map.toml",
+        "x.csv: 1 row has not as many fields as the header",
+    ] {
+        assert!(run.out().contains(part), "{part}: {}", run.out());
+    }
+    let empty = bench.run(&["check", "x.csv", "--mapping", "map.toml"]);
+    assert!(empty.code() == Some(1) && empty.err().contains("has no signal"), "{}", empty.err());
+    let skeleton = bench.read("map.toml");
+    let line = "# SIGNAL = { column = \"links\", unit = \"UNIT\" }";
+    bench.write("done.toml", &skeleton.replace(line, "gyro_z = { column = \"links\", unit = \"deg/s\" }"));
+    let (code, json) = check(&bench, &["x.csv", "--mapping", "done.toml"]);
+    assert_eq!(code, Some(3), "{json}");
+    assert_eq!(json["recordings"][0]["channels"][0]["samples"], 2, "{json}");
+    let (_, json) = check(&bench, &["x.csv"]);
+    let table = &json["tables"][0];
+    assert_eq!((table["delimiter"].as_str(), table["decimal"].as_str()), (Some(";"), Some(",")));
+    assert_eq!((table["columns"][0]["time"]["unit"].as_str(), table["misfits"].as_u64()), (Some("s"), Some(1)));
+}
+
+#[test]
+fn a_table_that_a_mapping_fits_and_that_is_broken_is_refused() {
+    let bench = Bench::empty();
+    bench.write("x.csv", &drive(300, 0.5).replace("\n0.02,", "\n0.02,fast"));
     let run = bench.run(&["check", "x.csv"]);
     assert_eq!(run.code(), Some(1));
-    assert!(run.err().contains("no built-in mapping fits") && run.err().contains("--mapping"), "{}", run.err());
+    for part in ["no built-in mapping fits", "--mapping", "skid-steer-columns: x.csv: line 4", "fast"] {
+        assert!(run.err().contains(part), "{part}: {}", run.err());
+    }
     assert!(bench.run(&["check", "nowhere"]).err().contains("no file or folder 'nowhere'"));
 }
 
@@ -83,8 +116,39 @@ fn a_recording_goes_to_mcap_and_its_bag_is_checked() {
     assert_eq!(run.out(), "4 channels with 1200 samples written to run.mcap\n");
     let run = bench.run(&["check", "run.mcap", "--fields"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
-    for part in ["wheel_speed_left", "torque_right", "300", "SHA-256", "value", "No built-in mapping fits"] {
+    let fits = "The built-in mapping lacuna fits these recordings.";
+    for part in ["wheel_speed_left", "torque_right", "300", "SHA-256", "value", fits] {
         assert!(run.out().contains(part), "{part}: {}", run.out());
+    }
+}
+
+#[test]
+fn what_convert_writes_needs_no_mapping_of_ones_own() {
+    let bench = Bench::new();
+    let (_, original) = check(&bench, &[RUN]);
+    for name in ["run.mcap", "run.parquet"] {
+        assert_eq!(bench.run(&["convert", RUN, "--out", name]).code(), Some(0));
+        let (code, json) = check(&bench, &[name]);
+        assert_eq!((code, &json["mapping"]["name"]), (Some(0), &Value::from("lacuna")));
+        assert_eq!(json["recordings"][0]["channels"], original["recordings"][0]["channels"], "{name}");
+    }
+    let (_, json) = check(&bench, &["run.mcap", "run.parquet", "--mapping", "lacuna"]);
+    assert_eq!(json["same_content"][0].as_array().map(Vec::len), Some(2), "{json}");
+}
+
+#[test]
+fn what_csv_cannot_keep_is_told() {
+    let bench = Bench::empty();
+    bench.write("pro_1.csv", "t,curL\n0.00,1\n0.01,2\n");
+    let signal = "current_left = { column = \"curL\", unit = \"A\", magnitude_only = true, dead_band = 0.59 }";
+    bench.write(
+        "m.toml",
+        &format!("[[files]]\npattern = \"*.csv\"\ntime = {{ column = \"t\", unit = \"s\" }}\nsignals.{signal}\n"),
+    );
+    let told = "current_left: magnitude_only, dead_band = 0.59 A";
+    for (name, is_told) in [("a.csv", true), ("a.mcap", false)] {
+        let run = bench.run(&["convert", "pro_1.csv", "--mapping", "m.toml", "--out", name]);
+        assert_eq!((run.code(), run.out().contains(told)), (Some(0), is_told), "{}{}", run.out(), run.err());
     }
 }
 

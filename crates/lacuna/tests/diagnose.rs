@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::path::Path;
+
 use common::Bench;
 use examiner::{Case, Content, DrawnCase, EffectId, Setting, Settings, Severity, TyreLaw};
 use serde_json::Value;
@@ -107,4 +109,39 @@ fn flags_say_the_same_as_a_folder_and_lost_input_exits_with_3() {
     // One row of nine hundred is missing: the answer is the same.
     assert_eq!(a["diagnosis"]["verdict"], b["diagnosis"]["verdict"]);
     assert_eq!(a["diagnosis"]["ranked"][0]["effect"], b["diagnosis"]["ranked"][0]["effect"]);
+}
+
+#[test]
+fn recordings_in_another_format_give_the_same_verdict() {
+    let (drawn, bench) = (drawn(), bench(&drawn()));
+    bench.remove("blind/heldout");
+    let by_folder = bench.run(&["diagnose", "blind", "--json", "-"]);
+    bench.write("mcap/reference/notes.txt", "");
+    bench.write("mcap/recordings/notes.txt", "");
+    let is_run = |path: &Path| path.extension().is_some_and(|end| end == "csv") && !path.starts_with("heldout");
+    for path in drawn.files.iter().map(|(path, _)| path.as_path()).filter(|path| is_run(path)) {
+        let table = path.display().to_string();
+        let mcap = format!("mcap/{}", table.replace(".csv", ".mcap"));
+        let run = bench.run(&["convert", &format!("blind/{table}"), "--out", &mcap]);
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+    }
+    let [reference, recordings] = ["mcap/reference", "mcap/recordings"];
+    let by_mcap = bench.run(&[
+        "diagnose",
+        "--mapping",
+        "lacuna",
+        "--robot",
+        "blind/robot.json",
+        "--reference",
+        reference,
+        "--recordings",
+        recordings,
+        "--json",
+        "-",
+    ]);
+    assert_eq!(by_mcap.code(), Some(0), "{}", by_mcap.err());
+    let [a, b]: [Value; 2] = [&by_folder, &by_mcap].map(|r| serde_json::from_str(&r.out()).unwrap());
+    for key in ["verdict", "ranked", "sentences"] {
+        assert_eq!(a["diagnosis"][key], b["diagnosis"][key]);
+    }
 }

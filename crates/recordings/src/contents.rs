@@ -1,8 +1,9 @@
 //! What is inside a bag, before anybody has said what it means.
 
-use crate::bag::{Passed, ReadSeek, messages};
+use crate::bag::{Passed, ReadSeek, Topic, messages};
 use crate::error::RecordingError;
 use crate::fields::{Field, Survey};
+use crate::header_stamps::{HeaderStamps, StampMeter};
 use crate::loss::Loss;
 
 /// What is inside a bag.
@@ -35,6 +36,8 @@ pub struct TopicContents {
     pub undecodable: u64,
     /// Earliest and latest log time in ns.
     pub log_time_ns: (i64, i64),
+    /// Its header stamps against the log times; `None` where messages have none.
+    pub stamps: Option<HeaderStamps>,
     /// The numeric fields, or why messages cannot be decoded.
     pub fields: Result<Vec<Field>, String>,
 }
@@ -44,6 +47,14 @@ struct Seen {
     survey: Survey,
     count: u64,
     log_time_ns: (i64, i64),
+    stamps: StampMeter,
+}
+
+impl Seen {
+    fn new(topic: &Topic, now_ns: i64) -> Self {
+        let (survey, stamps) = (Survey::new(topic), StampMeter::new(topic));
+        Self { survey, count: 0, log_time_ns: (now_ns, now_ns), stamps }
+    }
 }
 
 /// Passes over a bag and tells what is inside: topics, times and the fields that a mapping can name.
@@ -56,15 +67,16 @@ pub fn contents(name: &str, source: &mut dyn ReadSeek) -> Result<Contents, Recor
         let now = message.log_time_ns;
         // sqlite knows topics without messages, so that an index may lie beyond the next one.
         while seen.len() <= message.topic_index {
-            seen.push(Seen { survey: Survey::new(message.topic), count: 0, log_time_ns: (now, now) });
+            seen.push(Seen::new(message.topic, now));
         }
         let topic = &mut seen[message.topic_index];
         if topic.count == 0 {
-            *topic = Seen { survey: Survey::new(message.topic), count: 0, log_time_ns: (now, now) };
+            *topic = Seen::new(message.topic, now);
         }
         topic.count += 1;
         topic.log_time_ns = (topic.log_time_ns.0.min(now), topic.log_time_ns.1.max(now));
         topic.survey.look(message.bytes);
+        topic.stamps.look(&message);
         Ok(())
     })?;
     let topics = topics.into_iter().zip(seen).filter(|(_, seen)| seen.count > 0).map(|(topic, seen)| TopicContents {
@@ -74,6 +86,7 @@ pub fn contents(name: &str, source: &mut dyn ReadSeek) -> Result<Contents, Recor
         count: seen.count,
         undecodable: seen.survey.undecodable,
         log_time_ns: seen.log_time_ns,
+        stamps: seen.stamps.finish(),
         fields: seen.survey.finish(),
     });
     Ok(Contents { topics: topics.collect(), losses, unchecked, bytes, sha256 })

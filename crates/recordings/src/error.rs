@@ -51,6 +51,13 @@ pub enum RecordingError {
     #[error("{file}: {place} {line}, column {column}: the time is empty; give it or delete the line")]
     NoTime { file: String, place: Place, line: u64, column: String },
 
+    /// Header stamps that the driver left at 0: all, or one in strict reading.
+    #[error(
+        "{file}: topic `{topic}`: header.stamp is 0 in {messages}: the driver does not set it; \
+         use time = {{ column = \"log_time\" }} in the mapping"
+    )]
+    UnsetStamp { file: String, topic: String, messages: String },
+
     /// Text where a number is expected.
     #[error(
         "{file}: {place} {line}, column {column}: `{text}` is not a number; \
@@ -75,7 +82,8 @@ pub enum RecordingError {
     /// A stamp before the one above it.
     #[error(
         "{file}: {place} {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
-         sort the rows, split the file there, or read in tolerant mode to skip them"
+         sort the rows, split the file there, or read in tolerant mode to skip them \
+         (rows that are up to 1 s late are sorted, unless reading is strict; a longer step is a clock that was set anew)"
     )]
     TimeBackwards { file: String, place: Place, line: u64, column: String, before_s: f64, now_s: f64 },
 

@@ -33,6 +33,9 @@ pub struct Grouping {
     pub unmatched: Vec<String>,
 }
 
+/// Folder, id, and the entry where each file is a run by itself.
+type RunKey<'a> = (&'a str, Vec<Part<'a>>, usize);
+
 impl Mapping {
     /// Sorts file names (or paths) into runs. A name belongs to the first entry whose pattern it fits.
     ///
@@ -46,7 +49,9 @@ impl Mapping {
     /// # Ok::<(), recordings::RecordingError>(())
     /// ```
     pub fn group<S: AsRef<str>>(&self, names: &[S]) -> Grouping {
-        let mut runs: BTreeMap<(&str, Vec<Part<'_>>), Vec<Vec<&str>>> = BTreeMap::new();
+        // Where each file is a run by itself, its entry tells runs of one name apart.
+        let alternatives = self.alternatives();
+        let mut runs: BTreeMap<RunKey<'_>, Vec<Vec<&str>>> = BTreeMap::new();
         let mut unmatched = Vec::new();
         for name in names.iter().map(AsRef::as_ref) {
             let Some((entry, id)) = self.entry_of(name) else {
@@ -54,7 +59,8 @@ impl Mapping {
                 continue;
             };
             let folder = &name[..name.len() - base_name(name).len()];
-            let files = runs.entry((folder, parts(id))).or_insert_with(|| vec![Vec::new(); self.files.len()]);
+            let format = if alternatives { entry } else { 0 };
+            let files = runs.entry((folder, parts(id), format)).or_insert_with(|| vec![Vec::new(); self.files.len()]);
             // A bag may have several parts, everything else one file.
             if files[entry].contains(&name) || (self.files[entry].topic.is_none() && !files[entry].is_empty()) {
                 unmatched.push(name.to_owned());
@@ -62,9 +68,9 @@ impl Mapping {
                 files[entry].push(name);
             }
         }
-        let groups = runs.into_iter().map(|((folder, id), mut files)| {
+        let groups = runs.into_iter().map(|((folder, id, _), mut files)| {
             let id: String = id.iter().map(|part| part.text).collect();
-            let absent = |entry: &usize| files[*entry].is_empty() && self.leads(*entry);
+            let absent = |entry: &usize| files[*entry].is_empty() && self.leads(*entry) && !alternatives;
             let missing: Vec<usize> = (0..files.len()).filter(absent).collect();
             for files in &mut files {
                 files.sort_by_key(|name| parts(name));

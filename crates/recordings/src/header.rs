@@ -28,17 +28,8 @@ impl<'a> Header<'a> {
     /// Finds the mapped columns in the first line that is not blank.
     pub(crate) fn find(input: &Input<'a>, file: &'a FileMapping, mapping: &str) -> Result<Self, RecordingError> {
         let name = || input.name.to_owned();
-        let bytes = input.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(input.bytes);
-        let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
-        let start = start.ok_or_else(|| RecordingError::EmptyFile { file: name() })?;
-        let line = 1 + line_ends(&bytes[..start]);
-        let rest = &bytes[start..];
-        let end = rest.iter().position(|byte| b"\r\n".contains(byte)).unwrap_or(rest.len());
-        let (head, body) = rest.split_at(end);
-        let body = body.strip_prefix(b"\r\n").or_else(|| body.get(1..)).unwrap_or_default();
-        let head = str::from_utf8(head).ok().filter(|head| !head.contains('\0'));
-        let head = head.ok_or_else(|| RecordingError::NotText { file: name(), line })?;
-        let names = split(head, file.delimiter);
+        let HeadLine { line, text, body } = head_line(input.name, input.bytes)?;
+        let names = split(text, file.delimiter);
 
         let hint = |column: &str| {
             let known: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -114,6 +105,31 @@ impl<'a> Header<'a> {
     }
 }
 
+/// The first line that is not blank.
+pub(crate) struct HeadLine<'a> {
+    /// Its number, from 1.
+    pub(crate) line: u64,
+    /// What it says.
+    pub(crate) text: &'a str,
+    /// Everything below.
+    pub(crate) body: &'a [u8],
+}
+
+/// Finds the first line that is not blank.
+pub(crate) fn head_line<'a>(name: &str, bytes: &'a [u8]) -> Result<HeadLine<'a>, RecordingError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
+    let start = start.ok_or_else(|| RecordingError::EmptyFile { file: name.to_owned() })?;
+    let line = 1 + line_ends(&bytes[..start]);
+    let rest = &bytes[start..];
+    let end = rest.iter().position(|byte| b"\r\n".contains(byte)).unwrap_or(rest.len());
+    let (head, body) = rest.split_at(end);
+    let body = body.strip_prefix(b"\r\n").or_else(|| body.get(1..)).unwrap_or_default();
+    let head = str::from_utf8(head).ok().filter(|head| !head.contains('\0'));
+    let text = head.ok_or_else(|| RecordingError::NotText { file: name.to_owned(), line })?;
+    Ok(HeadLine { line, text, body })
+}
+
 /// Ends of lines: `\n`, `\r\n` or a lone `\r`.
 fn line_ends(bytes: &[u8]) -> u64 {
     let is_end = |index: usize| match bytes[index] {
@@ -125,7 +141,7 @@ fn line_ends(bytes: &[u8]) -> u64 {
 }
 
 /// A column's name and the unit behind it: `wz [rad/s]`, `speed (m/s)`.
-fn split_unit(name: &str) -> Option<(&str, &str)> {
+pub(crate) fn split_unit(name: &str) -> Option<(&str, &str)> {
     let (open, inside) =
         [('[', ']'), ('(', ')')].iter().find_map(|&(open, close)| Some((open, name.strip_suffix(close)?)))?;
     let (before, unit) = inside.rsplit_once(open)?;
@@ -133,7 +149,7 @@ fn split_unit(name: &str) -> Option<(&str, &str)> {
 }
 
 /// The names in a header line, quotes and blanks around them removed.
-fn split(head: &str, delimiter: u8) -> Vec<String> {
+pub(crate) fn split(head: &str, delimiter: u8) -> Vec<String> {
     let mut reader = csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).delimiter(delimiter).from_reader(head.as_bytes());
     let mut record = csv::ByteRecord::new();

@@ -10,11 +10,10 @@
 //! * [`Mapping`] says which column of which file is which signal, in which unit and with which sign.
 //! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way; [`read_from`] does
 //!   so from anything that can be read and searched, so that bags need not fit into memory.
-//! * [`contents`] tells what a bag holds, [`messages`] gives each message, [`FieldReader`] the fields of each.
+//! * [`contents`] tells what a bag holds and [`table_contents`] what a table does, [`messages`] gives each message, [`FieldReader`] the fields of each.
 //! * [`Quality`] is what can be measured of a channel without knowing what it means: rate, gaps, jumps, saturation ...
 //! * [`Fingerprint`] tells the same data in another file.
-//! * [`write_csv`], [`write_mcap`] and [`write_parquet`] are the way back; the built-in mapping `skid-steer-columns` reads
-//!   the CSV.
+//! * [`write_csv`], [`write_mcap`] and [`write_parquet`] are the way back; the built-in mapping `lacuna` reads all three.
 //!
 //! ```
 //! use recordings::{Input, Mapping, ReadOptions, Signal, read};
@@ -32,12 +31,16 @@
 mod bag;
 mod cell;
 mod channel;
+mod column_samples;
+mod column_survey;
 mod contents;
+mod described;
 mod error;
 mod fields;
 mod fingerprint;
 mod group;
 mod header;
+mod header_stamps;
 mod loss;
 mod mapping;
 mod mapping_raw;
@@ -52,6 +55,8 @@ mod samples;
 mod signal;
 mod suggest;
 mod table;
+mod table_contents;
+mod table_guess;
 mod topics;
 mod units;
 mod write;
@@ -60,11 +65,13 @@ mod write_parquet;
 
 pub use bag::{LARGEST_IN_MEMORY, LARGEST_RECORD, Message, Passed, ReadSeek, Topic, messages};
 pub use channel::{Attributes, Channel};
+pub use column_survey::{ColumnContents, TimeLike, UnitBy};
 pub use contents::{Contents, TopicContents, contents};
 pub use error::RecordingError;
 pub use fields::{Field, FieldReader};
 pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
 pub use group::{Group, GroupFile, Grouping};
+pub use header_stamps::{Delay, Drift, HeaderStamps};
 pub use loss::{Loss, LossKind};
 pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping};
 pub use place::Place;
@@ -75,7 +82,8 @@ pub use quality::{
 pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
+pub use table_contents::{TableContents, TableFormat, table_contents};
 pub use units::{Scale, Unit, parse_unit};
-pub use write::write_csv;
+pub use write::{lost_in_csv, write_csv};
 pub use write_mcap::write_mcap;
 pub use write_parquet::write_parquet;

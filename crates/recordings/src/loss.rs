@@ -15,9 +15,13 @@ pub enum LossKind {
     FieldCount,
     /// A row without a time was skipped.
     NoTime,
+    /// A message whose header stamp is 0 was skipped: nobody set it, and 0 would be an instant in 1970.
+    UnsetStamp,
     /// A row whose time is no number was skipped (tolerant reading).
     BadTime,
-    /// A row whose time is before an earlier row's was skipped (tolerant reading).
+    /// A row came after later ones, by at most a second, and was sorted into its place: nothing of it is missing.
+    OutOfOrder,
+    /// A row whose time is more than a second before an earlier row's was skipped (tolerant reading).
     TimeBackwards,
     /// A row repeats a stamp, and with it signals that already had a sample; the first sample was kept.
     DuplicateStamp,
@@ -61,7 +65,12 @@ impl LossKind {
         match self {
             Self::FieldCount => ("row skipped: wrong number of fields", "rows skipped: wrong number of fields"),
             Self::NoTime => ("row skipped: empty time", "rows skipped: empty time"),
+            Self::UnsetStamp => (
+                "message skipped: its header.stamp is 0, the driver did not set it",
+                "messages skipped: their header.stamp is 0, the driver did not set it",
+            ),
             Self::BadTime => ("row skipped: time is not a number", "rows skipped: time is not a number"),
+            Self::OutOfOrder => ("row out of order: sorted by its stamp", "rows out of order: sorted by their stamps"),
             Self::TimeBackwards => ("row skipped: time runs backwards", "rows skipped: time runs backwards"),
             Self::DuplicateStamp => {
                 ("row repeats a stamp: first sample kept", "rows repeat a stamp: first samples kept")

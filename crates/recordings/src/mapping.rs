@@ -12,6 +12,7 @@ pub const BUILT_IN_MAPPINGS: &[(&str, &str)] = &[
     ("husky-open", include_str!("../mappings/husky-open.toml")),
     ("husky-bag", include_str!("../mappings/husky-bag.toml")),
     ("kobuki-bag", include_str!("../mappings/kobuki-bag.toml")),
+    ("lacuna", include_str!("../mappings/lacuna.toml")),
 ];
 
 /// The files that an entry for a topic is for where it names no pattern: every storage of rosbag2.
@@ -36,6 +37,9 @@ pub struct FileMapping {
     pub pattern: String,
     /// The topic of a bag whose messages are the rows; `None` for CSV and Parquet.
     pub topic: Option<String>,
+    /// Attributes, source columns and clocks are what the file says, where it does; and each file is a run by itself, so
+    /// that the entries are alternatives.
+    pub self_describing: bool,
     /// Name of the clock, where the mapping says that it is one of its own or shared with other topics.
     pub clock: Option<String>,
     /// What stands between fields of CSV.
@@ -104,6 +108,11 @@ impl Mapping {
         self.files[..entry].iter().all(|file| file.pattern != self.files[entry].pattern)
     }
 
+    /// True when each file is a run by itself.
+    pub(crate) fn alternatives(&self) -> bool {
+        self.files.iter().any(|file| file.self_describing)
+    }
+
     /// The first entry that a file name fits, and the run's id in it.
     pub(crate) fn entry_of<'n>(&self, file: &'n str) -> Option<(usize, &'n str)> {
         self.files.iter().enumerate().find_map(|(index, entry)| Some((index, entry.whole_run_id(file)?)))
@@ -140,7 +149,7 @@ impl FileMapping {
         let is_part = |number: &str| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
         let whole =
             id.rsplit_once('_').filter(|(whole, number)| is_part(number) && folder == format!("{prefix}{whole}"));
-        Some(whole.filter(|_| self.topic.is_some()).map_or(id, |(whole, _)| whole))
+        Some(whole.filter(|_| self.topic.is_some() && !self.self_describing).map_or(id, |(whole, _)| whole))
     }
 
     /// The file name for a run.
@@ -179,6 +188,23 @@ mod tests {
             assert!(column.optional);
             let set_point = signal.is_set_point() || signal.unit() == Unit::NewtonMetre;
             assert_eq!(column.attributes.set_point, set_point);
+        }
+    }
+
+    #[test]
+    fn what_this_crate_writes_is_covered_in_every_format() {
+        let mapping = Mapping::built_in("lacuna").unwrap();
+        for pattern in ["*.mcap", "*.parquet", "*.csv"] {
+            let files = mapping.files.iter().filter(|file| file.pattern == pattern);
+            let columns: Vec<_> =
+                files.flat_map(|file| file.columns.iter().map(move |column| (file, column))).collect();
+            assert_eq!(columns.len(), Signal::ALL.len(), "{pattern}");
+            for ((file, column), &signal) in columns.iter().zip(Signal::ALL) {
+                assert_eq!((column.signal, column.factor, column.optional), (signal, 1.0, true));
+                let bag = pattern == "*.mcap";
+                let name = if bag { "value".to_owned() } else { signal.column_name() };
+                assert_eq!((&column.column, &file.topic), (&name, &bag.then(|| format!("/{signal}"))));
+            }
         }
     }
 

@@ -10,6 +10,8 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawMapping {
     pub(crate) name: Option<String>,
+    #[serde(default)]
+    pub(crate) self_describing: bool,
     pub(crate) files: Spanned<Vec<RawFile>>,
 }
 

@@ -30,7 +30,7 @@ impl Mapping {
         let place = raw.files.span().start;
         let mut files: Vec<FileMapping> = Vec::new();
         for file in raw.files.into_inner() {
-            let file = text_of.file(file, &files)?;
+            let file = text_of.file(file, &files, raw.self_describing)?;
             files.push(file);
         }
         if files.is_empty() {
@@ -41,7 +41,7 @@ impl Mapping {
 }
 
 impl Text<'_> {
-    fn file(&self, raw: RawFile, before: &[FileMapping]) -> Result<FileMapping, RecordingError> {
+    fn file(&self, raw: RawFile, before: &[FileMapping], self_describing: bool) -> Result<FileMapping, RecordingError> {
         let time_at = raw.time.span().start;
         let topic_at = raw.topic.as_ref().map(|topic| topic.span().start);
         let topic = raw.topic.map(Spanned::into_inner);
@@ -86,10 +86,15 @@ impl Text<'_> {
             return Err(self.value(at, "topic", "messages have neither `delimiter` nor `decimal`"));
         }
         let time = self.time(raw.time, topic.is_some())?;
+        // Files that are runs by themselves have nothing to do with each other.
+        let same_run = |other: &&FileMapping| !self_describing || other.pattern == pattern;
         let mut columns = Vec::new();
         for (key, signal) in raw.signals {
             let column = self.column(&key, signal)?;
-            let twice = before.iter().find(|file| file.columns.iter().any(|other| other.signal == column.signal));
+            let twice = before
+                .iter()
+                .filter(same_run)
+                .find(|file| file.columns.iter().any(|other| other.signal == column.signal));
             if let Some(file) = twice {
                 let from = file.topic.as_ref().unwrap_or(&file.pattern);
                 let message = format!("already read from `{from}`; a run has each signal once");
@@ -101,7 +106,8 @@ impl Text<'_> {
             return Err(self.value(pattern_at, "signals", format!("`{pattern}` has no signal; give at least one")));
         }
         columns.sort_by_key(|column| column.signal);
-        Ok(FileMapping { pattern, topic, clock: raw.clock, delimiter, decimal_comma, time, columns })
+        let clock = raw.clock;
+        Ok(FileMapping { pattern, topic, self_describing, clock, delimiter, decimal_comma, time, columns })
     }
 
     fn time(&self, raw: Spanned<RawTime>, of_topic: bool) -> Result<TimeMapping, RecordingError> {

@@ -2,6 +2,7 @@
 //!
 //! Pages carry no checksum of their own and the library may panic on damaged ones: any trouble refuses the file.
 
+use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -10,6 +11,8 @@ use parquet::schema::types::Type;
 
 use crate::cell::CellError;
 use crate::channel::Channel;
+use crate::column_survey::ColumnSurvey;
+use crate::described::Described;
 use crate::error::RecordingError;
 use crate::fields::Cell;
 use crate::loss::Loss;
@@ -23,6 +26,25 @@ use crate::suggest;
 pub(crate) struct Table {
     pub(crate) channels: Vec<Channel>,
     pub(crate) unused: Vec<String>,
+    /// What the file says of itself.
+    pub(crate) about: HashMap<String, String>,
+}
+
+/// Channels with what a file that says `about` says of each.
+pub(crate) fn described(channels: Vec<Channel>, about: &HashMap<String, String>) -> Vec<(Channel, Option<Described>)> {
+    let say = |key: &str| about.get(key).map(String::as_str);
+    let describe = |channel: Channel| {
+        let column = channel.signal().column_name();
+        let said = Described::read(channel.name(), |key| match key {
+            "clock" => None,
+            "clock_name" => say("clock"),
+            "clock_rate_hz" => say(key),
+            "column" => say(&format!("{column}.source")),
+            key => say(&format!("{column}.{key}")),
+        });
+        (channel, said)
+    };
+    channels.into_iter().map(describe).collect()
 }
 
 /// Reads the mapped columns; the channels that hold samples, on clock `clock`.
@@ -38,7 +60,10 @@ pub(crate) fn read_rows(
     let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
     let read = AssertUnwindSafe(|| {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
-        let schema = reader.metadata().file_metadata().schema();
+        let metadata = reader.metadata().file_metadata();
+        let said = metadata.key_value_metadata().into_iter().flatten();
+        let about = said.filter_map(|pair| Some((pair.key.clone(), pair.value.clone()?))).collect();
+        let schema = metadata.schema();
         let names: Vec<&str> = schema.get_fields().iter().map(|field| field.name()).collect();
         let chosen = Chosen::of(&names, name, file, mapping)?;
         let fields = schema.get_fields().iter().filter(|field| chosen.names.contains(&field.name())).cloned().collect();
@@ -53,11 +78,35 @@ pub(crate) fn read_rows(
         let unused = names.iter().filter(|name| !chosen.names.contains(name)).map(|&name| name.to_owned()).collect();
         let mut lost = Vec::new();
         let channels = samples.finish(clock, &mut lost)?;
-        Ok((Table { channels, unused }, lost))
+        Ok((Table { channels, unused, about }, lost))
     });
     let (table, lost) = catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))?;
     losses.extend(lost);
     Ok(table)
+}
+
+/// Looks at every cell; the columns and the number of rows.
+pub(crate) fn survey(name: &str, bytes: Vec<u8>) -> Result<(Vec<ColumnSurvey>, u64), RecordingError> {
+    let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
+    let read = AssertUnwindSafe(|| {
+        let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
+        let fields = reader.metadata().file_metadata().schema().get_fields();
+        let mut columns: Vec<ColumnSurvey> =
+            fields.iter().map(|field| ColumnSurvey::new(field.name().to_owned())).collect();
+        let mut rows = 0;
+        for row in reader.get_row_iter(None).map_err(|error| refuse(error.to_string()))? {
+            let row = row.map_err(|error| refuse(error.to_string()))?;
+            for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
+                let cell = cell(field);
+                column.ns_per_unit = cell.and_then(|(_, ns_per_unit)| ns_per_unit).or(column.ns_per_unit);
+                let number = cell.map_or(Err(CellError::NotANumber), |(cell, _)| cell.number());
+                column.look(number, || crate::samples::shown(field.to_string().trim_matches('"')));
+            }
+            rows += 1;
+        }
+        Ok((columns, rows))
+    });
+    catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
 }
 
 /// The columns that are read, in the order of the file, and where they are among these.
@@ -113,25 +162,30 @@ impl TableRow {
 
     /// The cell, with the nanoseconds in its unit where it is an instant by itself.
     fn cell(&self, position: usize) -> Option<(Cell, Option<i64>)> {
-        let whole = |value: i64| (Cell::Whole(value.into()), None);
-        Some(match self.field(position)? {
-            Field::Null => (Cell::Gap, None),
-            Field::Bool(yes) => whole((*yes).into()),
-            Field::Byte(value) => whole((*value).into()),
-            Field::Short(value) => whole((*value).into()),
-            Field::Int(value) => whole((*value).into()),
-            Field::Long(value) => whole(*value),
-            Field::UByte(value) => whole((*value).into()),
-            Field::UShort(value) => whole((*value).into()),
-            Field::UInt(value) => whole((*value).into()),
-            Field::ULong(value) => (Cell::Whole((*value).into()), None),
-            Field::Float(value) => (Cell::real((*value).into()), None),
-            Field::Double(value) => (Cell::real(*value), None),
-            Field::TimestampMillis(value) => (Cell::Whole((*value).into()), Some(1_000_000)),
-            Field::TimestampMicros(value) => (Cell::Whole((*value).into()), Some(1_000)),
-            _ => return None,
-        })
+        cell(self.field(position)?)
     }
+}
+
+/// A field as a cell, with the nanoseconds in its unit where it is an instant by itself; `None` for what is no number.
+fn cell(field: &Field) -> Option<(Cell, Option<i64>)> {
+    let whole = |value: i64| (Cell::Whole(value.into()), None);
+    Some(match field {
+        Field::Null => (Cell::Gap, None),
+        Field::Bool(yes) => whole((*yes).into()),
+        Field::Byte(value) => whole((*value).into()),
+        Field::Short(value) => whole((*value).into()),
+        Field::Int(value) => whole((*value).into()),
+        Field::Long(value) => whole(*value),
+        Field::UByte(value) => whole((*value).into()),
+        Field::UShort(value) => whole((*value).into()),
+        Field::UInt(value) => whole((*value).into()),
+        Field::ULong(value) => (Cell::Whole((*value).into()), None),
+        Field::Float(value) => (Cell::real((*value).into()), None),
+        Field::Double(value) => (Cell::real(*value), None),
+        Field::TimestampMillis(value) => (Cell::Whole((*value).into()), Some(1_000_000)),
+        Field::TimestampMicros(value) => (Cell::Whole((*value).into()), Some(1_000)),
+        _ => return None,
+    })
 }
 
 impl Row for TableRow {

@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use crate::bag::{Format, ReadSeek, read_whole};
 use crate::channel::Channel;
+use crate::described::settle;
 use crate::error::RecordingError;
 use crate::fields::LOG_TIME;
 use crate::group::parts;
@@ -45,8 +46,9 @@ impl std::fmt::Debug for Opened<'_> {
 pub enum Policy {
     /// Everything that would be a loss inside a file is an error.
     Strict,
-    /// Skip rows with a wrong field count, an empty time or a repeated stamp and count them; refuse text in numbers,
-    /// numbers that are not finite, a negative magnitude and time running backwards.
+    /// Skip rows with a wrong field count, an empty time or a repeated stamp and count them; sort rows that are up to a
+    /// second late and count them; refuse text in numbers, numbers that are not finite, a negative magnitude and time
+    /// that runs backwards by more.
     #[default]
     Normal,
     /// Skip and count all of these; only what leaves nothing to read is an error.
@@ -143,6 +145,7 @@ pub fn read_from<'a>(
     for (entry, mut files) in by_entry.into_iter().enumerate().filter(|(entry, _)| mapping.leads(*entry)) {
         files.sort_by_key(|file| parts(file.name));
         match (&mut files[..], &mapping.files[entry].topic) {
+            ([], _) if mapping.alternatives() => {}
             ([], _) => {
                 let file = format!("{folder}{}", mapping.files[entry].file_of(id));
                 let kind = LossKind::MissingFile;
@@ -184,16 +187,23 @@ impl<'m> Gathering<'m> {
         }
         let (bytes, sha256) = (whole.file_bytes, whole.sha256);
         let (mapping, policy) = (&self.mapping.name, self.policy);
+        let own_clock = Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz };
         let unused = if Format::of(name, &whole.bytes) == Format::Parquet {
             let table = parquet::read_rows(name, whole.bytes, file, mapping, clock, policy, &mut self.losses)?;
-            self.channels.extend(table.channels);
+            if file.self_describing {
+                let described = parquet::described(table.channels, &table.about);
+                self.channels.extend(settle(name, described, &mut self.clocks));
+            } else {
+                self.channels.extend(table.channels);
+                self.clocks.push(own_clock);
+            }
             table.unused
         } else {
             let header = Header::find(&Input { name, bytes: &whole.bytes }, file, mapping)?;
             self.channels.extend(read_rows(name, file, &header, clock, policy, &mut self.losses)?);
+            self.clocks.push(own_clock);
             header.unused
         };
-        self.clocks.push(Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz });
         self.unused.extend(unused.into_iter().map(|column| UnusedColumn { file: name.to_owned(), column }));
         self.sources.push(Source { name: name.to_owned(), bytes: bytes as usize, sha256 });
         Ok(())
@@ -205,9 +215,16 @@ impl<'m> Gathering<'m> {
         let entries: Vec<&FileMapping> = self.mapping.files.iter().filter(|file| file.pattern == *pattern).collect();
         let names: Vec<&str> = parts.iter().map(|part| part.name).collect();
         self.losses.extend(missing_parts(&names, &self.mapping.files[first]));
-        let clocks: Vec<usize> = entries.iter().map(|entry| self.clock(names[0], entry)).collect();
+        let describing = self.mapping.files[first].self_describing;
+        let clock = |entry: &&FileMapping| if describing { 0 } else { self.clock(names[0], entry) };
+        let clocks: Vec<usize> = entries.iter().map(clock).collect();
         let bags = read_bags(&self.mapping.name, parts, &entries, &clocks, self.policy)?;
-        self.channels.extend(bags.channels.into_iter().flatten());
+        let channels = bags.channels.into_iter().flatten();
+        if describing {
+            self.channels.extend(settle(names[0], channels.collect(), &mut self.clocks));
+        } else {
+            self.channels.extend(channels.map(|(channel, _)| channel));
+        }
         let wanted = |topic: &str| entries.iter().any(|entry| entry.topic.as_deref() == Some(topic));
         for (name, part) in names.iter().map(|&name| name.to_owned()).zip(bags.parts) {
             for topic in part.topics.into_iter().filter(|topic| !wanted(&topic.name)) {

@@ -2,7 +2,9 @@
 
 use crate::cell::CellError;
 use crate::channel::Channel;
+use crate::column_samples::{ColumnSamples, SORTED_WITHIN_NS};
 use crate::error::RecordingError;
+use crate::fields::HEADER_STAMP;
 use crate::loss::{Ledger, LossKind, in_words};
 use crate::mapping::{ColumnMapping, TimeMapping};
 use crate::place::Place;
@@ -37,9 +39,12 @@ pub(crate) struct Samples<'a> {
     time_at: Option<usize>,
     /// What stands before a column's name in messages: the topic.
     prefix: String,
+    /// A stamp of 0 is one that was never set.
+    zero_is_unset: bool,
     columns: Vec<Found<'a>>,
-    gathered: Vec<(Vec<i64>, Vec<f64>)>,
-    last_ns: Option<i64>,
+    gathered: Vec<ColumnSamples>,
+    /// The latest stamp of all rows so far.
+    latest_ns: Option<i64>,
     ledger: Ledger<'a>,
 }
 
@@ -52,15 +57,18 @@ impl<'a> Samples<'a> {
         time: (&'a TimeMapping, Option<usize>),
         columns: Vec<Found<'a>>,
     ) -> Self {
-        let gathered = columns.iter().map(|_| (Vec::new(), Vec::new())).collect();
+        let gathered = columns.iter().map(|_| ColumnSamples::default()).collect();
         let ledger = Ledger::new(file, place);
         let (time, time_at) = time;
-        Self { file, place, policy, time, time_at, prefix: String::new(), columns, gathered, last_ns: None, ledger }
+        let (prefix, zero_is_unset) = (String::new(), false);
+        Self { file, place, policy, time, time_at, prefix, zero_is_unset, columns, gathered, latest_ns: None, ledger }
     }
 
     /// The same, of a topic.
     pub(crate) fn of_topic(mut self, topic: &str) -> Self {
         self.prefix = format!("{topic}.");
+        let is_header = |column: &str| column == HEADER_STAMP || column.ends_with(".header.stamp");
+        self.zero_is_unset = self.time.column.as_deref().is_some_and(is_header);
         self
     }
 
@@ -69,26 +77,29 @@ impl<'a> Samples<'a> {
         let Some(now_ns) = self.instant(row, number)? else {
             return Ok(());
         };
-        if let Some(before_ns) = self.last_ns.filter(|&before_ns| now_ns < before_ns) {
-            return self.lose(row, LossKind::TimeBackwards, None, self.if_tolerant(), |of, line| {
+        if let Some(before_ns) = self.latest_ns.filter(|&before_ns| now_ns < before_ns) {
+            let overtaken = before_ns.saturating_sub(now_ns) <= SORTED_WITHIN_NS;
+            let (kind, go_on) = if overtaken {
+                (LossKind::OutOfOrder, self.unless_strict())
+            } else {
+                (LossKind::TimeBackwards, self.if_tolerant())
+            };
+            self.lose(row, kind, None, go_on, |of, line| {
                 let (file, place, column) = (of.file.to_owned(), of.place, of.time_column());
                 let (before_s, now_s) = (seconds(before_ns), seconds(now_ns));
                 RecordingError::TimeBackwards { file, place, line, column, before_s, now_s }
-            });
+            })?;
+            if !overtaken {
+                return Ok(());
+            }
         }
-        self.last_ns = Some(now_ns);
+        self.latest_ns = self.latest_ns.max(Some(now_ns));
         let mut repeated = false;
         for index in 0..self.columns.len() {
             let Some(value) = self.value(row, self.columns[index])? else {
                 continue;
             };
-            let (t_ns, values) = &mut self.gathered[index];
-            if t_ns.last() == Some(&now_ns) {
-                repeated = true;
-            } else {
-                t_ns.push(now_ns);
-                values.push(value);
-            }
+            repeated |= !self.gathered[index].add(now_ns, value);
         }
         if !repeated {
             return Ok(());
@@ -120,8 +131,8 @@ impl<'a> Samples<'a> {
         losses: &mut Vec<crate::Loss>,
     ) -> Result<Vec<Channel>, RecordingError> {
         let (mut channels, mut empty) = (Vec::new(), Vec::new());
-        for (found, (t_ns, values)) in self.columns.iter().zip(std::mem::take(&mut self.gathered)) {
-            let mapped = found.mapped;
+        for (found, samples) in self.columns.iter().zip(std::mem::take(&mut self.gathered)) {
+            let (mapped, (t_ns, values)) = (found.mapped, samples.finish());
             if t_ns.is_empty() {
                 empty.push(mapped);
                 continue;
@@ -131,7 +142,11 @@ impl<'a> Samples<'a> {
             channels.push(channel.with_attributes(mapped.attributes).with_column(column));
         }
         if channels.is_empty() {
-            let losses = in_words(self.ledger.losses());
+            let losses = self.ledger.losses();
+            if !losses.is_empty() && losses.iter().all(|loss| loss.kind == LossKind::UnsetStamp) {
+                return Err(self.unset_stamp("every message".to_owned()));
+            }
+            let losses = in_words(losses);
             return Err(RecordingError::NoSamples { file: self.file.to_owned(), losses });
         }
         for mapped in empty.iter().filter(|mapped| !mapped.optional) {
@@ -149,6 +164,11 @@ impl<'a> Samples<'a> {
             return Ok(crate::cell::rounded_ns(number as f64 * period_ns));
         };
         let lost = match row.instant_ns(position, ns_per_unit) {
+            Ok(Some(0)) if self.zero_is_unset => {
+                self.lose(row, LossKind::UnsetStamp, None, self.unless_strict(), |of, line| {
+                    of.unset_stamp(format!("message {line}"))
+                })
+            }
             Ok(Some(now_ns)) => return Ok(Some(now_ns)),
             Ok(None) => self.lose(row, LossKind::NoTime, None, self.unless_strict(), |of, line| {
                 let (file, place, column) = (of.file.to_owned(), of.place, of.time_column());
@@ -221,6 +241,12 @@ impl<'a> Samples<'a> {
             CellError::NotANumber => RecordingError::NotANumber { file, place, line, column, text },
             CellError::NotFinite => RecordingError::NotFinite { file, place, line, column, text },
         }
+    }
+
+    /// The error about stamps that are 0 in `messages`.
+    fn unset_stamp(&self, messages: String) -> RecordingError {
+        let topic = self.prefix.strip_suffix('.').unwrap_or_default().to_owned();
+        RecordingError::UnsetStamp { file: self.file.to_owned(), topic, messages }
     }
 
     fn time_column(&self) -> String {

@@ -1,7 +1,10 @@
 //! The bags of one run against the entries of a mapping that name topics: messages become samples.
 
-use crate::bag::{Message, Passed, messages};
+use std::collections::BTreeMap;
+
+use crate::bag::{Message, Passed, Topic, messages};
 use crate::channel::Channel;
+use crate::described::Described;
 use crate::error::RecordingError;
 use crate::fields::{Cell, LOG_TIME, MessageRow, Reader, Trouble};
 use crate::loss::{Loss, LossKind, in_words};
@@ -22,6 +25,8 @@ struct Wanted<'a> {
     kept: Vec<&'a str>,
     /// Messages met, over all parts.
     met: u64,
+    /// What the topic says of itself.
+    about: BTreeMap<String, String>,
 }
 
 /// Reads the wanted fields of one topic of one bag.
@@ -33,8 +38,8 @@ struct TopicReader {
 
 /// What the bags of a run hold.
 pub(crate) struct Bags {
-    /// The channels of each entry.
-    pub(crate) channels: Vec<Vec<Channel>>,
+    /// The channels of each entry, with what the file says of them where the mapping asks for it.
+    pub(crate) channels: Vec<Vec<(Channel, Option<Described>)>>,
     /// What each part is, in their order.
     pub(crate) parts: Vec<Passed>,
     /// What could not be read of messages.
@@ -54,7 +59,8 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
         .iter()
         .filter_map(|file| {
             let topic = file.topic.as_deref()?;
-            Some(Wanted { file, topic, samples: None, readers: Vec::new(), kept: Vec::new(), met: 0 })
+            let (readers, kept, about) = (Vec::new(), Vec::new(), BTreeMap::new());
+            Some(Wanted { file, topic, samples: None, readers, kept, met: 0, about })
         })
         .collect();
     let mut passed = Vec::new();
@@ -77,7 +83,13 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
     let (mut channels, mut losses) = (Vec::new(), Vec::new());
     for (wanted, &clock) in wanted.into_iter().zip(clocks) {
         channels.push(if let Some(samples) = wanted.samples {
-            samples.finish(clock, &mut losses)?
+            let (describing, about) = (wanted.file.self_describing, wanted.about);
+            let describe = |channel: Channel| {
+                let say = |key: &str| about.get(key).filter(|_| describing).map(String::as_str);
+                let said = Described::read(channel.name(), say);
+                (channel, said)
+            };
+            samples.finish(clock, &mut losses)?.into_iter().map(describe).collect()
         } else {
             losses.extend(missing(name, wanted.file, wanted.topic, mapping, &passed, rest_is_there)?);
             Vec::new()
@@ -119,9 +131,14 @@ fn missing(
     Err(RecordingError::MissingTopic { file, topic, mapping, hint })
 }
 
+/// True for a topic that this crate wrote; others may have the name of a signal, and any unit.
+fn describes(topic: &Topic) -> bool {
+    topic.metadata.contains_key("signal") && topic.message_type == crate::write_mcap::SCHEMA_NAME
+}
+
 impl<'a> Wanted<'a> {
     fn take(&mut self, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<(), RecordingError> {
-        if message.topic.name != self.topic {
+        if message.topic.name != self.topic || (self.file.self_describing && !describes(message.topic)) {
             return Ok(());
         }
         if self.readers.len() <= message.topic_index {
@@ -182,6 +199,7 @@ impl<'a> Wanted<'a> {
         self.kept = kept;
         let found = columns.iter().enumerate().map(|(position, mapped)| Found { position, mapped }).collect();
         if self.samples.is_none() {
+            self.about.clone_from(&message.topic.metadata);
             let time = (&self.file.time, Some(time_at));
             self.samples = Some(Samples::new(name, Place::Message, policy, time, found).of_topic(self.topic));
         }

@@ -8,10 +8,11 @@ use mcap::write::NoSeek;
 use mcap::{Compression, McapError, WriteOptions, Writer};
 
 use crate::channel::Channel;
+use crate::described;
 use crate::recording::Recording;
 
 /// Name of the one message type.
-const SCHEMA_NAME: &str = "recordings.Sample";
+pub(crate) const SCHEMA_NAME: &str = "recordings.Sample";
 
 /// The message type: instant, value, unit. Seconds and nanoseconds are how Foxglove writes an instant.
 const SCHEMA: &str = r#"{
@@ -41,8 +42,8 @@ const SCHEMA: &str = r#"{
 /// A message is `{"timestamp":{"sec":1,"nsec":500000000},"value":0.25,"unit":"rad/s"}`. Its log time is the sample's
 /// stamp, exactly; a value reads back to the same bits; a gap is no message. Messages of all channels are in the order
 /// of their stamps. Channels of several clocks share the one time axis of the file, each with its own stamps: the
-/// channel's metadata says which clock (`clock`, `clock_name`), and `signal`, `unit`, `column`, `set_point`,
-/// `magnitude_only`, `dead_band`.
+/// channel's metadata says which clock (`clock`, `clock_name`, `clock_rate_hz`), and `signal`, `unit`, `column`,
+/// `set_point`, `magnitude_only`, `dead_band`. The built-in mapping `lacuna` reads all of it back.
 ///
 /// # Errors
 /// Those of the sink; [`io::ErrorKind::InvalidInput`] for a stamp before zero, which MCAP cannot hold.
@@ -128,16 +129,14 @@ fn write_samples<W: Write + io::Seek>(writer: &mut Writer<W>, queues: &mut [Queu
 
 /// What the file says of a channel beyond its samples.
 fn about(recording: &Recording, channel: &Channel) -> BTreeMap<String, String> {
-    let attributes = channel.attributes();
     let mut about = vec![
         ("signal", channel.name().to_owned()),
         ("unit", channel.unit().symbol().to_owned()),
         ("column", channel.column().to_owned()),
         ("clock", channel.clock().to_string()),
-        ("set_point", attributes.set_point.to_string()),
-        ("magnitude_only", attributes.magnitude_only.to_string()),
     ];
     about.extend(recording.clocks().get(channel.clock()).map(|clock| ("clock_name", clock.name.clone())));
-    about.extend(attributes.dead_band.map(|width| ("dead_band", width.to_string())));
+    about.extend(described::clock_rate(recording, channel.clock()));
+    about.extend(described::attributes(channel));
     about.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }

@@ -12,6 +12,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
 
 use crate::channel::Channel;
+use crate::described;
 use crate::recording::Recording;
 
 /// Rows that are written, and later read, at once: some megabytes per column.
@@ -23,8 +24,9 @@ const ROWS_PER_GROUP: usize = 1 << 20;
 ///
 /// A table is wide, as [`write_csv`](crate::write_csv) writes it: every tool shows it and plots it as it is, columns
 /// compress well, and instants are stored once. It holds one clock, because instants of two cannot share rows. Stamps
-/// and values are stored bit for bit. The file's metadata holds `recording`, `clock` and for every column
-/// `<column>.signal`, `<column>.unit` and `<column>.source`.
+/// and values are stored bit for bit. The file's metadata holds `recording`, `clock`, `clock_rate_hz` and for every
+/// column `<column>.signal`, `.unit`, `.source`, `.set_point`, `.magnitude_only` and `.dead_band`. The built-in mapping
+/// `lacuna` reads all of it back.
 ///
 /// # Errors
 /// Those of the sink.
@@ -105,8 +107,11 @@ fn schema(channels: &[&Channel]) -> Result<TypePtr, ParquetError> {
 fn about(recording: &Recording, clock: usize, channels: &[&Channel]) -> Vec<KeyValue> {
     let mut about = vec![KeyValue::new("recording".to_owned(), recording.name().to_owned())];
     about.extend(recording.clocks().get(clock).map(|clock| KeyValue::new("clock".to_owned(), clock.name.clone())));
+    about.extend(described::clock_rate(recording, clock).map(|(key, value)| KeyValue::new(key.to_owned(), value)));
     for channel in channels {
         let name = channel.signal().column_name();
+        let attributes = described::attributes(channel).into_iter();
+        about.extend(attributes.map(|(key, value)| KeyValue::new(format!("{name}.{key}"), value)));
         about.push(KeyValue::new(format!("{name}.signal"), channel.name().to_owned()));
         about.push(KeyValue::new(format!("{name}.unit"), channel.unit().symbol().to_owned()));
         about.push(KeyValue::new(format!("{name}.source"), channel.column().to_owned()));

@@ -117,11 +117,12 @@ fn a_negative_magnitude() {
 
 #[test]
 fn time_running_backwards() {
-    let text = "t,wz,curL\n0,1,1\n0.2,2,1\n0.1,3,1\n0.3,4,1\n";
+    let text = "t,wz,curL\n0,1,1\n2.2,2,1\n0.1,3,1\n2.3,4,1\n";
     assert_eq!(
         message(text),
-        "a.csv: line 4, column t: time runs backwards, from 0.2 s to 0.1 s; \
-         sort the rows, split the file there, or read in tolerant mode to skip them"
+        "a.csv: line 4, column t: time runs backwards, from 2.2 s to 0.1 s; \
+         sort the rows, split the file there, or read in tolerant mode to skip them \
+         (rows that are up to 1 s late are sorted, unless reading is strict; a longer step is a clock that was set anew)"
     );
     assert_eq!(tolerated(text), (LossKind::TimeBackwards, vec![4], vec![1.0, 2.0, 4.0]));
 }

@@ -106,6 +106,7 @@ fn topic() -> Topic {
         encoding: "cdr".to_owned(),
         schema_encoding: "ros2msg".to_owned(),
         schema: SCHEMA.as_bytes().into(),
+        metadata: std::collections::BTreeMap::default(),
     }
 }
 

@@ -3,12 +3,12 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use lacuna::case_folder;
 use lacuna::inputs::{self, Loaded};
-use lacuna::propose;
-use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Quality, contents, group_by_content};
+use lacuna::{propose, skeleton};
+use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Quality, TableContents, contents, group_by_content};
 
 use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json};
@@ -16,6 +16,8 @@ use crate::console::{Progress, emit, emit_json};
 mod as_json;
 mod as_text;
 mod permits;
+mod stamps;
+mod tables;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,6 +25,7 @@ Examples:
   lacuna check walk_0.mcap --fields                    with every field that a mapping can name
   lacuna check walk/ --write-mapping map.toml          a mapping to look through and use with --mapping map.toml
   lacuna check FLOORING --mapping husky-open           the channels of CSV recordings
+  lacuna check log.csv --write-mapping map.toml        of an unknown table a skeleton, to say which column is what
 
 Without --mapping the built-in mappings are tried; the first that fits is used and named.
 
@@ -44,7 +47,8 @@ pub(crate) struct Args {
     /// List the numeric fields of every topic.
     #[arg(long)]
     fields: bool,
-    /// Propose a mapping for the first bag, by message types and joint names, and write it to a file.
+    /// Propose a mapping for the first bag, by message types and joint names, and write it to a file; of a table that no
+    /// built-in mapping fits, its skeleton.
     #[arg(long, value_name = "FILE")]
     write_mapping: Option<PathBuf>,
     /// What to do with bad rows and cells of recordings.
@@ -75,14 +79,24 @@ struct Mapped {
 struct Checked {
     /// Bags and what is inside, before anybody has said what it means.
     bags: Vec<(String, Contents)>,
+    /// Tables that no mapping fits.
+    tables: Vec<(String, TableContents)>,
     /// The mapping that was used, and whether it was named or found.
     mapping: Option<(String, bool)>,
     recordings: Vec<Mapped>,
     /// Recordings of the same data.
     same: Vec<Vec<String>>,
     /// Where a proposed mapping was written, and what was inferred for it.
-    proposed: Option<(String, Vec<String>)>,
+    proposed: Option<Proposed>,
     lost: Vec<String>,
+}
+
+/// A mapping that was written.
+struct Proposed {
+    file: String,
+    inferred: Vec<String>,
+    /// Which column is which signal is still to be said.
+    is_skeleton: bool,
 }
 
 /// Checks recordings.
@@ -96,7 +110,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         bags.push((name.clone(), contents(&name, &mut file)?));
     }
     progress.stage("channels");
-    let (mapping, loaded) = mapped(args, !bags.is_empty())?;
+    let (mapping, loaded, tables) = mapped(args, !bags.is_empty())?;
     let prints: Vec<Fingerprint> = loaded.reads.iter().map(|r| Fingerprint::of(&r.recording)).collect();
     let names: Vec<String> = loaded.reads.iter().map(case_folder::file_names).collect();
     let same = group_by_content(&prints).into_iter().filter(|group| group.len() > 1);
@@ -113,8 +127,9 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             lost.push(loss);
         }
     }
-    let proposed = args.write_mapping.as_deref().map(|target| propose_to(target, &bags)).transpose()?;
-    let checked = Checked { bags, mapping, recordings: recordings.collect(), same, proposed, lost };
+    lost.extend(tables.iter().filter_map(tables::lost));
+    let proposed = args.write_mapping.as_deref().map(|target| propose_to(target, &bags, &tables)).transpose()?;
+    let checked = Checked { bags, tables, mapping, recordings: recordings.collect(), same, proposed, lost };
     drop(progress);
     if let Some(target) = &args.json {
         emit_json(target, &as_json::render(&checked))?;
@@ -126,16 +141,23 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 }
 
 /// Writes a proposed mapping.
-fn propose_to(target: &Path, bags: &[(String, Contents)]) -> Result<(String, Vec<String>)> {
-    let shown = target.display().to_string();
-    let (bag, contents) =
-        bags.first().context("--write-mapping needs a bag; of a table nobody knows what a column means")?;
-    let name = target.file_stem().map_or_else(|| shown.clone(), |stem| stem.to_string_lossy().into_owned());
-    let proposal = propose::mapping(&name, contents)
-        .with_context(|| format!("{bag}: no topic has joints, an inertial unit or a pose that a mapping could name"))?;
-    ensure!(!target.exists(), "'{shown}' is there already; name another file for the mapping");
-    std::fs::write(target, proposal.toml).with_context(|| format!("cannot write '{shown}'"))?;
-    Ok((shown, proposal.inferred))
+fn propose_to(target: &Path, bags: &[(String, Contents)], tables: &[(String, TableContents)]) -> Result<Proposed> {
+    let file = target.display().to_string();
+    let name = target.file_stem().map_or_else(|| file.clone(), |stem| stem.to_string_lossy().into_owned());
+    let (toml, inferred, is_skeleton) = match (bags.first(), tables.first()) {
+        (Some((bag, contents)), _) => {
+            let nothing =
+                || format!("{bag}: no topic has joints, an inertial unit or a pose that a mapping could name");
+            let proposal = propose::mapping(&name, contents).with_context(nothing)?;
+            (proposal.toml, proposal.inferred, false)
+        }
+        // What was inferred of a table is told with its columns.
+        (None, Some((table, contents))) => (skeleton::mapping(&name, table, contents), Vec::new(), true),
+        (None, None) => bail!("--write-mapping needs a bag, or a table that no mapping fits; these have one"),
+    };
+    ensure!(!target.exists(), "'{file}' is there already; name another file for the mapping");
+    std::fs::write(target, toml).with_context(|| format!("cannot write '{file}'"))?;
+    Ok(Proposed { file, inferred, is_skeleton })
 }
 
 fn measure(channel: &recordings::Channel) -> Measured {
@@ -166,22 +188,34 @@ fn bag_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
     Ok(out)
 }
 
+/// The mapping that was used and whether it was named, what it read, and tables that none fits.
+type Mapping = (Option<(String, bool)>, Loaded, Vec<(String, TableContents)>);
+
 /// The recordings as a mapping reads them: the one that was named, else the first built-in one that fits all.
-fn mapped(args: &Args, some_bags: bool) -> Result<(Option<(String, bool)>, Loaded)> {
+fn mapped(args: &Args, some_bags: bool) -> Result<Mapping> {
     let options = args.reading.options();
     if let Some(name) = &args.mapping {
         let loaded = inputs::load(&case_folder::mapping(name)?, &args.paths, &options)?;
-        return Ok((Some((name.clone(), true)), loaded));
+        return Ok((Some((name.clone(), true)), loaded, Vec::new()));
     }
-    let mut failures = Vec::new();
+    let (mut failures, mut broken) = (Vec::new(), false);
     for (name, _) in BUILT_IN_MAPPINGS {
         match case_folder::mapping(name).and_then(|m| inputs::load(&m, &args.paths, &options)) {
-            Ok(loaded) if loaded.unmatched.is_empty() => return Ok((Some(((*name).to_owned(), false)), loaded)),
+            Ok(loaded) if loaded.unmatched.is_empty() => {
+                return Ok((Some(((*name).to_owned(), false)), loaded, Vec::new()));
+            }
             Ok(_) => {}
-            Err(error) => failures.push(format!("{name}: {error:#}")),
+            Err(error) => {
+                broken |= !tables::is_another_ones(&error);
+                failures.push(format!("{name}: {error:#}"));
+            }
         }
     }
-    // Bags tell what is inside without a mapping; of a table nothing can be said.
-    ensure!(some_bags, "no built-in mapping fits; name one with --mapping\n  {}", failures.join("\n  "));
-    Ok((None, Loaded::default()))
+    if some_bags {
+        return Ok((None, Loaded::default(), Vec::new()));
+    }
+    // A table that has the right columns and is broken is no unknown table.
+    let tables = if broken { Vec::new() } else { tables::look(&args.paths)? };
+    ensure!(!tables.is_empty(), "no built-in mapping fits; name one with --mapping\n  {}", failures.join("\n  "));
+    Ok((None, Loaded::default(), tables))
 }

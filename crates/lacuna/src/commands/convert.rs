@@ -8,9 +8,9 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use lacuna::case_folder::{self, file_names};
 use lacuna::inputs;
-use recordings::{Recording, write_csv, write_mcap, write_parquet};
+use recordings::{Recording, lost_in_csv, write_csv, write_mcap, write_parquet};
 
-use super::{Outcome, Reading, Usage};
+use super::{Outcome, Reading, Usage, listed};
 use crate::console::{emit, warning};
 
 const EXAMPLES: &str = "\
@@ -20,7 +20,8 @@ Examples:
   lacuna convert pro_01.csv imu_01.csv --mapping husky-open --out run.csv
 
 The ending of OUT says the format: mcap (JSON messages, one topic per signal, all clocks in one file), parquet or csv (a
-table per clock; with several clocks their names stand before the ending). Values are in SI and read back bit for bit.
+table per clock; with several clocks their names stand before the ending). Values are in SI and read back bit for bit, by
+the built-in mapping lacuna; MCAP and Parquet keep what the mapping said of signals and clocks, CSV cannot.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -122,6 +123,9 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let written: Vec<String> = targets.iter().map(|(path, _)| path.display().to_string()).collect();
     let channels = recording.channels().len();
     emit(&format!("{channels} channels with {samples} samples written to {}\n", written.join(", ")))?;
+    if format == Format::Csv {
+        emit(&listed("Not kept by CSV, so that a mapping has to say it anew", &lost_in_csv(recording)))?;
+    }
     let lost: Vec<String> = loaded.lost().collect();
     for sentence in &lost {
         warning(sentence);

@@ -44,7 +44,7 @@ impl std::error::Error for Usage {}
 pub(crate) enum Reading {
     /// Refuse everything that would be lost inside a file.
     Strict,
-    /// Skip and count broken rows; refuse text in numbers and time running backwards.
+    /// Skip and count broken rows, sort rows that are late; refuse text in numbers and time running backwards.
     #[default]
     Normal,
     /// Skip and count these too.

@@ -134,7 +134,7 @@ impl Records {
         }
         let topic = self.topic(channel)?;
         // Two channels may carry one topic.
-        let index = self.topics.iter().position(|other| *other == topic).unwrap_or_else(|| {
+        let index = self.topics.iter().position(|other| other.is_same(&topic)).unwrap_or_else(|| {
             self.topics.push(topic);
             self.topics.len() - 1
         });
@@ -157,6 +157,7 @@ impl Records {
             encoding: channel.message_encoding.clone(),
             schema_encoding,
             schema: schema.map(|(_, data)| Arc::clone(data)).unwrap_or_default(),
+            metadata: channel.metadata.clone(),
         })
     }
 }

@@ -9,6 +9,7 @@ mod sqlite;
 mod unpack;
 mod window;
 
+use std::collections::BTreeMap;
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use crate::loss::{Ledger, Loss};
 use crate::place::Place;
 
 use unpack::Whole;
-pub(crate) use unpack::{payload, read_whole};
+pub(crate) use unpack::{cannot_read, head, hexadecimal, payload, read_whole};
 
 /// The largest record, chunk (packed or not) or message that is held in memory, in bytes. What is larger is skipped and
 /// counted: a length field is never believed.
@@ -45,6 +46,18 @@ pub struct Topic {
     pub schema_encoding: String,
     /// The schema, as it stands in the file; empty where the file has none.
     pub schema: Arc<[u8]>,
+    /// What an MCAP channel says of itself beside: `offered_qos_profiles`; the first one's where several carry the topic.
+    pub metadata: BTreeMap<String, String>,
+}
+
+impl Topic {
+    /// True for the same topic, whatever its channels say beside.
+    fn is_same(&self, other: &Self) -> bool {
+        let identity = |topic: &'_ Self| {
+            [&topic.name, &topic.message_type, &topic.encoding, &topic.schema_encoding].map(String::clone)
+        };
+        identity(self) == identity(other) && self.schema == other.schema
+    }
 }
 
 /// One message of a bag.

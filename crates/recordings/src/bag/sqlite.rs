@@ -1,6 +1,6 @@
 //! rosbag2's sqlite3 files. The whole file is in memory: sqlite reads files or memory, and files are not opened here.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use rusqlite::{Connection, Row};
@@ -81,7 +81,8 @@ fn topics(connection: &Connection) -> rusqlite::Result<(HashMap<i64, usize>, Vec
         let (id, name, message_type): (i64, String, String) = (row.get(0)?, row.get(1)?, row.get(2)?);
         let (schema_encoding, schema) = schemas.get(&message_type).cloned().unwrap_or_default();
         index.insert(id, topics.len());
-        topics.push(Topic { name, message_type, encoding: row.get(3)?, schema_encoding, schema });
+        let (encoding, metadata) = (row.get(3)?, BTreeMap::new());
+        topics.push(Topic { name, message_type, encoding, schema_encoding, schema, metadata });
     }
     Ok((index, topics))
 }

@@ -22,6 +22,9 @@ use plan::Plan;
 /// The column of a message's log time.
 pub(crate) const LOG_TIME: &str = "log_time";
 
+/// The stamp in a message's header, by its driver.
+pub(crate) const HEADER_STAMP: &str = "header.stamp";
+
 /// What a path led to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cell {
@@ -90,6 +93,7 @@ impl Reader {
 ///     encoding: "cdr".to_owned(),
 ///     schema_encoding: String::new(),
 ///     schema: [].into(), // this one is built in
+///     metadata: Default::default(),
 /// };
 /// let reader = FieldReader::new(&topic, &["data"]).unwrap();
 /// let message = [0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xF8, 0x3F];

@@ -9,7 +9,7 @@ mod grid;
 mod join;
 mod meter;
 mod noise;
-mod robust;
+pub(crate) mod robust;
 mod runs;
 mod tally;
 mod thresholds;

@@ -1,9 +1,9 @@
 //! What was found, for programs.
 
-use recordings::Contents;
+use recordings::{Contents, HeaderStamps};
 use serde_json::{Value, json};
 
-use super::{Checked, Measured};
+use super::{Checked, Measured, tables};
 use crate::commands::program;
 
 /// Version of this form.
@@ -14,6 +14,7 @@ pub(super) fn render(c: &Checked) -> Value {
         "format": FORMAT,
         "program": program(),
         "bags": c.bags.iter().map(|(name, contents)| bag(name, contents)).collect::<Vec<_>>(),
+        "tables": c.tables.iter().map(tables::as_json).collect::<Vec<_>>(),
         "mapping": c.mapping.as_ref().map(|(name, named)| json!({ "name": name, "named_by_user": named })),
         "recordings": c.recordings.iter().map(|r| json!({
             "name": r.name,
@@ -21,7 +22,9 @@ pub(super) fn render(c: &Checked) -> Value {
             "diagnoses": r.permits,
         })).collect::<Vec<_>>(),
         "same_content": c.same,
-        "proposed_mapping": c.proposed.as_ref().map(|(file, inferred)| json!({ "file": file, "inferred": inferred })),
+        "proposed_mapping": c.proposed.as_ref().map(|p| json!({
+            "file": p.file, "inferred": p.inferred, "skeleton": p.is_skeleton,
+        })),
         "lost": c.lost,
     })
 }
@@ -35,7 +38,7 @@ fn bag(name: &str, contents: &Contents) -> Value {
             json!({
                 "name": t.name, "type": t.message_type, "encoding": t.encoding, "messages": t.count,
                 "undecodable": t.undecodable, "first_log_time_ns": t.log_time_ns.0, "last_log_time_ns": t.log_time_ns.1,
-                "fields": fields.as_ref().ok(), "not_decoded": fields.as_ref().err(),
+                "header_stamps": t.stamps.as_ref().map(stamps), "fields": fields.as_ref().ok(), "not_decoded": fields.as_ref().err(),
             })
         })
         .collect();
@@ -43,6 +46,16 @@ fn bag(name: &str, contents: &Contents) -> Value {
         "file": name, "bytes": contents.bytes, "sha256": contents.sha256, "unchecked_messages": contents.unchecked,
         "topics": topics,
     })
+}
+
+fn stamps(s: &HeaderStamps) -> Value {
+    let delay = s.delay.as_ref().map(|d| {
+        json!({
+            "median_ms": d.median_ms, "smallest_ms": d.smallest_ms, "largest_ms": d.largest_ms,
+            "drift_ppm": d.drift.map(|drift| drift.ppm), "drift_between_ppm": d.drift.map(|drift| drift.between_ppm),
+        })
+    });
+    json!({ "set": s.set, "zero": s.unset, "log_time_minus_stamp": delay })
 }
 
 fn channel(m: &Measured) -> Value {

@@ -3,7 +3,7 @@
 use lacuna::text_table::{TextTable, number};
 use recordings::{Contents, Field, Severity};
 
-use super::{Checked, Mapped};
+use super::{Checked, Mapped, Proposed, stamps, tables};
 use crate::commands::listed;
 use crate::console::heading;
 
@@ -12,18 +12,28 @@ pub(super) fn render(c: &Checked, fields: bool) -> String {
     for (name, contents) in &c.bags {
         out += &bag(name, contents, fields);
     }
+    out.extend(c.tables.iter().map(tables::text));
     match &c.mapping {
         Some((name, true)) => out += &format!("\nMapping: {name}.\n"),
         Some((name, false)) => out += &format!("\nThe built-in mapping {name} fits these recordings.\n"),
+        None if !c.tables.is_empty() => {
+            out += "\nNo built-in mapping fits, and of a table nobody but you knows which column is which signal, in which \
+                    unit and with which sign. Say it in a mapping (--write-mapping writes its skeleton) and give it with \
+                    --mapping.\n";
+        }
         None => {
             out += "\nNo built-in mapping fits, so that nobody knows which field is which signal. Write one that names them \
                     (--fields lists the fields, --write-mapping proposes one) and give it with --mapping.\n";
         }
     }
-    if let Some((target, inferred)) = &c.proposed {
-        out += &format!(
-            "\nMapping proposed: {target}. Use it with --mapping {target}, after a look at what was inferred.\n"
-        );
+    if let Some(Proposed { file, inferred, is_skeleton }) = &c.proposed {
+        out += &if *is_skeleton {
+            format!(
+                "\nSkeleton of a mapping: {file}. Say in it which column is which signal, then use --mapping {file}.\n"
+            )
+        } else {
+            format!("\nMapping proposed: {file}. Use it with --mapping {file}, after a look at what was inferred.\n")
+        };
         out += &listed("Inferred", inferred);
     }
     for recording in &c.recordings {
@@ -75,6 +85,8 @@ fn bag(name: &str, contents: &Contents, fields: bool) -> String {
     if fields {
         out += &format!("\n{}{listing}", heading("Fields"));
     }
+    let stamped: Vec<String> = contents.topics.iter().filter_map(stamps::sentence).collect();
+    out += &listed("Header stamps", &stamped);
     out + &listed("Not decoded", &trouble)
 }
 
