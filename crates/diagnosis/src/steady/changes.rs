@@ -311,3 +311,93 @@ fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steady::testing::{Leg, STRAIGHT, WEIGHT, drive};
+
+    const USUAL: Usual = [Some(STRAIGHT), None, None];
+
+    fn found(legs: &[Leg], gyro: bool) -> Vec<LoadChange> {
+        changes(&drive(legs, gyro), &USUAL, WEIGHT).found
+    }
+
+    fn near([a, b]: [f64; 2], moment: f64) -> bool {
+        b - a < 1.0 && a - 1.0 < moment && moment < b + 1.0
+    }
+
+    #[test]
+    fn a_climb_is_found_with_its_slope_and_both_causes() {
+        let all = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(3.0), Leg::straight(30.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let c = &all[0];
+        assert!(near(c.onset, 30.0) && near(c.end, 45.0), "{c:?}");
+        assert!(!c.bound && (c.slope - 3.0).abs() < 0.5 && c.slope_half > 0.5, "{c:?}");
+        assert_eq!(c.causes, [GRADE, ROLLING]);
+    }
+
+    #[test]
+    fn a_descent_into_the_dead_band_is_a_bound_and_no_friction() {
+        let all = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(-6.0), Leg::straight(30.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let c = &all[0];
+        assert!(near(c.onset, 30.0) && near(c.end, 45.0), "{c:?}");
+        assert!(c.bound && c.slope < -2.0 && c.slope > -6.0, "{c:?}");
+        assert_eq!(c.causes, [GRADE]);
+    }
+
+    #[test]
+    fn a_cold_drive_train_and_a_dearer_turn_are_no_change() {
+        let cold = |leg: Leg| Leg { straight: 1.35 * STRAIGHT, ..leg };
+        assert_eq!(found(&[cold(Leg::straight(40.0))], false), []);
+        let turns = [Leg::straight(20.0), Leg { scrub: 40.0, ..Leg::turn(10.0) }, Leg::straight(20.0)];
+        let out = changes(&drive(&turns, false), &USUAL, WEIGHT);
+        assert_eq!(out.found, []);
+        let hidden: Vec<[f64; 2]> = out.hidden.iter().map(|h| h.interval).collect();
+        assert_eq!(hidden.len(), 1);
+        assert!((hidden[0][0] - 20.0).abs() < 0.5 && (hidden[0][1] - 31.0).abs() < 0.6, "{hidden:?}");
+    }
+
+    #[test]
+    fn what_begins_in_a_turn_is_bracketed() {
+        let all =
+            found(&[Leg::straight(30.0), Leg::turn(10.0), Leg::straight(15.0).slope(4.0), Leg::straight(20.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let [a, b] = all[0].onset;
+        assert!(a < 30.1 && b > 40.0, "{all:?}");
+    }
+
+    #[test]
+    fn the_way_back_decides() {
+        let back = Leg { speed: [-0.24, -0.24], ..Leg::straight(15.0) };
+        let legs = [
+            Leg::straight(30.0),
+            Leg::straight(15.0).slope(2.6),
+            Leg::straight(20.0),
+            back.slope(2.6),
+            Leg::straight(20.0),
+        ];
+        let all = found(&legs, false);
+        assert_eq!(all.len(), 2, "{all:?}");
+        assert!(all[0].slope > 2.0 && all[1].slope < -1.0, "{all:?}");
+        assert_eq!(all[0].causes, [GRADE], "{all:?}");
+    }
+
+    #[test]
+    fn with_a_gyro_slope_and_ground_are_told_apart() {
+        let slope = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(4.0), Leg::straight(30.0)], true);
+        assert_eq!(slope.len(), 1, "{slope:?}");
+        assert_eq!(slope[0].causes, [GRADE]);
+        assert!(
+            (slope[0].slope - 4.0).abs() < 0.6 && near(slope[0].onset, 30.0) && near(slope[0].end, 45.0),
+            "{slope:?}"
+        );
+        let soft = Leg { straight: 2.0 * STRAIGHT, ..Leg::straight(15.0) };
+        let ground = found(&[Leg::straight(30.0), soft, Leg::straight(30.0)], true);
+        assert_eq!(ground.len(), 1, "{ground:?}");
+        assert_eq!(ground[0].causes, [ROLLING]);
+        assert!(near(ground[0].onset, 30.0), "{ground:?}");
+        assert_eq!(found(&[Leg::straight(60.0)], true), []);
+    }
+}

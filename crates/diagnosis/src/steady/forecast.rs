@@ -146,3 +146,38 @@ fn followed(run: &SpeedRun, lag: f64) -> Vec<f64> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::steady::testing::{Leg, STRAIGHT, drive};
+
+    /// Straight driving and turns both ways, some rounds of it.
+    fn rounds(n: usize) -> Vec<Leg> {
+        let right = Leg { speed: [0.24, 0.08], ..Leg::turn(5.0) };
+        (0..n).flat_map(|_| [Leg::straight(6.0), Leg::turn(5.0), Leg::straight(4.0), right]).collect()
+    }
+
+    #[test]
+    fn the_last_third_is_forecast_better_than_by_a_level_or_a_wrong_law() {
+        let reference = drive(&rounds(3), false);
+        // A ground that scrubs more.
+        let harder: Vec<Leg> = rounds(4).into_iter().map(|leg| Leg { scrub: 30.0, ..leg }).collect();
+        let nominal = Nominal::new(&[reference], STRAIGHT, 0.77);
+        let all = forecasts(&drive(&harder, false), &nominal);
+        let torque = all.iter().find(|f| f.quantity.starts_with("torque")).expect("torques");
+        assert!(torque.retuned > 2.5 * torque.corrected, "{torque:?}");
+        assert!(torque.nominal > 1.3 * torque.corrected, "{torque:?}");
+        assert_eq!(torque.placebos.len(), 3);
+        assert!(torque.placebos.iter().all(|p| p.1 > 2.0 * torque.corrected), "{torque:?}");
+        let yaw = all.iter().find(|f| f.quantity.starts_with("yaw")).expect("a yaw rate");
+        assert!(yaw.corrected < 0.02 && yaw.retuned > 5.0 * yaw.corrected, "{yaw:?}");
+    }
+
+    #[test]
+    fn a_run_that_does_not_turn_is_not_forecast() {
+        let nominal = Nominal::new(&[drive(&rounds(2), false)], STRAIGHT, 0.77);
+        assert_eq!(forecasts(&drive(&[Leg::straight(40.0)], false), &nominal), []);
+        assert_eq!(forecasts(&drive(&[Leg::straight(4.0), Leg::turn(6.0)], false), &nominal), []);
+    }
+}

@@ -18,6 +18,8 @@ mod name;
 mod run;
 mod standstill;
 mod straight;
+#[cfg(test)]
+mod testing;
 mod turning;
 mod words;
 

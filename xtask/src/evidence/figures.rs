@@ -1,0 +1,210 @@
+//! What is asked of the evidence, and what was reached.
+
+use serde_json::Value;
+
+use super::Evidence;
+use super::ask::interval;
+use super::husky::Examined;
+use super::slopes::{Claim, Outcome, Seen};
+use super::turns::{Turns, share};
+use crate::output::{Asked, Figure};
+
+fn median(mut all: Vec<f64>) -> Option<f64> {
+    quantile(&mut all, 0.5)
+}
+
+fn quantile(all: &mut [f64], share: f64) -> Option<f64> {
+    all.sort_by(f64::total_cmp);
+    let last = all.len().checked_sub(1)?;
+    let at = share * last as f64;
+    let (i, f) = (at as usize, at.fract());
+    Some(all[i] + f * (all[(i + 1).min(last)] - all[i]))
+}
+
+/// Loads of one kind over the references': value, half of its interval, ratio and its interval, speed.
+struct Load {
+    value: f64,
+    half: f64,
+    ratio: f64,
+    interval: [f64; 2],
+    speed: f64,
+    seconds: f64,
+}
+
+fn loads(run: &Examined, quantity: &str) -> Vec<Load> {
+    let of = |r: &Value| Load {
+        value: r["value"].as_f64().unwrap_or(f64::NAN),
+        half: r["half"].as_f64().unwrap_or(f64::NAN),
+        ratio: r["ratio"].as_f64().unwrap_or(f64::NAN),
+        interval: interval(&r["interval"]),
+        speed: r["speed"][1].as_f64().unwrap_or(f64::NAN),
+        seconds: r["seconds"].as_f64().unwrap_or(0.0),
+    };
+    run.open.steady("ratios").iter().filter(|r| r["quantity"] == quantity).map(of).collect()
+}
+
+/// All figures; those of which the data hold nothing are left out.
+pub(super) fn figures(e: &Evidence) -> Vec<Figure> {
+    let mut out = Vec::new();
+    labels(e, &mut out);
+    tracks(e, &mut out);
+    witnesses(e, &mut out);
+    turning(e, &mut out);
+    forecasts(e, &mut out);
+    null(e, &mut out);
+    out
+}
+
+fn add(out: &mut Vec<Figure>, name: &str, value: Option<f64>, unit: &str, asked: Option<Asked>) {
+    if let Some(value) = value {
+        let figure = Figure::free(name, value, unit);
+        out.push(asked.map_or(figure, |a| Figure::free(name, value, unit).asked(a)));
+    }
+}
+
+fn labelled<'a>(e: &'a Evidence, label: &'a str) -> impl Iterator<Item = &'a Examined> {
+    e.husky.iter().filter(move |r| r.label == label)
+}
+
+fn labels(e: &Evidence, out: &mut Vec<Figure>) {
+    let sand: Vec<Load> = labelled(e, "SANDY_LOAM").flat_map(|r| loads(r, "straight_load")).collect();
+    let off = |centre: f64| move |l: &Load| (l.ratio - centre).abs();
+    let most = |all: Vec<f64>| all.into_iter().max_by(f64::total_cmp);
+    add(out, "sandy loam: straight load, median of the runs", median(sand.iter().map(|l| l.ratio).collect()), "times", None);
+    add(out, "sandy loam: furthest from 2.05", most(sand.iter().map(off(2.05)).collect()), "", Some(Asked::AtMost(0.25)));
+    let width = |l: &Load| 0.5 * (l.interval[1] - l.interval[0]) / l.ratio;
+    add(out, "sandy loam: widest half interval of the straight load", most(sand.iter().map(width).collect()), "", Some(Asked::AtMost(0.2)));
+    let fast: Vec<Load> = labelled(e, "ASPHALT").flat_map(|r| loads(r, "straight_load")).filter(|l| l.speed > 0.7).collect();
+    add(out, "asphalt at 0.79 m/s: straight load, furthest from 1.05", most(fast.iter().map(off(1.05)).collect()), "", Some(Asked::AtMost(0.15)));
+    let turning: Vec<Load> =
+        labelled(e, "ASPHALT").flat_map(|r| loads(r, "turning_load")).filter(|l| l.seconds >= 10.0).collect();
+    add(out, "asphalt: turning load, furthest from 1.65", most(turning.iter().map(off(1.65)).collect()), "", Some(Asked::AtMost(0.35)));
+    let excludes = turning.iter().filter(|l| l.interval[0] > 1.0).count();
+    if !turning.is_empty() {
+        add(out, "asphalt: turning loads whose interval excludes 1", Some(share(excludes, turning.len())), "", Some(Asked::AtLeast(1.0)));
+    }
+    let given = |r: &Examined| {
+        let turns = ["turning_load", "arc_sum", "spin_sum"].iter().any(|q| !loads(r, q).is_empty());
+        usize::from(!loads(r, "straight_load").is_empty()) + usize::from(turns)
+    };
+    let answers: usize = e.husky.iter().map(given).sum();
+    if !e.husky.is_empty() {
+        add(out, "straight and turning answers given", Some(share(answers, 2 * e.husky.len())), "", Some(Asked::AtLeast(0.5)));
+    }
+}
+
+fn tracks(e: &Evidence, out: &mut Vec<Figure>) {
+    for (label, range, half) in [("FLOORING", [0.752, 0.792], [0.0, 0.03]), ("SANDY_LOAM", [0.88, 1.02], [0.04, 0.10])] {
+        let all: Vec<Load> = labelled(e, label).flat_map(|r| loads(r, "effective_track")).collect();
+        if all.is_empty() {
+            continue;
+        }
+        let inside = |l: &&Load| l.value >= range[0] && l.value <= range[1];
+        let name = format!("{label}: effective tracks in {} to {} m", range[0], range[1]);
+        add(out, &name, Some(share(all.iter().filter(inside).count(), all.len())), "", Some(Asked::AtLeast(1.0)));
+        let name = format!("{label}: widest half interval of the track");
+        add(out, &name, all.iter().map(|l| l.half).max_by(f64::total_cmp), "m", Some(Asked::AtMost(half[1])));
+    }
+}
+
+fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
+    let hard = || e.husky.iter().filter(|r| r.hard || r.label.starts_with("case"));
+    let both = |of: &dyn Fn(&Examined) -> Option<&(Vec<Seen>, Vec<Claim>)>| -> (Vec<Seen>, Vec<Claim>) {
+        let mut all = (Vec::new(), Vec::new());
+        for (seen, claims) in hard().filter_map(of) {
+            all.0.extend(seen.iter().cloned());
+            all.1.extend(claims.iter().cloned());
+        }
+        all
+    };
+    for (name, times, angle, (seen, claims)) in [
+        ("by currents and yaw rate", 2.5, 1.2, both(&|r| r.by_currents.as_ref())),
+        ("with roll and pitch rate", 2.0, 1.0, both(&|r| r.by_gyro.as_ref())),
+    ] {
+        let count = |o: Outcome| seen.iter().filter(|s| s.outcome == o).count() as f64;
+        let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
+        if !seen.is_empty() {
+            add(out, &format!("{name}: tilts found"), Some(count(Outcome::Found)), "", None);
+            add(out, &format!("{name}: tilts told as not observable"), Some(count(Outcome::Hidden)), "", None);
+            add(out, &format!("{name}: tilts missed"), Some(count(Outcome::Missed)), "", Some(Asked::AtMost(0.0)));
+        }
+        add(out, &format!("{name}: largest error of onset or end"), most(&|s| s.onset.max(s.end)), "s", Some(Asked::AtMost(times)));
+        add(out, &format!("{name}: largest error of the angle"), most(&|s| s.angle), "degrees", Some(Asked::AtMost(angle)));
+        if hard().next().is_some() {
+            let contradicted = seen.iter().filter(|s| s.contradicted).count() as f64;
+            add(out, &format!("{name}: bounds that the witness contradicts"), Some(contradicted), "", Some(Asked::AtMost(0.0)));
+            let wrong = claims.iter().filter(|c| c.is_false()).count() as f64;
+            add(out, &format!("{name}: claims in which the witness is level"), Some(wrong), "", Some(Asked::AtMost(0.0)));
+        }
+    }
+    let findings: Vec<bool> = e
+        .husky
+        .iter()
+        .flat_map(|r| [&r.by_currents, &r.by_gyro])
+        .flatten()
+        .flat_map(|(_, claims)| claims)
+        .filter_map(Claim::holds)
+        .collect();
+    if !findings.is_empty() {
+        let held = share(findings.iter().filter(|h| **h).count(), findings.len());
+        add(out, "stated intervals and bounds that hold the witness, all ground", Some(held), "", Some(Asked::AtLeast(0.8)));
+    }
+    let mut clocks: Vec<f64> = e.husky.iter().flat_map(|r| &r.clocks).map(|c| c.abs()).collect();
+    add(out, "clocks on turns left out: median error", quantile(&mut clocks, 0.5), "s", Some(Asked::AtMost(0.2)));
+    add(out, "clocks on turns left out: 90 % below", quantile(&mut clocks, 0.9), "s", Some(Asked::AtMost(0.5)));
+}
+
+fn turning(e: &Evidence, out: &mut Vec<Figure>) {
+    let mut all = Turns::default();
+    for t in e.husky.iter().filter(|r| r.hard).filter_map(|r| r.turns.as_ref()) {
+        all.add(t);
+    }
+    if all.arcs[0] > 0 {
+        add(out, "gyro withheld: turning samples with the right side", Some(share(all.arcs[1], all.arcs[0])), "", Some(Asked::AtLeast(0.95)));
+        add(out, "gyro withheld: with the wrong side", Some(share(all.arcs[2], all.arcs[0])), "", Some(Asked::AtMost(0.01)));
+        add(out, "gyro withheld: straight samples told as turning", Some(share(all.straight[1], all.straight[0])), "", Some(Asked::AtMost(0.2)));
+    }
+    if all.spins[0] > 0 {
+        add(out, "gyro withheld: spins told (unsigned currents have no side)", Some(share(all.spins[1], all.spins[0])), "", Some(Asked::AtLeast(0.95)));
+    }
+    if !e.husky.is_empty() {
+        let stuck = e.husky.iter().map(|r| r.open.steady("standstills").len()).sum::<usize>() + all.stuck;
+        add(out, "told that the body stands", Some(stuck as f64), "", Some(Asked::AtMost(0.0)));
+    }
+}
+
+fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
+    let of = |quantity: &'static str| {
+        e.husky.iter().filter(|r| r.hard).flat_map(|r| r.open.steady("forecasts")).filter(move |f| {
+            f["quantity"].as_str().is_some_and(|q| q.starts_with(quantity))
+        })
+    };
+    let number = |f: &Value, what: &str| f[what].as_f64().unwrap_or(f64::NAN);
+    let gain = median(of("torque").map(|f| number(f, "retuned") / number(f, "corrected")).collect());
+    add(out, "forecast of currents: re-tuned level over corrected, median of the runs", gain, "times", Some(Asked::AtLeast(1.8)));
+    let beats = |f: &&Value| {
+        let own = number(f, "corrected");
+        f["placebos"].as_array().is_some_and(|p| p.iter().all(|x| x[1].as_f64().is_some_and(|x| x > own)))
+    };
+    let runs = of("torque").count();
+    if runs > 0 {
+        let won = share(of("torque").filter(beats).count(), runs);
+        add(out, "forecast of currents: better than each placebo", Some(won), "of the runs", Some(Asked::AtLeast(5.0 / 6.0)));
+    }
+    let yaw = median(of("yaw").map(|f| number(f, "corrected")).collect());
+    add(out, "forecast of the yaw rate: rms, median of the runs", yaw, "rad/s", Some(Asked::AtMost(0.02)));
+}
+
+fn null(e: &Evidence, out: &mut Vec<Figure>) {
+    let answers: usize = e.null.iter().map(|b| b.answers).sum();
+    if answers > 0 {
+        let alarms: usize = e.null.iter().map(|b| b.alarms.len()).sum();
+        add(out, "null: alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
+    }
+    let steps: Vec<f64> = e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(blocks_error).collect();
+    add(out, "joined runs: floor to sand, largest error of the onset", steps.into_iter().max_by(f64::total_cmp), "s", None);
+}
+
+fn blocks_error(j: &super::blocks::Joined) -> Option<f64> {
+    j.error()
+}
