@@ -4,8 +4,12 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod bag;
+mod binary;
 mod blind;
+mod child;
 mod document;
+mod evidence;
 mod learn;
 mod output;
 mod reproduce;
@@ -26,6 +30,10 @@ enum Command {
     Learn(learn::Args),
     /// Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders.
     Blind(Box<blind::Args>),
+    /// Diagnose real recordings with the effect concealed, then open the witness.
+    Evidence(evidence::Args),
+    /// Measure time and memory of `lacuna check` on a large bag.
+    Bag(bag::Args),
 }
 
 fn main() -> ExitCode {
@@ -33,6 +41,8 @@ fn main() -> ExitCode {
         Command::Reproduce(args) => reproduce::run(args),
         Command::Learn(args) => learn::run(args),
         Command::Blind(args) => blind::run(&args),
+        Command::Evidence(args) => evidence::run(&args),
+        Command::Bag(args) => bag::run(&args),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,

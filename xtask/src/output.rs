@@ -60,6 +60,11 @@ fn root() -> PathBuf {
         .unwrap_or_default()
 }
 
+/// A path as seen from the workspace's folder.
+pub(crate) fn beside(path: &str) -> PathBuf {
+    root().join(path)
+}
+
 /// A folder of the documentation.
 pub(crate) fn docs(name: &str) -> PathBuf {
     root().join("docs").join(name)

@@ -17,6 +17,11 @@ const FOLDERS: [(&str, &str); 3] = [
     ("heldout", "inputs whose response is to be predicted"),
 ];
 
+/// The folders that a case may have.
+pub fn folders(case: &Path) -> [PathBuf; 3] {
+    FOLDERS.map(|(name, _)| case.join(name))
+}
+
 /// A case with what was lost in reading it.
 #[derive(Debug)]
 pub struct CaseFolder {

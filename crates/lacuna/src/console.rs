@@ -1,6 +1,9 @@
 //! Standard output for results, standard error for everything else.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::panic::AssertUnwindSafe;
+use std::process::ExitCode;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use anyhow::{Context, Result};
@@ -52,14 +55,26 @@ fn line(kind: &str, colour: anstyle::AnsiColor, message: &str) {
     let _ = writeln!(anstream::stderr(), "{style}{kind}{style:#}: {message}");
 }
 
-/// A defect of the program is told in one line, like every other failure.
-pub(crate) fn report_panics() {
+/// The last panic, which counts only if nobody catches it: readers catch those of libraries on damaged files.
+static LAST_PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// Runs the program; of a defect in it the one line that tells it, like every other failure.
+pub(crate) fn catch_panics(program: impl FnOnce() -> ExitCode) -> Result<ExitCode, String> {
     std::panic::set_hook(Box::new(|info| {
         let what = info.payload_as_str().unwrap_or("no message");
         let place = info.location().map_or(String::new(), |l| format!(" at {}:{}", l.file(), l.line()));
-        error(&format!("defect in lacuna{place}: {what}; please report it together with the input"));
-        std::process::exit(1);
+        *last_panic() = Some(format!("{place}: {what}"));
     }));
+    // Nothing of what the program held is used afterwards.
+    std::panic::catch_unwind(AssertUnwindSafe(program)).map_err(|_| {
+        let what = last_panic().take().unwrap_or_default();
+        format!("defect in lacuna{what}; please report it together with the input")
+    })
+}
+
+/// A panic while the message is stored leaves it as good as it was.
+fn last_panic() -> MutexGuard<'static, Option<String>> {
+    LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What is being done: a spinner on a terminal, lines with `--verbose`, otherwise nothing.
@@ -94,5 +109,25 @@ impl Drop for Progress {
         if let Some(bar) = &self.spinner {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The hook is the process's: one test for all that it does.
+    #[test]
+    fn only_panics_that_nobody_catches_end_the_program() {
+        let ended = catch_panics(|| {
+            let caught = std::panic::catch_unwind(|| panic!("a damaged page"));
+            if caught.is_err() { ExitCode::from(3) } else { ExitCode::SUCCESS }
+        });
+        assert_eq!(ended, Ok(ExitCode::from(3)));
+        let ended = catch_panics(|| panic!("no such row"));
+        drop(std::panic::take_hook());
+        let message = ended.expect_err("nobody caught it");
+        assert!(message.starts_with("defect in lacuna at ") && message.contains("console.rs:"), "{message}");
+        assert!(message.ends_with(": no such row; please report it together with the input"), "{message}");
     }
 }

@@ -17,6 +17,7 @@ mod robot_text;
 pub mod skeleton;
 pub mod suggest;
 pub mod text_table;
+pub mod which_mapping;
 
 pub use robot_error::RobotFileError;
 pub use robot_file::{Causality, RobotSpec};

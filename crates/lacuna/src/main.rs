@@ -54,7 +54,13 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    console::report_panics();
+    console::catch_panics(run).unwrap_or_else(|defect| {
+        console::error(&defect);
+        ExitCode::FAILURE
+    })
+}
+
+fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match &cli.command {
         Command::Check(args) => check::run(args, cli.verbose),

@@ -73,7 +73,7 @@ pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
 pub use group::{Group, GroupFile, Grouping};
 pub use header_stamps::{Delay, Drift, HeaderStamps};
 pub use loss::{Loss, LossKind};
-pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping};
+pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
 pub use place::Place;
 pub use quality::{
     At, Extreme, Finding, FindingKind, Gaps, Grid, Quality, QualityMeter, Severity, Stretch, Tally, Timing, Values,

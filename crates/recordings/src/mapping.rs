@@ -130,14 +130,7 @@ impl FileMapping {
     /// # Ok::<(), recordings::RecordingError>(())
     /// ```
     pub fn run_id<'n>(&self, file: &'n str) -> Option<&'n str> {
-        let (prefix, suffix) = self.pattern.split_once('*')?;
-        let rest = base_name(file).strip_prefix(prefix)?;
-        let cut = |suffix: &str| rest.strip_suffix(suffix).filter(|id| !id.is_empty());
-        let Some((before, choice)) = suffix.strip_suffix('}').and_then(|suffix| suffix.split_once('{')) else {
-            return cut(suffix);
-        };
-        // The longest ending that fits leaves the shortest id.
-        choice.split(',').filter_map(|ending| cut(&format!("{before}{ending}"))).min_by_key(|id| id.len())
+        run_id(&self.pattern, file)
     }
 
     /// The run's id of a file that may be one part of a bag: in a folder `walk`, `walk_0.mcap` and `walk_1.mcap` are
@@ -156,6 +149,28 @@ impl FileMapping {
     pub(crate) fn file_of(&self, run_id: &str) -> String {
         self.pattern.replacen('*', run_id, 1)
     }
+}
+
+/// What stands in the place of `*` of a pattern.
+fn run_id<'n>(pattern: &str, file: &'n str) -> Option<&'n str> {
+    let (prefix, suffix) = pattern.split_once('*')?;
+    let rest = base_name(file).strip_prefix(prefix)?;
+    let cut = |suffix: &str| rest.strip_suffix(suffix).filter(|id| !id.is_empty());
+    let Some((before, choice)) = suffix.strip_suffix('}').and_then(|suffix| suffix.split_once('{')) else {
+        return cut(suffix);
+    };
+    // The longest ending that fits leaves the shortest id.
+    choice.split(',').filter_map(|ending| cut(&format!("{before}{ending}"))).min_by_key(|id| id.len())
+}
+
+/// Whether a file's name is that of a bag, in any storage of rosbag2, folders aside.
+///
+/// ```
+/// assert!(recordings::is_bag("walk/walk_0.mcap") && recordings::is_bag("walk_0.db3.zstd"));
+/// assert!(!recordings::is_bag("walk/metadata.yaml"));
+/// ```
+pub fn is_bag(file: &str) -> bool {
+    run_id(BAG_PATTERN, file).is_some()
 }
 
 /// The part of a path after the last slash of either kind.

@@ -11,11 +11,11 @@ use lacuna::answers::Told;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::binary::Binary;
-use super::child;
 use super::draw::clear;
 use super::layout::Layout;
 use super::seal::{Seal, Seals};
+use crate::binary::Binary;
+use crate::child;
 use crate::output;
 
 /// Exit codes of `lacuna diagnose` with an answer: done, and done although some input was lost.

@@ -7,9 +7,9 @@ use anyhow::{Context, Result};
 use examiner::{Plan, sha256};
 use rayon::prelude::*;
 
-use super::binary::sha256_of;
 use super::layout::Layout;
 use super::seal::{Seal, Seals};
+use crate::binary::sha256_of;
 use crate::output;
 
 /// Draws what is not there yet and returns the seals of all. Seals are on disk when this returns.

@@ -12,10 +12,8 @@ use clap::Args as ClapArgs;
 use examiner::Plan;
 use rayon::ThreadPool;
 
-use crate::output;
+use crate::{binary, output};
 
-mod binary;
-mod child;
 mod diagnose;
 mod draw;
 mod figures;

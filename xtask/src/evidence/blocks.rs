@@ -37,9 +37,8 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
             Some(inertial) => Some(Witness::of(&run.speeds, inertial)?),
             None => None,
         };
-        let its = |t: f64| {
-            lag.as_ref().map_or(t, |w| t + w.lag[w.time.partition_point(|x| *x < t).min(w.lag.len() - 1)])
-        };
+        let its =
+            |t: f64| lag.as_ref().map_or(t, |w| t + w.lag[w.time.partition_point(|x| *x < t).min(w.lag.len() - 1)]);
         let mut from = 0.0;
         let mut k = 0;
         while last - from >= LEAST {
@@ -47,8 +46,16 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
             let id = format!("{}b{k}", run.id);
             let cut = |t: &Table, a: f64, b: f64| t.between(a, b);
             let speeds = cut(&run.speeds, from, until)?;
-            let inertial = run.inertial.as_ref().map(|t| cut(t, its(from), if until < last { its(until) } else { f64::MAX })).transpose()?;
-            blocks.push((format!("{} from {from:.0} s", run.found.name), id.clone(), copy(&folder, &id, &speeds, inertial.as_ref(), Sight::All)?));
+            let inertial = run
+                .inertial
+                .as_ref()
+                .map(|t| cut(t, its(from), if until < last { its(until) } else { f64::MAX }))
+                .transpose()?;
+            blocks.push((
+                format!("{} from {from:.0} s", run.found.name),
+                id.clone(),
+                copy(&folder, &id, &speeds, inertial.as_ref(), Sight::All)?,
+            ));
             from = until.min(last);
             k += 1;
         }
@@ -69,7 +76,9 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
         let mut alarms: Vec<String> = ratios
             .iter()
             .filter(excluded)
-            .map(|r| format!("{} {:.2}", r["quantity"].as_str().unwrap_or("?"), r["ratio"].as_f64().unwrap_or(f64::NAN)))
+            .map(|r| {
+                format!("{} {:.2}", r["quantity"].as_str().unwrap_or("?"), r["ratio"].as_f64().unwrap_or(f64::NAN))
+            })
             .collect();
         if answer.diagnosis["verdict"] == "explained" || answer.diagnosis["verdict"] == "unknown" {
             alarms.push("a cause is named".to_owned());
@@ -128,5 +137,11 @@ pub(super) fn joined(binary: &Binary, first: &Run, second: &Run, references: &[&
     let nearest = answer.changes("found").iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let told = nearest.map(|c| [interval(&c["onset"]), interval(&c["end"])]);
     let name = |f: &Found| f.name.clone();
-    Ok(Joined { names: [name(&first.found), name(&second.found)], join, told, changes: answer.changes("found").len(), answer })
+    Ok(Joined {
+        names: [name(&first.found), name(&second.found)],
+        join,
+        told,
+        changes: answer.changes("found").len(),
+        answer,
+    })
 }

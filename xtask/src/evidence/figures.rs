@@ -70,18 +70,55 @@ fn labels(e: &Evidence, out: &mut Vec<Figure>) {
     let sand: Vec<Load> = labelled(e, "SANDY_LOAM").flat_map(|r| loads(r, "straight_load")).collect();
     let off = |centre: f64| move |l: &Load| (l.ratio - centre).abs();
     let most = |all: Vec<f64>| all.into_iter().max_by(f64::total_cmp);
-    add(out, "sandy loam: straight load, median of the runs", median(sand.iter().map(|l| l.ratio).collect()), "times", None);
-    add(out, "sandy loam: furthest from 2.05", most(sand.iter().map(off(2.05)).collect()), "", Some(Asked::AtMost(0.25)));
+    add(
+        out,
+        "sandy loam: straight load, median of the runs",
+        median(sand.iter().map(|l| l.ratio).collect()),
+        "times",
+        None,
+    );
+    add(
+        out,
+        "sandy loam: furthest from 2.05",
+        most(sand.iter().map(off(2.05)).collect()),
+        "",
+        Some(Asked::AtMost(0.25)),
+    );
     let width = |l: &Load| 0.5 * (l.interval[1] - l.interval[0]) / l.ratio;
-    add(out, "sandy loam: widest half interval of the straight load", most(sand.iter().map(width).collect()), "", Some(Asked::AtMost(0.2)));
-    let fast: Vec<Load> = labelled(e, "ASPHALT").flat_map(|r| loads(r, "straight_load")).filter(|l| l.speed > 0.7).collect();
-    add(out, "asphalt at 0.79 m/s: straight load, furthest from 1.05", most(fast.iter().map(off(1.05)).collect()), "", Some(Asked::AtMost(0.15)));
+    add(
+        out,
+        "sandy loam: widest half interval of the straight load",
+        most(sand.iter().map(width).collect()),
+        "",
+        Some(Asked::AtMost(0.2)),
+    );
+    let fast: Vec<Load> =
+        labelled(e, "ASPHALT").flat_map(|r| loads(r, "straight_load")).filter(|l| l.speed > 0.7).collect();
+    add(
+        out,
+        "asphalt at 0.79 m/s: straight load, furthest from 1.05",
+        most(fast.iter().map(off(1.05)).collect()),
+        "",
+        Some(Asked::AtMost(0.15)),
+    );
     let turning: Vec<Load> =
         labelled(e, "ASPHALT").flat_map(|r| loads(r, "turning_load")).filter(|l| l.seconds >= 10.0).collect();
-    add(out, "asphalt: turning load, furthest from 1.65", most(turning.iter().map(off(1.65)).collect()), "", Some(Asked::AtMost(0.35)));
+    add(
+        out,
+        "asphalt: turning load, furthest from 1.65",
+        most(turning.iter().map(off(1.65)).collect()),
+        "",
+        Some(Asked::AtMost(0.35)),
+    );
     let excludes = turning.iter().filter(|l| l.interval[0] > 1.0).count();
     if !turning.is_empty() {
-        add(out, "asphalt: turning loads whose interval excludes 1", Some(share(excludes, turning.len())), "", Some(Asked::AtLeast(1.0)));
+        add(
+            out,
+            "asphalt: turning loads whose interval excludes 1",
+            Some(share(excludes, turning.len())),
+            "",
+            Some(Asked::AtLeast(1.0)),
+        );
     }
     let given = |r: &Examined| {
         let turns = ["turning_load", "arc_sum", "spin_sum"].iter().any(|q| !loads(r, q).is_empty());
@@ -89,12 +126,19 @@ fn labels(e: &Evidence, out: &mut Vec<Figure>) {
     };
     let answers: usize = e.husky.iter().map(given).sum();
     if !e.husky.is_empty() {
-        add(out, "straight and turning answers given", Some(share(answers, 2 * e.husky.len())), "", Some(Asked::AtLeast(0.5)));
+        add(
+            out,
+            "straight and turning answers given",
+            Some(share(answers, 2 * e.husky.len())),
+            "",
+            Some(Asked::AtLeast(0.5)),
+        );
     }
 }
 
 fn tracks(e: &Evidence, out: &mut Vec<Figure>) {
-    for (label, range, half) in [("FLOORING", [0.752, 0.792], [0.0, 0.03]), ("SANDY_LOAM", [0.88, 1.02], [0.04, 0.10])] {
+    for (label, range, half) in [("FLOORING", [0.752, 0.792], [0.0, 0.03]), ("SANDY_LOAM", [0.88, 1.02], [0.04, 0.10])]
+    {
         let all: Vec<Load> = labelled(e, label).flat_map(|r| loads(r, "effective_track")).collect();
         if all.is_empty() {
             continue;
@@ -128,13 +172,37 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
             add(out, &format!("{name}: tilts told as not observable"), Some(count(Outcome::Hidden)), "", None);
             add(out, &format!("{name}: tilts missed"), Some(count(Outcome::Missed)), "", Some(Asked::AtMost(0.0)));
         }
-        add(out, &format!("{name}: largest error of onset or end"), most(&|s| s.onset.max(s.end)), "s", Some(Asked::AtMost(times)));
-        add(out, &format!("{name}: largest error of the angle"), most(&|s| s.angle), "degrees", Some(Asked::AtMost(angle)));
+        add(
+            out,
+            &format!("{name}: largest error of onset or end"),
+            most(&|s| s.onset.into_iter().chain(s.end).max_by(f64::total_cmp)),
+            "s",
+            Some(Asked::AtMost(times)),
+        );
+        add(
+            out,
+            &format!("{name}: largest error of the angle"),
+            most(&|s| s.angle),
+            "degrees",
+            Some(Asked::AtMost(angle)),
+        );
         if hard().next().is_some() {
             let contradicted = seen.iter().filter(|s| s.contradicted).count() as f64;
-            add(out, &format!("{name}: bounds that the witness contradicts"), Some(contradicted), "", Some(Asked::AtMost(0.0)));
+            add(
+                out,
+                &format!("{name}: bounds that the witness contradicts"),
+                Some(contradicted),
+                "",
+                Some(Asked::AtMost(0.0)),
+            );
             let wrong = claims.iter().filter(|c| c.is_false()).count() as f64;
-            add(out, &format!("{name}: claims in which the witness is level"), Some(wrong), "", Some(Asked::AtMost(0.0)));
+            add(
+                out,
+                &format!("{name}: claims in which the witness is level"),
+                Some(wrong),
+                "",
+                Some(Asked::AtMost(0.0)),
+            );
         }
     }
     let findings: Vec<bool> = e
@@ -147,7 +215,13 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
         .collect();
     if !findings.is_empty() {
         let held = share(findings.iter().filter(|h| **h).count(), findings.len());
-        add(out, "stated intervals and bounds that hold the witness, all ground", Some(held), "", Some(Asked::AtLeast(0.8)));
+        add(
+            out,
+            "stated intervals and bounds that hold the witness, all ground",
+            Some(held),
+            "",
+            Some(Asked::AtLeast(0.8)),
+        );
     }
     let mut clocks: Vec<f64> = e.husky.iter().flat_map(|r| &r.clocks).map(|c| c.abs()).collect();
     add(out, "clocks on turns left out: median error", quantile(&mut clocks, 0.5), "s", Some(Asked::AtMost(0.2)));
@@ -160,12 +234,36 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
         all.add(t);
     }
     if all.arcs[0] > 0 {
-        add(out, "gyro withheld: turning samples with the right side", Some(share(all.arcs[1], all.arcs[0])), "", Some(Asked::AtLeast(0.95)));
-        add(out, "gyro withheld: with the wrong side", Some(share(all.arcs[2], all.arcs[0])), "", Some(Asked::AtMost(0.01)));
-        add(out, "gyro withheld: straight samples told as turning", Some(share(all.straight[1], all.straight[0])), "", Some(Asked::AtMost(0.2)));
+        add(
+            out,
+            "gyro withheld: turning samples with the right side",
+            Some(share(all.arcs[1], all.arcs[0])),
+            "",
+            Some(Asked::AtLeast(0.95)),
+        );
+        add(
+            out,
+            "gyro withheld: with the wrong side",
+            Some(share(all.arcs[2], all.arcs[0])),
+            "",
+            Some(Asked::AtMost(0.01)),
+        );
+        add(
+            out,
+            "gyro withheld: straight samples told as turning",
+            Some(share(all.straight[1], all.straight[0])),
+            "",
+            Some(Asked::AtMost(0.2)),
+        );
     }
     if all.spins[0] > 0 {
-        add(out, "gyro withheld: spins told (unsigned currents have no side)", Some(share(all.spins[1], all.spins[0])), "", Some(Asked::AtLeast(0.95)));
+        add(
+            out,
+            "gyro withheld: spins told (unsigned currents have no side)",
+            Some(share(all.spins[1], all.spins[0])),
+            "",
+            Some(Asked::AtLeast(0.95)),
+        );
     }
     if !e.husky.is_empty() {
         let stuck = e.husky.iter().map(|r| r.open.steady("standstills").len()).sum::<usize>() + all.stuck;
@@ -175,13 +273,21 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
 
 fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
     let of = |quantity: &'static str| {
-        e.husky.iter().filter(|r| r.hard).flat_map(|r| r.open.steady("forecasts")).filter(move |f| {
-            f["quantity"].as_str().is_some_and(|q| q.starts_with(quantity))
-        })
+        e.husky
+            .iter()
+            .filter(|r| r.hard)
+            .flat_map(|r| r.open.steady("forecasts"))
+            .filter(move |f| f["quantity"].as_str().is_some_and(|q| q.starts_with(quantity)))
     };
     let number = |f: &Value, what: &str| f[what].as_f64().unwrap_or(f64::NAN);
     let gain = median(of("torque").map(|f| number(f, "retuned") / number(f, "corrected")).collect());
-    add(out, "forecast of currents: re-tuned level over corrected, median of the runs", gain, "times", Some(Asked::AtLeast(1.8)));
+    add(
+        out,
+        "forecast of currents: re-tuned level over corrected, median of the runs",
+        gain,
+        "times",
+        Some(Asked::AtLeast(1.8)),
+    );
     let beats = |f: &&Value| {
         let own = number(f, "corrected");
         f["placebos"].as_array().is_some_and(|p| p.iter().all(|x| x[1].as_f64().is_some_and(|x| x > own)))
@@ -189,7 +295,13 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
     let runs = of("torque").count();
     if runs > 0 {
         let won = share(of("torque").filter(beats).count(), runs);
-        add(out, "forecast of currents: better than each placebo", Some(won), "of the runs", Some(Asked::AtLeast(5.0 / 6.0)));
+        add(
+            out,
+            "forecast of currents: better than each placebo",
+            Some(won),
+            "of the runs",
+            Some(Asked::AtLeast(5.0 / 6.0)),
+        );
     }
     let yaw = median(of("yaw").map(|f| number(f, "corrected")).collect());
     add(out, "forecast of the yaw rate: rms, median of the runs", yaw, "rad/s", Some(Asked::AtMost(0.02)));
@@ -201,8 +313,15 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
         let alarms: usize = e.null.iter().map(|b| b.alarms.len()).sum();
         add(out, "null: alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
     }
-    let steps: Vec<f64> = e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(blocks_error).collect();
-    add(out, "joined runs: floor to sand, largest error of the onset", steps.into_iter().max_by(f64::total_cmp), "s", None);
+    let steps: Vec<f64> =
+        e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(blocks_error).collect();
+    add(
+        out,
+        "joined runs: floor to sand, largest error of the onset",
+        steps.into_iter().max_by(f64::total_cmp),
+        "s",
+        None,
+    );
 }
 
 fn blocks_error(j: &super::blocks::Joined) -> Option<f64> {

@@ -17,14 +17,17 @@ impl Table {
     pub(super) fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
         let mut reader = csv::Reader::from_path(path).with_context(|| format!("cannot read '{shown}'"))?;
-        let columns = reader.headers().with_context(|| format!("'{shown}' has no header"))?.iter().map(str::to_owned).collect();
+        let columns =
+            reader.headers().with_context(|| format!("'{shown}' has no header"))?.iter().map(str::to_owned).collect();
         let rows = reader
             .records()
             .enumerate()
             .map(|(i, row)| {
                 let row = row.with_context(|| format!("'{shown}', line {}", i + 2))?;
                 row.iter()
-                    .map(|cell| cell.trim().parse().with_context(|| format!("'{shown}', line {}: '{cell}' is no number", i + 2)))
+                    .map(|cell| {
+                        cell.trim().parse().with_context(|| format!("'{shown}', line {}: '{cell}' is no number", i + 2))
+                    })
                     .collect()
             })
             .collect::<Result<_>>()?;
@@ -135,7 +138,9 @@ impl Sight {
         let inertial = if inertial.is_empty() {
             String::new()
         } else {
-            format!("\n[[files]]\npattern = \"imu_*.csv\"\ntime = {{ column = \"time\", unit = \"s\", rate_hz = 100.0 }}\n\n[files.signals]\n{inertial}")
+            format!(
+                "\n[[files]]\npattern = \"imu_*.csv\"\ntime = {{ column = \"time\", unit = \"s\", rate_hz = 100.0 }}\n\n[files.signals]\n{inertial}"
+            )
         };
         format!("{SPEEDS}{inertial}")
     }
@@ -156,13 +161,7 @@ command_speed_right = { column = "velR", unit = "m/s", scale = 6.056935190793458
 "#;
 
 /// Writes the neutral copy of a recording into `folder`; returns the file to be named.
-pub(super) fn copy(
-    folder: &Path,
-    id: &str,
-    speeds: &Table,
-    inertial: Option<&Table>,
-    sight: Sight,
-) -> Result<PathBuf> {
+pub(super) fn copy(folder: &Path, id: &str, speeds: &Table, inertial: Option<&Table>, sight: Sight) -> Result<PathBuf> {
     let mut speeds = speeds.only(&["time", "curL", "curR", "velL", "velR"])?;
     if sight == Sight::Currents {
         for row in &mut speeds.rows {

@@ -110,6 +110,8 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
         v["witness"] = both.as_ref().map_or(Value::Null, |(s, c)| as_json(s, c));
         v
     };
+    let mut without_gyro = withheld.seal();
+    without_gyro["witness"] = turned.map_or(Value::Null, |t| t.as_json());
     let d = &open.diagnosis;
     let document = json!({
         "name": run.found.name,
@@ -132,11 +134,7 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
         "protocols": {
             "currents_and_yaw_rate": with_witness(&currents, &by_currents),
             "with_roll_and_pitch_rate": with_witness(&gyro, &by_gyro),
-            "gyro_withheld": {
-                let mut v = withheld.seal();
-                v["witness"] = turned.map_or(Value::Null, |t| t.as_json());
-                v
-            },
+            "gyro_withheld": without_gyro,
         },
     });
     Ok(Examined {

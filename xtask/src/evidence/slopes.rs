@@ -95,8 +95,7 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness) -> Seen {
         .map(|c| (overlap(interval(&c["interval"]), tilted.interval), c))
         .filter(|(o, _)| *o > 0.0)
         .max_by(|a, b| a.0.total_cmp(&b.0));
-    let hidden: f64 =
-        answer.changes("hidden").iter().map(|h| overlap(interval(&h["interval"]), tilted.interval)).sum();
+    let hidden: f64 = answer.changes("hidden").iter().map(|h| overlap(interval(&h["interval"]), tilted.interval)).sum();
     let Some((_, change)) = best else {
         let outcome = if hidden > MOSTLY * length { Outcome::Hidden } else { Outcome::Missed };
         return Seen { tilted, outcome, onset: None, end: None, angle: None, contradicted: false, decided: false };

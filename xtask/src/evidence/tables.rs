@@ -54,10 +54,18 @@ fn verdicts(e: &Evidence) -> Section {
         &["run", "what the program said", "SHA-256 of the verdict"],
     );
     for r in &e.husky {
-        s.rows.push(vec![r.name.as_str().into(), joined(&r.open.sentences).into(), r.open.sha256[..12].to_owned().into()]);
+        s.rows.push(vec![
+            r.name.as_str().into(),
+            joined(&r.open.sentences).into(),
+            r.open.sha256[..12].to_owned().into(),
+        ]);
     }
     for k in &e.kobuki {
-        s.rows.push(vec![k.name.as_str().into(), joined(&k.answer.sentences).into(), k.answer.sha256[..12].to_owned().into()]);
+        s.rows.push(vec![
+            k.name.as_str().into(),
+            joined(&k.answer.sentences).into(),
+            k.answer.sha256[..12].to_owned().into(),
+        ]);
     }
     s
 }
@@ -102,7 +110,8 @@ fn tilts(e: &Evidence, title: &str, of: impl Fn(&Examined) -> Option<&(Vec<Seen>
             ]);
         }
         for c in c {
-            let size = if c.bound { format!("at most {:.1}", c.slope) } else { format!("{:.1} ± {:.1}", c.slope, c.half) };
+            let size =
+                if c.bound { format!("at most {:.1}", c.slope) } else { format!("{:.1} ± {:.1}", c.slope, c.half) };
             let inside = match c.holds() {
                 Some(true) => toned("yes", Tone::Good),
                 Some(false) => toned("no", Tone::Bad),
@@ -124,7 +133,9 @@ fn tilts(e: &Evidence, title: &str, of: impl Fn(&Examined) -> Option<&(Vec<Seen>
 fn withheld(e: &Evidence) -> Section {
     let mut s = Section::new("Answers that were withheld", "", &["run", "answer", "why"]);
     for r in &e.husky {
-        for w in r.open.steady("withheld").iter().filter(|w| !w["recording"].as_str().unwrap_or("").starts_with("reference")) {
+        for w in
+            r.open.steady("withheld").iter().filter(|w| !w["recording"].as_str().unwrap_or("").starts_with("reference"))
+        {
             let text = |k: &str| w[k].as_str().unwrap_or("-").replace('_', " ");
             s.rows.push(vec![r.name.as_str().into(), text("quantity").into(), text("reason").into()]);
         }
@@ -141,7 +152,8 @@ fn forecasts(e: &Evidence) -> Section {
     for r in &e.husky {
         for f in r.open.steady("forecasts") {
             let n = |k: &str| number(f[k].as_f64());
-            let best = f["placebos"].as_array().and_then(|p| p.iter().filter_map(|x| x[1].as_f64()).min_by(f64::total_cmp));
+            let best =
+                f["placebos"].as_array().and_then(|p| p.iter().filter_map(|x| x[1].as_f64()).min_by(f64::total_cmp));
             let what = f["quantity"].as_str().unwrap_or("-").to_owned();
             s.rows.push(vec![
                 r.name.as_str().into(),
@@ -213,7 +225,12 @@ fn asked(figures: &[Figure]) -> Section {
             None => "".into(),
         };
         let value = format!("{} {}", number(Some(f.value)), f.unit);
-        s.rows.push(vec![f.name.as_str().into(), value.trim().into(), f.target.clone().unwrap_or_default().into(), met]);
+        s.rows.push(vec![
+            f.name.as_str().into(),
+            value.trim().into(),
+            f.target.clone().unwrap_or_default().into(),
+            met,
+        ]);
     }
     s
 }
@@ -228,12 +245,12 @@ pub(super) fn write(e: &Evidence, out: &Path, docs: bool) -> Result<()> {
     }
     let figures = figures(e);
     let joined: Vec<_> = e.joined.iter().map(super::blocks::Joined::as_json).collect();
-    let null: Vec<_> = e
+    let blocks: Vec<_> = e
         .null
         .iter()
         .map(|b| json!({ "block": b.name, "answers": b.answers, "alarms": b.alarms, "sealed": b.answer.seal() }))
         .collect();
-    let summary = json!({ "figures": figures, "joined": joined, "null": null, "failed": e.failed });
+    let summary = json!({ "figures": figures, "joined": joined, "null": blocks, "failed": e.failed });
     output::write(out, "summary.json", &(serde_json::to_string_pretty(&summary)? + "\n"))?;
     let mut sections = vec![asked(&figures), verdicts(e)];
     sections.extend(tilts(e, "By currents and yaw rate", |r| r.by_currents.as_ref()));

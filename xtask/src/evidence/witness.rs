@@ -130,6 +130,9 @@ mod tests {
         let found = Witness::of(&speeds, &inertial).expect("a witness").tilted();
         assert_eq!(found.len(), 1);
         let [from, until] = found[0].interval;
-        assert!((from - 10.0).abs() < 0.5 && (until - 20.0).abs() < 0.5 && (found[0].slope + 3.9).abs() < 0.3, "{found:?}");
+        assert!(
+            (from - 10.0).abs() < 0.5 && (until - 20.0).abs() < 0.5 && (found[0].slope + 3.9).abs() < 0.3,
+            "{found:?}"
+        );
     }
 }

@@ -1,14 +1,13 @@
 //! `lacuna check`: what is inside recordings, and how good it is.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
-use lacuna::case_folder;
 use lacuna::inputs::{self, Loaded};
-use lacuna::{propose, skeleton};
-use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Quality, TableContents, contents, group_by_content};
+use lacuna::propose::{self, Proposal};
+use lacuna::{case_folder, skeleton, which_mapping};
+use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Mapping, Quality, TableContents, group_by_content};
 
 use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json};
@@ -27,12 +26,10 @@ Examples:
   lacuna check FLOORING --mapping husky-open           the channels of CSV recordings
   lacuna check log.csv --write-mapping map.toml        of an unknown table a skeleton, to say which column is what
 
-Without --mapping the built-in mappings are tried; the first that fits is used and named.
+Without --mapping the built-in mappings are tried; the first that fits is used and named. Where none fits a bag, one is
+proposed and used here, with all that was inferred; lacuna diagnose asks for it to be written and named.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
-
-/// Endings of files that are bags.
-const BAGS: [&str; 4] = [".mcap", ".db3", ".mcap.zstd", ".db3.zstd"];
 
 /// Arguments of `lacuna check`.
 #[derive(Debug, ClapArgs)]
@@ -75,14 +72,25 @@ struct Mapped {
     permits: Vec<String>,
 }
 
+/// The mapping that was used.
+enum Used {
+    /// By the user.
+    Named(String),
+    /// Found to fit.
+    BuiltIn(String),
+    /// Proposed for this bag, with what was inferred.
+    Proposed { bag: String, inferred: Vec<String> },
+    /// None; why a proposed one does not read the recordings, if one was.
+    Nothing(Option<String>),
+}
+
 /// All that was found.
 struct Checked {
     /// Bags and what is inside, before anybody has said what it means.
     bags: Vec<(String, Contents)>,
     /// Tables that no mapping fits.
     tables: Vec<(String, TableContents)>,
-    /// The mapping that was used, and whether it was named or found.
-    mapping: Option<(String, bool)>,
+    mapping: Used,
     recordings: Vec<Mapped>,
     /// Recordings of the same data.
     same: Vec<Vec<String>>,
@@ -103,14 +111,15 @@ struct Proposed {
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
     let mut bags = Vec::new();
-    for path in bag_files(&args.paths)? {
-        let name = path.display().to_string();
-        progress.stage(&name);
-        let mut file = File::open(&path).with_context(|| format!("cannot read '{name}'"))?;
-        bags.push((name.clone(), contents(&name, &mut file)?));
+    for path in &args.paths {
+        ensure!(path.exists(), "there is no file or folder '{}'", path.display());
+    }
+    for path in which_mapping::bags(&args.paths)? {
+        progress.stage(&path.display().to_string());
+        bags.push(which_mapping::look(&path)?);
     }
     progress.stage("channels");
-    let (mapping, loaded, tables) = mapped(args, !bags.is_empty())?;
+    let (mapping, loaded, tables) = mapped(args, &bags)?;
     let prints: Vec<Fingerprint> = loaded.reads.iter().map(|r| Fingerprint::of(&r.recording)).collect();
     let names: Vec<String> = loaded.reads.iter().map(case_folder::file_names).collect();
     let same = group_by_content(&prints).into_iter().filter(|group| group.len() > 1);
@@ -169,40 +178,27 @@ fn measure(channel: &recordings::Channel) -> Measured {
     }
 }
 
-/// The bags among files, in folders and in the folders of these.
-fn bag_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    let is_bag = |path: &Path| BAGS.iter().any(|end| path.to_string_lossy().ends_with(end));
-    let mut out = Vec::new();
-    for path in paths {
-        ensure!(path.exists(), "there is no file or folder '{}'", path.display());
-        if path.is_dir() {
-            let mut folders = vec![path.clone()];
-            folders.extend(inputs::list(path)?.into_iter().filter(|p| p.is_dir()));
-            for folder in folders {
-                out.extend(inputs::list(&folder)?.into_iter().filter(|p| p.is_file() && is_bag(p)));
-            }
-        } else if is_bag(path) {
-            out.push(path.clone());
-        }
-    }
-    Ok(out)
-}
+/// The mapping that was used, what it read, and tables that none fits.
+type Tried = (Used, Loaded, Vec<(String, TableContents)>);
 
-/// The mapping that was used and whether it was named, what it read, and tables that none fits.
-type Mapping = (Option<(String, bool)>, Loaded, Vec<(String, TableContents)>);
-
-/// The recordings as a mapping reads them: the one that was named, else the first built-in one that fits all.
-fn mapped(args: &Args, some_bags: bool) -> Result<Mapping> {
+/// The recordings as a mapping reads them: the one that was named, else the first built-in one that fits all, else for
+/// bags one that is proposed.
+fn mapped(args: &Args, bags: &[(String, Contents)]) -> Result<Tried> {
     let options = args.reading.options();
+    let load = |mapping: &Mapping| inputs::load(mapping, &args.paths, &options);
     if let Some(name) = &args.mapping {
-        let loaded = inputs::load(&case_folder::mapping(name)?, &args.paths, &options)?;
-        return Ok((Some((name.clone(), true)), loaded, Vec::new()));
+        return Ok((Used::Named(name.clone()), load(&case_folder::mapping(name)?)?, Vec::new()));
     }
     let (mut failures, mut broken) = (Vec::new(), false);
     for (name, _) in BUILT_IN_MAPPINGS {
-        match case_folder::mapping(name).and_then(|m| inputs::load(&m, &args.paths, &options)) {
+        let mapping = case_folder::mapping(name)?;
+        let of_bags = mapping.files.iter().any(|entry| entry.topic.is_some());
+        if of_bags && !bags.iter().any(|(_, contents)| which_mapping::fits(&mapping, contents)) {
+            continue;
+        }
+        match load(&mapping) {
             Ok(loaded) if loaded.unmatched.is_empty() => {
-                return Ok((Some(((*name).to_owned(), false)), loaded, Vec::new()));
+                return Ok((Used::BuiltIn((*name).to_owned()), loaded, Vec::new()));
             }
             Ok(_) => {}
             Err(error) => {
@@ -211,11 +207,21 @@ fn mapped(args: &Args, some_bags: bool) -> Result<Mapping> {
             }
         }
     }
-    if some_bags {
-        return Ok((None, Loaded::default(), Vec::new()));
+    if bags.is_empty() {
+        // A table that has the right columns and is broken is no unknown table.
+        let tables = if broken { Vec::new() } else { tables::look(&args.paths)? };
+        ensure!(!tables.is_empty(), "no built-in mapping fits; name one with --mapping\n  {}", failures.join("\n  "));
+        return Ok((Used::Nothing(None), Loaded::default(), tables));
     }
-    // A table that has the right columns and is broken is no unknown table.
-    let tables = if broken { Vec::new() } else { tables::look(&args.paths)? };
-    ensure!(!tables.is_empty(), "no built-in mapping fits; name one with --mapping\n  {}", failures.join("\n  "));
-    Ok((None, Loaded::default(), tables))
+    for (bag, contents) in bags {
+        let Some(Proposal { toml, inferred }) = propose::mapping("proposed", contents) else { continue };
+        return Ok(match Mapping::parse("proposed", &toml).map_err(Into::into).and_then(|mapping| load(&mapping)) {
+            Ok(loaded) => (Used::Proposed { bag: bag.clone(), inferred }, loaded, Vec::new()),
+            Err(error) => {
+                let why = format!("a mapping proposed for {bag} does not read the recordings: {error:#}");
+                (Used::Nothing(Some(why)), Loaded::default(), Vec::new())
+            }
+        });
+    }
+    Ok((Used::Nothing(None), Loaded::default(), Vec::new()))
 }

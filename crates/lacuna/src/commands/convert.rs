@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
-use lacuna::case_folder::{self, file_names};
-use lacuna::inputs;
+use lacuna::case_folder::file_names;
+use lacuna::{inputs, which_mapping};
 use recordings::{Recording, lost_in_csv, write_csv, write_mcap, write_parquet};
 
 use super::{Outcome, Reading, Usage, listed};
@@ -32,9 +32,10 @@ pub(crate) struct Args {
     /// Files or the folder of one recording.
     #[arg(required = true, num_args = 1..)]
     recording: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
-    #[arg(long, value_name = "NAME|FILE", default_value = "skid-steer-columns")]
-    mapping: String,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
     /// File to write: .mcap, .parquet or .csv.
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
@@ -101,7 +102,7 @@ fn write(recording: &Recording, format: Format, clock: usize, path: &Path) -> Re
 /// Converts a recording.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let format = format(&args.out)?;
-    let mapping = case_folder::mapping(&args.mapping)?;
+    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
     let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
     let [read] = loaded.reads.as_slice() else {
         let names: Vec<String> = loaded.reads.iter().map(file_names).collect();

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args as ClapArgs;
 use diagnosis::{Diagnosis, Options};
 use lacuna::case_folder::{self, CaseFolder};
-use lacuna::{Causality, predictions};
+use lacuna::{Causality, predictions, which_mapping};
 
 use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json, warning};
@@ -48,9 +48,10 @@ pub(crate) struct Args {
     /// Robot file, or name of a built-in robot.
     #[arg(long, value_name = "NAME|FILE")]
     robot: Option<String>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
-    #[arg(long, value_name = "NAME|FILE", default_value = "skid-steer-columns")]
-    mapping: String,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
     /// Files or folders of drives in which the simulation was right; a speed-driven robot can do without, and is then
     /// compared with its robot file.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
@@ -79,7 +80,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
-    let case = read(args)?;
+    let (case, mapping) = read(args)?;
     let options = Options::default();
     let stage = |what: &str| progress.stage(what);
     let diagnosis = match case.robot.causality {
@@ -105,29 +106,35 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             case: &case,
             lost: &lost,
             options: &options,
-            mapping: &args.mapping,
+            mapping: args.mapping.as_deref().unwrap_or(&mapping),
             reading: args.reading,
         };
         emit_json(target, &as_json::render(&diagnosis, &provenance)?)?;
     }
     if args.json.as_deref() != Some("-") {
-        emit(&as_text::render(&diagnosis, &case, &lost))?;
+        // Tables say themselves which column is which signal.
+        let found = (args.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
+        emit(&as_text::render(&diagnosis, &case, &lost, found))?;
     }
     Ok(Outcome::of(&lost))
 }
 
-/// The case that the arguments name.
-fn read(args: &Args) -> Result<CaseFolder> {
-    let mapping = case_folder::mapping(&args.mapping)?;
+/// The case that the arguments name, and the name of the mapping that read it.
+fn read(args: &Args) -> Result<(CaseFolder, String)> {
     let options = args.reading.options();
     if let Some(folder) = &args.case {
-        return CaseFolder::open(folder, args.robot.as_deref(), &mapping, &options);
+        let parts: Vec<PathBuf> = case_folder::folders(folder).into_iter().filter(|part| part.is_dir()).collect();
+        let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &parts)?;
+        let case = CaseFolder::open(folder, args.robot.as_deref(), &mapping, &options)?;
+        return Ok((case, mapping.name));
     }
     let Some(robot) = &args.robot else {
         bail!("no robot was named; do so with --robot");
     };
     let paths: [&[PathBuf]; 3] = [&args.reference, &args.recordings, &args.heldout];
-    CaseFolder::from_paths(case_folder::robot(robot)?, paths, &mapping, &options)
+    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
+    let case = CaseFolder::from_paths(case_folder::robot(robot)?, paths, &mapping, &options)?;
+    Ok((case, mapping.name))
 }
 
 fn torque_driven(case: &CaseFolder, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 use clap::Args as ClapArgs;
 use lacuna::case_folder::{self, file_names};
-use lacuna::inputs;
+use lacuna::{inputs, which_mapping};
 
 use super::{Outcome, Reading};
 use crate::console::{emit, emit_json};
@@ -41,9 +41,10 @@ pub(crate) struct Args {
     /// File of the recording; of a run in several files, any one, or all.
     #[arg(required = true, num_args = 1..)]
     recording: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
-    #[arg(long, value_name = "NAME|FILE", default_value = "skid-steer-columns")]
-    mapping: String,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
     /// Resample to this period: states by linear interpolation, inputs held. Without it, the recording's own samples.
     #[arg(long, value_name = "SECONDS", value_parser = period)]
     step: Option<f64>,
@@ -78,7 +79,7 @@ struct Identification {
 /// Runs the identifier over a recording.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot(&args.robot)?;
-    let mapping = case_folder::mapping(&args.mapping)?;
+    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
     let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
     let [read] = loaded.reads.as_slice() else {
         let names: Vec<String> = loaded.reads.iter().map(file_names).collect();

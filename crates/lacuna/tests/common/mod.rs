@@ -2,6 +2,8 @@
 
 #![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
 
+pub mod bags;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::process::{Command, Output};
@@ -58,9 +60,14 @@ impl Bench {
 
     /// Writes a file below the folder.
     pub fn write(&self, name: &str, text: &str) {
+        self.write_bytes(name, text.as_bytes());
+    }
+
+    /// Writes bytes to a file below the folder.
+    pub fn write_bytes(&self, name: &str, bytes: &[u8]) {
         let path = self.0.path().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, text).unwrap();
+        fs::write(path, bytes).unwrap();
     }
 
     /// Reads a file below the folder.

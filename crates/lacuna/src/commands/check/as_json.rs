@@ -3,7 +3,7 @@
 use recordings::{Contents, HeaderStamps};
 use serde_json::{Value, json};
 
-use super::{Checked, Measured, tables};
+use super::{Checked, Measured, Used, tables};
 use crate::commands::program;
 
 /// Version of this form.
@@ -15,7 +15,7 @@ pub(super) fn render(c: &Checked) -> Value {
         "program": program(),
         "bags": c.bags.iter().map(|(name, contents)| bag(name, contents)).collect::<Vec<_>>(),
         "tables": c.tables.iter().map(tables::as_json).collect::<Vec<_>>(),
-        "mapping": c.mapping.as_ref().map(|(name, named)| json!({ "name": name, "named_by_user": named })),
+        "mapping": mapping(&c.mapping),
         "recordings": c.recordings.iter().map(|r| json!({
             "name": r.name,
             "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
@@ -27,6 +27,16 @@ pub(super) fn render(c: &Checked) -> Value {
         })),
         "lost": c.lost,
     })
+}
+
+fn mapping(used: &Used) -> Value {
+    let (name, named, inferred) = match used {
+        Used::Named(name) => (name.as_str(), true, None),
+        Used::BuiltIn(name) => (name.as_str(), false, None),
+        Used::Proposed { inferred, .. } => ("proposed", false, Some(inferred)),
+        Used::Nothing(_) => return Value::Null,
+    };
+    json!({ "name": name, "named_by_user": named, "inferred": inferred })
 }
 
 fn bag(name: &str, contents: &Contents) -> Value {

@@ -3,7 +3,7 @@
 use lacuna::text_table::{TextTable, number};
 use recordings::{Contents, Field, Severity};
 
-use super::{Checked, Mapped, Proposed, stamps, tables};
+use super::{Checked, Mapped, Proposed, Used, stamps, tables};
 use crate::commands::listed;
 use crate::console::heading;
 
@@ -14,16 +14,26 @@ pub(super) fn render(c: &Checked, fields: bool) -> String {
     }
     out.extend(c.tables.iter().map(tables::text));
     match &c.mapping {
-        Some((name, true)) => out += &format!("\nMapping: {name}.\n"),
-        Some((name, false)) => out += &format!("\nThe built-in mapping {name} fits these recordings.\n"),
-        None if !c.tables.is_empty() => {
+        Used::Named(name) => out += &format!("\nMapping: {name}.\n"),
+        Used::BuiltIn(name) => out += &format!("\nThe built-in mapping {name} fits these recordings.\n"),
+        Used::Proposed { bag, inferred } => {
+            out += &format!(
+                "\nNo built-in mapping fits. One was proposed for {bag}, by message types and joint names, and is used below.\n"
+            );
+            if c.proposed.is_none() {
+                out += "For a diagnosis have it written with --write-mapping FILE and look through it.\n";
+                out += &listed("Inferred", inferred);
+            }
+        }
+        Used::Nothing(_) if !c.tables.is_empty() => {
             out += "\nNo built-in mapping fits, and of a table nobody but you knows which column is which signal, in which \
                     unit and with which sign. Say it in a mapping (--write-mapping writes its skeleton) and give it with \
                     --mapping.\n";
         }
-        None => {
+        Used::Nothing(why) => {
             out += "\nNo built-in mapping fits, so that nobody knows which field is which signal. Write one that names them \
                     (--fields lists the fields, --write-mapping proposes one) and give it with --mapping.\n";
+            out += &why.as_ref().map(|why| format!("Tried: {why}\n")).unwrap_or_default();
         }
     }
     if let Some(Proposed { file, inferred, is_skeleton }) = &c.proposed {

@@ -16,8 +16,8 @@ const SHOWN: f64 = 0.005;
 /// Intervals shown per cause.
 const INTERVALS: usize = 3;
 
-/// The whole answer.
-pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String]) -> String {
+/// The whole answer; `mapping` is one that was found to fit, not named.
+pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping: Option<&str>) -> String {
     let mut out = String::new();
     for (i, sentence) in d.sentences.iter().enumerate() {
         out += &if i == 0 { heading(sentence) } else { format!("{sentence}\n") };
@@ -31,6 +31,8 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String]) -> Strin
     out += &listed("What limits this answer", &d.limits);
     out += &listed("Lost input", lost);
     out += &listed("Not used", &not_used(case));
+    let found = |name: &str| format!("{name}, which is built in and fits these bags; --mapping names another");
+    out += &listed("Mapping", &mapping.map(found).into_iter().collect::<Vec<_>>());
     out
 }
 

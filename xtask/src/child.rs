@@ -13,14 +13,14 @@ const LIMIT: Duration = Duration::from_mins(10);
 
 /// How a process ended.
 #[derive(Debug)]
-pub(super) struct Ended {
-    pub(super) status: ExitStatus,
+pub(crate) struct Ended {
+    pub(crate) status: ExitStatus,
     /// From start to end, s.
-    pub(super) seconds: f64,
+    pub(crate) seconds: f64,
     /// Time on a processor, s, where the system tells.
-    pub(super) processor: Option<f64>,
+    pub(crate) processor: Option<f64>,
     /// Most memory that it held, bytes, where the system tells.
-    pub(super) memory: Option<u64>,
+    pub(crate) memory: Option<u64>,
 }
 
 /// What the system tells about a process.
@@ -31,7 +31,7 @@ struct Usage {
 }
 
 /// Runs a command to its end.
-pub(super) fn run(command: &mut Command) -> Result<Ended> {
+pub(crate) fn run(command: &mut Command) -> Result<Ended> {
     let start = Instant::now();
     let mut child =
         command.spawn().with_context(|| format!("cannot start '{}'", command.get_program().to_string_lossy()))?;

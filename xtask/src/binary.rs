@@ -9,13 +9,13 @@ use anyhow::{Context, Result, ensure};
 
 /// The program and what tells it from other builds.
 #[derive(Debug, Clone)]
-pub(super) struct Binary {
-    pub(super) path: PathBuf,
-    pub(super) sha256: String,
+pub(crate) struct Binary {
+    pub(crate) path: PathBuf,
+    pub(crate) sha256: String,
 }
 
 /// Finds `lacuna`; builds it when it is not there.
-pub(super) fn find() -> Result<Binary> {
+pub(crate) fn find() -> Result<Binary> {
     let this = std::env::current_exe().context("cannot tell where this program is")?;
     let name = format!("lacuna{EXE_SUFFIX}");
     let beside = this.with_file_name(&name);
@@ -61,7 +61,7 @@ fn newer_source(program: &Path) -> Option<PathBuf> {
 }
 
 /// SHA-256 of a file.
-pub(super) fn sha256_of(path: &Path) -> Result<String> {
+pub(crate) fn sha256_of(path: &Path) -> Result<String> {
     let bytes = fs::read(path).with_context(|| format!("cannot read '{}'", path.display()))?;
     Ok(examiner::sha256(&bytes))
 }

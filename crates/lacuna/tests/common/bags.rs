@@ -1,0 +1,93 @@
+//! Small bags of robots, made in the test.
+
+use std::collections::BTreeMap;
+
+use mcap::WriteOptions;
+use mcap::records::MessageHeader;
+
+/// A topic and its message at a time in s.
+pub struct Topic {
+    name: String,
+    message_type: &'static str,
+    /// Encoding of messages, encoding of the schema, schema.
+    form: (&'static str, &'static str, &'static str),
+    message: Box<dyn Fn(f64) -> Vec<u8>>,
+}
+
+fn json(name: &str, message_type: &'static str, message: impl Fn(f64) -> String + 'static) -> Topic {
+    let message = Box::new(move |t| message(t).into_bytes());
+    Topic { name: name.to_owned(), message_type, form: ("json", "jsonschema", "{}"), message }
+}
+
+/// A topic of CDR messages with their definition.
+pub fn cdr(
+    name: &str,
+    message_type: &'static str,
+    definition: &'static str,
+    message: impl Fn(f64) -> Vec<u8> + 'static,
+) -> Topic {
+    Topic { name: name.to_owned(), message_type, form: ("cdr", "ros2msg", definition), message: Box::new(message) }
+}
+
+/// Joints with angles, speeds and efforts.
+pub fn joint_states(name: &str, joints: &[&str]) -> Topic {
+    let names = joints.iter().map(|joint| format!("\"{joint}\"")).collect::<Vec<_>>().join(",");
+    let count = joints.len();
+    let message = move |t: f64| {
+        let list = |value: f64| vec![format!("{value:.4}"); count].join(",");
+        let (angle, speed) = (3.0 * t, 3.0 + (2.0 * t).sin());
+        format!(
+            r#"{{"header":{},"name":[{names}],"position":[{}],"velocity":[{}],"effort":[{}]}}"#,
+            header(t),
+            list(angle),
+            list(speed),
+            list(0.2 * speed)
+        )
+    };
+    json(name, "sensor_msgs/msg/JointState", message)
+}
+
+/// An inertial unit.
+pub fn imu(name: &str) -> Topic {
+    let message = |t: f64| {
+        let vector = |z: f64| format!(r#"{{"x":{:.4},"y":0.01,"z":{z:.4}}}"#, 0.1 * t.cos());
+        let header = header(t);
+        let (rate, force) = (vector(0.3 * t.sin()), vector(9.81));
+        format!(r#"{{"header":{header},"angular_velocity":{rate},"linear_acceleration":{force}}}"#)
+    };
+    json(name, "sensor_msgs/msg/Imu", message)
+}
+
+/// Speeds wanted of the body.
+pub fn cmd_vel(name: &str) -> Topic {
+    let message = |t: f64| format!(r#"{{"header":{},"twist":{{"linear":{{"x":0.5}}}}}}"#, header(t));
+    json(name, "geometry_msgs/msg/TwistStamped", message)
+}
+
+fn header(t: f64) -> String {
+    let ns = (t * 1e9).round() as u64;
+    format!(r#"{{"stamp":{{"sec":{},"nanosec":{}}}}}"#, ns / 1_000_000_000, ns % 1_000_000_000)
+}
+
+/// Four seconds of all topics at 50 Hz, as MCAP.
+pub fn bag(topics: &[Topic]) -> Vec<u8> {
+    let mut out = std::io::Cursor::new(Vec::new());
+    let mut writer = WriteOptions::new().profile("ros2").create(&mut out).unwrap();
+    let channel = |topic: &Topic, writer: &mut mcap::Writer<_>| {
+        let (encoding, written_as, schema) = topic.form;
+        let schema = writer.add_schema(topic.message_type, written_as, schema.as_bytes()).unwrap();
+        writer.add_channel(schema, &topic.name, encoding, &BTreeMap::new()).unwrap()
+    };
+    let ids: Vec<u16> = topics.iter().map(|topic| channel(topic, &mut writer)).collect();
+    for k in 0..200_u32 {
+        let t = 100.0 + f64::from(k) * 0.02;
+        for (topic, &channel_id) in topics.iter().zip(&ids) {
+            let log_time = (t * 1e9).round() as u64;
+            let header = MessageHeader { channel_id, sequence: k, log_time, publish_time: log_time };
+            writer.write_to_known_channel(&header, &(topic.message)(t)).unwrap();
+        }
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    out.into_inner()
+}
