@@ -6,3 +6,4 @@ pub mod page;
 pub mod picture;
 pub mod reliability;
 pub mod reproduction;
+pub mod slopes;

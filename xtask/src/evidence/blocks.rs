@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask, interval};
@@ -87,7 +88,7 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
         let answers = ratios.len() + usize::from(!answer.diagnosis.is_null());
         Ok(Block { name: name.clone(), answers, alarms, answer })
     };
-    blocks.iter().enumerate().map(one).collect()
+    blocks.par_iter().enumerate().map(one).collect()
 }
 
 /// Two recordings one after the other: where does the second begin?

@@ -151,10 +151,13 @@ fn tracks(e: &Evidence, out: &mut Vec<Figure>) {
     }
 }
 
+/// What the witness saw, and what was claimed.
+type Slopes = (Vec<Seen>, Vec<Claim>);
+
 fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
-    let hard = || e.husky.iter().filter(|r| r.hard || r.label.starts_with("case"));
-    let both = |of: &dyn Fn(&Examined) -> Option<&(Vec<Seen>, Vec<Claim>)>| -> (Vec<Seen>, Vec<Claim>) {
-        let mut all = (Vec::new(), Vec::new());
+    let hard = || e.husky.iter().filter(|r| r.hard);
+    let both = |of: fn(&Examined) -> Option<&Slopes>| -> Slopes {
+        let mut all = Slopes::default();
         for (seen, claims) in hard().filter_map(of) {
             all.0.extend(seen.iter().cloned());
             all.1.extend(claims.iter().cloned());
@@ -162,8 +165,8 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
         all
     };
     for (name, times, angle, (seen, claims)) in [
-        ("by currents and yaw rate", 2.5, 1.2, both(&|r| r.by_currents.as_ref())),
-        ("with roll and pitch rate", 2.0, 1.0, both(&|r| r.by_gyro.as_ref())),
+        ("by currents and yaw rate", 2.5, 1.2, both(|r| r.by_currents.as_ref())),
+        ("with roll and pitch rate", 2.0, 1.0, both(|r| r.by_gyro.as_ref())),
     ] {
         let count = |o: Outcome| seen.iter().filter(|s| s.outcome == o).count() as f64;
         let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
@@ -223,7 +226,8 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
             Some(Asked::AtLeast(0.8)),
         );
     }
-    let mut clocks: Vec<f64> = e.husky.iter().flat_map(|r| &r.clocks).map(|c| c.abs()).collect();
+    let mut clocks: Vec<f64> =
+        e.husky.iter().filter_map(|r| r.witness.as_ref()).flat_map(|w| &w.left_out).map(|c| c.abs()).collect();
     add(out, "clocks on turns left out: median error", quantile(&mut clocks, 0.5), "s", Some(Asked::AtMost(0.2)));
     add(out, "clocks on turns left out: 90 % below", quantile(&mut clocks, 0.9), "s", Some(Asked::AtMost(0.5)));
 }
@@ -314,7 +318,7 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
         add(out, "null: alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
     }
     let steps: Vec<f64> =
-        e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(blocks_error).collect();
+        e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(super::blocks::Joined::error).collect();
     add(
         out,
         "joined runs: floor to sand, largest error of the onset",
@@ -322,8 +326,4 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
         "s",
         None,
     );
-}
-
-fn blocks_error(j: &super::blocks::Joined) -> Option<f64> {
-    j.error()
 }

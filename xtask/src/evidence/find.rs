@@ -92,7 +92,7 @@ fn kind(path: &Path) -> Result<Option<Kind>> {
         let kobuki = path.display().to_string().to_lowercase().contains("kobuki");
         return Ok(kobuki.then_some(Kind::KobukiBag(folder)));
     }
-    if !name.ends_with(".csv") {
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("csv")) {
         return Ok(None);
     }
     let file = fs::File::open(path).with_context(|| format!("cannot read '{}'", path.display()))?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
-use super::ask::{Answer, Question, ask};
+use super::ask::{Answer, Question, ask, interval};
 use super::find::Found;
 use super::hide::{Sight, Table, copy};
 use super::slopes::{Claim, Seen, as_json, claims, seen};
@@ -74,8 +74,10 @@ pub(super) struct Examined {
     pub(super) by_currents: Option<(Vec<Seen>, Vec<Claim>)>,
     pub(super) by_gyro: Option<(Vec<Seen>, Vec<Claim>)>,
     pub(super) turns: Option<Turns>,
-    /// Errors of the clocks on turns left out, s.
-    pub(super) clocks: Vec<f64>,
+    /// Where the currents could show nothing, s.
+    pub(super) hidden: Vec<[f64; 2]>,
+    /// The accelerometer and gyro, opened last.
+    pub(super) witness: Option<Witness>,
     /// The recording's file.
     pub(super) document: Value,
 }
@@ -107,10 +109,12 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
     let turned = witness.as_ref().map(|w| turns(&withheld, w));
     let with_witness = |answer: &Answer, both: &Option<(Vec<Seen>, Vec<Claim>)>| {
         let mut v = answer.seal();
+        v["changes"] = answer.diagnosis["steady"]["changes"].clone();
         v["witness"] = both.as_ref().map_or(Value::Null, |(s, c)| as_json(s, c));
         v
     };
     let mut without_gyro = withheld.seal();
+    without_gyro["turning"] = withheld.diagnosis["steady"]["turning"].clone();
     without_gyro["witness"] = turned.map_or(Value::Null, |t| t.as_json());
     let d = &open.diagnosis;
     let document = json!({
@@ -145,7 +149,8 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
         by_currents,
         by_gyro,
         turns: turned,
-        clocks: witness.map_or_else(Vec::new, |w| w.left_out),
+        hidden: currents.changes("hidden").iter().map(|h| interval(&h["interval"])).collect(),
+        witness,
         document,
     })
 }

@@ -88,30 +88,35 @@ fn lay_out(base: &Table, inertial: &Table, id: &str, folder: &Path) -> Result<Pa
     Ok(file)
 }
 
+/// Seconds over which a turn is measured, and the least that it must turn, rad.
+const TURN_SECONDS: f64 = 0.5;
+const LEAST_TURN: f64 = 0.1;
+
 /// Track that makes the way of the wheels turn the heading as far as the unit's own filter says; `None` below one turn.
 fn track_by_heading(base: &Table, inertial: &Table) -> Result<Option<f64>> {
     let (t, its) = (base.column("t")?, inertial.column("t")?);
     let ways = [way(&base.column("left_encoder")?), way(&base.column("right_encoder")?)];
     let (z, w) = (inertial.column("qz")?, inertial.column("qw")?);
-    let mut turned = 0.0_f64;
-    let mut before: Option<f64> = None;
-    let (mut wheels, mut heading) = (0.0_f64, 0.0_f64);
-    let at = |i: usize| {
-        let k = t.partition_point(|x| *x < its[i]).min(t.len() - 1);
+    let heading = |i: usize| 2.0 * z[i].atan2(w[i]);
+    let rolled = |now: f64| {
+        let k = t.partition_point(|x| *x < now).min(t.len() - 1);
         ways[1][k] - ways[0][k]
     };
-    let mut last = at(0);
+    let (mut wheels, mut turned, mut from) = (0.0_f64, 0.0_f64, 0);
     for i in 0..its.len() {
-        let now = 2.0 * z[i].atan2(w[i]);
-        let step = before.map_or(0.0, |b| (now - b).sin().atan2((now - b).cos()));
-        let rolled = at(i) - last;
-        (before, last) = (Some(now), at(i));
-        // Both ways of turning count: signs cancel nothing.
-        turned += step.abs();
-        wheels += rolled * step.signum();
-        heading += step.abs();
+        if its[i] - its[from] < TURN_SECONDS {
+            continue;
+        }
+        let step = heading(i) - heading(from);
+        let step = step.sin().atan2(step.cos());
+        // Both ways of turning count; signs cancel nothing, and what hardly turns is left out.
+        if step.abs() > LEAST_TURN {
+            wheels += (rolled(its[i]) - rolled(its[from])) * step.signum();
+            turned += step.abs();
+        }
+        from = i;
     }
-    Ok((turned > std::f64::consts::TAU && heading > 0.0).then(|| wheels / heading))
+    Ok((turned > std::f64::consts::TAU).then(|| wheels / turned))
 }
 
 /// Asks about one recording of a Kobuki.

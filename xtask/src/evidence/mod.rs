@@ -155,24 +155,27 @@ fn examine(chosen: &[&Found], references: &[husky::Run], whole: bool, out: &Path
     sort(kobuki, &mut evidence.kobuki, &mut evidence.failed);
     if whole && references.len() > 1 {
         evidence.null = blocks::null(&binary, &references, out)?;
-        evidence.joined = joins(&binary, &runs, &references, out)?;
+        evidence.joined = joins(&binary, &runs, &references, &evidence.husky, out)?;
     }
     bar.finish_and_clear();
     Ok(evidence)
 }
 
-/// The longest reference that drives straight, joined with every other run.
+/// The longest reference in which nothing changes, joined with every other run.
 fn joins(
     binary: &binary::Binary,
     runs: &[husky::Run],
     references: &[&husky::Run],
+    examined: &[husky::Examined],
     out: &Path,
 ) -> Result<Vec<blocks::Joined>> {
-    let mut longest: Vec<&&husky::Run> = references.iter().collect();
-    longest.sort_by_key(|r| r.speeds.rows.len());
-    // Not the very longest: the references must keep something to be compared with.
-    let Some(first) = longest.iter().rev().nth(1).or(longest.last()) else { return Ok(Vec::new()) };
-    runs.iter().filter(|r| r.id != first.id).map(|r| blocks::joined(binary, first, r, references, out)).collect()
+    let changes = |r: &husky::Run| {
+        let own = examined.iter().find(|e| e.name == r.found.name);
+        own.is_some_and(|e| !e.open.changes("found").is_empty())
+    };
+    let calm = references.iter().filter(|r| !changes(r));
+    let Some(first) = calm.max_by_key(|r| r.speeds.rows.len()) else { return Ok(Vec::new()) };
+    runs.par_iter().filter(|r| r.id != first.id).map(|r| blocks::joined(binary, first, r, references, out)).collect()
 }
 
 /// Successes and what failed.

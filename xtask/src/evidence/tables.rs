@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use report::page::{Cell, Page, Tone};
+use report::slopes;
 use serde_json::json;
 
 use super::Evidence;
@@ -235,6 +236,36 @@ fn asked(figures: &[Figure]) -> Section {
     s
 }
 
+/// Pictures of the runs in which a slope was seen or claimed: name and SVG.
+fn pictures(e: &Evidence) -> Result<Vec<(String, String)>> {
+    let mut out = Vec::new();
+    for r in &e.husky {
+        let Some(witness) = &r.witness else { continue };
+        for (what, found, hidden) in
+            [("by currents and yaw rate", &r.by_currents, true), ("with roll and pitch rate", &r.by_gyro, false)]
+        {
+            let Some((seen, claims)) = found else { continue };
+            if seen.is_empty() && claims.is_empty() {
+                continue;
+            }
+            let claimed = claims
+                .iter()
+                .map(|c| slopes::Claimed { interval: c.interval, slope: c.slope, half: c.half, bound: c.bound })
+                .collect();
+            let title = format!("{}: slope {what} (bands), and by the accelerometer, opened afterwards (line)", r.name);
+            let picture = slopes::Slopes {
+                title: &title,
+                witness: (&witness.time, &witness.slope),
+                claimed,
+                hidden: if hidden { r.hidden.clone() } else { Vec::new() },
+            };
+            let which = if hidden { "currents" } else { "gyro" };
+            out.push((format!("{}-{which}.svg", r.name.to_lowercase()), slopes::svg(&picture)?));
+        }
+    }
+    Ok(out)
+}
+
 /// Writes everything; `docs` the page of the documentation as well.
 pub(super) fn write(e: &Evidence, out: &Path, docs: bool) -> Result<()> {
     for r in &e.husky {
@@ -258,15 +289,33 @@ pub(super) fn write(e: &Evidence, out: &Path, docs: bool) -> Result<()> {
     sections.push(forecasts(e));
     sections.push(withheld(e));
     sections.extend(others(e));
+    let pictures = pictures(e)?;
     let mut page = Page::new(TITLE);
-    to_page(&mut page, &sections);
+    to_page(&mut page, &sections[..1]);
+    page.heading("Slopes, and what the accelerometer said afterwards");
+    for (name, svg) in &pictures {
+        page.picture(svg, name.trim_end_matches(".svg"));
+    }
+    to_page(&mut page, &sections[1..]);
     output::write(out, "evidence.html", &page.render())?;
     let text = to_markdown(TITLE, INTRO, &sections);
-    output::write(out, "evidence.md", &text)?;
+    write_markdown(out, &text, &pictures)?;
     if docs {
-        output::write(&output::docs(""), "evidence.md", &text)?;
+        write_markdown(&output::docs(""), &text, &pictures)?;
     }
     print!("{}", to_text(&sections[..1]));
     println!("\nWritten to {}", out.display());
     Ok(())
+}
+
+/// The page as Markdown, and its pictures beside it.
+fn write_markdown(folder: &Path, text: &str, pictures: &[(String, String)]) -> Result<()> {
+    let beside = folder.join("evidence");
+    std::fs::create_dir_all(&beside).with_context(|| format!("cannot create '{}'", beside.display()))?;
+    let mut whole = format!("{text}\n## Slopes, and what the accelerometer said afterwards\n");
+    for (name, svg) in pictures {
+        output::write(&beside, name, svg)?;
+        whole += &["\n![", name, "](evidence/", name, ")\n"].concat();
+    }
+    output::write(folder, "evidence.md", &whole)
 }

@@ -30,6 +30,8 @@ const LEVEL_EVERY: f64 = 20.0;
 /// The rolling load wanders by this share, over this time, s: drive trains warm up.
 const ROLLING: f64 = 0.3;
 const ROLLING_TIME: f64 = 60.0;
+/// Where the load is another from end to end the ground may be, too: this share of the excess counts as one sigma.
+const EXCESS: f64 = 0.7;
 /// Error of the slope from one second of straight driving, rad, and beyond which it counts less.
 const FROM_LOAD: f64 = degrees(2.0);
 const FAR_OFF: f64 = degrees(2.5);
@@ -79,7 +81,10 @@ pub(crate) fn attitude(
         let step = ((run.time[i] + lag[i] - first) / dt).round();
         seen[(step.max(0.0) as usize).min(rows - 1)].push(i);
     }
-    let rolling = ROLLING * usual / weight;
+    let mut exact: Vec<f64> = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value()).collect();
+    exact.sort_by(f64::total_cmp);
+    let excess = exact.get(exact.len() / 2).map_or(0.0, |median| (median / usual - 1.0).abs());
+    let rolling = ROLLING.max(EXCESS * excess) * usual / weight;
     let keep = 1.0 - dt / ROLLING_TIME;
     let mut walk = Square::zeros();
     for (k, q) in [TILT_WALK, TILT_WALK, OFFSET_WALK, OFFSET_WALK].into_iter().enumerate() {

@@ -105,22 +105,23 @@ fn pieces(time: &[f64], rows: impl Iterator<Item = usize>, gap: f64) -> Vec<Vec<
 /// otherwise.
 fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> Usual {
     let known = usual.iter().flatten().next().copied();
-    let mut out = *usual;
-    for (c, own) in out.iter_mut().enumerate() {
-        let reference = own.or(known);
-        let plausible = |l: f64| reference.is_none_or(|r| l < r * UNNAMED_STRAIGHT && l > r / UNNAMED_STRAIGHT);
-        let exact = |i: usize| readings[i].is_some_and(Reading::is_exact) && class(run.forward(i).abs()) == c;
-        let of_class = |plausible_only: bool| {
-            let mut all: Vec<f64> = (0..level.len())
-                .filter(|&i| exact(i) && (!plausible_only || plausible(level[i])))
-                .map(|i| level[i])
-                .collect();
-            all.sort_by(f64::total_cmp);
-            (all.len() as f64 * run.period() >= KNOWN).then(|| all[all.len() / 2])
-        };
-        *own = of_class(true).or_else(|| of_class(false)).or(reference);
-    }
-    out
+    let plausible =
+        |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * UNNAMED_STRAIGHT && l > r / UNNAMED_STRAIGHT);
+    // Median of the class's levels, if there is enough of it.
+    let median = |c: usize, keep: &dyn Fn(f64) -> bool| {
+        let exact = |i: &usize| readings[*i].is_some_and(Reading::is_exact) && class(run.forward(*i).abs()) == c;
+        let mut all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
+        all.sort_by(f64::total_cmp);
+        (all.len() as f64 * run.period() >= KNOWN).then(|| all[all.len() / 2])
+    };
+    let references: Usual = usual.map(|own| own.or(known));
+    let like: Usual = std::array::from_fn(|c| median(c, &|l| plausible(l, references[c])));
+    // A run of which no part is like the references is compared with itself: the whole of it is told elsewhere.
+    let alike = like.iter().any(Option::is_some);
+    std::array::from_fn(|c| {
+        let own = like[c].or_else(|| if alike { references[c] } else { median(c, &|_| true) });
+        own.or(references[c])
+    })
 }
 
 /// Changes of the straight load in a recording. `usual` are the references' loads, `weight` is `m g r`, N m.
@@ -278,12 +279,26 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
 
 /// Slopes that the gyro and the load show together.
 fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
-    let steep = |i: &usize| {
-        let (pitch, sigma) = (attitude.pitch[*i], attitude.sigma[*i]);
-        run.forward(*i).abs() > DRIVING && pitch.abs() > SLOPE.to_radians() && pitch.abs() > NINETY * sigma
+    let drives = |i: usize| run.forward(i).abs() > DRIVING;
+    let certain = |i: usize| {
+        drives(i)
+            && attitude.pitch[i].abs() > SLOPE.to_radians()
+            && attitude.pitch[i].abs() > NINETY * attitude.sigma[i]
     };
+    // What is certain somewhere goes on to where it is no slope.
+    let mut steep: Vec<bool> = (0..run.time.len()).map(certain).collect();
+    let goes_on = |i: usize, k: usize| {
+        let (here, there) = (attitude.pitch[i], attitude.pitch[k]);
+        drives(i) && here * there > 0.0 && here.abs() > SLOPE.to_radians()
+    };
+    for i in 1..steep.len() {
+        steep[i] = steep[i] || (steep[i - 1] && goes_on(i, i - 1));
+    }
+    for i in (1..steep.len()).rev() {
+        steep[i - 1] = steep[i - 1] || (steep[i] && goes_on(i - 1, i));
+    }
     let mut out = Vec::new();
-    for piece in pieces(&run.time, (0..run.time.len()).filter(steep), SLOPE_GAP) {
+    for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPE_GAP) {
         for piece in piece.chunk_by(|&a, &b| attitude.pitch[a] * attitude.pitch[b] > 0.0) {
             let (first, last) = (piece[0], piece[piece.len() - 1]);
             let [from, until] = [run.time[first], run.time[last]];
