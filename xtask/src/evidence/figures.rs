@@ -304,7 +304,7 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
             "forecast of currents: better than each placebo",
             Some(won),
             "of the runs",
-            Some(Asked::AtLeast(5.0 / 6.0)),
+            Some(Asked::AtLeast(0.833)),
         );
     }
     let yaw = median(of("yaw").map(|f| number(f, "corrected")).collect());
