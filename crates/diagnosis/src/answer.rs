@@ -291,6 +291,7 @@ impl Answer<'_> {
             screened,
             tuning,
             steady: None,
+            response: None,
             predictions,
         };
         out.sentences = words::sentences(&out);

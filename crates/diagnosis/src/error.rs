@@ -44,6 +44,18 @@ pub enum DiagnosisError {
         /// "reference" or "recording".
         what: &'static str,
     },
+    /// Too few command steps to leave some out.
+    #[error(
+        "the {what} hold {steps} command steps, but at least {needed} are needed; record more changes of the command"
+    )]
+    FewSteps {
+        /// "recordings" or "references".
+        what: &'static str,
+        /// Steps there are.
+        steps: usize,
+        /// Steps needed.
+        needed: usize,
+    },
     /// The data do not determine the model.
     #[error("the {stage} could not be solved: the recordings do not move enough to determine the model")]
     Singular {

@@ -3,7 +3,8 @@
 //! The way of a torque-driven case: cut recordings into windows and segments ([`run`], `windows`), find sensor faults
 //! by `redundancy`, `calibrate` the model on the references, run every effect as a column of one linearised free run
 //! (`screen`), refit the finalists and pairs in free run (`search`), and `decide`.
-//! A speed-driven case compares [`steady`] loads instead.
+//! A speed-driven case compares [`steady`] loads instead; a command-driven case fits the [`response`] from command over
+//! wheels to the body.
 //!
 //! Pure functions: no files, no clock, no output. Effects are known by their cards only.
 
@@ -29,6 +30,7 @@ mod onset;
 mod options;
 mod predict;
 mod redundancy;
+pub mod response;
 pub mod run;
 mod screen;
 mod search;
@@ -48,6 +50,7 @@ pub use error::DiagnosisError;
 pub use locate::{Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use options::Options;
 pub use predict::Prediction;
+pub use response::{ResponseCase, diagnose_response};
 pub use run::Run;
 pub use steady::{SteadyCase, diagnose_steady};
 pub use verdict::{Cause, Cell, Diagnosis, Estimate, Finding, FreeRun, Trial, Verdict};

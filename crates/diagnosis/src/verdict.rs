@@ -189,6 +189,8 @@ pub struct Diagnosis {
     pub tuning: BTreeMap<String, f64>,
     /// Loads of steady driving (speed-driven cases).
     pub steady: Option<crate::steady::Loads>,
+    /// Response from command over wheels to the body (command-driven cases).
+    pub response: Option<crate::response::Response>,
     /// Predicted responses of the held-out drives: corrected, then without the effect.
     #[serde(skip)]
     pub predictions: Vec<(Prediction, Prediction)>,

@@ -52,12 +52,13 @@ impl CaseFolder {
             Some(name) => robot(name)?,
             None => robot(&robot_of(folder)?.display().to_string())?,
         };
-        for (name, what) in &FOLDERS[..2] {
+        for (name, what) in &FOLDERS[usize::from(!robot.causality.needs_references())..2] {
             ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
         }
         let held_out = folder.join(FOLDERS[2].0);
         let held_out = if held_out.is_dir() { vec![held_out] } else { vec![] };
-        let [reference, recordings] = [0, 1].map(|i| vec![folder.join(FOLDERS[i].0)]);
+        let [mut reference, recordings] = [0, 1].map(|i| vec![folder.join(FOLDERS[i].0)]);
+        reference.retain(|f| f.is_dir());
         Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
     }
 
@@ -170,6 +171,27 @@ impl CaseFolder {
             torque_sigma: torque_sigma / torque_per_current,
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
+        })
+    }
+}
+
+impl CaseFolder {
+    /// The case as the diagnosis takes it, for a command-driven robot.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed.
+    pub fn command_driven(&self) -> Result<diagnosis::ResponseCase> {
+        let runs = |l: &Loaded| -> Result<Vec<diagnosis::response::ResponseRun>> {
+            l.reads
+                .iter()
+                .map(|r| diagnosis::response::ResponseRun::new(&r.recording).with_context(|| file_names(r)))
+                .collect()
+        };
+        Ok(diagnosis::ResponseCase {
+            robot: self.robot.robot,
+            references: runs(&self.reference)?,
+            recordings: runs(&self.recordings)?,
+            held_out: runs(&self.held_out)?,
         })
     }
 }

@@ -19,6 +19,8 @@ pub enum Causality {
     TorqueDriven,
     /// A drive imposes the wheel speeds; body motion and the torque that it takes come out.
     SpeedDriven,
+    /// Wheel speeds are commanded; wheel speeds and body motion come out, no torque is known.
+    CommandDriven,
 }
 
 impl Causality {
@@ -27,7 +29,13 @@ impl Causality {
         match self {
             Self::TorqueDriven => "torque-driven",
             Self::SpeedDriven => "speed-driven",
+            Self::CommandDriven => "command-driven",
         }
+    }
+
+    /// Whether a diagnosis needs drives in which the simulation was right: the others are compared with the robot file.
+    pub const fn needs_references(self) -> bool {
+        matches!(self, Self::TorqueDriven)
     }
 }
 
@@ -36,7 +44,7 @@ impl Causality {
 pub struct RobotSpec {
     /// Name of the robot.
     pub name: String,
-    /// Torque-driven or speed-driven.
+    /// Torque-driven, speed-driven or command-driven.
     pub causality: Causality,
     /// The model.
     pub robot: Robot<f64>,
@@ -55,6 +63,8 @@ pub(crate) const USUAL_POSE_SIGMA: f64 = 0.004;
 pub const BUILT_IN: &[(&str, &str)] = &[
     ("husky-a200", include_str!("../robots/husky-a200.toml")),
     ("kobuki", include_str!("../robots/kobuki.toml")),
+    ("husky-drive", include_str!("../robots/husky-drive.toml")),
+    ("warthog-drive", include_str!("../robots/warthog-drive.toml")),
     ("hendzel-trojnacki-2014", include_str!("../robots/hendzel-trojnacki-2014.toml")),
 ];
 

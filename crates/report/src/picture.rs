@@ -271,6 +271,7 @@ mod tests {
             screened: Vec::new(),
             tuning: BTreeMap::new(),
             steady: None,
+            response: None,
             predictions: Vec::new(),
         }
     }

@@ -15,6 +15,8 @@ pub(super) struct Question<'a> {
     pub(super) mapping: &'a Path,
     pub(super) references: &'a [PathBuf],
     pub(super) recordings: &'a [PathBuf],
+    /// Recordings that no fit may see.
+    pub(super) held_out: &'a [PathBuf],
 }
 
 /// What the program said.
@@ -60,7 +62,11 @@ pub(super) fn ask(binary: &Binary, question: &Question<'_>, verdict: &Path) -> R
     if !question.references.is_empty() {
         command.arg("--reference").args(question.references);
     }
-    command.arg("--recordings").args(question.recordings).arg("--json").arg(verdict);
+    command.arg("--recordings").args(question.recordings);
+    if !question.held_out.is_empty() {
+        command.arg("--heldout").args(question.held_out);
+    }
+    command.arg("--json").arg(verdict);
     let ended = command.output().with_context(|| format!("cannot start '{}'", binary.path.display()))?;
     if !verdict.is_file() || !matches!(ended.status.code(), Some(0 | 3)) {
         // A refusal is an answer, too.

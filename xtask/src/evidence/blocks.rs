@@ -66,7 +66,8 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
     let one = |(k, (name, id, file)): (usize, &(String, String, std::path::PathBuf))| -> Result<Block> {
         let others: Vec<_> = files.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, f)| f.clone()).collect();
         let recordings = [file.clone()];
-        let question = Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recordings };
+        let question =
+            Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recordings, held_out: &[] };
         let answer = ask(binary, &question, &out.join("verdicts").join(format!("{id}-null.json")))?;
         let ratios = answer.steady("ratios");
         let excluded = |r: &&Value| {
@@ -129,7 +130,8 @@ pub(super) fn joined(binary: &Binary, first: &Run, second: &Run, references: &[&
         .map(|r| seen_folder(out, Sight::All).join(format!("pro_{}.csv", r.id)))
         .collect();
     let mapping = seen_folder(out, Sight::All).join("mapping.toml");
-    let question = Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recordings };
+    let question =
+        Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recordings, held_out: &[] };
     let answer = ask(binary, &question, &out.join("verdicts").join(format!("{id}-joined.json")))?;
     let distance = |c: &&Value| {
         let [a, b] = interval(&c["onset"]);

@@ -52,6 +52,7 @@ pub(super) fn figures(e: &Evidence) -> Vec<Figure> {
     turning(e, &mut out);
     forecasts(e, &mut out);
     null(e, &mut out);
+    drive(e, &mut out);
     out
 }
 
@@ -326,4 +327,27 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
         "s",
         None,
     );
+}
+
+/// Unseen windows of 2 s; the targets were stated for the Husky.
+fn drive(e: &Evidence, out: &mut Vec<Figure>) {
+    for robot in &e.drive {
+        let husky = robot.answer.diagnosis["response"].is_object() && robot.document["robot"] == "husky-drive";
+        for (what, [nominal, retuned, corrected, _]) in robot.free_runs() {
+            let most = match what.split(',').next() {
+                Some("wheel speed (rms)") => Some(0.5),
+                Some("position (rms)") => Some(0.32),
+                Some("yaw (rms)") => Some(0.25),
+                Some("wheel speed (median)" | "position (median)" | "yaw (median)") => None,
+                _ => continue,
+            };
+            let (name, unit) = what.split_once(", ").unwrap_or((what, ""));
+            let asked = |a: Asked| husky.then_some(a);
+            let of = |rest: &str| format!("{}: {name}{rest}", robot.name);
+            add(out, &of(""), Some(corrected), unit, most.and_then(|m| asked(Asked::AtMost(m))));
+            add(out, &of(", nominal over corrected"), Some(nominal / corrected), "times", asked(Asked::AtLeast(2.0)));
+            // A wheel has no track: re-tuned it is what it was.
+            add(out, &of(", re-tuned over corrected"), Some(retuned / corrected), "times", asked(Asked::AtLeast(1.3)));
+        }
+    }
 }

@@ -92,7 +92,8 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
             .collect();
         let recording = [seen_folder(out, sight).join(format!("pro_{}.csv", run.id))];
         let mapping = seen_folder(out, sight).join("mapping.toml");
-        let question = Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recording };
+        let question =
+            Question { robot: ROBOT, mapping: &mapping, references: &others, recordings: &recording, held_out: &[] };
         ask(binary, &question, &out.join("verdicts").join(format!("{}-{what}.json", run.id)))
     };
     let currents = say(Sight::Yaw, "1-currents-and-yaw")?;

@@ -125,7 +125,11 @@ pub(super) fn examine(binary: &Binary, found: &Found, out: &Path) -> Result<Exam
     let verdict = out.join("verdicts").join(format!("{id}-kobuki.json"));
     let say = |mapping: &Path, recording: PathBuf| {
         let recordings = [recording];
-        ask(binary, &Question { robot: ROBOT, mapping, references: &[], recordings: &recordings }, &verdict)
+        ask(
+            binary,
+            &Question { robot: ROBOT, mapping, references: &[], recordings: &recordings, held_out: &[] },
+            &verdict,
+        )
     };
     let (answer, witness) = match &found.kind {
         Kind::KobukiBag(folder) => (say(Path::new("kobuki-bag"), folder.clone())?, None),

@@ -13,6 +13,8 @@ use crate::{binary, output};
 
 mod ask;
 mod blocks;
+mod drive;
+mod drive_layout;
 mod figures;
 mod find;
 mod hide;
@@ -67,6 +69,7 @@ struct Evidence {
     null: Vec<blocks::Block>,
     joined: Vec<blocks::Joined>,
     kobuki: Vec<kobuki::Examined>,
+    drive: Vec<drive::Examined>,
     failed: Vec<String>,
 }
 
@@ -86,7 +89,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     };
     std::fs::create_dir_all(&out).with_context(|| format!("cannot create '{}'", out.display()))?;
     let references = references(args.reference.as_deref(), &all, &chosen)?;
-    let evidence = examine(&chosen, &references, args.case.is_empty(), &out)?;
+    let named = args.reference.as_deref().map(find::find).transpose()?.unwrap_or_default();
+    let evidence = examine(&chosen, &references, &named, args.case.is_empty(), &out)?;
     for failed in &evidence.failed {
         eprintln!("error: {failed}");
     }
@@ -126,7 +130,7 @@ fn references(named: Option<&Path>, all: &[Found], chosen: &[&Found]) -> Result<
     found.iter().map(husky::Run::read).collect()
 }
 
-fn examine(chosen: &[&Found], references: &[husky::Run], whole: bool, out: &Path) -> Result<Evidence> {
+fn examine(chosen: &[&Found], references: &[husky::Run], named: &[Found], whole: bool, out: &Path) -> Result<Evidence> {
     let binary = binary::find()?;
     let mut runs: Vec<husky::Run> = Vec::new();
     for found in chosen.iter().filter(|f| f.husky().is_some()) {
@@ -153,6 +157,9 @@ fn examine(chosen: &[&Found], references: &[husky::Run], whole: bool, out: &Path
     let small = chosen.iter().filter(|f| matches!(f.kind, Kind::KobukiBag(_) | Kind::KobukiTable { .. }));
     let kobuki = small.map(|f| kobuki::examine(&binary, f, out).with_context(|| f.name.clone())).collect();
     sort(kobuki, &mut evidence.kobuki, &mut evidence.failed);
+    let drives = chosen.iter().filter(|f| matches!(f.kind, Kind::Drive(_)));
+    let drives = drives.map(|f| drive::examine(&binary, f, named, out).with_context(|| f.name.clone())).collect();
+    sort(drives, &mut evidence.drive, &mut evidence.failed);
     if whole && references.len() > 1 {
         evidence.null = blocks::null(&binary, &references, out)?;
         evidence.joined = joins(&binary, &runs, &references, &evidence.husky, out)?;

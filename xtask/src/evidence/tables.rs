@@ -61,11 +61,12 @@ fn verdicts(e: &Evidence) -> Section {
             r.open.sha256[..12].to_owned().into(),
         ]);
     }
-    for k in &e.kobuki {
+    let others = e.kobuki.iter().map(|k| (&k.name, &k.answer)).chain(e.drive.iter().map(|d| (&d.name, &d.answer)));
+    for (name, answer) in others {
         s.rows.push(vec![
-            k.name.as_str().into(),
-            joined(&k.answer.sentences).into(),
-            k.answer.sha256[..12].to_owned().into(),
+            name.as_str().into(),
+            joined(&answer.sentences).into(),
+            answer.sha256[..12].to_owned().into(),
         ]);
     }
     s
@@ -214,7 +215,31 @@ fn others(e: &Evidence) -> Vec<Section> {
             pair("spin_sum").into(),
         ]);
     }
-    vec![null, joined, kobuki]
+    let mut drive = Section::new(
+        "DRIVE: command to wheel, wheel to body",
+        "Windows of 2 s that no fit has seen, from the commands alone. Nominal: the wheels do what is commanded and roll on the nominal track. Re-tuned: track and radius fitted. Placebo: each side for itself, with as many constants.",
+        &["robot", "what", "nominal", "re-tuned", "corrected", "placebo"],
+    );
+    for robot in &e.drive {
+        for (what, errors) in robot.free_runs() {
+            let mut row = vec![robot.name.as_str().into(), what.into()];
+            row.extend(errors.iter().map(|x| number(Some(*x)).into()));
+            drive.rows.push(row);
+        }
+    }
+    let mut response = Section::new("DRIVE: constants", "", &["robot", "constant", "value (90 %)", "unit"]);
+    for robot in &e.drive {
+        for p in robot.answer.diagnosis["response"]["parameters"].as_array().into_iter().flatten() {
+            let half = p["half_width"].as_f64().map_or(String::new(), |h| format!(" ± {}", number(Some(h))));
+            response.rows.push(vec![
+                robot.name.as_str().into(),
+                p["id"].as_str().unwrap_or("-").replace('_', " ").into(),
+                format!("{}{half}", number(p["value"].as_f64())).into(),
+                p["unit"].as_str().unwrap_or("-").into(),
+            ]);
+        }
+    }
+    vec![null, joined, drive, response, kobuki]
 }
 
 fn asked(figures: &[Figure]) -> Section {
@@ -270,6 +295,9 @@ fn pictures(e: &Evidence) -> Result<Vec<(String, String)>> {
 pub(super) fn write(e: &Evidence, out: &Path, docs: bool) -> Result<()> {
     for r in &e.husky {
         output::write(out, &format!("{}.json", r.name), &(serde_json::to_string_pretty(&r.document)? + "\n"))?;
+    }
+    for d in &e.drive {
+        output::write(out, &format!("{}.json", d.name), &(serde_json::to_string_pretty(&d.document)? + "\n"))?;
     }
     for k in &e.kobuki {
         output::write(out, &format!("{}.json", k.name), &(serde_json::to_string_pretty(&k.document)? + "\n"))?;

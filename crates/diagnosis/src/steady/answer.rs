@@ -39,6 +39,7 @@ pub(super) fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) 
         screened: Vec::new(),
         tuning: BTreeMap::new(),
         steady: None,
+        response: None,
         predictions: Vec::new(),
     };
     if let Some(naming) = naming {

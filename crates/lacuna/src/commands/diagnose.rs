@@ -8,7 +8,7 @@ use diagnosis::{Diagnosis, Options};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::{Causality, predictions, which_mapping};
 
-use super::{Outcome, Reading};
+use super::{Outcome, Reading, Usage};
 use crate::console::{Progress, emit, emit_json, warning};
 
 mod as_json;
@@ -22,14 +22,16 @@ Examples:
   lacuna diagnose --robot robot.toml --mapping my-robot.toml \\
          --reference monday/ --recordings tuesday/run_3.csv tuesday/run_4.csv
   lacuna diagnose --robot husky-a200 --mapping husky-open --reference FLOORING --recordings SANDY_LOAM
+  lacuna diagnose --robot husky-drive --recordings drives/ --heldout unseen/
 
 A case folder:
   robot.toml    or robot.json; or name a robot with --robot
   reference/    drives in which the simulation was right, or logs of the simulator itself
+                (may be missing for command-driven robots: the simulation then does what is commanded, without slip)
   recordings/   drives in which it was not
   heldout/      inputs whose response is to be predicted (may be missing)
 
-Built-in robots: husky-a200, kobuki, hendzel-trojnacki-2014
+Built-in robots: husky-a200, kobuki, husky-drive, warthog-drive, hendzel-trojnacki-2014
 Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag (ROS 2 bags)
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
@@ -52,8 +54,8 @@ pub(crate) struct Args {
     /// for bags the built-in one that fits].
     #[arg(long, value_name = "NAME|FILE")]
     mapping: Option<String>,
-    /// Files or folders of drives in which the simulation was right; a speed-driven robot can do without, and is then
-    /// compared with its robot file.
+    /// Files or folders of drives in which the simulation was right; a speed-driven or command-driven
+    /// robot can do without, and is then compared with its robot file.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     reference: Vec<PathBuf>,
     /// Files or folders of drives in which it was not.
@@ -86,12 +88,17 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let diagnosis = match case.robot.causality {
         Causality::TorqueDriven => torque_driven(&case, &options, &stage)?,
         Causality::SpeedDriven => speed_driven(&case, &stage)?,
+        Causality::CommandDriven => command_driven(&case, &stage)?,
     };
     drop(progress);
 
     let lost = case.lost();
     if let Some(dir) = &args.predictions {
-        if diagnosis.predictions.is_empty() {
+        if case.robot.causality == Causality::CommandDriven {
+            warning(
+                "command-driven robots have no predictions; errors on held-out drives are in the text and the JSON",
+            );
+        } else if diagnosis.predictions.is_empty() {
             warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
         } else {
             predictions::write(dir, &diagnosis)?;
@@ -131,9 +138,17 @@ fn read(args: &Args) -> Result<(CaseFolder, String)> {
     let Some(robot) = &args.robot else {
         bail!("no robot was named; do so with --robot");
     };
+    let robot = case_folder::robot(robot)?;
+    if args.reference.is_empty() && robot.causality.needs_references() {
+        bail!(Usage(format!(
+            "robot '{}' is {}: give drives in which its simulation was right with --reference",
+            robot.name,
+            robot.causality.name()
+        )));
+    }
     let paths: [&[PathBuf]; 3] = [&args.reference, &args.recordings, &args.heldout];
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
-    let case = CaseFolder::from_paths(case_folder::robot(robot)?, paths, &mapping, &options)?;
+    let case = CaseFolder::from_paths(robot, paths, &mapping, &options)?;
     Ok((case, mapping.name))
 }
 
@@ -143,4 +158,8 @@ fn torque_driven(case: &CaseFolder, options: &Options, progress: &dyn Fn(&str)) 
 
 fn speed_driven(case: &CaseFolder, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
     Ok(diagnosis::diagnose_steady(&case.speed_driven()?, progress)?)
+}
+
+fn command_driven(case: &CaseFolder, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+    Ok(diagnosis::diagnose_response(&case.command_driven()?, progress)?)
 }

@@ -16,7 +16,7 @@ struct Kind {
     helpful: &'static [Signal],
 }
 
-const KINDS: [Kind; 2] = [
+const KINDS: [Kind; 3] = [
     Kind {
         name: "torque-driven robot",
         needed: &[
@@ -36,6 +36,11 @@ const KINDS: [Kind; 2] = [
             &[CurrentRight, TorqueRight],
         ],
         helpful: &[GyroZ],
+    },
+    Kind {
+        name: "command-driven robot, by its response",
+        needed: &[&[CommandSpeedLeft], &[CommandSpeedRight], &[WheelSpeedLeft], &[WheelSpeedRight], &[PoseYaw, GyroZ]],
+        helpful: &[PoseX, PoseY, PoseYaw],
     },
 ];
 

@@ -1,6 +1,6 @@
 //! A diagnosis for people: the verdict first.
 
-use diagnosis::{Cause, Diagnosis, FreeRun};
+use diagnosis::{Cause, Diagnosis};
 use lacuna::answers::NINETY;
 use lacuna::case_folder::CaseFolder;
 
@@ -25,7 +25,8 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping:
     out += &causes(&d.ranked);
     out += &where_and_when::render(d);
     out += &steady(d);
-    out += &free_runs(&d.free_runs);
+    out += &response(d);
+    out += &free_runs(d);
     out += &where_and_when::network(d);
     out += &listed("Answers that the recordings do not permit", &withheld(d));
     out += &listed("What limits this answer", &d.limits);
@@ -112,12 +113,31 @@ fn steady(d: &Diagnosis) -> String {
     format!("\n{}{}", heading("Loads of steady driving (asymmetry: as a difference)"), table.render())
 }
 
+/// Constants of a command-driven robot's response.
+fn response(d: &Diagnosis) -> String {
+    let Some(response) = d.response.as_ref().filter(|r| !r.parameters.is_empty()) else { return String::new() };
+    let mut table = TextTable::new(&["constant", ">value", ">90 %", "unit", ">simulated", ">loss without it"]);
+    for p in &response.parameters {
+        let half = p.half_width.map_or(String::new(), |h| format!("± {}", number(h)));
+        let simulated = p.simulated.map_or("no limit".to_owned(), number);
+        let earned = response.elements.iter().find(|e| e.element == p.element);
+        let rise = earned.map_or(String::new(), |e| format!("{:+.0} %", 100.0 * e.rise));
+        table.row([p.id.to_owned(), number(p.value), half, p.unit.to_owned(), simulated, rise]);
+    }
+    let title = format!(
+        "Response ({} windows of 2 s in {} command steps; loss: rise on left-out windows)",
+        response.windows, response.steps
+    );
+    format!("\n{}{}", heading(&title), table.render())
+}
+
 fn withheld(d: &Diagnosis) -> Vec<String> {
     let all = d.steady.iter().flat_map(|l| &l.withheld);
     all.map(|w| format!("{}: {}: {}", w.recording, w.quantity.name(), w.reason)).collect()
 }
 
-fn free_runs(runs: &[FreeRun]) -> String {
+fn free_runs(d: &Diagnosis) -> String {
+    let runs = &d.free_runs;
     if runs.is_empty() {
         return String::new();
     }
@@ -129,7 +149,9 @@ fn free_runs(runs: &[FreeRun]) -> String {
         let cells = errors.into_iter().chain(placebo.then_some(r.placebo)).map(|e| e.map_or(String::new(), number));
         table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(cells));
     }
-    let title = if placebo {
+    let title = if d.response.is_some() {
+        "Forecasts of windows of 2 s from the commands alone (placebo: the best wrong cause, as many constants)"
+    } else if placebo {
         "Free runs on recordings that were left out of the fit (rms error; placebo: the best other effect)"
     } else {
         "Free runs on recordings that were left out of the fit (rms error)"

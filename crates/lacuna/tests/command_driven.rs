@@ -1,0 +1,75 @@
+//! `lacuna diagnose` for robots of which command, wheel speed and heading are recorded, and nothing else.
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::Bench;
+use serde_json::Value;
+
+/// Steps of the command at 20 Hz; wheels follow with a lag of 0.3 s and the body turns on twice the track.
+fn steps(count: u32, phase: f64) -> String {
+    let mut out = String::from(
+        "time_s,command_speed_left_rad_s,command_speed_right_rad_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,\
+         pose_yaw_rad\n",
+    );
+    let (mut wheel, mut yaw) = ([0.0_f64; 2], 0.0);
+    for k in 0..count * 100 {
+        let step = f64::from(k / 100) + phase;
+        let command = [4.0 * (1.7 * step).sin(), 4.0 * (2.9 * step).cos()];
+        // Roughness that repeats nowhere: an encoder's last digits.
+        let rough = |s: f64| 0.05 * (f64::from(k) * 7.3 + s).sin();
+        let t = f64::from(k) * 0.05;
+        let shown = [wheel[0] + rough(0.0), wheel[1] + rough(1.0)];
+        writeln!(out, "{t:.2},{:.4},{:.4},{:.4},{:.4},{yaw:.5}", command[0], command[1], shown[0], shown[1]).unwrap();
+        for s in 0..2 {
+            wheel[s] += (1.0 - (-0.05_f64 / 0.3).exp()) * (command[s] - wheel[s]);
+        }
+        yaw += 0.05 * 0.1 * (wheel[1] - wheel[0]) / 0.8;
+    }
+    out
+}
+
+fn bench() -> Bench {
+    let bench = Bench::empty();
+    bench.write("case/robot.toml", &common::ROBOT.replace("torque-driven", "command-driven"));
+    bench.write("case/recordings/run_1.csv", &steps(20, 0.0));
+    bench.write("case/heldout/run_2.csv", &steps(6, 0.5));
+    bench
+}
+
+#[test]
+fn a_response_is_told_without_any_reference() {
+    let bench = bench();
+    let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for part in ["not what was driven", "effective track", "Response (", "held out"] {
+        assert!(run.out().contains(part), "no `{part}` in {}", run.out());
+    }
+    let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
+    assert_eq!(json["robot"]["causality"], "command-driven");
+    let parameters = json["diagnosis"]["response"]["parameters"].as_array().unwrap();
+    let value = |id: &str| parameters.iter().find(|p| p["id"] == id).and_then(|p| p["value"].as_f64());
+    assert!(value("lag").is_some_and(|v| (v - 0.3).abs() < 0.03), "{parameters:?}");
+    assert!(value("track_factor").is_some_and(|v| (v - 2.0).abs() < 0.1), "{parameters:?}");
+    assert_eq!(json["diagnosis"]["response"]["held_out_windows"], 15);
+}
+
+#[test]
+fn other_robots_still_need_references() {
+    let bench = bench();
+    bench.write("torque.toml", common::ROBOT);
+    let run = bench.run(&["diagnose", "--robot", "torque.toml", "--recordings", "case/recordings"]);
+    assert_eq!(run.code(), Some(2), "{}", run.err());
+    assert!(run.err().contains("--reference") && run.err().contains("torque-driven"), "{}", run.err());
+}
+
+#[test]
+fn what_a_recording_lacks_is_named() {
+    let bench = bench();
+    let text = steps(20, 0.0).replace("command_speed_left_rad_s", "asked");
+    bench.write("case/recordings/run_1.csv", &text);
+    bench.refuses(&["run_1.csv", "command_speed"]);
+    bench.write("case/recordings/run_1.csv", &steps(3, 0.0));
+    bench.refuses(&["recordings hold 3 command steps", "10 are needed"]);
+}
