@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use recordings::{BUILT_IN_MAPPINGS, Contents, Mapping, contents, is_bag};
+use recordings::{BUILT_IN_MAPPINGS, Contents, FileMapping, Mapping, contents, is_bag};
 
 use crate::propose::{self, holds};
 use crate::{case_folder, inputs};
@@ -54,20 +54,21 @@ pub fn look(bag: &Path) -> Result<(String, Contents)> {
 /// Whether a bag has every topic and every field that a mapping of bags asks for: what is nearly there may be the bag of
 /// another robot with joints of the same names.
 pub fn fits(mapping: &Mapping, contents: &Contents) -> bool {
-    mapping.files.iter().all(|entry| {
+    let asked = |entry: &FileMapping| {
         let topic = contents.topics.iter().find(|topic| entry.topic.as_deref() == Some(&topic.name));
         topic.is_some_and(|topic| {
             let time = entry.time.column.as_deref().filter(|column| *column != "log_time");
             let asked = entry.columns.iter().filter(|c| !c.optional).map(|c| c.column.as_str());
             asked.chain(time).all(|column| holds(topic, column))
         })
-    })
+    };
+    mapping.is_described_by(contents) || mapping.files.iter().all(asked)
 }
 
 /// The names of the built-in mappings of bags.
 fn built_in_for_bags() -> impl Iterator<Item = (&'static str, Mapping)> {
     let all = BUILT_IN_MAPPINGS.iter().filter_map(|(name, text)| Some((*name, Mapping::parse(name, text).ok()?)));
-    all.filter(|(_, mapping)| mapping.files.iter().all(|entry| entry.topic.is_some()))
+    all.filter(|(_, mapping)| mapping.files.iter().any(|entry| entry.topic.is_some()))
 }
 
 /// The mapping that was named, else the built-in one for these recordings: self-describing columns for tables; for bags

@@ -108,7 +108,7 @@ fn a_diagnosis_of_an_unknown_robot_says_what_to_do_and_that_works() {
     );
     let command = "lacuna check case/reference/walk/walk_0.mcap --write-mapping my-robot.toml";
     bench.refuses(&[
-        "is a bag that no built-in mapping fits (husky-bag, kobuki-bag)",
+        "is a bag that no built-in mapping fits (husky-bag, kobuki-bag, lacuna)",
         command,
         "--mapping my-robot.toml",
     ]);

@@ -6,7 +6,7 @@ use crate::diagnose::FORMAT;
 use crate::hypothesis::Place;
 use crate::locate::Located;
 use crate::steady::name::{Named, Naming};
-use crate::steady::words::{clock as clock_sentence, sentences};
+use crate::steady::words::{clocks, sentences};
 use crate::steady::{Loads, SpeedRun, SteadyCase};
 use crate::verdict::{Cause, Diagnosis, Estimate, Verdict};
 use crate::words;
@@ -161,9 +161,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         );
     }
-    for clock in d.steady.iter().flat_map(|l| &l.clocks) {
-        out.push(clock_sentence(clock));
-    }
+    out.extend(d.steady.as_ref().and_then(|l| clocks(&l.clocks)));
     let named = |runs: &[SpeedRun], what: &str| -> Vec<String> {
         runs.iter().filter(|r| r.yaw_rate.is_none()).map(|r| format!("{what} {}", r.name)).collect()
     };

@@ -309,6 +309,9 @@ fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
             let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
             let mean = piece.iter().map(|&i| along(i)).sum::<f64>() / n;
             let sigma = piece.iter().map(|&i| attitude.sigma[i]).sum::<f64>() / n;
+            if mean.abs() < NINETY * sigma {
+                continue;
+            }
             out.push(LoadChange {
                 recording: run.name.clone(),
                 interval: [from, until],

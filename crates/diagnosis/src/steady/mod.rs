@@ -219,7 +219,11 @@ fn within(
             out.forecasts.extend(forecast::forecasts(run, nominal));
         }
     }
-    out.clocks = case.references.iter().chain(&case.recordings).filter_map(clock_error).collect();
+    let of_references = case.references.iter().filter_map(clock_error).map(|mut clock| {
+        clock.recording.insert_str(0, "reference ");
+        clock
+    });
+    out.clocks = of_references.chain(case.recordings.iter().filter_map(clock_error)).collect();
     out
 }
 

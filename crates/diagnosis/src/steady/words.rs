@@ -1,7 +1,7 @@
 //! What a speed-driven case says in sentences.
 
 use crate::steady::{
-    ClockError, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, UNNAMED_STRAIGHT, Way,
+    Alignment, ClockError, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, UNNAMED_STRAIGHT, Way,
 };
 use crate::verdict::{Diagnosis, Verdict};
 use crate::words::{quantity, revealed_by};
@@ -62,18 +62,21 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
     out
 }
 
-/// How well clocks were aligned.
-pub(crate) fn clock(c: &ClockError) -> String {
-    let error = c.error.map_or_else(
+/// How well clocks were aligned; `None` where there was one clock only.
+pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
+    let [from, until] = all.iter().fold([f64::MAX, f64::MIN], |[a, b], c| [a.min(c.lag[0]), b.max(c.lag[1])]);
+    let left_out: Vec<f64> = all.iter().flat_map(|c| c.left_out.iter().copied()).collect();
+    let pooled = Alignment { lag: Vec::new(), left_out };
+    let error = pooled.error().map_or_else(
         || "too few turns to say how well".to_owned(),
         |[median, most]| {
-            format!("on {} turns left out in turn it errs by {median:.2} s, 90 % below {most:.2} s", c.left_out.len())
+            let turns = pooled.left_out.len();
+            format!("on {turns} turns left out in turn it errs by {median:.2} s in the median, 90 % below {most:.2} s")
         },
     );
-    format!(
-        "{}: the gyro runs on another clock; aligned by the turns, lag from {:.2} s to {:.2} s; {error}",
-        c.recording, c.lag[0], c.lag[1]
-    )
+    (!all.is_empty()).then(|| {
+        format!("the gyro runs on another clock: aligned by the turns, lag from {from:.2} s to {until:.2} s; {error}")
+    })
 }
 
 fn load(r: &Ratio) -> String {

@@ -192,8 +192,10 @@ fn mapped(args: &Args, bags: &[(String, Contents)]) -> Result<Tried> {
     let (mut failures, mut broken) = (Vec::new(), false);
     for (name, _) in BUILT_IN_MAPPINGS {
         let mapping = case_folder::mapping(name)?;
-        let of_bags = mapping.files.iter().any(|entry| entry.topic.is_some());
-        if of_bags && !bags.iter().any(|(_, contents)| which_mapping::fits(&mapping, contents)) {
+        let of_bags = |entry: &recordings::FileMapping| entry.topic.is_some();
+        let needs_fitting_bag =
+            if bags.is_empty() { mapping.files.iter().all(of_bags) } else { mapping.files.iter().any(of_bags) };
+        if needs_fitting_bag && !bags.iter().any(|(_, contents)| which_mapping::fits(&mapping, contents)) {
             continue;
         }
         match load(&mapping) {
