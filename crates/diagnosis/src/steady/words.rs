@@ -8,6 +8,7 @@ use crate::words::{quantity, revealed_by};
 
 /// The answer of a speed-driven case in sentences.
 pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
+    let theirs = if loads.references.is_empty() { "the robot file's" } else { "the references'" };
     let mut out = Vec::new();
     match d.verdict {
         Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
@@ -50,7 +51,7 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
         !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
     };
     for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
-        out.push(load(r));
+        out.push(load(r, theirs));
     }
     out.extend(loads.standstills.iter().map(standstill));
     out.extend(loads.changes.found.iter().map(change));
@@ -79,7 +80,8 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
     })
 }
 
-fn load(r: &Ratio) -> String {
+/// A load over `theirs`.
+fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
     let at = match r.quantity {
         Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => format!(" at {slow:.2} to {fast:.2} m/s"),
@@ -89,13 +91,10 @@ fn load(r: &Ratio) -> String {
     let what = r.quantity.name();
     let [a, b] = r.interval;
     if r.quantity == Quantity::EffectiveTrack {
-        return format!(
-            "{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of the references'.",
-            r.recording, r.value, r.half, r.ratio
-        );
+        return format!("{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of {theirs}.", r.recording, r.value, r.half, r.ratio);
     }
     if r.quantity == Quantity::Asymmetry {
-        return format!("{}: {what}{at} {:+.2} beyond the references' [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
+        return format!("{}: {what}{at} {:+.2} beyond {theirs} [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
     }
     let judgement = if a > 1.0 || b < 1.0 {
         if r.quantity == Quantity::StraightLoad && a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT {
@@ -108,7 +107,7 @@ fn load(r: &Ratio) -> String {
     };
     let firm = if r.firm { "" } else { ", tentative" };
     format!(
-        "{}: {what}{at} {:.2} times the references' [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
+        "{}: {what}{at} {:.2} times {theirs} [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
         r.recording, r.ratio, r.seconds
     )
 }
