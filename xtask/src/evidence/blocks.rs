@@ -137,14 +137,10 @@ pub(super) fn joined(binary: &Binary, first: &Run, second: &Run, references: &[&
         let [a, b] = interval(&c["onset"]);
         (a - join).max(join - b).max(0.0)
     };
-    let nearest = answer.changes("found").iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let all: Vec<&Value> = answer.changes("found").iter().chain(answer.steady("turning_changes")).collect();
+    let nearest = all.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let changes = all.len();
     let told = nearest.map(|c| [interval(&c["onset"]), interval(&c["end"])]);
     let name = |f: &Found| f.name.clone();
-    Ok(Joined {
-        names: [name(&first.found), name(&second.found)],
-        join,
-        told,
-        changes: answer.changes("found").len(),
-        answer,
-    })
+    Ok(Joined { names: [name(&first.found), name(&second.found)], join, told, changes, answer })
 }

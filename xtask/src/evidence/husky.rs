@@ -82,6 +82,20 @@ pub(super) struct Examined {
     pub(super) document: Value,
 }
 
+/// Causes with the 90 % interval of their size.
+pub(super) fn ranked(diagnosis: &Value) -> Value {
+    /// 90 % of a Gaussian lies within this many sigmas.
+    const NINETY: f64 = 1.645;
+    let with_interval = |cause: &Value| {
+        let mut cause = cause.clone();
+        if let (Some(size), Some(sigma)) = (cause["magnitude"].as_f64(), cause["sigma"].as_f64()) {
+            cause["interval_90"] = json!([size - NINETY * sigma, size + NINETY * sigma]);
+        }
+        cause
+    };
+    diagnosis["ranked"].as_array().map_or(Value::Null, |all| all.iter().map(with_interval).collect())
+}
+
 /// Runs the protocols on one recording. The witness is opened after the last verdict is on disk.
 pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Path) -> Result<Examined> {
     let say = |sight: Sight, what: &str| -> Result<Answer> {
@@ -123,14 +137,16 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
         "label": run.found.label,
         "id": run.id,
         "references": references.iter().filter(|r| r.id != run.id).map(|r| r.id.as_str()).collect::<Vec<_>>(),
+        "sentence": open.sentences.join(" "),
         "sentences": open.sentences,
         "verdict": d["verdict"],
         "verdict_sha256": open.sha256,
-        "ranked": d["ranked"],
+        "ranked": ranked(d),
         "indistinguishable": d["indistinguishable"],
         "loads": d["steady"]["ratios"],
         "withheld": d["steady"]["withheld"],
         "changes": d["steady"]["changes"],
+        "turning_changes": d["steady"]["turning_changes"],
         "standstills": d["steady"]["standstills"],
         "forecasts": d["steady"]["forecasts"],
         "free_runs": d["free_runs"],

@@ -146,10 +146,11 @@ pub(super) fn examine(binary: &Binary, found: &Found, out: &Path) -> Result<Exam
     let document = json!({
         "name": found.name,
         "id": id,
+        "sentence": answer.sentences.join(" "),
         "sentences": answer.sentences,
         "verdict": answer.diagnosis["verdict"],
         "verdict_sha256": answer.sha256,
-        "ranked": answer.diagnosis["ranked"],
+        "ranked": super::husky::ranked(&answer.diagnosis),
         "loads": answer.diagnosis["steady"]["ratios"],
         "withheld": answer.diagnosis["steady"]["withheld"],
         "clock": answer.diagnosis["steady"]["clocks"],

@@ -119,6 +119,13 @@ const PLATEAU: f64 = 0.15;
 const GYRO_OFFSET: f64 = 0.002;
 const SET_POINT_ERROR: f64 = 0.015;
 
+/// Whether the robot turns at a row, has done so for a while, and scrub is fully developed: a spin or an arc.
+pub(crate) fn is_steady_turn(run: &SpeedRun, i: usize) -> bool {
+    let (l, r) = (run.speed[0][i], run.speed[1][i]);
+    let tight = l * r < 0.0 || (r - l).abs() >= PLATEAU * (l + r).abs().max(1e-9);
+    tight && (r - l).abs() >= TURN && run.age(i, TURN_HOLD.0) >= TURN_HOLD.1 * run.patience()
+}
+
 /// Mean with a standard error over pieces of steady stretches.
 struct Clustered {
     mean: f64,
@@ -210,13 +217,9 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
             "steady straight driving with both sides reading",
         ));
     }
-    let turning: Vec<usize> = all()
-        .filter(|&i| run.difference(i).abs() >= TURN && run.age(i, TURN_HOLD.0) >= TURN_HOLD.1 * run.patience())
-        .collect();
-    let spins: Vec<usize> = turning.iter().copied().filter(|&i| run.speed[0][i] * run.speed[1][i] < 0.0).collect();
-    let ratio = |i: usize| run.difference(i).abs() / (run.speed[0][i] + run.speed[1][i]).abs().max(1e-9);
-    let arcs: Vec<usize> =
-        turning.iter().copied().filter(|&i| run.speed[0][i] * run.speed[1][i] >= 0.0 && ratio(i) >= PLATEAU).collect();
+    let turning: Vec<usize> = all().filter(|&i| is_steady_turn(run, i)).collect();
+    let (spins, arcs): (Vec<usize>, Vec<usize>) =
+        turning.into_iter().partition(|&i| run.speed[0][i] * run.speed[1][i] < 0.0);
     let outer = |i: usize| usize::from(run.speed[1][i].abs() > run.speed[0][i].abs());
     if let Some(c) = clustered(run, &arcs, |i| run.torque[outer(i)][i].abs()) {
         let forward = 0.5 * (c.speed[0] + c.speed[1]).abs();

@@ -16,6 +16,7 @@ mod level;
 mod model;
 mod name;
 mod run;
+mod scrub;
 mod standstill;
 mod straight;
 #[cfg(test)]
@@ -44,6 +45,7 @@ pub use extract::{Load, Quantity, Withheld};
 pub use forecast::Forecast;
 pub(crate) use name::UNNAMED_STRAIGHT;
 pub use run::{BodyRates, SpeedRun};
+pub use scrub::TurningChange;
 pub use standstill::Standstill;
 pub use turning::{Turning, Way};
 
@@ -75,6 +77,8 @@ pub struct Loads {
     pub withheld: Vec<Withheld>,
     /// When inside a recording the straight load changes.
     pub changes: Changes,
+    /// When inside a recording turning begins or ceases to cost another torque.
+    pub turning_changes: Vec<TurningChange>,
     /// Turning told from the loads, where neither a gyro nor a difference of the speeds is known.
     pub turning: Vec<Turning>,
     /// Wheels that were told to turn a body that did not.
@@ -189,6 +193,7 @@ fn within(
         usual[r.class] = Some(r.centre.exp());
     }
     let straight = usual.iter().flatten().next().copied();
+    let turning_load = of(Quantity::SpinSum).chain(of(Quantity::ArcSum)).next().map(|r| r.centre.exp());
     let track = of(Quantity::EffectiveTrack).next().map(|r| r.centre.exp());
     let weight = robot.mass * robot.gravity * robot.wheel_radius;
     let nominal =
@@ -199,6 +204,7 @@ fn within(
         references,
         withheld,
         changes: Changes::default(),
+        turning_changes: Vec::new(),
         turning: Vec::new(),
         standstills: Vec::new(),
         forecasts: Vec::new(),
@@ -208,6 +214,7 @@ fn within(
         let found = changes::changes(run, &usual, weight);
         out.changes.found.extend(found.found);
         out.changes.hidden.extend(found.hidden);
+        out.turning_changes.extend(scrub::turning_changes(run, turning_load));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
             out.turning.extend(turning::turning(run, straight));

@@ -1,7 +1,8 @@
 //! What a speed-driven case says in sentences.
 
 use crate::steady::{
-    Alignment, ClockError, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, UNNAMED_STRAIGHT, Way,
+    Alignment, ClockError, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange,
+    UNNAMED_STRAIGHT, Way,
 };
 use crate::verdict::{Diagnosis, Verdict};
 use crate::words::{quantity, revealed_by};
@@ -12,7 +13,7 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
     let mut out = Vec::new();
     match d.verdict {
         Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
-        Verdict::NoMismatch if loads.changes.found.is_empty() => {
+        Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
             out.push("No mismatch that these loads could name.".to_owned());
         }
         Verdict::NoMismatch => {
@@ -55,6 +56,7 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
     }
     out.extend(loads.standstills.iter().map(standstill));
     out.extend(loads.changes.found.iter().map(change));
+    out.extend(loads.turning_changes.iter().map(turning_change));
     out.extend(hidden(&loads.changes.hidden));
     out.extend(turning(&loads.turning));
     if set_points && !loads.ratios.is_empty() {
@@ -158,6 +160,18 @@ fn change(c: &LoadChange) -> String {
         moment(c.end),
         causes.join(" or "),
         c.reason
+    )
+}
+
+fn turning_change(c: &TurningChange) -> String {
+    format!(
+        "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), from {:.0} s: another ground.",
+        c.recording,
+        moment(c.onset),
+        moment(c.end),
+        c.ratio,
+        c.half,
+        c.seconds
     )
 }
 
