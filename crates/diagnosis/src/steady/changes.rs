@@ -5,13 +5,14 @@
 
 use serde::Serialize;
 
-use crate::steady::attitude::{Attitude, attitude};
-use crate::steady::compare::NINETY;
+use crate::steady::attitude::attitude;
 use crate::steady::extract::CLASSES;
+use crate::steady::jumps::jumps;
 use crate::steady::level::levels;
 use crate::steady::name::UNNAMED_STRAIGHT;
 use crate::steady::run::SpeedRun;
-use crate::steady::straight::{Reading, readings, reads_nothing};
+use crate::steady::slopes::slopes;
+use crate::steady::straight::{Reading, readings};
 
 /// A change of the straight load inside a recording. Times in s on the clock of the loads.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -58,39 +59,26 @@ pub struct Hidden {
     pub interval: [f64; 2],
 }
 
-const GRADE: &str = "grade";
-const ROLLING: &str = "rolling_resistance";
+pub(super) const GRADE: &str = "grade";
+pub(super) const ROLLING: &str = "rolling_resistance";
 
 /// Rows that show the same change are at most this far apart, s.
-const APART: f64 = 8.0;
-/// A change shorter than this is not told, s of straight driving by currents, of driving by the gyro.
-const LEAST: f64 = 1.5;
-const LEAST_SLOPE: f64 = 3.0;
-/// Gaps in the sight of a slope that do not end it, s.
-const SLOPE_GAP: f64 = 2.0;
+pub(super) const APART: f64 = 8.0;
 /// The load of a level stretch is known after so many seconds.
 const KNOWN: f64 = 10.0;
-/// A slope that is told, degrees: seen by the gyro, or as a jump of the load.
-const SLOPE: f64 = 1.6;
-const JUMP: f64 = 1.9;
-/// No friction falls to this share of the usual load: the robot runs downhill.
-const BELOW_FRICTION: f64 = 0.35;
-const BELOW_SECONDS: f64 = 1.0;
 /// Driving at least, m/s.
-const DRIVING: f64 = 0.05;
-/// Clocks are aligned to about this, s: added to where a slope begins and ends.
-const CLOCK: f64 = 0.35;
+pub(super) const DRIVING: f64 = 0.05;
 
 /// Straight load known from elsewhere, N m, by speed class; `None` where no reference was driven at such a speed.
 pub(crate) type Usual = [Option<f64>; CLASSES.len() - 1];
 
 /// The class of a speed.
-fn class(speed: f64) -> usize {
+pub(super) fn class(speed: f64) -> usize {
     CLASSES.windows(2).position(|c| speed < c[1]).unwrap_or(CLASSES.len() - 2)
 }
 
 /// Consecutive indices at most `gap` seconds apart.
-fn pieces(time: &[f64], rows: impl Iterator<Item = usize>, gap: f64) -> Vec<Vec<usize>> {
+pub(super) fn pieces(time: &[f64], rows: impl Iterator<Item = usize>, gap: f64) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = Vec::new();
     for i in rows {
         match out.last_mut() {
@@ -165,169 +153,6 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
     let moves = |from: usize, until: usize| (from..until).any(|i| (0..2).any(|j| run.speed[j][i].abs() > DRIVING));
     let gaps = marks.windows(2).filter(|w| run.time[w[1]] - run.time[w[0]] > APART && moves(w[0], w[1]));
     gaps.map(|w| Hidden { recording: run.name.clone(), interval: [run.time[w[0]], run.time[w[1]]] }).collect()
-}
-
-/// Jumps of the load, from currents. `after_slope`: what a slope does was taken away.
-fn jumps(
-    run: &SpeedRun,
-    readings: &[Option<Reading>],
-    level: &[f64],
-    usual: &Usual,
-    weight: f64,
-    after_slope: bool,
-) -> Vec<LoadChange> {
-    let period = run.period();
-    let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
-    let step = weight * JUMP.to_radians();
-    let changed = |i: &usize| (level[*i] - base(*i)).abs() > step.max((1.0 - 1.0 / UNNAMED_STRAIGHT) * base(*i));
-    let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
-    let mut out = Vec::new();
-    for piece in pieces(&run.time, seen.iter().copied().filter(changed), APART) {
-        // A piece has one direction.
-        for piece in piece.chunk_by(|&a, &b| (level[a] > base(a)) == (level[b] > base(b))) {
-            let seconds = piece.len() as f64 * period;
-            if seconds < LEAST {
-                continue;
-            }
-            let exact: Vec<usize> =
-                piece.iter().copied().filter(|&i| readings[i].is_some_and(Reading::is_exact)).collect();
-            let bound = 2 * exact.len() < piece.len();
-            let of = if bound { piece } else { &exact };
-            let mean = |f: &dyn Fn(usize) -> f64| of.iter().map(|&i| f(i)).sum::<f64>() / of.len() as f64;
-            let load = mean(&|i| readings[i].map_or(0.0, Reading::value));
-            let from = mean(&base);
-            // What the currents only bound from above may be anything between.
-            if bound && load > from / UNNAMED_STRAIGHT {
-                continue;
-            }
-            let (first, last) = (piece[0], piece[piece.len() - 1]);
-            let own = |i: usize| level[i] - base(i);
-            let before = seen.iter().rev().find(|&&i| i < first).copied();
-            let after = seen.iter().find(|&&i| i > last).copied();
-            // Cold drive trains differ from the references, but do not jump at one speed.
-            let jumped = [before, after].into_iter().flatten().any(|i| {
-                class(run.forward(i).abs()) == class(run.forward(first).abs()) && own(i).abs() < 0.5 * own(first).abs()
-            });
-            if !jumped && load > from / UNNAMED_STRAIGHT && load < from * UNNAMED_STRAIGHT * (1.0 + SCATTER) {
-                continue;
-            }
-            let slope = ((load - from) / weight).clamp(-1.0, 1.0).asin().to_degrees();
-            let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
-            let below = load < BELOW_FRICTION * from || nothing >= BELOW_SECONDS && load < from / UNNAMED_STRAIGHT;
-            let (causes, reason) = if after_slope {
-                (vec![ROLLING], "the gyro shows no slope that would do it")
-            } else if below {
-                (vec![GRADE], "less than any friction: it runs downhill")
-            } else {
-                (vec![GRADE, ROLLING], "a straight drive one way cannot tell them apart")
-            };
-            out.push(LoadChange {
-                recording: run.name.clone(),
-                interval: [run.time[first], run.time[last]],
-                onset: [before.map_or(run.time[0], |i| run.time[i]), run.time[first]],
-                end: [run.time[last], after.map_or(run.time[run.time.len() - 1], |i| run.time[i])],
-                seconds,
-                ratio: Some(load / from),
-                slope,
-                slope_half: NINETY * SCATTER * from / weight * 180.0 / std::f64::consts::PI,
-                bound,
-                causes,
-                reason,
-            });
-        }
-    }
-    if !after_slope {
-        decide_by_heading(run, &mut out);
-    }
-    out
-}
-
-/// Scatter of the straight load along one floor, as a share.
-const SCATTER: f64 = 0.15;
-/// Headings this far apart tell a slope from the ground, rad; a way back, rad.
-const OTHER_HEADING: f64 = std::f64::consts::FRAC_PI_3;
-const WAY_BACK: f64 = 2.6;
-
-/// A slope depends on the heading, the ground does not: changes driven both ways tell them apart.
-fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
-    let Some(yaw) = &run.yaw_rate else { return };
-    let mut heading = vec![0.0; yaw.len()];
-    for i in 1..yaw.len() {
-        heading[i] = heading[i - 1] + 0.5 * (yaw[i] + yaw[i - 1]) * (run.time[i] - run.time[i - 1]);
-    }
-    // Direction of travel in the middle of a change.
-    let direction = |c: &LoadChange| {
-        let i = run.time.partition_point(|t| *t < 0.5 * (c.interval[0] + c.interval[1])).min(heading.len() - 1);
-        heading[i] + if run.forward(i) < 0.0 { std::f64::consts::PI } else { 0.0 }
-    };
-    // A bound says neither that loads are alike nor that they are opposite.
-    let seen: Vec<(f64, f64)> = found.iter().filter(|c| !c.bound).map(|c| (direction(c), c.slope)).collect();
-    for change in found.iter_mut().filter(|c| c.causes.len() > 1 && !c.bound) {
-        let (own, slope) = (direction(change), change.slope);
-        let apart = |other: f64| (other - own).sin().atan2((other - own).cos()).abs();
-        let way_back = seen.iter().any(|o| apart(o.0) > WAY_BACK && o.1 * slope < 0.0);
-        let whichever = seen.iter().any(|o| apart(o.0) > OTHER_HEADING && (o.1 / slope - 1.0).abs() < SCATTER);
-        if way_back {
-            change.causes = vec![GRADE];
-            change.reason = "the way back shows the opposite";
-        } else if whichever {
-            change.causes = vec![ROLLING];
-            change.reason = "it is the same in another heading";
-        }
-    }
-}
-
-/// Slopes that the gyro and the load show together.
-fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
-    let drives = |i: usize| run.forward(i).abs() > DRIVING;
-    let certain = |i: usize| {
-        drives(i)
-            && attitude.pitch[i].abs() > SLOPE.to_radians()
-            && attitude.pitch[i].abs() > NINETY * attitude.sigma[i]
-    };
-    // What is certain somewhere goes on to where it is no slope.
-    let mut steep: Vec<bool> = (0..run.time.len()).map(certain).collect();
-    let goes_on = |i: usize, k: usize| {
-        let (here, there) = (attitude.pitch[i], attitude.pitch[k]);
-        drives(i) && here * there > 0.0 && here.abs() > SLOPE.to_radians()
-    };
-    for i in 1..steep.len() {
-        steep[i] = steep[i] || (steep[i - 1] && goes_on(i, i - 1));
-    }
-    for i in (1..steep.len()).rev() {
-        steep[i - 1] = steep[i - 1] || (steep[i] && goes_on(i - 1, i));
-    }
-    let mut out = Vec::new();
-    for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPE_GAP) {
-        for piece in piece.chunk_by(|&a, &b| attitude.pitch[a] * attitude.pitch[b] > 0.0) {
-            let (first, last) = (piece[0], piece[piece.len() - 1]);
-            let [from, until] = [run.time[first], run.time[last]];
-            if until - from < LEAST_SLOPE {
-                continue;
-            }
-            let n = piece.len() as f64;
-            let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
-            let mean = piece.iter().map(|&i| along(i)).sum::<f64>() / n;
-            let sigma = piece.iter().map(|&i| attitude.sigma[i]).sum::<f64>() / n;
-            if mean.abs() < NINETY * sigma {
-                continue;
-            }
-            out.push(LoadChange {
-                recording: run.name.clone(),
-                interval: [from, until],
-                onset: [from - CLOCK, from + CLOCK],
-                end: [until - CLOCK, until + CLOCK],
-                seconds: n * run.period(),
-                ratio: None,
-                slope: mean.to_degrees(),
-                slope_half: (NINETY * sigma).to_degrees(),
-                bound: false,
-                causes: vec![GRADE],
-                reason: "the gyro tilts with it",
-            });
-        }
-    }
-    out
 }
 
 #[cfg(test)]

@@ -11,12 +11,14 @@ mod clock;
 mod compare;
 mod extract;
 mod forecast;
+mod jumps;
 mod law;
 mod level;
 mod model;
 mod name;
 mod run;
 mod scrub;
+mod slopes;
 mod standstill;
 mod straight;
 #[cfg(test)]
