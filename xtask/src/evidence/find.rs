@@ -5,6 +5,8 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use lacuna::which_mapping;
+use recordings::Mapping;
 
 /// A recording and its files.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,6 +54,14 @@ pub(super) fn find(folder: &Path) -> Result<Vec<Found>> {
     ensure!(folder.is_dir(), "there is no folder '{}'; name one with --data", folder.display());
     let mut out = Vec::new();
     look(folder, DEPTH, &mut out)?;
+    // A folder that holds one table gives it its name.
+    let alone = |found: &Found| {
+        matches!(found.kind, Kind::Drive(_)) && out.iter().filter(|o| o.label == found.label).count() == 1
+    };
+    let names: Vec<String> = out.iter().map(|f| if alone(f) { f.label.clone() } else { f.name.clone() }).collect();
+    for (found, name) in out.iter_mut().zip(names) {
+        found.name = name;
+    }
     out.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(out)
 }
@@ -84,13 +94,14 @@ fn look(folder: &Path, depth: usize, out: &mut Vec<Found>) -> Result<()> {
     Ok(())
 }
 
-/// What a file is by its first line, or by its ending if it is a bag of a Kobuki.
+/// What a file is by its first line, a bag by its topics.
 fn kind(path: &Path) -> Result<Option<Kind>> {
     let name = path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     if recordings::is_bag(&name) {
-        let folder = path.parent().unwrap_or(path).to_path_buf();
-        let kobuki = path.display().to_string().to_lowercase().contains("kobuki");
-        return Ok(kobuki.then_some(Kind::KobukiBag(folder)));
+        // By what it holds: names are hidden.
+        let (_, contents) = which_mapping::look(path)?;
+        let kobuki = which_mapping::fits(&Mapping::built_in("kobuki-bag")?, &contents);
+        return Ok(kobuki.then(|| Kind::KobukiBag(path.parent().unwrap_or(path).to_path_buf())));
     }
     if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("csv")) {
         return Ok(None);
@@ -132,7 +143,7 @@ mod tests {
         put("d/husky.csv", "window,step,t,steady_state,cmd_left,cmd_right,wheel_left,wheel_right,icp_x\n");
         let found = find(folder.path()).expect("finds");
         let names: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
-        assert_eq!(names, ["ASPHALT_03", "case-07", "d_husky"]);
+        assert_eq!(names, ["ASPHALT_03", "case-07", "d"]);
         assert!(found[0].is_hard() && found[0].husky().is_some_and(|(_, inertial)| inertial.is_none()));
         assert!(!found[1].is_hard() && found[1].husky().is_some_and(|(_, inertial)| inertial.is_some()));
         assert!(find(&folder.path().join("nowhere")).is_err());
