@@ -5,7 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use recordings::{Group, GroupFile, Loss, Mapping, Opened, Read, ReadOptions, Source, read_from};
+use recordings::{
+    Group, GroupFile, Loss, Mapping, Opened, Read, ReadOptions, RecordingError, Source, Survey, read_from, survey_from,
+};
 
 use crate::robot_file::RobotSpec;
 
@@ -27,12 +29,29 @@ pub struct Loaded {
 impl Loaded {
     /// What was lost, in sentences.
     pub fn lost(&self) -> impl Iterator<Item = String> + '_ {
-        let unmatched = self
-            .unmatched
-            .iter()
-            .map(|f| format!("{f}: not read: it fits no pattern of the mapping, or stands there twice"));
-        self.losses.iter().map(ToString::to_string).chain(unmatched)
+        self.losses.iter().map(ToString::to_string).chain(not_read(&self.unmatched))
     }
+}
+
+/// Recordings that were measured and not kept.
+#[derive(Debug, Default)]
+pub struct Surveyed {
+    /// What was found, in the order of the recordings' names.
+    pub surveys: Vec<Survey>,
+    /// Files that were meant to be read and that no entry of the mapping fits: a loss.
+    pub unmatched: Vec<String>,
+}
+
+impl Surveyed {
+    /// What was lost, in sentences.
+    pub fn lost(&self) -> impl Iterator<Item = String> + '_ {
+        self.surveys.iter().flat_map(|s| &s.losses).map(ToString::to_string).chain(not_read(&self.unmatched))
+    }
+}
+
+/// A sentence on each file that no entry fits.
+fn not_read(unmatched: &[String]) -> impl Iterator<Item = String> + '_ {
+    unmatched.iter().map(|f| format!("{f}: not read: it fits no pattern of the mapping, or stands there twice"))
 }
 
 /// A mapping: a built-in one by name, or a TOML file.
@@ -184,9 +203,42 @@ fn run_names(groups: &[Group]) -> Vec<String> {
 /// # Errors
 /// The first file that cannot be read, or none at all.
 pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Loaded> {
+    let runs = runs(mapping, paths, |run, files| read_from(mapping, run, files, options))?;
+    let (losses, sources) = (runs.found.iter().flat_map(|r| &r.losses), runs.found.iter().flat_map(|r| &r.sources));
+    Ok(Loaded {
+        losses: losses.cloned().collect(),
+        sources: sources.cloned().collect(),
+        reads: runs.found,
+        unmatched: runs.unmatched,
+        ignored: runs.ignored,
+    })
+}
+
+/// Measures every recording in files and folders, without keeping its samples.
+///
+/// # Errors
+/// As [`load`].
+pub fn survey(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Surveyed> {
+    let runs = runs(mapping, paths, |run, files| survey_from(mapping, run, files, options))?;
+    Ok(Surveyed { surveys: runs.found, unmatched: runs.unmatched })
+}
+
+/// What was found of each run, and what is none.
+struct Runs<T> {
+    found: Vec<T>,
+    unmatched: Vec<String>,
+    ignored: Vec<String>,
+}
+
+/// Opens the files of every run in files and folders, and gives them with the run's name to `read`.
+fn runs<T>(
+    mapping: &Mapping,
+    paths: &[PathBuf],
+    mut read: impl FnMut(&str, &mut [Opened<'_>]) -> Result<T, RecordingError>,
+) -> Result<Runs<T>> {
     let files = files(mapping, paths)?;
     let mut grouping = mapping.group(&files.meant);
-    let mut out = Loaded { unmatched: grouping.unmatched, ignored: files.ignored, ..Loaded::default() };
+    let mut out = Runs { found: Vec::new(), unmatched: grouping.unmatched, ignored: files.ignored };
     for group in &mut grouping.groups {
         complete(group, mapping);
     }
@@ -199,12 +251,9 @@ pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Resu
             .collect::<Result<Vec<_>>>()?;
         let mut opened: Vec<Opened<'_>> =
             group.files.iter().zip(&mut files).map(|(f, source)| Opened { name: &f.name, source }).collect();
-        let read = read_from(mapping, run, &mut opened, options)?;
-        out.losses.extend(read.losses.iter().cloned());
-        out.sources.extend(read.sources.iter().cloned());
-        out.reads.push(read);
+        out.found.push(read(run, &mut opened)?);
     }
-    if out.reads.is_empty() {
+    if out.found.is_empty() {
         let quoted: Vec<String> = paths.iter().map(|p| format!("'{}'", p.display())).collect();
         let patterns: Vec<&str> = mapping.files.iter().map(|f| f.pattern.as_str()).collect();
         bail!(

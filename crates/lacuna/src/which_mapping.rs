@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use recordings::{BUILT_IN_MAPPINGS, Contents, FileMapping, Mapping, contents, is_bag};
+use recordings::{BUILT_IN_MAPPINGS, Contents, FileMapping, Mapping, contents, contents_of_beginning, is_bag};
 
 use crate::propose::{self, holds};
 use crate::{case_folder, inputs};
@@ -51,18 +51,51 @@ pub fn look(bag: &Path) -> Result<(String, Contents)> {
     Ok((name, contents))
 }
 
+/// What a bag starts with.
+pub struct Glance {
+    /// The bag's name.
+    pub bag: String,
+    /// What is inside its beginning.
+    pub contents: Contents,
+    /// The bag ends there.
+    pub is_whole: bool,
+}
+
+/// Looks at the beginning of a bag, at all of it where that cannot be read by itself.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn glance(bag: &Path) -> Result<Glance> {
+    /// Bytes: some ten seconds of a camera, which fills bags most.
+    const MOST: u64 = 16 << 20;
+    let name = bag.display().to_string();
+    let mut file = File::open(bag).with_context(|| format!("cannot read '{name}'"))?;
+    if let Ok(contents) = contents_of_beginning(&name, &mut file, MOST) {
+        // A file that grows meanwhile is looked at again.
+        let is_whole = contents.bytes < MOST;
+        return Ok(Glance { bag: name, contents, is_whole });
+    }
+    let (bag, contents) = look(bag)?;
+    Ok(Glance { bag, contents, is_whole: true })
+}
+
 /// Whether a bag has every topic and every field that a mapping of bags asks for: what is nearly there may be the bag of
-/// another robot with joints of the same names.
+/// another robot with joints of the same names. Of a file that describes itself, any topic with its fields will do.
 pub fn fits(mapping: &Mapping, contents: &Contents) -> bool {
-    let asked = |entry: &FileMapping| {
+    let is_there = |entry: &FileMapping| {
         let topic = contents.topics.iter().find(|topic| entry.topic.as_deref() == Some(&topic.name));
         topic.is_some_and(|topic| {
             let time = entry.time.column.as_deref().filter(|column| *column != "log_time");
-            let asked = entry.columns.iter().filter(|c| !c.optional).map(|c| c.column.as_str());
+            let asked =
+                entry.columns.iter().filter(|c| !c.optional || entry.self_describing).map(|c| c.column.as_str());
             asked.chain(time).all(|column| holds(topic, column))
         })
     };
-    mapping.is_described_by(contents) || mapping.files.iter().all(asked)
+    if mapping.files.iter().any(|entry| entry.self_describing) {
+        mapping.files.iter().any(is_there)
+    } else {
+        mapping.files.iter().all(is_there)
+    }
 }
 
 /// The names of the built-in mappings of bags.

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::bags::{bag, cdr, cmd_vel, imu, joint_states};
+use common::bags::{bag, bag_with_filler, cdr, cmd_vel, imu, joint_states};
 use common::{Bench, ROBOT};
 use serde_json::Value;
 
@@ -178,4 +178,33 @@ fn a_panic_that_a_reader_catches_is_no_defect() {
     let run = bench.run(&["check", "a.mcap"]);
     assert_eq!((run.code(), run.err().as_str()), (Some(0), ""));
     assert!(run.out().contains("/odd: its schema does not parse") && run.out().contains("gyro_z"), "{}", run.out());
+}
+
+#[test]
+fn a_bag_is_mapped_by_all_that_is_inside_not_by_its_beginning() {
+    // Scans fill the beginning that is looked at; one topic comes before them, the other after.
+    let scans = |count: usize| {
+        let mut random = 1_u64;
+        let mut scan = move || {
+            let mut bytes = vec![0, 1, 0, 0, 0, 0, 16, 0];
+            while bytes.len() < 8 + (1 << 20) {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                bytes.extend(((random >> 32) as u32).to_le_bytes());
+            }
+            bytes.truncate(8 + (1 << 20));
+            bytes
+        };
+        (0..count).map(|_| scan()).collect::<Vec<_>>()
+    };
+    let filler = || ("/scan", "test_msgs/msg/Scan", "uint8[] data");
+    let bench = Bench::empty();
+    bench.write_bytes(
+        "a.mcap",
+        &bag_with_filler(&[joint_states("/joint_states", &JACKAL)], filler(), &scans(24), &[imu("/imu/data")]),
+    );
+    let json = check(&bench, &["a.mcap"]);
+    assert!(json["bags"][0]["bytes"].as_u64() > Some(20 << 20), "{json}");
+    assert_eq!(columns(&json).len(), 12, "{json}");
+    assert!(said(&json).contains("/imu/data"), "{json}");
+    assert_eq!(json["bags"][0]["topics"].as_array().map(Vec::len), Some(3), "{json}");
 }

@@ -65,12 +65,6 @@ impl Channel {
         self
     }
 
-    /// The same channel on another clock.
-    pub(crate) fn on_clock(mut self, clock: usize) -> Self {
-        self.clock = clock;
-        self
-    }
-
     /// What is measured.
     pub const fn signal(&self) -> Signal {
         self.signal

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-/// How far (ns) a stamp may lie before the latest one and still be sorted into its place: messages overtake each other
-/// on a network, by less than a second; what goes further back is a clock that was set anew.
-pub(crate) const SORTED_WITHIN_NS: i64 = 1_000_000_000;
+use crate::column::{Keep, Series};
 
 /// Instants and values of one column.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct ColumnSamples {
     /// In strictly rising order, as rows mostly come.
     t_ns: Vec<i64>,
@@ -17,22 +15,33 @@ pub(crate) struct ColumnSamples {
 }
 
 impl ColumnSamples {
-    /// Adds a sample; false when there is one at this instant, which stays.
-    pub(crate) fn add(&mut self, now_ns: i64, value: f64) -> bool {
-        if self.t_ns.last().is_none_or(|&last_ns| last_ns < now_ns) {
-            self.t_ns.push(now_ns);
-            self.values.push(value);
-            return true;
-        }
-        let new = self.t_ns.binary_search(&now_ns).is_err() && !self.late.contains_key(&now_ns);
-        if new {
-            self.late.insert(now_ns, value);
-        }
-        new
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.t_ns.len() + self.late.len()
+    }
+
+    /// Takes out, in order, what lies more than `within_ns` before the latest stamp; the earlier half where there are
+    /// `most` even so.
+    pub(crate) fn take_before(&mut self, within_ns: i64, most: usize) -> Series {
+        let before_ns = self.t_ns.last().map_or(i64::MIN, |last_ns| last_ns.saturating_sub(within_ns));
+        let mut count = self.t_ns.partition_point(|&t_ns| t_ns < before_ns);
+        let sorted_late = self.late.range(..before_ns).count();
+        let before_ns = if self.len() - count - sorted_late >= most {
+            count = self.t_ns.len() / 2;
+            // All late ones: a single stamp may be the latest for long.
+            i64::MAX
+        } else {
+            before_ns
+        };
+        let later = self.late.split_off(&before_ns);
+        let late = std::mem::replace(&mut self.late, later);
+        let early =
+            Self { t_ns: self.t_ns.drain(..count).collect(), values: self.values.drain(..count).collect(), late };
+        early.sorted()
     }
 
     /// All samples in the order of their stamps.
-    pub(crate) fn finish(self) -> (Vec<i64>, Vec<f64>) {
+    fn sorted(self) -> Series {
         if self.late.is_empty() {
             return (self.t_ns, self.values);
         }
@@ -55,6 +64,27 @@ impl ColumnSamples {
     }
 }
 
+impl Keep for ColumnSamples {
+    type Kept = Series;
+
+    fn add(&mut self, now_ns: i64, value: f64) -> bool {
+        if self.t_ns.last().is_none_or(|&last_ns| last_ns < now_ns) {
+            self.t_ns.push(now_ns);
+            self.values.push(value);
+            return true;
+        }
+        let new = self.t_ns.binary_search(&now_ns).is_err() && !self.late.contains_key(&now_ns);
+        if new {
+            self.late.insert(now_ns, value);
+        }
+        new
+    }
+
+    fn finish(self) -> Option<Series> {
+        Some(self.sorted()).filter(|(t_ns, _)| !t_ns.is_empty())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +95,12 @@ mod tests {
         let added: Vec<bool> =
             [5, 9, 7, 9, 7, 3, 20].iter().zip(1..).map(|(&t, n)| samples.add(t, f64::from(n))).collect();
         assert_eq!(added, [true, true, true, false, false, true, true]);
-        assert_eq!(samples.finish(), (vec![3, 5, 7, 9, 20], vec![6.0, 1.0, 3.0, 2.0, 7.0]));
+        assert_eq!(samples.len(), 5);
+        let mut parts = samples.clone();
+        assert_eq!(parts.take_before(13, 100), (vec![3, 5], vec![6.0, 1.0]));
+        assert_eq!(parts.take_before(13, 3), (vec![7, 9], vec![3.0, 2.0]));
+        assert_eq!(parts.finish(), Some((vec![20], vec![7.0])));
+        assert_eq!(samples.finish(), Some((vec![3, 5, 7, 9, 20], vec![6.0, 1.0, 3.0, 2.0, 7.0])));
+        assert_eq!(ColumnSamples::default().finish(), None);
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::channel::{Attributes, Channel};
+use crate::column::Column;
 use crate::recording::{Clock, Recording};
 
 /// The attributes of a channel as keys and values.
@@ -52,22 +53,25 @@ impl Described {
     }
 }
 
-/// Gives channels what is said of them, and adds their clocks in the order of the file; those of which nothing is said
+/// Gives columns what is said of them, and adds their clocks in the order of the file; those of which nothing is said
 /// stay as they are, on a clock called `file`.
-pub(crate) fn settle(file: &str, channels: Vec<(Channel, Option<Described>)>, clocks: &mut Vec<Clock>) -> Vec<Channel> {
+pub(crate) fn settle<K>(
+    file: &str,
+    columns: Vec<(Column<K>, Option<Described>)>,
+    clocks: &mut Vec<Clock>,
+) -> Vec<Column<K>> {
     let number = |described: &Option<Described>| described.as_ref().map(|described| described.clock);
-    let mut index_of: BTreeMap<Option<usize>, usize> = channels.iter().map(|(_, said)| (number(said), 0)).collect();
+    let mut index_of: BTreeMap<Option<usize>, usize> = columns.iter().map(|(_, said)| (number(said), 0)).collect();
     for (&clock, index) in &mut index_of {
-        let said = channels.iter().find(|(_, said)| number(said) == clock).and_then(|(_, said)| said.as_ref());
+        let said = columns.iter().find(|(_, said)| number(said) == clock).and_then(|(_, said)| said.as_ref());
         let name = said.and_then(|said| said.clock_name.clone()).unwrap_or_else(|| file.to_owned());
         *index = clocks.len();
         clocks.push(Clock { name, nominal_rate_hz: said.and_then(|said| said.clock_rate_hz) });
     }
-    let settled = channels.into_iter().map(|(channel, said)| {
-        let channel = channel.on_clock(index_of.get(&number(&said)).copied().unwrap_or_default());
-        let Some(said) = said else { return channel };
-        let column = said.column.unwrap_or_else(|| channel.column().to_owned());
-        channel.with_attributes(said.attributes).with_column(column)
+    let settled = columns.into_iter().map(|(column, said)| {
+        let clock = index_of.get(&number(&said)).copied().unwrap_or_default();
+        let Some(said) = said else { return Column { clock, ..column } };
+        Column { clock, source: said.column.unwrap_or(column.source), attributes: said.attributes, ..column }
     });
     settled.collect()
 }

@@ -126,8 +126,8 @@ pub fn group_by_content(prints: &[Fingerprint]) -> Vec<Vec<usize>> {
 /// Makes a fingerprint of samples one by one, in memory that does not grow with them.
 #[derive(Debug, Clone, Default)]
 pub struct FingerprintBuilder {
-    /// Up to two changes before the next one: stamp and rounded value.
-    recent: Vec<(i64, u64)>,
+    /// The last change and the one before it: stamp and rounded value.
+    recent: [Option<(i64, u64)>; 2],
     hashes: Vec<u64>,
     /// The largest hash of interest, once some were left out.
     limit: Option<u64>,
@@ -140,10 +140,10 @@ impl FingerprintBuilder {
             return;
         }
         let fresh = (t_ns, rounded(value));
-        if self.recent.last().is_some_and(|&(_, before)| before == fresh.1) {
+        if self.recent[1].is_some_and(|(_, before)| before == fresh.1) {
             return;
         }
-        if let [first, second] = self.recent[..] {
+        if let [Some(first), Some(second)] = self.recent {
             let after = |from: i64, to: i64| {
                 to.saturating_sub(from).saturating_add(TIME_SHIFT_NS).div_euclid(TIME_GRID_NS) as u64
             };
@@ -152,9 +152,8 @@ impl FingerprintBuilder {
             if self.limit.is_none_or(|limit| hash < limit) {
                 self.hashes.push(hash);
             }
-            self.recent.remove(0);
         }
-        self.recent.push(fresh);
+        self.recent = [self.recent[1], Some(fresh)];
         if self.hashes.len() >= 8 * KEPT {
             self.thin();
         }

@@ -70,24 +70,31 @@ impl StampMeter {
         Self { reader, set: 0, unset: 0, extremes_ns: (i64::MAX, i64::MIN), delays, stretches }
     }
 
-    /// Looks at a message; one that does not decode is counted elsewhere.
-    pub(crate) fn look(&mut self, message: &Message<'_>) {
-        let Some(cells) = self.reader.as_ref().and_then(|reader| reader.read(message.bytes)) else { return };
-        let Some(Cell::Whole(stamp)) = cells.first() else {
-            // JSON is asked once: its other messages have no stamp either.
-            self.reader = self.reader.take().filter(|_| self.set + self.unset > 0);
-            return;
-        };
-        if *stamp == 0 {
+    /// Looks at a message, whose header has this stamp by whoever walked it already; one that does not decode is counted
+    /// elsewhere.
+    pub(crate) fn look(&mut self, message: &Message<'_>, stamp: Option<i128>) {
+        let Some(stamp) = stamp.or_else(|| self.read(message)) else { return };
+        if stamp == 0 {
             self.unset += 1;
             return;
         }
-        let Ok(stamp) = i64::try_from(*stamp) else { return };
+        let Ok(stamp) = i64::try_from(stamp) else { return };
         let delay = message.log_time_ns.saturating_sub(stamp);
         self.set += 1;
         self.extremes_ns = (self.extremes_ns.0.min(delay), self.extremes_ns.1.max(delay));
         self.delays.add(delay);
         self.stretches.add(message.log_time_ns, delay);
+    }
+
+    /// The stamp of a message that was not walked.
+    fn read(&mut self, message: &Message<'_>) -> Option<i128> {
+        let cells = self.reader.as_ref()?.read(message.bytes)?;
+        let Some(Cell::Whole(stamp)) = cells.first() else {
+            // JSON is asked once: its other messages have no stamp either.
+            self.reader = self.reader.take().filter(|_| self.set + self.unset > 0);
+            return None;
+        };
+        Some(*stamp)
     }
 
     /// What was measured; `None` for a topic without header stamps.

@@ -10,6 +10,8 @@
 //! * [`Mapping`] says which column of which file is which signal, in which unit and with which sign.
 //! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way; [`read_from`] does
 //!   so from anything that can be read and searched, so that bags need not fit into memory.
+//! * [`survey_from`] measures instead: quality and content of each channel, and what is inside bags, in one pass and in
+//!   memory that does not grow.
 //! * [`contents`] tells what a bag holds and [`table_contents`] what a table does, [`messages`] gives each message, [`FieldReader`] the fields of each.
 //! * [`Quality`] is what can be measured of a channel without knowing what it means: rate, gaps, jumps, saturation ...
 //! * [`Fingerprint`] tells the same data in another file.
@@ -31,6 +33,8 @@
 mod bag;
 mod cell;
 mod channel;
+mod column;
+mod column_meter;
 mod column_samples;
 mod column_survey;
 mod contents;
@@ -54,6 +58,7 @@ mod recording;
 mod samples;
 mod signal;
 mod suggest;
+mod survey;
 mod table;
 mod table_contents;
 mod table_guess;
@@ -66,7 +71,7 @@ mod write_parquet;
 pub use bag::{LARGEST_IN_MEMORY, LARGEST_RECORD, Message, Passed, ReadSeek, Topic, messages};
 pub use channel::{Attributes, Channel};
 pub use column_survey::{ColumnContents, TimeLike, UnitBy};
-pub use contents::{Contents, TopicContents, contents};
+pub use contents::{Contents, TopicContents, contents, contents_of_beginning};
 pub use error::RecordingError;
 pub use fields::{Field, FieldReader};
 pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
@@ -82,6 +87,7 @@ pub use quality::{
 pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
+pub use survey::{Survey, SurveyedChannel, survey_from};
 pub use table_contents::{TableContents, TableFormat, table_contents};
 pub use units::{Scale, Unit, parse_unit};
 pub use write::{lost_in_csv, write_csv};

@@ -113,12 +113,6 @@ impl Mapping {
         self.files.iter().any(|file| file.self_describing)
     }
 
-    /// True when it reads files that say themselves what they hold, and this bag was written as one.
-    pub fn is_described_by(&self, contents: &crate::Contents) -> bool {
-        let own = |topic: &crate::TopicContents| topic.message_type == crate::write_mcap::SCHEMA_NAME;
-        self.alternatives() && contents.topics.iter().any(own)
-    }
-
     /// The first entry that a file name fits, and the run's id in it.
     pub(crate) fn entry_of<'n>(&self, file: &'n str) -> Option<(usize, &'n str)> {
         self.files.iter().enumerate().find_map(|(index, entry)| Some((index, entry.whole_run_id(file)?)))

@@ -10,7 +10,7 @@ use parquet::record::{Field, Row as ParquetRow};
 use parquet::schema::types::Type;
 
 use crate::cell::CellError;
-use crate::channel::Channel;
+use crate::column::{Column, Keep};
 use crate::column_survey::ColumnSurvey;
 use crate::described::Described;
 use crate::error::RecordingError;
@@ -23,40 +23,43 @@ use crate::samples::{Found, Row, Samples};
 use crate::suggest;
 
 /// What a table gave.
-pub(crate) struct Table {
-    pub(crate) channels: Vec<Channel>,
+pub(crate) struct Table<K> {
+    pub(crate) columns: Vec<Column<K>>,
     pub(crate) unused: Vec<String>,
     /// What the file says of itself.
     pub(crate) about: HashMap<String, String>,
 }
 
-/// Channels with what a file that says `about` says of each.
-pub(crate) fn described(channels: Vec<Channel>, about: &HashMap<String, String>) -> Vec<(Channel, Option<Described>)> {
+/// Columns with what a file that says `about` says of each.
+pub(crate) fn described<K>(
+    columns: Vec<Column<K>>,
+    about: &HashMap<String, String>,
+) -> Vec<(Column<K>, Option<Described>)> {
     let say = |key: &str| about.get(key).map(String::as_str);
-    let describe = |channel: Channel| {
-        let column = channel.signal().column_name();
-        let said = Described::read(channel.name(), |key| match key {
+    let describe = |read: Column<K>| {
+        let column = read.signal.column_name();
+        let said = Described::read(read.signal.name(), |key| match key {
             "clock" => None,
             "clock_name" => say("clock"),
             "clock_rate_hz" => say(key),
             "column" => say(&format!("{column}.source")),
             key => say(&format!("{column}.{key}")),
         });
-        (channel, said)
+        (read, said)
     };
-    channels.into_iter().map(describe).collect()
+    columns.into_iter().map(describe).collect()
 }
 
-/// Reads the mapped columns; the channels that hold samples, on clock `clock`.
-pub(crate) fn read_rows(
+/// Reads the mapped columns; those that hold samples, on clock `clock`.
+pub(crate) fn read_rows<K: Keep>(
+    (keep, policy): (&K, Policy),
     name: &str,
     bytes: Vec<u8>,
     file: &FileMapping,
     mapping: &str,
     clock: usize,
-    policy: Policy,
     losses: &mut Vec<Loss>,
-) -> Result<Table, RecordingError> {
+) -> Result<Table<K::Kept>, RecordingError> {
     let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
     let read = AssertUnwindSafe(|| {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
@@ -70,15 +73,15 @@ pub(crate) fn read_rows(
         let wanted = Type::group_type_builder(schema.name()).with_fields(fields).build();
         let wanted = wanted.map_err(|error| refuse(error.to_string()))?;
         let rows = reader.get_row_iter(Some(wanted)).map_err(|error| refuse(error.to_string()))?;
-        let mut samples = Samples::new(name, Place::Row, policy, (&file.time, chosen.time), chosen.columns);
+        let mut samples = Samples::new(keep, name, Place::Row, policy, (&file.time, chosen.time), chosen.columns);
         for (number, row) in (0..).zip(rows) {
             let row = row.map_err(|error| refuse(error.to_string()))?;
             samples.take(&TableRow { row, number }, number)?;
         }
         let unused = names.iter().filter(|name| !chosen.names.contains(name)).map(|&name| name.to_owned()).collect();
         let mut lost = Vec::new();
-        let channels = samples.finish(clock, &mut lost)?;
-        Ok((Table { channels, unused, about }, lost))
+        let columns = samples.finish(clock, &mut lost)?;
+        Ok((Table { columns, unused, about }, lost))
     });
     let (table, lost) = catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))?;
     losses.extend(lost);

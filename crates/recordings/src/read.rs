@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use crate::bag::{Format, ReadSeek, read_whole};
-use crate::channel::Channel;
+use crate::column::{Column, Keep};
+use crate::column_samples::ColumnSamples;
+use crate::contents::Contents;
 use crate::described::settle;
 use crate::error::RecordingError;
 use crate::fields::LOG_TIME;
@@ -114,12 +116,27 @@ pub fn read(mapping: &Mapping, run: &str, inputs: &[Input<'_>], options: &ReadOp
 ///
 /// # Errors
 /// As [`read`], and when a source fails.
-pub fn read_from<'a>(
+pub fn read_from(
+    mapping: &Mapping,
+    run: &str,
+    inputs: &mut [Opened<'_>],
+    options: &ReadOptions,
+) -> Result<Read, RecordingError> {
+    let Gathered { clocks, columns, losses, sources, unused, .. } =
+        gather(mapping, run, inputs, options.policy, (&ColumnSamples::default(), false))?;
+    let channels = columns.into_iter().map(Column::into_channel).collect::<Result<_, _>>()?;
+    Ok(Read { recording: Recording::new(run, clocks, channels)?, losses, sources, unused })
+}
+
+/// Reads the files of one run, whose samples go to clones of `keep`. With `look_inside` the same pass tells what is
+/// inside bags.
+pub(crate) fn gather<'a, K: Keep>(
     mapping: &Mapping,
     run: &str,
     inputs: &mut [Opened<'a>],
-    options: &ReadOptions,
-) -> Result<Read, RecordingError> {
+    policy: Policy,
+    (keep, look_inside): (&K, bool),
+) -> Result<Gathered<K::Kept>, RecordingError> {
     let mut by_entry: Vec<Vec<&mut Opened<'a>>> = mapping.files.iter().map(|_| Vec::new()).collect();
     let mut first: Option<(usize, &str, &str)> = None;
     for input in inputs {
@@ -141,7 +158,7 @@ pub fn read_from<'a>(
     };
     let folder = &name[..name.len() - base_name(name).len()];
 
-    let mut gathering = Gathering { mapping, policy: options.policy, ..Gathering::new(mapping) };
+    let mut gathering = Gathering { mapping, policy, keep, look_inside, so_far: Gathered::default() };
     for (entry, mut files) in by_entry.into_iter().enumerate().filter(|(entry, _)| mapping.leads(*entry)) {
         files.sort_by_key(|file| parts(file.name));
         match (&mut files[..], &mapping.files[entry].topic) {
@@ -150,62 +167,73 @@ pub fn read_from<'a>(
                 let file = format!("{folder}{}", mapping.files[entry].file_of(id));
                 let kind = LossKind::MissingFile;
                 let loss = Loss { kind, file, column: None, place: Place::Line, lines: Vec::new(), count: 1 };
-                gathering.losses.push(loss);
+                gathering.so_far.losses.push(loss);
             }
             (files, Some(_)) => gathering.bags(entry, files)?,
             ([file, ..], None) => gathering.table(entry, file)?,
         }
     }
-    let Gathering { clocks, channels, losses, sources, unused, .. } = gathering;
-    Ok(Read { recording: Recording::new(run, clocks, channels)?, losses, sources, unused })
+    Ok(gathering.so_far)
 }
 
-/// What has been read so far.
-struct Gathering<'m> {
+/// What the files of a run hold.
+pub(crate) struct Gathered<K> {
+    pub(crate) clocks: Vec<Clock>,
+    pub(crate) columns: Vec<Column<K>>,
+    pub(crate) losses: Vec<Loss>,
+    pub(crate) sources: Vec<Source>,
+    pub(crate) unused: Vec<UnusedColumn>,
+    /// What is inside bags, with their names.
+    pub(crate) contents: Vec<(String, Contents)>,
+}
+
+impl<K> Default for Gathered<K> {
+    fn default() -> Self {
+        let (clocks, columns, contents) = (Vec::new(), Vec::new(), Vec::new());
+        Self { clocks, columns, losses: Vec::new(), sources: Vec::new(), unused: Vec::new(), contents }
+    }
+}
+
+/// How a run is read, and what has been so far.
+struct Gathering<'m, K: Keep> {
     mapping: &'m Mapping,
     policy: Policy,
-    clocks: Vec<Clock>,
-    channels: Vec<Channel>,
-    losses: Vec<Loss>,
-    sources: Vec<Source>,
-    unused: Vec<UnusedColumn>,
+    keep: &'m K,
+    look_inside: bool,
+    so_far: Gathered<K::Kept>,
 }
 
-impl<'m> Gathering<'m> {
-    fn new(mapping: &'m Mapping) -> Self {
-        let (channels, losses, sources, unused) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { mapping, policy: Policy::Normal, clocks: Vec::new(), channels, losses, sources, unused }
-    }
-
+impl<K: Keep> Gathering<'_, K> {
     /// Reads a file that is one table: CSV or Parquet.
     fn table(&mut self, entry: usize, input: &mut Opened<'_>) -> Result<(), RecordingError> {
-        let (name, file, clock) = (input.name, &self.mapping.files[entry], self.clocks.len());
+        let so_far = &mut self.so_far;
+        let (name, file, clock) = (input.name, &self.mapping.files[entry], so_far.clocks.len());
         let whole = read_whole(name, &mut *input.source)?;
         if whole.broken_at.is_some() {
             let message = "the compressed file is damaged or cut off".to_owned();
             return Err(RecordingError::NotReadable { file: name.to_owned(), format: "zstd", message });
         }
         let (bytes, sha256) = (whole.file_bytes, whole.sha256);
-        let (mapping, policy) = (&self.mapping.name, self.policy);
+        let (keep, mapping) = ((self.keep, self.policy), &self.mapping.name);
         let own_clock = Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz };
         let unused = if Format::of(name, &whole.bytes) == Format::Parquet {
-            let table = parquet::read_rows(name, whole.bytes, file, mapping, clock, policy, &mut self.losses)?;
+            let table = parquet::read_rows(keep, name, whole.bytes, file, mapping, clock, &mut so_far.losses)?;
             if file.self_describing {
-                let described = parquet::described(table.channels, &table.about);
-                self.channels.extend(settle(name, described, &mut self.clocks));
+                let described = parquet::described(table.columns, &table.about);
+                so_far.columns.extend(settle(name, described, &mut so_far.clocks));
             } else {
-                self.channels.extend(table.channels);
-                self.clocks.push(own_clock);
+                so_far.columns.extend(table.columns);
+                so_far.clocks.push(own_clock);
             }
             table.unused
         } else {
             let header = Header::find(&Input { name, bytes: &whole.bytes }, file, mapping)?;
-            self.channels.extend(read_rows(name, file, &header, clock, policy, &mut self.losses)?);
-            self.clocks.push(own_clock);
+            so_far.columns.extend(read_rows(keep, name, file, &header, clock, &mut so_far.losses)?);
+            so_far.clocks.push(own_clock);
             header.unused
         };
-        self.unused.extend(unused.into_iter().map(|column| UnusedColumn { file: name.to_owned(), column }));
-        self.sources.push(Source { name: name.to_owned(), bytes: bytes as usize, sha256 });
+        so_far.unused.extend(unused.into_iter().map(|column| UnusedColumn { file: name.to_owned(), column }));
+        so_far.sources.push(Source { name: name.to_owned(), bytes: bytes as usize, sha256 });
         Ok(())
     }
 
@@ -214,26 +242,29 @@ impl<'m> Gathering<'m> {
         let pattern = &self.mapping.files[first].pattern;
         let entries: Vec<&FileMapping> = self.mapping.files.iter().filter(|file| file.pattern == *pattern).collect();
         let names: Vec<&str> = parts.iter().map(|part| part.name).collect();
-        self.losses.extend(missing_parts(&names, &self.mapping.files[first]));
+        self.so_far.losses.extend(missing_parts(&names, &self.mapping.files[first]));
         let describing = self.mapping.files[first].self_describing;
         let clock = |entry: &&FileMapping| if describing { 0 } else { self.clock(names[0], entry) };
         let clocks: Vec<usize> = entries.iter().map(clock).collect();
-        let bags = read_bags(&self.mapping.name, parts, &entries, &clocks, self.policy)?;
-        let channels = bags.channels.into_iter().flatten();
+        let keeping = (self.keep, self.look_inside);
+        let bags = read_bags(keeping, &self.mapping.name, parts, &entries, &clocks, self.policy)?;
+        let so_far = &mut self.so_far;
+        let columns = bags.columns.into_iter().flatten();
         if describing {
-            self.channels.extend(settle(names[0], channels.collect(), &mut self.clocks));
+            so_far.columns.extend(settle(names[0], columns.collect(), &mut so_far.clocks));
         } else {
-            self.channels.extend(channels.map(|(channel, _)| channel));
+            so_far.columns.extend(columns.map(|(column, _)| column));
         }
+        so_far.contents.extend(names.iter().map(|&name| name.to_owned()).zip(bags.contents));
         let wanted = |topic: &str| entries.iter().any(|entry| entry.topic.as_deref() == Some(topic));
         for (name, part) in names.iter().map(|&name| name.to_owned()).zip(bags.parts) {
             for topic in part.topics.into_iter().filter(|topic| !wanted(&topic.name)) {
-                self.unused.push(UnusedColumn { file: name.clone(), column: topic.name });
+                so_far.unused.push(UnusedColumn { file: name.clone(), column: topic.name });
             }
-            self.losses.extend(part.losses);
-            self.sources.push(Source { name, bytes: part.bytes as usize, sha256: part.sha256 });
+            so_far.losses.extend(part.losses);
+            so_far.sources.push(Source { name, bytes: part.bytes as usize, sha256: part.sha256 });
         }
-        self.losses.extend(bags.losses);
+        so_far.losses.extend(bags.losses);
         Ok(())
     }
 
@@ -245,14 +276,14 @@ impl<'m> Gathering<'m> {
             None if log => format!("{bag} log"),
             None => format!("{bag} stamps"),
         };
-        let rate = entry.time.rate_hz;
-        if let Some(index) = self.clocks.iter().position(|clock| clock.name == name) {
-            let clock = &mut self.clocks[index];
+        let (rate, clocks) = (entry.time.rate_hz, &mut self.so_far.clocks);
+        if let Some(index) = clocks.iter().position(|clock| clock.name == name) {
+            let clock = &mut clocks[index];
             clock.nominal_rate_hz = clock.nominal_rate_hz.filter(|&other| Some(other) == rate);
             return index;
         }
-        self.clocks.push(Clock { name, nominal_rate_hz: rate });
-        self.clocks.len() - 1
+        clocks.push(Clock { name, nominal_rate_hz: rate });
+        clocks.len() - 1
     }
 }
 

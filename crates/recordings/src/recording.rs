@@ -33,12 +33,7 @@ impl Recording {
     ) -> Result<Self, RecordingError> {
         let name = name.into();
         channels.sort_by_key(Channel::signal);
-        for pair in channels.windows(2) {
-            if pair[0].signal() == pair[1].signal() {
-                let channel = pair[0].name().to_owned();
-                return Err(RecordingError::ChannelTwice { recording: name, channel });
-            }
-        }
+        refuse_twice(&name, channels.iter().map(Channel::signal))?;
         if let Some(lost) = channels.iter().find(|channel| channel.clock() >= clocks.len()) {
             return Err(RecordingError::NoSuchClock {
                 recording: name,
@@ -92,6 +87,18 @@ impl Recording {
         let spans = self.channels.iter().filter(|channel| channel.clock() == clock).filter_map(Channel::span_ns);
         spans.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
+}
+
+/// Refuses channels, in order, of which two carry the same signal.
+pub(crate) fn refuse_twice(recording: &str, signals: impl Iterator<Item = Signal>) -> Result<(), RecordingError> {
+    let mut before = None;
+    for signal in signals {
+        if before.replace(signal) == Some(signal) {
+            let (recording, channel) = (recording.to_owned(), signal.name().to_owned());
+            return Err(RecordingError::ChannelTwice { recording, channel });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Rows become samples: the one way in which CSV lines, messages of a topic and rows of Parquet do.
 
 use crate::cell::CellError;
-use crate::channel::Channel;
-use crate::column_samples::{ColumnSamples, SORTED_WITHIN_NS};
+use crate::column::{Column, Keep, SORTED_WITHIN_NS};
 use crate::error::RecordingError;
 use crate::fields::HEADER_STAMP;
 use crate::loss::{Ledger, LossKind, in_words};
@@ -30,7 +29,7 @@ pub(crate) trait Row {
 }
 
 /// What a table is read by, and the samples read so far.
-pub(crate) struct Samples<'a> {
+pub(crate) struct Samples<'a, K> {
     file: &'a str,
     place: Place,
     policy: Policy,
@@ -42,26 +41,27 @@ pub(crate) struct Samples<'a> {
     /// A stamp of 0 is one that was never set.
     zero_is_unset: bool,
     columns: Vec<Found<'a>>,
-    gathered: Vec<ColumnSamples>,
+    kept: Vec<K>,
     /// The latest stamp of all rows so far.
     latest_ns: Option<i64>,
     ledger: Ledger<'a>,
 }
 
-impl<'a> Samples<'a> {
-    /// No samples yet of these columns.
+impl<'a, K: Keep> Samples<'a, K> {
+    /// No samples yet of these columns, whose samples go to clones of `keep`.
     pub(crate) fn new(
+        keep: &K,
         file: &'a str,
         place: Place,
         policy: Policy,
         time: (&'a TimeMapping, Option<usize>),
         columns: Vec<Found<'a>>,
     ) -> Self {
-        let gathered = columns.iter().map(|_| ColumnSamples::default()).collect();
+        let kept = columns.iter().map(|_| keep.clone()).collect();
         let ledger = Ledger::new(file, place);
         let (time, time_at) = time;
         let (prefix, zero_is_unset) = (String::new(), false);
-        Self { file, place, policy, time, time_at, prefix, zero_is_unset, columns, gathered, latest_ns: None, ledger }
+        Self { file, place, policy, time, time_at, prefix, zero_is_unset, columns, kept, latest_ns: None, ledger }
     }
 
     /// The same, of a topic.
@@ -99,7 +99,7 @@ impl<'a> Samples<'a> {
             let Some(value) = self.value(row, self.columns[index])? else {
                 continue;
             };
-            repeated |= !self.gathered[index].add(now_ns, value);
+            repeated |= !self.kept[index].add(now_ns, value);
         }
         if !repeated {
             return Ok(());
@@ -124,24 +124,23 @@ impl<'a> Samples<'a> {
         Ok(())
     }
 
-    /// The channels that hold samples, on clock `clock`. The losses go to `losses`.
+    /// The columns that hold samples, on clock `clock`. The losses go to `losses`.
     pub(crate) fn finish(
         mut self,
         clock: usize,
         losses: &mut Vec<crate::Loss>,
-    ) -> Result<Vec<Channel>, RecordingError> {
-        let (mut channels, mut empty) = (Vec::new(), Vec::new());
-        for (found, samples) in self.columns.iter().zip(std::mem::take(&mut self.gathered)) {
-            let (mapped, (t_ns, values)) = (found.mapped, samples.finish());
-            if t_ns.is_empty() {
+    ) -> Result<Vec<Column<K::Kept>>, RecordingError> {
+        let (mut columns, mut empty) = (Vec::new(), Vec::new());
+        for (found, samples) in self.columns.iter().zip(std::mem::take(&mut self.kept)) {
+            let mapped = found.mapped;
+            let Some(kept) = samples.finish() else {
                 empty.push(mapped);
                 continue;
-            }
-            let channel = Channel::new(mapped.signal, clock, t_ns, values)?;
-            let column = format!("{}{}", self.prefix, mapped.column);
-            channels.push(channel.with_attributes(mapped.attributes).with_column(column));
+            };
+            let source = format!("{}{}", self.prefix, mapped.column);
+            columns.push(Column { signal: mapped.signal, source, clock, attributes: mapped.attributes, kept });
         }
-        if channels.is_empty() {
+        if columns.is_empty() {
             let losses = self.ledger.losses();
             if !losses.is_empty() && losses.iter().all(|loss| loss.kind == LossKind::UnsetStamp) {
                 return Err(self.unset_stamp("every message".to_owned()));
@@ -153,7 +152,7 @@ impl<'a> Samples<'a> {
             self.ledger.add(LossKind::EmptyColumn, Some(&format!("{}{}", self.prefix, mapped.column)), || None);
         }
         losses.extend(self.ledger.into_losses());
-        Ok(channels)
+        Ok(columns)
     }
 
     /// When the row was taken; `None` when that is lost.

@@ -3,7 +3,7 @@
 use csv::ByteRecord;
 
 use crate::cell::{self, CellError};
-use crate::channel::Channel;
+use crate::column::{Column, Keep};
 use crate::error::RecordingError;
 use crate::header::Header;
 use crate::loss::{Loss, LossKind};
@@ -12,15 +12,15 @@ use crate::place::Place;
 use crate::read::Policy;
 use crate::samples::{Row, Samples, shown};
 
-/// Reads the rows below `header`; the channels that hold samples, on clock `clock`.
-pub(crate) fn read_rows(
+/// Reads the rows below `header`; the columns that hold samples, on clock `clock`.
+pub(crate) fn read_rows<K: Keep>(
+    (keep, policy): (&K, Policy),
     name: &str,
     file: &FileMapping,
     header: &Header<'_>,
     clock: usize,
-    policy: Policy,
     losses: &mut Vec<Loss>,
-) -> Result<Vec<Channel>, RecordingError> {
+) -> Result<Vec<Column<K::Kept>>, RecordingError> {
     let mut rows = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -28,7 +28,7 @@ pub(crate) fn read_rows(
         .quoting(false)
         .delimiter(file.delimiter)
         .from_reader(header.body);
-    let mut samples = Samples::new(name, Place::Line, policy, (&file.time, header.time), header.columns.clone());
+    let mut samples = Samples::new(keep, name, Place::Line, policy, (&file.time, header.time), header.columns.clone());
     let mut record = ByteRecord::new();
     let mut number = 0_u64;
     // Reading from memory without UTF-8 checks and with any number of fields cannot fail; an error ends the rows.

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::bag::{Message, Passed, Topic, messages};
-use crate::channel::Channel;
+use crate::column::{Column, Keep};
+use crate::contents::{Contents, Inside};
 use crate::described::Described;
 use crate::error::RecordingError;
 use crate::fields::{Cell, LOG_TIME, MessageRow, Reader, Trouble};
@@ -15,18 +16,27 @@ use crate::samples::{Found, Samples};
 use crate::suggest;
 
 /// One topic that is wanted.
-struct Wanted<'a> {
+struct Wanted<'a, K> {
     file: &'a FileMapping,
     topic: &'a str,
-    samples: Option<Samples<'a>>,
-    /// The reader of each topic of the current bag, where the topic is this one.
-    readers: Vec<Option<TopicReader>>,
+    samples: Option<Samples<'a, K>>,
+    /// What each topic of the current bag is to this one, by its index.
+    topics: Vec<Met>,
+    /// The fields of the last message.
+    cells: Vec<Cell>,
     /// The fields that the messages have: all but optional ones.
     kept: Vec<&'a str>,
     /// Messages met, over all parts.
     met: u64,
     /// What the topic says of itself.
     about: BTreeMap<String, String>,
+}
+
+/// What a topic of a bag is to a wanted one.
+enum Met {
+    NotYet,
+    Another,
+    Wanted(TopicReader),
 }
 
 /// Reads the wanted fields of one topic of one bag.
@@ -37,41 +47,49 @@ struct TopicReader {
 }
 
 /// What the bags of a run hold.
-pub(crate) struct Bags {
-    /// The channels of each entry, with what the file says of them where the mapping asks for it.
-    pub(crate) channels: Vec<Vec<(Channel, Option<Described>)>>,
+pub(crate) struct Bags<K> {
+    /// The columns of each entry, with what the file says of them where the mapping asks for it.
+    pub(crate) columns: Vec<Vec<(Column<K>, Option<Described>)>>,
     /// What each part is, in their order.
     pub(crate) parts: Vec<Passed>,
+    /// What is inside each part, where that was asked for.
+    pub(crate) contents: Vec<Contents>,
     /// What could not be read of messages.
     pub(crate) losses: Vec<Loss>,
 }
 
-/// Reads the parts of a bag, in their order, against entries that name topics; channels of entry `i` are on clock
-/// `clocks[i]`.
-pub(crate) fn read_bags<'a, 'n: 'a>(
+/// Reads the parts of a bag, in their order, against entries that name topics; columns of entry `i` are on clock
+/// `clocks[i]`. With `look_inside` the same pass tells what is inside.
+pub(crate) fn read_bags<'a, 'n: 'a, K: Keep>(
+    (keep, look_inside): (&K, bool),
     mapping: &str,
     parts: &mut [&mut Opened<'n>],
     entries: &[&'a FileMapping],
     clocks: &[usize],
     policy: Policy,
-) -> Result<Bags, RecordingError> {
-    let mut wanted: Vec<Wanted<'a>> = entries
+) -> Result<Bags<K::Kept>, RecordingError> {
+    let mut wanted: Vec<Wanted<'a, K>> = entries
         .iter()
         .filter_map(|file| {
             let topic = file.topic.as_deref()?;
-            let (readers, kept, about) = (Vec::new(), Vec::new(), BTreeMap::new());
-            Some(Wanted { file, topic, samples: None, readers, kept, met: 0, about })
+            let (topics, cells, kept, about) = (Vec::new(), Vec::new(), Vec::new(), BTreeMap::new());
+            Some(Wanted { file, topic, samples: None, topics, cells, kept, met: 0, about })
         })
         .collect();
-    let mut passed = Vec::new();
+    let (mut passed, mut contents) = (Vec::new(), Vec::new());
     for part in parts.iter_mut() {
         let name = part.name;
         for wanted in &mut wanted {
-            wanted.readers.clear();
+            wanted.topics.clear();
         }
+        let mut inside = look_inside.then(Inside::default);
         let pass = messages(name, &mut *part.source, &mut |message| {
-            wanted.iter_mut().try_for_each(|wanted| wanted.take(name, &message, policy))
+            if let Some(inside) = &mut inside {
+                inside.look(&message);
+            }
+            wanted.iter_mut().try_for_each(|wanted| wanted.take(keep, name, &message, policy))
         })?;
+        contents.extend(inside.map(|inside| inside.finish(&pass)));
         if policy == Policy::Strict && !pass.losses.is_empty() {
             return Err(RecordingError::Lost(in_words(&pass.losses)));
         }
@@ -80,14 +98,14 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
     let name = parts.first().map_or("", |part| part.name);
     // A bag that has others of the topics is the right one, and one of them was not recorded: a loss, as a missing file is.
     let rest_is_there = policy != Policy::Strict && wanted.iter().any(|wanted| wanted.samples.is_some());
-    let (mut channels, mut losses) = (Vec::new(), Vec::new());
+    let (mut columns, mut losses) = (Vec::new(), Vec::new());
     for (wanted, &clock) in wanted.into_iter().zip(clocks) {
-        channels.push(if let Some(samples) = wanted.samples {
+        columns.push(if let Some(samples) = wanted.samples {
             let (describing, about) = (wanted.file.self_describing, wanted.about);
-            let describe = |channel: Channel| {
+            let describe = |column: Column<K::Kept>| {
                 let say = |key: &str| about.get(key).filter(|_| describing).map(String::as_str);
-                let said = Described::read(channel.name(), say);
-                (channel, said)
+                let said = Described::read(column.signal.name(), say);
+                (column, said)
             };
             samples.finish(clock, &mut losses)?.into_iter().map(describe).collect()
         } else {
@@ -95,13 +113,13 @@ pub(crate) fn read_bags<'a, 'n: 'a>(
             Vec::new()
         });
     }
-    if channels.iter().all(Vec::is_empty) {
+    if columns.iter().all(Vec::is_empty) {
         let losses: Vec<String> = passed.iter().flat_map(|pass| &pass.losses).map(ToString::to_string).collect();
         let losses =
             if losses.is_empty() { "none of the mapped topics is there".to_owned() } else { losses.join("; ") };
         return Err(RecordingError::NoSamples { file: name.to_owned(), losses });
     }
-    Ok(Bags { channels, parts: passed, losses })
+    Ok(Bags { columns, parts: passed, contents, losses })
 }
 
 /// What to say of a topic without a message: nothing where it may be missing, a loss where the bag is damaged, or where
@@ -136,38 +154,42 @@ fn describes(topic: &Topic) -> bool {
     topic.metadata.contains_key("signal") && topic.message_type == crate::write_mcap::SCHEMA_NAME
 }
 
-impl<'a> Wanted<'a> {
-    fn take(&mut self, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<(), RecordingError> {
-        if message.topic.name != self.topic || (self.file.self_describing && !describes(message.topic)) {
-            return Ok(());
+impl<'a, K: Keep> Wanted<'a, K> {
+    fn take(&mut self, keep: &K, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<(), RecordingError> {
+        if self.topics.len() <= message.topic_index {
+            self.topics.resize_with(message.topic_index + 1, || Met::NotYet);
         }
-        if self.readers.len() <= message.topic_index {
-            self.readers.resize_with(message.topic_index + 1, || None);
+        if matches!(self.topics[message.topic_index], Met::NotYet) {
+            let wanted = message.topic.name == self.topic && (!self.file.self_describing || describes(message.topic));
+            self.topics[message.topic_index] =
+                if wanted { Met::Wanted(self.reader(keep, name, message, policy)?) } else { Met::Another };
         }
-        if self.readers[message.topic_index].is_none() {
-            let reader = self.reader(name, message, policy)?;
-            self.readers[message.topic_index] = Some(reader);
-        }
-        let (Some(reader), Some(samples)) = (&self.readers[message.topic_index], &mut self.samples) else {
+        let (Met::Wanted(reader), Some(samples)) = (&self.topics[message.topic_index], &mut self.samples) else {
             return Ok(());
         };
         self.met += 1;
         let number = self.met;
-        let Some(mut cells) = reader.reader.read(message.bytes) else {
+        if reader.reader.read_into(message.bytes, &mut self.cells).is_none() {
             let error = || {
                 let topic = self.topic;
                 RecordingError::Lost(format!("{name}: message {number} of `{topic}` does not decode by its schema"))
             };
             return samples.lose_row(LossKind::BadMessage, || number, error);
-        };
-        if reader.log_time {
-            cells.push(Cell::Whole(message.log_time_ns.into()));
         }
-        samples.take(&MessageRow { cells: &cells, number }, number - 1)
+        if reader.log_time {
+            self.cells.push(Cell::Whole(message.log_time_ns.into()));
+        }
+        samples.take(&MessageRow { cells: &self.cells, number }, number - 1)
     }
 
     /// The reader of the topic of this message: the mapped fields, then the time.
-    fn reader(&mut self, name: &'a str, message: &Message<'_>, policy: Policy) -> Result<TopicReader, RecordingError> {
+    fn reader(
+        &mut self,
+        keep: &K,
+        name: &'a str,
+        message: &Message<'_>,
+        policy: Policy,
+    ) -> Result<TopicReader, RecordingError> {
         let time = self.file.time.column.as_deref().unwrap_or(LOG_TIME);
         let log_time = time == LOG_TIME;
         let mut columns: Vec<_> = self.file.columns.iter().collect();
@@ -201,7 +223,8 @@ impl<'a> Wanted<'a> {
         if self.samples.is_none() {
             self.about.clone_from(&message.topic.metadata);
             let time = (&self.file.time, Some(time_at));
-            self.samples = Some(Samples::new(name, Place::Message, policy, time, found).of_topic(self.topic));
+            let samples = Samples::new(keep, name, Place::Message, policy, time, found);
+            self.samples = Some(samples.of_topic(self.topic));
         }
         Ok(TopicReader { reader, log_time })
     }

@@ -1,13 +1,14 @@
 //! Messages written by another library, decoded here and by two other decoders.
 
 use std::borrow::Cow;
+use std::io::Cursor;
 
 use proptest::prelude::*;
 use re_cdr::{BigEndian, CdrReader, LittleEndian};
 use re_ros_msg::MessageSchema;
 use re_ros_msg::deserialize::primitive_array::PrimitiveArray;
 use re_ros_msg::deserialize::{MapResolver, Value, decode_message};
-use recordings::{FieldReader, Topic};
+use recordings::{Field, FieldReader, Topic, TopicContents, contents};
 use serde::{Deserialize, Serialize};
 
 const SCHEMA: &str = "\
@@ -322,4 +323,56 @@ fn small_messages_byte_for_byte() {
     assert_eq!(one("uint8[] v", "v[0]", &[255, 255, 255, 255, 1]), Ok(None));
     let nan = [0, 0, 0, 0, 0, 0, 0xF8, 0x7F];
     assert_eq!(one("float64 v", "v", &nan), Ok(Some(vec![None])));
+}
+
+/// The bag of these messages and what is inside.
+fn inside(messages: &[Vec<u8>]) -> TopicContents {
+    let mut out = Cursor::new(Vec::new());
+    let mut writer = mcap::WriteOptions::new().create(&mut out).unwrap();
+    let schema = writer.add_schema("test_msgs/msg/Status", "ros2msg", SCHEMA.as_bytes()).unwrap();
+    let channel_id = writer.add_channel(schema, "/status", "cdr", &std::collections::BTreeMap::new()).unwrap();
+    for message in messages {
+        let header = mcap::records::MessageHeader { channel_id, sequence: 0, log_time: 5, publish_time: 5 };
+        writer.write_to_known_channel(&header, message).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    contents("a.mcap", &mut Cursor::new(out.into_inner())).unwrap().topics.remove(0)
+}
+
+proptest! {
+    #[test]
+    fn fields_of_many_messages_are_those_of_each_one_together(
+        messages in proptest::collection::vec((status(), 0..40_usize, any::<bool>()), 1..7),
+    ) {
+        // Some are cut off, so that they do not decode; some are as the one before.
+        let mut all: Vec<Vec<u8>> = Vec::new();
+        for (status, cut, again) in &messages {
+            let bytes = write(status, cut % 2 == 0);
+            let keep = if *cut < 30 { bytes.len() } else { bytes.len() * (cut - 30) / 10 };
+            all.push(all.last().filter(|_| *again).cloned().unwrap_or_else(|| bytes[..keep].to_vec()));
+        }
+        let mut expected: Vec<Field> = Vec::new();
+        let (mut undecodable, mut stamps) = (0, (0, 0));
+        for message in &all {
+            let one = inside(std::slice::from_ref(message));
+            undecodable += one.undecodable;
+            stamps = one.stamps.map_or(stamps, |one| (stamps.0 + one.set, stamps.1 + one.unset));
+            for (index, field) in one.fields.unwrap().into_iter().enumerate() {
+                let Some(known) = expected.get_mut(index) else {
+                    expected.push(field);
+                    continue;
+                };
+                prop_assert_eq!(&known.path, &field.path);
+                let both = known.lengths.zip(field.lengths);
+                known.lengths = both.map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)));
+                let new: Vec<String> = field.names.into_iter().filter(|name| !known.names.contains(name)).collect();
+                known.names.extend(new);
+            }
+        }
+        let together = inside(&all);
+        prop_assert_eq!(together.fields.unwrap(), expected);
+        prop_assert_eq!(together.undecodable, undecodable);
+        prop_assert_eq!(together.stamps.map_or((0, 0), |stamps| (stamps.set, stamps.unset)), stamps);
+    }
 }

@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
-use lacuna::inputs::{self, Loaded};
-use lacuna::propose::{self, Proposal};
-use lacuna::{case_folder, skeleton, which_mapping};
-use recordings::{BUILT_IN_MAPPINGS, Contents, Fingerprint, Mapping, Quality, TableContents, group_by_content};
+use lacuna::{propose, skeleton};
+use recordings::{Contents, Fingerprint, Quality, Survey, SurveyedChannel, TableContents, group_by_content};
+
+use find::Found;
 
 use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json};
 
 mod as_json;
 mod as_text;
+mod find;
 mod permits;
 mod stamps;
 mod tables;
@@ -110,27 +111,21 @@ struct Proposed {
 /// Checks recordings.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
-    let mut bags = Vec::new();
     for path in &args.paths {
         ensure!(path.exists(), "there is no file or folder '{}'", path.display());
     }
-    for path in which_mapping::bags(&args.paths)? {
-        progress.stage(&path.display().to_string());
-        bags.push(which_mapping::look(&path)?);
-    }
-    progress.stage("channels");
-    let (mapping, loaded, tables) = mapped(args, &bags)?;
-    let prints: Vec<Fingerprint> = loaded.reads.iter().map(|r| Fingerprint::of(&r.recording)).collect();
-    let names: Vec<String> = loaded.reads.iter().map(case_folder::file_names).collect();
+    let (bags, Found { mapping, surveyed, tables }) = find::find(args, &progress)?;
+    let prints: Vec<Fingerprint> = surveyed.surveys.iter().map(Survey::fingerprint).collect();
+    let names: Vec<String> = surveyed.surveys.iter().map(file_names).collect();
     let same = group_by_content(&prints).into_iter().filter(|group| group.len() > 1);
     let same = same.map(|group| group.into_iter().map(|i| names[i].clone()).collect()).collect();
-    let recordings = loaded.reads.iter().zip(&names).map(|(read, name)| Mapped {
+    let recordings = surveyed.surveys.iter().zip(&names).map(|(survey, name)| Mapped {
         name: name.clone(),
-        channels: read.recording.channels().iter().map(measure).collect(),
-        permits: permits::permits(&read.recording),
+        permits: permits::permits(&survey.channels.iter().map(|channel| channel.signal).collect::<Vec<_>>()),
+        channels: survey.channels.iter().map(measured).collect(),
     });
     // What a mapping reads of a bag is lost there as well: told once.
-    let mut lost: Vec<String> = loaded.lost().collect();
+    let mut lost: Vec<String> = surveyed.lost().collect();
     for loss in bags.iter().flat_map(|(_, contents)| &contents.losses).map(ToString::to_string) {
         if !lost.contains(&loss) {
             lost.push(loss);
@@ -169,61 +164,16 @@ fn propose_to(target: &Path, bags: &[(String, Contents)], tables: &[(String, Tab
     Ok(Proposed { file, inferred, is_skeleton })
 }
 
-fn measure(channel: &recordings::Channel) -> Measured {
+fn measured(channel: &SurveyedChannel) -> Measured {
     Measured {
-        name: channel.signal().name().to_owned(),
-        column: channel.column().to_owned(),
-        unit: channel.signal().unit().symbol(),
-        quality: Quality::of(channel),
+        name: channel.signal.name().to_owned(),
+        column: channel.column.clone(),
+        unit: channel.signal.unit().symbol(),
+        quality: channel.quality.clone(),
     }
 }
 
-/// The mapping that was used, what it read, and tables that none fits.
-type Tried = (Used, Loaded, Vec<(String, TableContents)>);
-
-/// The recordings as a mapping reads them: the one that was named, else the first built-in one that fits all, else for
-/// bags one that is proposed.
-fn mapped(args: &Args, bags: &[(String, Contents)]) -> Result<Tried> {
-    let options = args.reading.options();
-    let load = |mapping: &Mapping| inputs::load(mapping, &args.paths, &options);
-    if let Some(name) = &args.mapping {
-        return Ok((Used::Named(name.clone()), load(&case_folder::mapping(name)?)?, Vec::new()));
-    }
-    let (mut failures, mut broken) = (Vec::new(), false);
-    for (name, _) in BUILT_IN_MAPPINGS {
-        let mapping = case_folder::mapping(name)?;
-        let of_bags = |entry: &recordings::FileMapping| entry.topic.is_some();
-        let needs_fitting_bag =
-            if bags.is_empty() { mapping.files.iter().all(of_bags) } else { mapping.files.iter().any(of_bags) };
-        if needs_fitting_bag && !bags.iter().any(|(_, contents)| which_mapping::fits(&mapping, contents)) {
-            continue;
-        }
-        match load(&mapping) {
-            Ok(loaded) if loaded.unmatched.is_empty() => {
-                return Ok((Used::BuiltIn((*name).to_owned()), loaded, Vec::new()));
-            }
-            Ok(_) => {}
-            Err(error) => {
-                broken |= !tables::is_another_ones(&error);
-                failures.push(format!("{name}: {error:#}"));
-            }
-        }
-    }
-    if bags.is_empty() {
-        // A table that has the right columns and is broken is no unknown table.
-        let tables = if broken { Vec::new() } else { tables::look(&args.paths)? };
-        ensure!(!tables.is_empty(), "no built-in mapping fits; name one with --mapping\n  {}", failures.join("\n  "));
-        return Ok((Used::Nothing(None), Loaded::default(), tables));
-    }
-    for (bag, contents) in bags {
-        let Some(Proposal { toml, inferred }) = propose::mapping("proposed", contents) else { continue };
-        return Ok(match Mapping::parse("proposed", &toml).map_err(Into::into).and_then(|mapping| load(&mapping)) {
-            Ok(loaded) => (Used::Proposed { bag: bag.clone(), inferred }, loaded, Vec::new()),
-            Err(error) => {
-                let why = format!("a mapping proposed for {bag} does not read the recordings: {error:#}");
-                (Used::Nothing(Some(why)), Loaded::default(), Vec::new())
-            }
-        });
-    }
-    Ok((Used::Nothing(None), Loaded::default(), Vec::new()))
+/// The files of a recording.
+fn file_names(survey: &Survey) -> String {
+    survey.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>().join(" + ")
 }

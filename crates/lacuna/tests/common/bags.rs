@@ -71,22 +71,41 @@ fn header(t: f64) -> String {
 
 /// Four seconds of all topics at 50 Hz, as MCAP.
 pub fn bag(topics: &[Topic]) -> Vec<u8> {
+    bag_with_filler(topics, ("/filler", "std_msgs/msg/Empty", ""), &[], &[])
+}
+
+/// Four seconds of some topics at 50 Hz, then a filler (topic, type, definition) and its messages, then other topics.
+pub fn bag_with_filler(
+    before: &[Topic],
+    (name, message_type, definition): (&str, &'static str, &'static str),
+    filler: &[Vec<u8>],
+    after: &[Topic],
+) -> Vec<u8> {
     let mut out = std::io::Cursor::new(Vec::new());
     let mut writer = WriteOptions::new().profile("ros2").create(&mut out).unwrap();
-    let channel = |topic: &Topic, writer: &mut mcap::Writer<_>| {
-        let (encoding, written_as, schema) = topic.form;
-        let schema = writer.add_schema(topic.message_type, written_as, schema.as_bytes()).unwrap();
-        writer.add_channel(schema, &topic.name, encoding, &BTreeMap::new()).unwrap()
-    };
-    let ids: Vec<u16> = topics.iter().map(|topic| channel(topic, &mut writer)).collect();
-    for k in 0..200_u32 {
-        let t = 100.0 + f64::from(k) * 0.02;
-        for (topic, &channel_id) in topics.iter().zip(&ids) {
-            let log_time = (t * 1e9).round() as u64;
-            let header = MessageHeader { channel_id, sequence: k, log_time, publish_time: log_time };
-            writer.write_to_known_channel(&header, &(topic.message)(t)).unwrap();
+    let mut stretch = |topics: &[Topic], rows: u32, start: f64| {
+        let channel = |topic: &Topic, writer: &mut mcap::Writer<_>| {
+            let (encoding, written_as, schema) = topic.form;
+            let schema = writer.add_schema(topic.message_type, written_as, schema.as_bytes()).unwrap();
+            writer.add_channel(schema, &topic.name, encoding, &BTreeMap::new()).unwrap()
+        };
+        let ids: Vec<u16> = topics.iter().map(|topic| channel(topic, &mut writer)).collect();
+        for k in 0..rows {
+            let t = start + f64::from(k) * 0.02;
+            for (topic, &channel_id) in topics.iter().zip(&ids) {
+                let log_time = (t * 1e9).round() as u64;
+                let header = MessageHeader { channel_id, sequence: k, log_time, publish_time: log_time };
+                writer.write_to_known_channel(&header, &(topic.message)(t)).unwrap();
+            }
         }
+    };
+    stretch(before, 200, 100.0);
+    if !filler.is_empty() {
+        let messages = filler.to_vec();
+        let message = move |t: f64| messages[((t - 104.0) * 50.0).round() as usize].clone();
+        stretch(&[cdr(name, message_type, definition, message)], filler.len() as u32, 104.0);
     }
+    stretch(after, 200, 105.0);
     writer.finish().unwrap();
     drop(writer);
     out.into_inner()

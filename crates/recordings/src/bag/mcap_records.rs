@@ -45,6 +45,24 @@ impl Described {
     }
 }
 
+/// A message record, of which there are too many to have the library read them.
+struct MessageRecord<'a> {
+    channel: u16,
+    log_time: u64,
+    data: &'a [u8],
+}
+
+impl<'a> MessageRecord<'a> {
+    /// Channel, sequence, log time and publish time, then the message; `None` when the content is too short.
+    fn of(content: &'a [u8]) -> Option<Self> {
+        let (channel, rest) = content.split_first_chunk()?;
+        let (_sequence, rest) = rest.split_first_chunk::<4>()?;
+        let (log_time, rest) = rest.split_first_chunk()?;
+        let (_publish_time, data) = rest.split_first_chunk::<8>()?;
+        Some(Self { channel: u16::from_le_bytes(*channel), log_time: u64::from_le_bytes(*log_time), data })
+    }
+}
+
 /// Where a record stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Where {
@@ -62,8 +80,8 @@ pub(super) struct Records {
     /// What chunks said, what the summary says, and what stands outside of both: in the order of trust.
     described: [Described; 3],
     pub(super) topics: Vec<Topic>,
-    /// Topic of each channel that was met.
-    topic_of: HashMap<u16, usize>,
+    /// Topic of each channel that was met, by the channel's number.
+    topic_of: Vec<Option<usize>>,
     /// Messages met, those given on and those that could not be.
     pub(super) met: u64,
 }
@@ -112,24 +130,25 @@ impl Records {
         each: &mut Sink<'_>,
         ledger: &mut Ledger<'_>,
     ) -> Result<(), RecordingError> {
-        let Ok(Record::Message { header, data }) = mcap::parse_record(op::MESSAGE, content) else {
+        let Some(MessageRecord { channel, log_time, data }) = MessageRecord::of(content) else {
             ledger.add(LossKind::Damage, None, || Some(byte));
             return Ok(());
         };
         self.met += 1;
-        let Some(topic_index) = self.index_of(header.channel_id) else {
+        let Some(topic_index) = self.index_of(channel) else {
             ledger.add(LossKind::UnknownTopic, None, || Some(byte));
             return Ok(());
         };
-        let Ok(log_time_ns) = i64::try_from(header.log_time) else {
+        let Ok(log_time_ns) = i64::try_from(log_time) else {
             ledger.add(LossKind::BadMessage, None, || Some(byte));
             return Ok(());
         };
-        each(Message { topic_index, topic: &self.topics[topic_index], log_time_ns, bytes: &data })
+        each(Message { topic_index, topic: &self.topics[topic_index], log_time_ns, bytes: data })
     }
 
     fn index_of(&mut self, channel: u16) -> Option<usize> {
-        if let Some(&index) = self.topic_of.get(&channel) {
+        let place = usize::from(channel);
+        if let Some(&Some(index)) = self.topic_of.get(place) {
             return Some(index);
         }
         let topic = self.topic(channel)?;
@@ -138,7 +157,10 @@ impl Records {
             self.topics.push(topic);
             self.topics.len() - 1
         });
-        self.topic_of.insert(channel, index);
+        if self.topic_of.len() <= place {
+            self.topic_of.resize(place + 1, None);
+        }
+        self.topic_of[place] = Some(index);
         Some(index)
     }
 
@@ -159,5 +181,24 @@ impl Records {
             schema: schema.map(|(_, data)| Arc::clone(data)).unwrap_or_default(),
             metadata: channel.metadata.clone(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_record_is_what_the_library_reads() {
+        let content: Vec<u8> = (1..40).collect();
+        for length in 0..content.len() {
+            let content = &content[..length];
+            let ours = MessageRecord::of(content).map(|m| (m.channel, m.log_time, m.data.to_vec()));
+            let theirs = match mcap::parse_record(op::MESSAGE, content) {
+                Ok(Record::Message { header, data }) => Some((header.channel_id, header.log_time, data.into_owned())),
+                _ => None,
+            };
+            assert_eq!(ours, theirs, "{length}");
+        }
     }
 }

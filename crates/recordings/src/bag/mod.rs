@@ -1,6 +1,7 @@
 //! Bags: messages of topics, as MCAP or rosbag2's sqlite3 keep them.
 
 mod framing;
+mod hashing;
 mod mcap_chunk;
 mod mcap_file;
 mod mcap_records;

@@ -2,10 +2,8 @@
 
 use std::io::{self, Read as _, SeekFrom};
 
-use sha2::{Digest, Sha256};
-
 use super::ReadSeek;
-use super::unpack::hexadecimal;
+use super::hashing::Hashing;
 
 /// Bytes asked of the source at once.
 const BLOCK: usize = 256 << 10;
@@ -18,7 +16,8 @@ pub(super) struct Window<'a> {
     start: usize,
     at: u64,
     length: u64,
-    sha256: Sha256,
+    /// Takes the bytes before `start` when the buffer is left.
+    sha256: Hashing,
     crc: crc32fast::Hasher,
 }
 
@@ -27,7 +26,7 @@ impl<'a> Window<'a> {
     pub(super) fn new(source: &'a mut dyn ReadSeek) -> io::Result<Self> {
         let length = source.seek(SeekFrom::End(0))?;
         source.seek(SeekFrom::Start(0))?;
-        let (sha256, crc) = (Sha256::new(), crc32fast::Hasher::new());
+        let (sha256, crc) = (Hashing::new(length), crc32fast::Hasher::new());
         Ok(Self { source, buffer: Vec::new(), start: 0, at: 0, length, sha256, crc })
     }
 
@@ -52,8 +51,7 @@ impl<'a> Window<'a> {
     }
 
     fn fill(&mut self, count: usize) -> io::Result<()> {
-        self.buffer.drain(..self.start);
-        self.start = 0;
+        self.leave();
         let missing = count - self.buffer.len();
         let want = missing.max(BLOCK) as u64;
         let got = (&mut *self.source).take(want).read_to_end(&mut self.buffer)?;
@@ -62,6 +60,15 @@ impl<'a> Window<'a> {
             self.length = self.at + self.buffer.len() as u64;
         }
         Ok(())
+    }
+
+    /// Has the bytes hashed that were passed, and takes those behind into another buffer.
+    fn leave(&mut self) {
+        let mut next = self.sha256.free();
+        next.extend_from_slice(&self.buffer[self.start..]);
+        let passed = std::mem::replace(&mut self.buffer, next);
+        self.sha256.take(passed, self.start);
+        self.start = 0;
     }
 
     /// Up to `count` bytes that lie `ahead` bytes after the window's start, which may be far away.
@@ -103,7 +110,6 @@ impl<'a> Window<'a> {
                 break;
             }
             let passed = &self.buffer[self.start..self.start + here];
-            self.sha256.update(passed);
             self.crc.update(passed);
             self.start += here;
             self.at += here as u64;
@@ -120,7 +126,8 @@ impl<'a> Window<'a> {
     /// Moves to the end; length and SHA-256 of the file.
     pub(super) fn finish(mut self) -> io::Result<(u64, String)> {
         self.advance(u64::MAX)?;
+        self.leave();
         // A source may have grown since its length was asked for; that is not read.
-        Ok((self.at, hexadecimal(&self.sha256.finalize())))
+        Ok((self.at, self.sha256.finish()))
     }
 }

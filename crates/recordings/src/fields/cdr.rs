@@ -16,7 +16,7 @@ impl From<re_cdr::Error> for Undecodable {
 }
 
 /// Bytes of encapsulation before a message.
-const HEAD: usize = 4;
+pub(super) const HEAD: usize = 4;
 /// Padding that a writer may leave behind a message: up to the next multiple of 4, or of 8.
 const PADDING: usize = 7;
 

@@ -5,13 +5,15 @@ use std::collections::HashSet;
 use re_cdr::{ByteOrder, CdrReader};
 use serde_json::Value;
 
+use super::HEADER_STAMP;
 use super::cdr::{self, Undecodable, Walk};
+use super::known::Known;
 use super::path::{MOST_NAMES, NAME_LISTS};
 use super::schema::{self, Layout, Type};
 use crate::bag::Topic;
 
 /// Most fields of a topic that are told.
-const MOST_TOLD: usize = 4096;
+pub(super) const MOST_TOLD: usize = 4096;
 
 /// A numeric field of a topic's messages, or a list of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +35,10 @@ pub(crate) struct Survey {
 }
 
 enum Way {
+    /// No message was walked to its end yet.
     Cdr(Layout),
+    /// One was, so that all fields are known.
+    Known(Known),
     Json(HashSet<String>),
 }
 
@@ -48,20 +53,26 @@ impl Survey {
         Self { way, fields: Vec::new(), undecodable: 0 }
     }
 
-    /// Looks at a message.
-    pub(crate) fn look(&mut self, message: &[u8]) {
-        let Ok(way) = &mut self.way else { return };
+    /// Looks at a message; the stamp of its header in ns, where it is one of CDR that has one.
+    pub(crate) fn look(&mut self, message: &[u8]) -> Option<i128> {
+        let Ok(way) = &mut self.way else { return None };
         let looked = crate::bag::payload(message).and_then(|message| match way {
+            Way::Known(known) => known.look(&message, &mut self.fields).ok(),
             Way::Cdr(layout) => {
-                cdr::walk(&message, &mut Looking { layout, next: 0, steps: 0, fields: &mut self.fields }).ok()
+                let mut looking = Looking { layout, next: 0, steps: 0, stamp: None, fields: &mut self.fields };
+                cdr::walk(&message, &mut looking).ok()?;
+                let stamp = looking.stamp;
+                *way = Way::Known(Known::new(layout));
+                Some(stamp)
             }
             Way::Json(known) => {
                 let root = super::json::parse(&message)?;
                 look_at_json(&root, "", &root, known, &mut self.fields);
-                Some(())
+                Some(None)
             }
         });
         self.undecodable += u64::from(looked.is_none());
+        looked?
     }
 
     /// The fields, or why the topic cannot be read.
@@ -77,6 +88,8 @@ struct Looking<'a> {
     next: usize,
     /// Fields of items looked at: messages within messages may be told without end.
     steps: usize,
+    /// The header's stamp in ns.
+    stamp: Option<i128>,
     fields: &'a mut Vec<Field>,
 }
 
@@ -108,7 +121,10 @@ impl Looking<'_> {
                     self.found(path, None, &[]);
                 }
                 Type::Message(inner) if inner.is_stamp() => {
-                    cdr::stamp(reader)?;
+                    let (seconds, ns) = cdr::stamp(reader)?;
+                    if path == HEADER_STAMP {
+                        self.stamp = Some(seconds * 1_000_000_000 + ns);
+                    }
                     self.found(path, None, &[]);
                 }
                 Type::Message(inner) => self.message(reader, inner, path)?,
@@ -176,7 +192,7 @@ impl Looking<'_> {
     }
 }
 
-fn add(field: &mut Field, length: Option<usize>, names: &[String]) {
+pub(super) fn add(field: &mut Field, length: Option<usize>, names: &[String]) {
     if let (Some((least, most)), Some(length)) = (&mut field.lengths, length) {
         *least = length.min(*least);
         *most = length.max(*most);

@@ -3,9 +3,12 @@
 mod cdr;
 mod definitions;
 mod json;
+mod known;
 mod list;
+mod names;
 mod path;
 mod plan;
+mod run;
 mod schema;
 
 use std::rc::Rc;
@@ -73,13 +76,20 @@ impl Reader {
 
     /// The fields of one message; `None` when it does not decode.
     pub(crate) fn read(&self, message: &[u8]) -> Option<Vec<Cell>> {
-        let message = crate::bag::payload(message)?;
-        let mut cells = vec![Cell::Gap; self.wanted];
-        match &self.way {
-            Way::Cdr(plan) => plan.read(&message, &mut cells).ok()?,
-            Way::Json(paths) => json::read(&message, paths, &mut cells)?,
-        }
+        let mut cells = Vec::new();
+        self.read_into(message, &mut cells)?;
         Some(cells)
+    }
+
+    /// The fields of one message in the place of what is in `cells`; `None` when it does not decode.
+    pub(crate) fn read_into(&self, message: &[u8], cells: &mut Vec<Cell>) -> Option<()> {
+        let message = crate::bag::payload(message)?;
+        cells.clear();
+        cells.resize(self.wanted, Cell::Gap);
+        match &self.way {
+            Way::Cdr(plan) => plan.read(&message, cells).ok(),
+            Way::Json(paths) => json::read(&message, paths, cells),
+        }
     }
 }
 

@@ -1,39 +1,57 @@
 //! The way to the wanted fields of a CDR message, worked out once for a topic.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use re_cdr::{ByteOrder, CdrReader};
 
 use super::cdr::{self, Undecodable, Walk};
-use super::path::{MOST_NAMES, NAME_LISTS, Part, Path};
+use super::names::Names;
+use super::path::{NAME_LISTS, Part, Path};
+use super::run::Run;
 use super::schema::{Layout, Number, Size, Type};
 use super::{Cell, Trouble};
 
 /// What to do with a message.
 #[derive(Debug)]
 pub(super) struct Plan {
-    root: Node,
+    /// Remembers from message to message where named items are.
+    root: RefCell<Node>,
 }
 
 /// What to do with a field.
 #[derive(Debug)]
 enum Node {
     Skip(Type),
+    /// Numbers that nobody wants.
+    Run(Run),
     /// A number into these cells.
     Number(Number, Vec<usize>),
     /// Seconds and nanoseconds, together or one of them, into these cells.
     Stamp(Vec<(usize, Of)>),
     Message {
         fields: Vec<Node>,
-        /// Where the list of names is, when a list beside is looked up by name.
-        names: Option<usize>,
-        layout: Rc<Layout>,
+        /// The list of names, when a list beside is looked up by name.
+        names: Option<NamesAt>,
     },
     List {
         of: Type,
         size: Size,
         items: Vec<(Pick, Node)>,
+        /// Places of the picked items in rising order, each with its number among `items`.
+        places: Vec<(usize, usize)>,
+        /// The version of the names that the places were found by; `None` before the first message.
+        found_by: Option<u64>,
     },
+}
+
+/// Where a message's list of names is.
+#[derive(Debug)]
+struct NamesAt {
+    layout: Rc<Layout>,
+    /// Index of the field.
+    index: usize,
+    names: Names,
 }
 
 /// What is wanted of a stamp.
@@ -62,13 +80,13 @@ impl Plan {
         if let Some(field) = &layout.wide {
             return Err(Trouble::Topic(format!("field `{field}` is a wstring, which is not read")));
         }
-        Ok(Self { root: message(layout, &open)? })
+        Ok(Self { root: RefCell::new(message(layout, &open)?) })
     }
 
     /// Reads a message into one cell per path.
     pub(super) fn read(&self, message: &[u8], cells: &mut [Cell]) -> Result<(), Undecodable> {
         struct Filling<'a> {
-            root: &'a Node,
+            root: &'a mut Node,
             body: &'a [u8],
             cells: &'a mut [Cell],
         }
@@ -77,8 +95,10 @@ impl Plan {
                 fill(self.root, self.body, reader, None, self.cells)
             }
         }
-        let body = message.get(4..).ok_or(Undecodable)?;
-        cdr::walk(message, &mut Filling { root: &self.root, body, cells })
+        let body = message.get(cdr::HEAD..).ok_or(Undecodable)?;
+        // Nobody else holds it: reading calls nothing of the caller's.
+        let mut root = self.root.try_borrow_mut().map_err(|_| Undecodable)?;
+        cdr::walk(message, &mut Filling { root: &mut root, body, cells })
     }
 }
 
@@ -144,9 +164,23 @@ fn message<'p>(layout: &Rc<Layout>, open: &[Open<'p>]) -> Result<Node, Trouble> 
                 return Err(Trouble::Field(cell, message));
             }
         }
-        fields.push(node(ty, name, &inner)?);
+        push(&mut fields, node(ty, name, &inner)?);
     }
-    Ok(Node::Message { fields, names, layout: Rc::clone(layout) })
+    let names = names.map(|index| NamesAt { layout: Rc::clone(layout), index, names: Names::default() });
+    Ok(Node::Message { fields, names })
+}
+
+/// Adds a node; numbers that nobody wants become one run with those before.
+fn push(fields: &mut Vec<Node>, node: Node) {
+    let run = if let Node::Skip(ty) = &node { Run::of(ty) } else { None };
+    let Some(run) = run else { return fields.push(node) };
+    if let Some(Node::Run(last)) = fields.last_mut()
+        && let Some(both) = last.then(run)
+    {
+        *last = both;
+    } else {
+        fields.push(Node::Run(run));
+    }
 }
 
 fn list(of: &Type, size: Size, name: &str, open: &[Open<'_>]) -> Result<Node, Trouble> {
@@ -172,7 +206,7 @@ fn list(of: &Type, size: Size, name: &str, open: &[Open<'_>]) -> Result<Node, Tr
     for (pick, open) in picked {
         items.push((pick, node(of, name, &open)?));
     }
-    Ok(Node::List { of: of.clone(), size, items })
+    Ok(Node::List { of: of.clone(), size, items, places: Vec::new(), found_by: None })
 }
 
 fn names_of(layout: &Layout) -> String {
@@ -181,24 +215,25 @@ fn names_of(layout: &Layout) -> String {
 
 /// Follows a node; `names` are those beside the list that it may be.
 fn fill<B: ByteOrder>(
-    node: &Node,
+    node: &mut Node,
     body: &[u8],
     reader: &mut CdrReader<'_, B>,
-    names: Option<&[&str]>,
+    names: Option<&Names>,
     cells: &mut [Cell],
 ) -> Result<(), Undecodable> {
     match node {
         Node::Skip(ty) => cdr::skip(reader, ty),
+        Node::Run(run) => run.skip(reader),
         Node::Number(number, into) => {
             let value = cdr::number(reader, *number)?;
-            for &cell in into {
+            for &mut cell in into {
                 cells[cell] = value;
             }
             Ok(())
         }
         Node::Stamp(into) => {
             let (seconds, ns) = cdr::stamp(reader)?;
-            for &(cell, of) in into {
+            for &mut (cell, of) in into {
                 cells[cell] = Cell::Whole(match of {
                     Of::Both => seconds * 1_000_000_000 + ns,
                     Of::Seconds => seconds,
@@ -207,36 +242,23 @@ fn fill<B: ByteOrder>(
             }
             Ok(())
         }
-        Node::Message { fields, names, layout } => {
-            let here;
-            let names = match names {
-                Some(index) => {
-                    here = read_names::<B>(body, reader.position(), layout, *index)?;
-                    Some(here.as_slice())
-                }
-                None => None,
-            };
-            fields.iter().try_for_each(|field| fill(field, body, reader, names, cells))
+        Node::Message { fields, names } => {
+            if let Some(names) = names {
+                names.read::<B>(body, reader.position())?;
+            }
+            let names = names.as_ref().map(|at| &at.names);
+            fields.iter_mut().try_for_each(|field| fill(field, body, reader, names, cells))
         }
-        Node::List { of, size, items } => {
+        Node::List { of, size, items, places, found_by } => {
             let count = cdr::length(reader, *size, of)?;
-            let place = |pick: &Pick| match pick {
-                Pick::At(index) => Some(*index),
-                // A name that stands there twice names nothing.
-                Pick::Named(name) => {
-                    let mut found = names?.iter().enumerate().filter(|(_, other)| *other == name);
-                    let index = found.next()?.0;
-                    found.next().is_none().then_some(index)
-                }
-            };
-            let mut wanted: Vec<(usize, &Node)> =
-                items.iter().filter_map(|(pick, node)| Some((place(pick)?, node))).collect();
-            wanted.sort_by_key(|(index, _)| *index);
+            let version = names.map_or(0, Names::version);
+            if *found_by != Some(version) {
+                *places = find(items, names);
+                *found_by = Some(version);
+            }
             let (mut next, mut last) = (0, reader.position());
-            for (index, node) in wanted {
-                if index >= count {
-                    break;
-                }
+            for &mut (index, item) in places {
+                let Some((_, node)) = items.get_mut(item).filter(|_| index < count) else { break };
                 if index < next {
                     // The same item again, once by name and once by number.
                     fill(node, body, &mut cdr::again::<B>(body, last)?, None, cells)?;
@@ -252,19 +274,30 @@ fn fill<B: ByteOrder>(
     }
 }
 
-/// The list of names of the message that starts here.
-fn read_names<'a, B: ByteOrder>(
-    body: &'a [u8],
-    position: usize,
-    layout: &Layout,
-    index: usize,
-) -> Result<Vec<&'a str>, Undecodable> {
-    let mut reader = cdr::again::<B>(body, position)?;
-    layout.fields[..index].iter().try_for_each(|(_, ty)| cdr::skip(&mut reader, ty))?;
-    let Some((_, Type::List { of, size })) = layout.fields.get(index) else { return Err(Undecodable) };
-    let count = cdr::length(&mut reader, *size, of)?;
-    if count > MOST_NAMES {
-        return Err(Undecodable);
+/// The places of picked items in rising order, each with its number among `items`.
+fn find(items: &[(Pick, Node)], names: Option<&Names>) -> Vec<(usize, usize)> {
+    let place = |pick: &Pick| match pick {
+        Pick::At(index) => Some(*index),
+        // A name that stands there twice names nothing.
+        Pick::Named(name) => {
+            let mut found = names?.list().iter().enumerate().filter(|(_, other)| *other == name);
+            let index = found.next()?.0;
+            found.next().is_none().then_some(index)
+        }
+    };
+    let numbered = items.iter().enumerate();
+    let mut places: Vec<(usize, usize)> = numbered.filter_map(|(item, (pick, _))| Some((place(pick)?, item))).collect();
+    places.sort_unstable();
+    places
+}
+
+impl NamesAt {
+    /// Reads the list of names of the message that starts here.
+    fn read<B: ByteOrder>(&mut self, body: &[u8], position: usize) -> Result<(), Undecodable> {
+        let mut reader = cdr::again::<B>(body, position)?;
+        let fields = &self.layout.fields;
+        fields[..self.index].iter().try_for_each(|(_, ty)| cdr::skip(&mut reader, ty))?;
+        let Some((_, Type::List { of, size })) = fields.get(self.index) else { return Err(Undecodable) };
+        if self.names.read(body, &mut reader, of, *size)? { Ok(()) } else { Err(Undecodable) }
     }
-    (0..count).map(|_| Ok(reader.read_str()?)).collect()
 }

@@ -12,7 +12,8 @@ struct Weights {
 
 impl Weights {
     fn mean(self, earlier: f64, later: f64) -> f64 {
-        (self.earlier * earlier + self.later * later) / (self.earlier + self.later)
+        // So written, the mean of equal numbers is that number to the last digit.
+        earlier + (later - earlier) * (self.later / (self.earlier + self.later))
     }
 
     fn mean_of_known(self, earlier: Option<f64>, later: Option<f64>) -> Option<f64> {
@@ -24,6 +25,11 @@ impl Weights {
 }
 
 impl Quality {
+    /// Whether there are values enough to show a grid, and there is none.
+    pub(super) fn shows_no_grid(&self) -> bool {
+        self.grid.is_none() && self.values.distinct >= GRID_VALUES
+    }
+
     /// Both stretches together; `later` begins with the last sample of `self`, whose value is `shared`.
     pub(super) fn joined(self, later: Self, shared: f64) -> Self {
         let by = Weights { earlier: self.timing.samples as f64, later: later.timing.samples as f64 };
@@ -131,8 +137,7 @@ fn farther(a: Option<Extreme>, b: Option<Extreme>, is_farther: impl Fn(f64, f64)
 
 /// The finer grid; none where one stretch has values enough to show one and does not.
 fn joined_grid(earlier: &Quality, later: &Quality) -> Option<Grid> {
-    let shows_none = |quality: &Quality| quality.grid.is_none() && quality.values.distinct >= GRID_VALUES;
-    if shows_none(earlier) || shows_none(later) {
+    if earlier.shows_no_grid() || later.shows_no_grid() {
         return None;
     }
     let finer = |a: Grid, b: Grid| if b.step < a.step { b } else { a };

@@ -15,7 +15,7 @@ const EVEN_PERIODS: usize = 17;
 /// Up to 65 536 samples the result is that of [`Quality::measure`]. Beyond, counts, places and extremes are still
 /// those of all samples, what is usual (a gap, a stuck value) is judged within each block, and medians, quantiles, the
 /// noise and shares are the means of the blocks', each by its number of samples; `distinct` is that of the block with
-/// the most.
+/// the most. A signal that is on no grid in one block is on none, which is not looked for any more.
 ///
 /// ```
 /// use recordings::QualityMeter;
@@ -55,7 +55,8 @@ impl QualityMeter {
     }
 
     fn measure(&mut self, end: usize) {
-        let block = Quality::measure(&self.t_ns[..end], &self.values[..end]);
+        let perhaps_on_grid = !self.measured.as_ref().is_some_and(Quality::shows_no_grid);
+        let block = Quality::measure_part(&self.t_ns[..end], &self.values[..end], perhaps_on_grid);
         self.measured = Some(match self.measured.take() {
             Some(earlier) => earlier.joined(block, self.values[0]),
             None => block,

@@ -60,12 +60,17 @@ impl Quality {
     /// assert_eq!(gap.to_string(), "1 gap, the longest 3.02 s, 23 % of the time");
     /// ```
     pub fn measure(t_ns: &[i64], values: &[f64]) -> Self {
+        Self::measure_part(t_ns, values, true)
+    }
+
+    /// The same of a part of a channel; without a grid where others have shown that there is none.
+    fn measure_part(t_ns: &[i64], values: &[f64], perhaps_on_grid: bool) -> Self {
         let samples = t_ns.len().min(values.len());
         let (t_ns, values) = (&t_ns[..samples], &values[..samples]);
         let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-        sorted.sort_unstable_by(f64::total_cmp);
+        robust::sort(&mut sorted);
         let timing = Timing::measure(t_ns, values);
-        let grid = Grid::measure(values, &sorted);
+        let grid = if perhaps_on_grid { Grid::measure(values, &sorted) } else { None };
         let noise = noise::noise_floor(t_ns, values, timing.period_s, grid.map(|grid| grid.step));
         let range = sorted.first().zip(sorted.last());
         let wrap = range.and_then(|(&low, &high)| wraps::wrap(values, low, high));

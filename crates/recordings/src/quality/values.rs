@@ -95,7 +95,7 @@ impl Values {
             }
         }
         let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return measured };
-        measured.median = median(&mut sorted.to_vec());
+        measured.median = sorted.get(sorted.len() / 2).copied();
         measured.held_share = 1.0 - held.len() as f64 / sorted.len() as f64;
         let mut lengths: Vec<f64> = held.iter().map(|run| run.len as f64).collect();
         measured.usual_run = median(&mut lengths).unwrap_or(0.0) as usize;
