@@ -1,4 +1,4 @@
-//! Protocols 3 and 7: a change at a known moment inside a recording, and blocks in which there is none.
+//! A change at a known moment inside a recording, and blocks in which there is none.
 
 use std::path::Path;
 
@@ -121,7 +121,7 @@ impl Joined {
 /// Joins a reference and another run (set speeds and currents only) and asks.
 pub(super) fn joined(binary: &Binary, first: &Run, second: &Run, references: &[&Run], out: &Path) -> Result<Joined> {
     let (table, join) = first.speeds.then(&second.speeds)?;
-    let id = format!("{}{}", &first.id[..4], &second.id[..4]);
+    let id = format!("{}{}", first.id, second.id);
     let recordings = [out.join("joined").join(format!("pro_{id}.csv"))];
     table.write(&recordings[0])?;
     let others: Vec<_> = references

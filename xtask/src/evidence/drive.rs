@@ -1,4 +1,4 @@
-//! Protocol 5: command to wheel, wheel to body, pose over 2 s on windows that no fit has seen.
+//! Command to wheel, wheel to body, pose over 2 s on windows that no fit has seen.
 
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ pub(super) struct Examined {
 }
 
 impl Examined {
-    /// Errors on unseen windows, over the whole window: what, statistic, nominal, re-tuned, corrected, placebo.
+    /// Errors on unseen windows, over the whole window: what, nominal, re-tuned, corrected, placebo.
     pub(super) fn free_runs(&self) -> Vec<(&str, [f64; 4])> {
         let all = self.answer.diagnosis["free_runs"].as_array().map_or(&[][..], Vec::as_slice);
         let row =

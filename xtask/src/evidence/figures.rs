@@ -156,59 +156,8 @@ fn tracks(e: &Evidence, out: &mut Vec<Figure>) {
 type Slopes = (Vec<Seen>, Vec<Claim>);
 
 fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
-    let hard = || e.husky.iter().filter(|r| r.hard);
-    let both = |of: fn(&Examined) -> Option<&Slopes>| -> Slopes {
-        let mut all = Slopes::default();
-        for (seen, claims) in hard().filter_map(of) {
-            all.0.extend(seen.iter().cloned());
-            all.1.extend(claims.iter().cloned());
-        }
-        all
-    };
-    for (name, times, angle, (seen, claims)) in [
-        ("by currents and yaw rate", 2.5, 1.2, both(|r| r.by_currents.as_ref())),
-        ("with roll and pitch rate", 2.0, 1.0, both(|r| r.by_gyro.as_ref())),
-    ] {
-        let count = |o: Outcome| seen.iter().filter(|s| s.outcome == o).count() as f64;
-        let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
-        if !seen.is_empty() {
-            add(out, &format!("{name}: tilts found"), Some(count(Outcome::Found)), "", None);
-            add(out, &format!("{name}: tilts told as not observable"), Some(count(Outcome::Hidden)), "", None);
-            add(out, &format!("{name}: tilts missed"), Some(count(Outcome::Missed)), "", Some(Asked::AtMost(0.0)));
-        }
-        add(
-            out,
-            &format!("{name}: largest error of onset or end"),
-            most(&|s| s.onset.into_iter().chain(s.end).max_by(f64::total_cmp)),
-            "s",
-            Some(Asked::AtMost(times)),
-        );
-        add(
-            out,
-            &format!("{name}: largest error of the angle"),
-            most(&|s| s.angle),
-            "degrees",
-            Some(Asked::AtMost(angle)),
-        );
-        if hard().next().is_some() {
-            let contradicted = seen.iter().filter(|s| s.contradicted).count() as f64;
-            add(
-                out,
-                &format!("{name}: bounds that the witness contradicts"),
-                Some(contradicted),
-                "",
-                Some(Asked::AtMost(0.0)),
-            );
-            let wrong = claims.iter().filter(|c| c.is_false()).count() as f64;
-            add(
-                out,
-                &format!("{name}: claims in which the witness is level"),
-                Some(wrong),
-                "",
-                Some(Asked::AtMost(0.0)),
-            );
-        }
-    }
+    slopes_of(e, true, out);
+    slopes_of(e, false, out);
     let findings: Vec<bool> = e
         .husky
         .iter()
@@ -233,6 +182,43 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
     add(out, "clocks on turns left out: 90 % below", quantile(&mut clocks, 0.9), "s", Some(Asked::AtMost(0.5)));
 }
 
+/// Slopes on hard ground, of which something is asked, or on all other ground.
+fn slopes_of(e: &Evidence, hard: bool, out: &mut Vec<Figure>) {
+    let ground = if hard { "hard ground" } else { "other ground" };
+    let runs = || e.husky.iter().filter(move |r| r.hard == hard);
+    let both = |of: fn(&Examined) -> Option<&Slopes>| -> Slopes {
+        let mut all = Slopes::default();
+        for (seen, claims) in runs().filter_map(of) {
+            all.0.extend(seen.iter().cloned());
+            all.1.extend(claims.iter().cloned());
+        }
+        all
+    };
+    for (how, times, angle, (seen, claims)) in [
+        ("by currents and yaw rate", 2.5, 1.2, both(|r| r.by_currents.as_ref())),
+        ("with roll and pitch rate", 2.0, 1.0, both(|r| r.by_gyro.as_ref())),
+    ] {
+        let name = |what: &str| format!("{ground}, {how}: {what}");
+        let asked = |most: f64| hard.then_some(Asked::AtMost(most));
+        let count = |o: Outcome| seen.iter().filter(|s| s.outcome == o).count() as f64;
+        let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
+        if !seen.is_empty() {
+            add(out, &name("tilts found"), Some(count(Outcome::Found)), "", None);
+            add(out, &name("tilts told as not observable"), Some(count(Outcome::Hidden)), "", None);
+            add(out, &name("tilts missed"), Some(count(Outcome::Missed)), "", asked(0.0));
+        }
+        let moments = most(&|s| s.onset.into_iter().chain(s.end).max_by(f64::total_cmp));
+        add(out, &name("largest error of onset or end"), moments, "s", asked(times));
+        add(out, &name("largest error of the angle"), most(&|s| s.angle), "degrees", asked(angle));
+        if runs().next().is_some() {
+            let contradicted = seen.iter().filter(|s| s.contradicted).count() as f64;
+            add(out, &name("bounds that the witness contradicts"), Some(contradicted), "", asked(0.0));
+            let wrong = claims.iter().filter(|c| c.is_false()).count() as f64;
+            add(out, &name("claims in which the witness is level"), Some(wrong), "", asked(0.0));
+        }
+    }
+}
+
 fn turning(e: &Evidence, out: &mut Vec<Figure>) {
     let mut all = Turns::default();
     for t in e.husky.iter().filter(|r| r.hard).filter_map(|r| r.turns.as_ref()) {
@@ -241,21 +227,21 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
     if all.arcs[0] > 0 {
         add(
             out,
-            "gyro withheld: turning samples with the right side",
+            "hard ground, gyro withheld: turning samples with the right side",
             Some(share(all.arcs[1], all.arcs[0])),
             "",
             Some(Asked::AtLeast(0.95)),
         );
         add(
             out,
-            "gyro withheld: with the wrong side",
+            "hard ground, gyro withheld: with the wrong side",
             Some(share(all.arcs[2], all.arcs[0])),
             "",
             Some(Asked::AtMost(0.01)),
         );
         add(
             out,
-            "gyro withheld: straight samples told as turning",
+            "hard ground, gyro withheld: straight samples told as turning",
             Some(share(all.straight[1], all.straight[0])),
             "",
             Some(Asked::AtMost(0.2)),
@@ -264,14 +250,14 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
     if all.spins[0] > 0 {
         add(
             out,
-            "gyro withheld: spins told (unsigned currents have no side)",
+            "hard ground, gyro withheld: spins told (unsigned currents have no side)",
             Some(share(all.spins[1], all.spins[0])),
             "",
             Some(Asked::AtLeast(0.95)),
         );
     }
     if !e.husky.is_empty() {
-        let stuck = e.husky.iter().map(|r| r.open.steady("standstills").len()).sum::<usize>() + all.stuck;
+        let stuck: usize = e.husky.iter().map(|r| r.open.steady("standstills").len()).sum();
         add(out, "told that the body stands", Some(stuck as f64), "", Some(Asked::AtMost(0.0)));
     }
 }
@@ -288,7 +274,7 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
     let gain = median(of("torque").map(|f| number(f, "retuned") / number(f, "corrected")).collect());
     add(
         out,
-        "forecast of currents: re-tuned level over corrected, median of the runs",
+        "hard ground, forecast of currents: re-tuned level over corrected, median of the runs",
         gain,
         "times",
         Some(Asked::AtLeast(1.8)),
@@ -302,14 +288,14 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
         let won = share(of("torque").filter(beats).count(), runs);
         add(
             out,
-            "forecast of currents: better than each placebo",
+            "hard ground, forecast of currents: better than each placebo",
             Some(won),
             "of the runs",
             Some(Asked::AtLeast(0.833)),
         );
     }
     let yaw = median(of("yaw").map(|f| number(f, "corrected")).collect());
-    add(out, "forecast of the yaw rate: rms, median of the runs", yaw, "rad/s", Some(Asked::AtMost(0.02)));
+    add(out, "hard ground, forecast of the yaw rate: rms, median of the runs", yaw, "rad/s", Some(Asked::AtMost(0.02)));
 }
 
 fn null(e: &Evidence, out: &mut Vec<Figure>) {
@@ -318,15 +304,14 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
         let alarms: usize = e.null.iter().map(|b| b.alarms.len()).sum();
         add(out, "null: alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
     }
-    let steps: Vec<f64> =
-        e.joined.iter().filter(|j| j.names[1].starts_with("SANDY")).filter_map(super::blocks::Joined::error).collect();
-    add(
-        out,
-        "joined runs: floor to sand, largest error of the onset",
-        steps.into_iter().max_by(f64::total_cmp),
-        "s",
-        None,
-    );
+    let sand = || e.joined.iter().filter(|j| j.names[1].starts_with("SANDY"));
+    if sand().next().is_some() {
+        let errors: Vec<f64> = sand().filter_map(super::blocks::Joined::error).collect();
+        let name = "floor, then sand: joins at which a change is told";
+        add(out, name, Some(share(errors.len(), sand().count())), "", None);
+        let name = "floor, then sand: largest error of the onset where it is told";
+        add(out, name, errors.into_iter().max_by(f64::total_cmp), "s", None);
+    }
 }
 
 /// Unseen windows of 2 s; the targets were stated for the Husky.

@@ -37,7 +37,7 @@ impl Found {
         ["FLOORING", "ASPHALT"].contains(&self.label.as_str())
     }
 
-    /// The file of the set speeds of a Husky.
+    /// The files of a Husky: set speeds and currents, inertial unit.
     pub(super) fn husky(&self) -> Option<(&Path, Option<&Path>)> {
         match &self.kind {
             Kind::Husky { speeds, inertial } => Some((speeds, inertial.as_deref())),
@@ -54,6 +54,8 @@ pub(super) fn find(folder: &Path) -> Result<Vec<Found>> {
     ensure!(folder.is_dir(), "there is no folder '{}'; name one with --data", folder.display());
     let mut out = Vec::new();
     look(folder, DEPTH, &mut out)?;
+    // A bag has a folder, however many parts it is split into.
+    out.dedup_by(|a, b| matches!(a.kind, Kind::KobukiBag(_)) && a.kind == b.kind);
     // A folder that holds one table gives it its name.
     let alone = |found: &Found| {
         matches!(found.kind, Kind::Drive(_)) && out.iter().filter(|o| o.label == found.label).count() == 1

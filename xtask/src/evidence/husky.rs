@@ -1,8 +1,8 @@
-//! Protocols 1, 2 and 4: one recording of a Husky, its labels and witnesses hidden.
+//! One recording of a Husky, its labels and witnesses hidden.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask, interval};
@@ -98,6 +98,7 @@ pub(super) fn ranked(diagnosis: &Value) -> Value {
 
 /// Runs the protocols on one recording. The witness is opened after the last verdict is on disk.
 pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Path) -> Result<Examined> {
+    ensure!(references.iter().any(|r| r.id != run.id), "there is no reference run but this one");
     let say = |sight: Sight, what: &str| -> Result<Answer> {
         let others: Vec<PathBuf> = references
             .iter()
@@ -119,8 +120,8 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
         Some((speeds, Some(inertial))) => Some(Witness::open(speeds, inertial)?),
         _ => None,
     };
-    let beside = |answer: &Answer| witness.as_ref().map(|w| (seen(answer, w), claims(answer, w)));
-    let (by_currents, by_gyro) = (beside(&currents), beside(&gyro));
+    let beside = |answer: &Answer, hides: bool| witness.as_ref().map(|w| (seen(answer, w, hides), claims(answer, w)));
+    let (by_currents, by_gyro) = (beside(&currents, true), beside(&gyro, false));
     let turned = witness.as_ref().map(|w| turns(&withheld, w));
     let with_witness = |answer: &Answer, both: &Option<(Vec<Seen>, Vec<Claim>)>| {
         let mut v = answer.seal();

@@ -1,4 +1,4 @@
-//! Protocol 6: track and friction of a Kobuki, from its bag or its tables, with no reference but its robot file.
+//! Track and friction of a Kobuki, from its bag or its tables, with no reference but its robot file.
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ impl Examined {
     }
 }
 
-/// Turned angle by the counter, unwrapped, m.
+/// Way of a wheel by its counter, unwrapped, m.
 fn way(ticks: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut out = vec![0.0; ticks.len()];
@@ -98,6 +98,9 @@ fn track_by_heading(base: &Table, inertial: &Table) -> Result<Option<f64>> {
     let ways = [way(&base.column("left_encoder")?), way(&base.column("right_encoder")?)];
     let (z, w) = (inertial.column("qz")?, inertial.column("qw")?);
     let heading = |i: usize| 2.0 * z[i].atan2(w[i]);
+    if t.is_empty() {
+        return Ok(None);
+    }
     let rolled = |now: f64| {
         let k = t.partition_point(|x| *x < now).min(t.len() - 1);
         ways[1][k] - ways[0][k]

@@ -82,7 +82,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     }
     let all = find::find(&data)?;
     let chosen: Vec<&Found> = all.iter().filter(|f| args.case.is_empty() || args.case.contains(&f.name)).collect();
-    ensure!(!chosen.is_empty(), "{}", nothing(&all, &data, &args.case));
+    let unknown = args.case.iter().any(|name| !all.iter().any(|f| f.name == *name));
+    ensure!(!chosen.is_empty() && !unknown, "{}", nothing(&all, &data, &args.case));
     let out = match &args.out {
         Some(folder) => folder.clone(),
         None => output::folder("evidence")?,
@@ -104,7 +105,7 @@ fn nothing(all: &[Found], data: &Path, asked: &[String]) -> String {
     if names.is_empty() {
         return format!("'{}' holds no recording that is known here", data.display());
     }
-    format!("there is no recording {}; there are {}", asked.join(", "), names.join(", "))
+    format!("asked for {}; there are {}", asked.join(", "), names.join(", "))
 }
 
 /// Runs in which the simulation is taken to be right: those named, else those labelled so in the data, else in the
@@ -161,8 +162,16 @@ fn examine(chosen: &[&Found], references: &[husky::Run], named: &[Found], whole:
     let drives = drives.map(|f| drive::examine(&binary, f, named, out).with_context(|| f.name.clone())).collect();
     sort(drives, &mut evidence.drive, &mut evidence.failed);
     if whole && references.len() > 1 {
-        evidence.null = blocks::null(&binary, &references, out)?;
-        evidence.joined = joins(&binary, &runs, &references, &evidence.husky, out)?;
+        // What fails here must not cost the rest.
+        let null = blocks::null(&binary, &references, out).context("blocks of the references");
+        let joined = joins(&binary, &runs, &references, &evidence.husky, out).context("joined runs");
+        match (null, joined) {
+            (Ok(null), Ok(joined)) => (evidence.null, evidence.joined) = (null, joined),
+            (null, joined) => {
+                let errors = [null.err(), joined.err()].into_iter().flatten();
+                evidence.failed.extend(errors.map(|e| format!("{e:#}")));
+            }
+        }
     }
     bar.finish_and_clear();
     Ok(evidence)

@@ -82,12 +82,12 @@ pub(super) fn claims(answer: &Answer, witness: &Witness) -> Vec<Claim> {
     answer.changes("found").iter().map(claim).collect()
 }
 
-/// Every stretch in which the witness tilts, with what the program said of it.
-pub(super) fn seen(answer: &Answer, witness: &Witness) -> Vec<Seen> {
-    witness.tilted().into_iter().map(|t| one(t, answer, witness)).collect()
+/// Every stretch in which the witness tilts, with what the program said of it; `hides` if turns hide slopes from it.
+pub(super) fn seen(answer: &Answer, witness: &Witness, hides: bool) -> Vec<Seen> {
+    witness.tilted().into_iter().map(|t| one(t, answer, witness, hides)).collect()
 }
 
-fn one(tilted: Tilted, answer: &Answer, witness: &Witness) -> Seen {
+fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> Seen {
     let length = tilted.interval[1] - tilted.interval[0];
     let best = answer
         .changes("found")
@@ -97,7 +97,7 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness) -> Seen {
         .max_by(|a, b| a.0.total_cmp(&b.0));
     let hidden: f64 = answer.changes("hidden").iter().map(|h| overlap(interval(&h["interval"]), tilted.interval)).sum();
     let Some((_, change)) = best else {
-        let outcome = if hidden > MOSTLY * length { Outcome::Hidden } else { Outcome::Missed };
+        let outcome = if hides && hidden > MOSTLY * length { Outcome::Hidden } else { Outcome::Missed };
         return Seen { tilted, outcome, onset: None, end: None, angle: None, contradicted: false, decided: false };
     };
     let moment = |what: &str, truth: f64| {

@@ -16,8 +16,8 @@ use crate::output::{self, Figure};
 
 const TITLE: &str = "Evidence: real recordings, with the effect concealed";
 const INTRO: &str = "\
-Written by `cargo xtask evidence --docs`; the data are not part of this repository. Every sentence below stood on disk \
-with its SHA-256 before a label or a witness was opened.
+Written by `cargo xtask evidence --docs`; the data are not part of this repository. The sentences about a run stood on disk \
+with their SHA-256 before its label or its witness was opened.
 
 ## What it cannot do, first
 
@@ -33,12 +33,14 @@ the test.
 
 ## Protocol
 
-1. Recordings are copied under random ids with the columns that the program may see. It sees no folder name and no label.
+1. Recordings are copied under ids from a hash with the columns that the program may see. It sees no folder name and no label \
+(bags of the Kobuki keep their names).
 2. References: for a run on the floor every other run on the floor, for other ground all of them. Given: 75 kg, 2.8 N m \
 per A and side within 10 %.
 3. Asked in this order, each verdict sealed before the next: set speeds, currents and yaw rate; roll and pitch rate as \
 well; currents and mean speed alone; everything. Then the accelerometer is opened as the witness: tilt as a mean over \
-2 s, more than 2 degrees for more than 5 s of driving.
+2 s, more than 2 degrees for more than 5 s of driving. \
+Its clock is aligned by the program's own method.
 4. The last third of each run that turns is forecast from its set speeds with what the first two thirds give. Placebos \
 are wrong laws with as many constants.
 5. Null: the references in blocks of 60 s, each against all others. Joined: a run on the floor, then another.";
@@ -51,7 +53,7 @@ can test it.
 
 - Loads: least speed, speed classes, what counts as straight, steady and turning, 3 s at least, the scatter between runs, the \
 class width (see [first light](first-light.md)). The factor of 1.45 for cold drive trains was given.
-- Jumps of the load: the price of a jump (7 nats), how much a second of readings counts, at least 1.9 degrees or a factor of 1.45, \
+- Jumps of the load: the price of a jump (7 nats), how much a second of readings counts, at least 1.9 degrees and 31 %, what counts without a jump in sight (a factor of 1.67), \
 8 s that join stretches.
 - Slopes: 1.6 degrees for 3 s, level ground within 3 degrees as if seen every 20 s, rolling load within 30 % over a minute (70 % of \
 the excess where a whole run differs), noise of gyro and load. Of about ten settings tried, two made a false claim on asphalt.

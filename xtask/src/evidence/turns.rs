@@ -20,8 +20,6 @@ pub(super) struct Turns {
     pub(super) spins: [usize; 2],
     /// Samples of straight driving: all, told as turning.
     pub(super) straight: [usize; 2],
-    /// Told that the body stands although its wheels turn.
-    pub(super) stuck: usize,
 }
 
 impl Turns {
@@ -35,7 +33,6 @@ impl Turns {
         for (a, b) in self.straight.iter_mut().zip(other.straight) {
             *a += b;
         }
-        self.stuck += other.stuck;
     }
 
     pub(super) fn as_json(&self) -> Value {
@@ -43,7 +40,6 @@ impl Turns {
             "arcs": { "samples": self.arcs[0], "right_side": self.arcs[1], "wrong_side": self.arcs[2] },
             "spins": { "samples": self.spins[0], "told": self.spins[1] },
             "straight": { "samples": self.straight[0], "told_as_turning": self.straight[1] },
-            "stuck": self.stuck,
         })
     }
 }
@@ -63,7 +59,7 @@ pub(super) fn turns(answer: &Answer, witness: &Witness) -> Turns {
         };
         told.iter().find(inside).and_then(|v| v["way"].as_str())
     };
-    let mut out = Turns { stuck: answer.steady("standstills").len(), ..Turns::default() };
+    let mut out = Turns::default();
     for (i, &t) in witness.time.iter().enumerate() {
         let (yaw, forward, said) = (witness.yaw_rate[i], witness.forward[i], way(t));
         if yaw.abs() > TURNING && forward.abs() < SPIN {

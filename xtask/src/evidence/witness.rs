@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use diagnosis::steady::align;
 
 use super::hide::Table;
@@ -74,6 +74,7 @@ impl Witness {
     pub(super) fn of(speeds: &Table, inertial: &Table) -> Result<Self> {
         let (time, left, right) = (speeds.column("time")?, speeds.column("velL")?, speeds.column("velR")?);
         let (its_time, wz, ax) = (inertial.column("time")?, inertial.column("wz")?, inertial.column("ax")?);
+        ensure!(!time.is_empty() && !its_time.is_empty(), "there is not a row in it");
         let turning: Vec<f64> = right.iter().zip(&left).map(|(r, l)| r - l).collect();
         let forward: Vec<f64> = right.iter().zip(&left).map(|(r, l)| 0.5 * (r + l)).collect();
         let yaw = mean_over(&its_time, &wz, YAW_MEAN);

@@ -154,12 +154,14 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
             "speeds are set-points, not measured: slip and speed errors of the drive cannot be told apart".to_owned(),
         );
     }
-    if all().any(|r| r.magnitude_only) {
+    if all().any(|r| r.magnitude_only && r.dead_band > 0.0) {
         out.push(
             "currents carry no sign and have a dead band: a side that is dragged or brakes shows only a bound, so \
              straight loads come from stretches in which both sides read"
                 .to_owned(),
         );
+    } else if all().any(|r| r.magnitude_only) {
+        out.push("currents carry no sign: a side that brakes looks like one that drives".to_owned());
     }
     out.extend(d.steady.as_ref().and_then(|l| clocks(&l.clocks)));
     let named = |runs: &[SpeedRun], what: &str| -> Vec<String> {

@@ -79,7 +79,10 @@ pub(crate) fn attitude(
     let mut seen: Vec<Vec<usize>> = vec![Vec::new(); rows];
     for (i, _) in readings.iter().enumerate().filter(|(_, r)| r.is_some()) {
         let step = ((run.time[i] + lag[i] - first) / dt).round();
-        seen[(step.max(0.0) as usize).min(rows - 1)].push(i);
+        // What was driven while the gyro was off says nothing of its attitude.
+        if step >= 0.0 && (step as usize) < rows {
+            seen[step as usize].push(i);
+        }
     }
     let mut exact: Vec<f64> = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value()).collect();
     exact.sort_by(f64::total_cmp);
@@ -139,7 +142,10 @@ pub(crate) fn attitude(
     }
     let pitch: Vec<f64> = steps.iter().map(|s| s.x[0]).collect();
     let sigma: Vec<f64> = steps.iter().map(|s| s.p[(0, 0)].max(0.0).sqrt()).collect();
-    let at_rows =
-        |z: &[f64]| -> Vec<f64> { run.time.iter().zip(lag).map(|(t, l)| interpolate(&rates.time, z, t + l)).collect() };
-    Some(Attitude { pitch: at_rows(&pitch), sigma: at_rows(&sigma) })
+    let last = first + dt * rows as f64;
+    let at_rows = |z: &[f64], unknown: f64| -> Vec<f64> {
+        let at = |t: f64| if t > first - dt && t < last { interpolate(&rates.time, z, t) } else { unknown };
+        run.time.iter().zip(lag).map(|(t, l)| at(t + l)).collect()
+    };
+    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma: at_rows(&sigma, f64::INFINITY) })
 }

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use crate::steady::attitude::attitude;
+use crate::steady::attitude::{Attitude, attitude};
 use crate::steady::extract::CLASSES;
 use crate::steady::jumps::jumps;
 use crate::steady::level::levels;
@@ -117,31 +117,22 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let readings = readings(run);
     let Some(any) = usual.iter().flatten().next().copied() else { return Changes::default() };
     let period = run.period();
-    let level = levels(&readings, any, period);
-    let usual = usual_of(run, &readings, &level, usual);
     let slope = attitude(run, &readings, any, weight, period);
-    let found = match &slope {
-        Some(slope) => {
-            // What the slope explains is no change of the ground.
-            let rest: Vec<Option<Reading>> = (0..readings.len())
-                .map(|i| {
-                    let pull = weight * slope.pitch[i] * run.forward(i).signum();
-                    readings[i].map(|r| match r {
-                        Reading::Exact(x) => Reading::Exact(x - pull),
-                        Reading::AtMost(x) => Reading::AtMost(x - pull),
-                    })
-                })
-                .collect();
-            let mut found = slopes(run, slope);
-            let level = levels(&rest, any, period);
-            found.extend(jumps(run, &rest, &level, &usual, weight, true));
-            found
-        }
-        None => jumps(run, &readings, &level, &usual, weight, false),
+    // What the slope explains is no change of the ground.
+    let level_ground = |slope: &Attitude| -> Vec<Option<Reading>> {
+        let pull = |i: usize| weight * slope.pitch[i] * run.forward(i).signum();
+        let less = |i: usize, r: Reading| match r {
+            Reading::Exact(x) => Reading::Exact(x - pull(i)),
+            Reading::AtMost(x) => Reading::AtMost(x - pull(i)),
+        };
+        (0..readings.len()).map(|i| readings[i].map(|r| less(i, r))).collect()
     };
-    // With a gyro, a slope shows in turns as well.
-    let hidden = if slope.is_some() { Vec::new() } else { hidden(run, &readings) };
-    Changes { found, hidden }
+    let rest = slope.as_ref().map_or_else(|| readings.clone(), level_ground);
+    let level = levels(&rest, any, period);
+    let usual = usual_of(run, &rest, &level, usual);
+    let mut found = slope.as_ref().map_or_else(Vec::new, |s| slopes(run, s));
+    found.extend(jumps(run, &rest, &level, &usual, weight, slope.is_some()));
+    Changes { found, hidden: hidden(run, &readings) }
 }
 
 /// Driving that shows no straight load for a while.

@@ -124,7 +124,11 @@ impl Clocks<'_> {
                     _ => 0.0,
                 };
                 let begin = if n == 0 { ANCHOR * lag.abs() } else { 0.0 };
-                let end = if n + 1 == nodes { ANCHOR * (lag - self.end_lag).abs() } else { 0.0 };
+                let end = if n + 1 == nodes && self.end_lag.abs() <= MOST_LAG {
+                    ANCHOR * (lag - self.end_lag).abs()
+                } else {
+                    0.0
+                };
                 alike + begin + end
             };
             self.lags.iter().zip(&self.yaw).map(of_lag).collect()
@@ -202,6 +206,10 @@ pub fn align(time: &[f64], turning: &[f64], yaw_time: &[f64], yaw: &[f64]) -> Al
     let (Some(&last), Some(&yaw_last)) = (time.last(), yaw_time.last()) else {
         return Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() };
     };
+    // Stamps of a clock that was set meanwhile: nothing to align by.
+    if (last - time[0]) / NODE > time.len() as f64 {
+        return Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() };
+    }
     let steps = (2.0 * MOST_LAG / LAG_STEP).round() as usize;
     let lags: Vec<f64> = (0..=steps).map(|i| i as f64 * LAG_STEP - MOST_LAG).collect();
     let at = |lag: &f64| time.iter().map(|t| interpolate(yaw_time, yaw, t + lag)).collect();

@@ -123,7 +123,7 @@ const SET_POINT_ERROR: f64 = 0.015;
 pub(crate) fn is_steady_turn(run: &SpeedRun, i: usize) -> bool {
     let (l, r) = (run.speed[0][i], run.speed[1][i]);
     let tight = l * r < 0.0 || (r - l).abs() >= PLATEAU * (l + r).abs().max(1e-9);
-    tight && (r - l).abs() >= TURN && run.age(i, TURN_HOLD.0) >= TURN_HOLD.1 * run.patience()
+    tight && (r - l).abs() >= TURN && run.held(i, TURN_HOLD.0, TURN_HOLD.1 * run.patience())
 }
 
 /// Mean with a standard error over pieces of steady stretches.
@@ -255,7 +255,8 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let quantity = Quantity::EffectiveTrack;
     let refuse = |reason: String| Withheld { recording: run.name.clone(), quantity, reason };
     let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro".to_owned())) };
-    let mut rows: Vec<usize> = rows.filter(|&i| run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
+    let mut rows: Vec<usize> =
+        rows.filter(|&i| yaw[i].is_finite() && run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
     rows.sort_unstable();
     let seconds = rows.len() as f64 * run.period();
     if seconds < LEAST_SECONDS {

@@ -101,16 +101,15 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
     if let Some(yaw) = &run.yaw_rate {
         let rms = |b: f64, lag: f64, from: usize, until: usize| {
             let follow = followed(run, lag);
-            let squares = (from..until).map(|i| (follow[i] / b - yaw[i]).powi(2)).sum::<f64>();
-            (squares / (until - from).max(1) as f64).sqrt()
+            root_mean_square((from..until).map(|i| follow[i] / b - yaw[i]))
         };
         let lag_of = |b: f64| {
             LAGS.into_iter().min_by(|x, y| rms(b, *x, 0, split).total_cmp(&rms(b, *y, 0, split))).unwrap_or(0.0)
         };
         let own = effective_track(&run.head(split)).unwrap_or(nominal.track);
-        let mean = yaw[..split].iter().sum::<f64>() / split.max(1) as f64;
-        let level =
-            (yaw[split..].iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (rows - split).max(1) as f64).sqrt();
+        let known: Vec<f64> = yaw[..split].iter().copied().filter(|w| w.is_finite()).collect();
+        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        let level = root_mean_square(yaw[split..].iter().map(|w| w - mean));
         out.push(Forecast {
             recording: run.name.clone(),
             quantity: "yaw rate, rad/s",
@@ -122,6 +121,12 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
         });
     }
     out
+}
+
+/// Of what is known: rows without a yaw rate are left out.
+fn root_mean_square(errors: impl Iterator<Item = f64>) -> f64 {
+    let (sum, n) = errors.filter(|e| e.is_finite()).fold((0.0, 0.0), |(sum, n), e| (sum + e * e, n + 1.0));
+    (sum / f64::max(n, 1.0)).sqrt()
 }
 
 /// Effective track from steady turning, m.

@@ -48,6 +48,9 @@ pub(super) fn jumps(
             let mean = |f: &dyn Fn(usize) -> f64| of.iter().map(|&i| f(i)).sum::<f64>() / of.len() as f64;
             let load = mean(&|i| readings[i].map_or(0.0, Reading::value));
             let from = mean(&base);
+            if from <= 0.0 {
+                continue;
+            }
             // What the currents only bound from above may be anything between.
             if bound && load > from / UNNAMED_STRAIGHT {
                 continue;
@@ -99,7 +102,9 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
     let Some(yaw) = &run.yaw_rate else { return };
     let mut heading = vec![0.0; yaw.len()];
     for i in 1..yaw.len() {
-        heading[i] = heading[i - 1] + 0.5 * (yaw[i] + yaw[i - 1]) * (run.time[i] - run.time[i - 1]);
+        let rate = 0.5 * (yaw[i] + yaw[i - 1]);
+        let turned = rate * (run.time[i] - run.time[i - 1]);
+        heading[i] = heading[i - 1] + if turned.is_finite() { turned } else { 0.0 };
     }
     // Direction of travel in the middle of a change.
     let direction = |c: &LoadChange| {

@@ -50,17 +50,19 @@ pub(crate) fn levels(readings: &[Option<Reading>], usual: f64, period: f64) -> V
     // Where nothing else is known the usual load is.
     let mut best: Vec<f64> =
         likely(first).iter().zip(&grid).map(|(l, level)| l - (level - usual).abs() / usual).collect();
-    let mut jumped: Vec<Vec<Option<usize>>> = Vec::with_capacity(rest.len());
+    // Where a jump into each level would come from, and whether it was taken.
+    let mut jumped: Vec<(usize, Vec<bool>)> = Vec::with_capacity(rest.len());
     for r in rest {
         let top = (0..best.len()).max_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
         let jump = best[top] - JUMP;
-        jumped.push(best.iter().map(|&stay| (stay < jump).then_some(top)).collect());
+        jumped.push((top, best.iter().map(|&stay| stay < jump).collect()));
         best = best.iter().zip(likely(r)).map(|(&stay, l)| stay.max(jump) + l).collect();
     }
     let mut at = (0..best.len()).max_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
     let mut out = vec![grid[at]; readings.len()];
     for i in (0..jumped.len()).rev() {
-        at = jumped[i][at].unwrap_or(at);
+        let (from, taken) = &jumped[i];
+        at = if taken[at] { *from } else { at };
         out[i] = grid[at];
     }
     out

@@ -58,7 +58,7 @@ pub struct SteadyCase {
     pub robot: Robot<f64>,
     /// One sigma of each tunable constant.
     pub sigma: [f64; NUISANCES],
-    /// One sigma of the torque per current, relative; 0 where torques were recorded.
+    /// One sigma of the torque per current, relative.
     pub torque_sigma: f64,
     /// Recordings in which the simulation is right; without any, the robot file says what is right.
     pub references: Vec<SpeedRun>,

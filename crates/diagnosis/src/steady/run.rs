@@ -22,7 +22,7 @@ pub struct SpeedRun {
     pub set_points: bool,
     /// Torques carry no sign.
     pub magnitude_only: bool,
-    /// Yaw rate at the rows after its clock was aligned, rad/s; `None` without a gyro.
+    /// Yaw rate at the rows after its clock was aligned, rad/s, NaN where the gyro was off; `None` without a gyro.
     pub yaw_rate: Option<Vec<f64>>,
     /// The gyro's clock against the rows'; `None` without a gyro.
     pub alignment: Option<Alignment>,
@@ -47,6 +47,9 @@ impl BodyRates {
         let [Some(x), Some(y), Some(z)] = axes else { return None };
         let (time, _) = samples(z);
         let (first, last) = (*time.first()?, *time.last()?);
+        if ((last - first) / RATE_STEP) as usize > SPARSE * time.len() {
+            return None;
+        }
         let grid: Vec<f64> =
             (0..=((last - first) / RATE_STEP) as usize).map(|k| first + k as f64 * RATE_STEP).collect();
         let rate = [x, y, z].map(|channel| {
@@ -67,6 +70,10 @@ fn samples(channel: &Channel) -> (Vec<f64>, &[f64]) {
 const LEAST_ROWS: usize = 20;
 /// Yaw rate is averaged over this long, s: wheel vibration is no turning.
 const GYRO_MEAN: f64 = 0.31;
+/// Its first and last value count this much longer, s.
+const GYRO_EDGE: f64 = 0.5;
+/// Stamps that leave more than this many steps for each sample come from a clock that was set: no rates then.
+const SPARSE: usize = 50;
 /// How much sooner a measured speed is steady than a set-point.
 const MEASURED_PATIENCE: f64 = 0.3;
 /// Steps of the body's turning rates, s.
@@ -131,7 +138,12 @@ impl SpeedRun {
             } else {
                 clock::align(&run.time, &turning, &t, &smooth)
             };
-            let at = |(a, b): (&f64, &f64)| clock::interpolate(&t, &smooth, a + b);
+            let (first, last) = (t.first().copied().unwrap_or(0.0), t.last().copied().unwrap_or(0.0));
+            let at = |(a, b): (&f64, &f64)| {
+                // Where the gyro was off nothing is known.
+                let inside = a + b > first - GYRO_EDGE && a + b < last + GYRO_EDGE;
+                if inside { clock::interpolate(&t, &smooth, a + b) } else { f64::NAN }
+            };
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
             run.alignment = Some(alignment);
         }
@@ -172,11 +184,11 @@ impl SpeedRun {
         0.5 * (self.speed[0][i] + self.speed[1][i])
     }
 
-    /// For how long before row `i` both speeds have been within `tolerance` of its own, s.
-    pub(crate) fn age(&self, i: usize, tolerance: f64) -> f64 {
+    /// Whether both speeds were within `tolerance` of row `i`'s for `seconds` before it.
+    pub(crate) fn held(&self, i: usize, tolerance: f64, seconds: f64) -> bool {
         let near = |k: usize| (0..2).all(|j| (self.speed[j][k] - self.speed[j][i]).abs() <= tolerance);
-        let first = (0..i).rev().take_while(|&k| near(k)).last().unwrap_or(i);
-        self.time[i] - self.time[first]
+        let long_enough = |k: &usize| self.time[i] - self.time[*k] >= seconds;
+        (0..=i).rev().take_while(|&k| near(k)).any(|k| long_enough(&k))
     }
 
     /// Share of the usual waiting times that a change of speed takes to pass: measured speeds follow the robot, set-points
@@ -294,8 +306,8 @@ pub(crate) mod tests {
         let legs = [([0.5, 0.5], 4.0), ([0.3, 0.6], 4.0)];
         let run = SpeedRun::new(&recording(GROUND, &legs, None), RADIUS, CONSTANT).expect("a run");
         let turn = run.time.partition_point(|t| *t < 4.0);
-        assert!(run.age(turn, 0.02) < 1e-9);
-        approx::assert_abs_diff_eq!(run.age(turn - 1, 0.02), run.time[turn - 1], epsilon = 1e-9);
+        assert!(run.held(turn, 0.02, 0.0) && !run.held(turn, 0.02, 0.1));
+        assert!(run.held(turn - 1, 0.02, run.time[turn - 1]) && !run.held(turn - 1, 0.02, run.time[turn - 1] + 0.1));
         assert!(run.holds(0, 0.02, 2.0) && !run.holds(turn - 2, 0.02, 2.0));
     }
 

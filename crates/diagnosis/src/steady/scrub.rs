@@ -67,6 +67,9 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
     }
     like.sort_by(f64::total_cmp);
     let base = like[like.len() / 2];
+    if base <= 0.0 {
+        return Vec::new();
+    }
     let other = |i: usize| {
         let ratio = level[i] / base;
         if ratio > SAME {

@@ -34,15 +34,16 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
         steep[i - 1] = steep[i - 1] || (steep[i] && goes_on(i - 1, i));
     }
     let mut out = Vec::new();
+    let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
+    let period = run.period();
     for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPE_GAP) {
-        for piece in piece.chunk_by(|&a, &b| attitude.pitch[a] * attitude.pitch[b] > 0.0) {
+        for piece in piece.chunk_by(|&a, &b| along(a) * along(b) > 0.0) {
             let (first, last) = (piece[0], piece[piece.len() - 1]);
             let [from, until] = [run.time[first], run.time[last]];
             if until - from < LEAST_SECONDS {
                 continue;
             }
             let n = piece.len() as f64;
-            let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
             let mean = piece.iter().map(|&i| along(i)).sum::<f64>() / n;
             let sigma = piece.iter().map(|&i| attitude.sigma[i]).sum::<f64>() / n;
             if mean.abs() < NINETY * sigma {
@@ -53,7 +54,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
                 interval: [from, until],
                 onset: [from - CLOCK, from + CLOCK],
                 end: [until - CLOCK, until + CLOCK],
-                seconds: n * run.period(),
+                seconds: n * period,
                 ratio: None,
                 slope: mean.to_degrees(),
                 slope_half: (NINETY * sigma).to_degrees(),

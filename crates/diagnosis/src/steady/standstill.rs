@@ -30,7 +30,7 @@ const HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
     let share = |i: usize| yaw[i] * track / run.difference(i);
-    let stands = |i: usize| run.difference(i).abs() > TURN && run.age(i, HOLD.0) >= HOLD.1 && share(i).abs() < SHARE;
+    let stands = |i: usize| run.difference(i).abs() > TURN && run.held(i, HOLD.0, HOLD.1) && share(i).abs() < SHARE;
     let rows: Vec<usize> = (0..run.time.len()).collect();
     let stretch = |rows: &[usize]| {
         let (first, last) = (rows[0], rows[rows.len() - 1]);

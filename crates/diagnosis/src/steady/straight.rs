@@ -39,7 +39,7 @@ pub(crate) fn is_straight(run: &SpeedRun, i: usize, hold: f64) -> bool {
     l * r > 0.0
         && l.abs().min(r.abs()) >= LEAST_SPEED
         && (r - l).abs() <= STRAIGHT
-        && run.age(i, STEADY) >= hold * run.patience()
+        && run.held(i, STEADY, hold * run.patience())
 }
 
 /// The straight load row by row; `None` where the drive is not straight or not steady.

@@ -190,7 +190,7 @@ fn hidden(all: &[Hidden]) -> Vec<String> {
         let more =
             if list.len() > NAMED { format!(" and {} shorter stretches", list.len() - NAMED) } else { String::new() };
         format!(
-            "{}: no straight driving in {}{more} ({:.0} s in all): a change of the straight load would not show there.",
+            "{}: no straight driving in {}{more} ({:.0} s in all): a change of the ground would not show there.",
             list[0].recording,
             spans.join(", "),
             list.iter().map(seconds).sum::<f64>()

@@ -32,7 +32,7 @@ A case folder:
   heldout/      inputs whose response is to be predicted (may be missing)
 
 Built-in robots: husky-a200, kobuki, husky-drive, warthog-drive, hendzel-trojnacki-2014
-Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag (ROS 2 bags)
+Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag (ROS 2 bags); lacuna (what `lacuna convert` writes)
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -98,6 +98,8 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             warning(
                 "command-driven robots have no predictions; errors on held-out drives are in the text and the JSON",
             );
+        } else if !case.held_out.reads.is_empty() && diagnosis.predictions.is_empty() {
+            warning("held-out drives of a speed-driven robot are not predicted; the last thirds of its recordings are");
         } else if diagnosis.predictions.is_empty() {
             warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
         } else {
