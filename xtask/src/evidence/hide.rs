@@ -13,7 +13,7 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Reads a CSV file of numbers.
+    /// Reads a CSV file of numbers; an empty cell is NaN.
     pub(super) fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
         let mut reader = csv::Reader::from_path(path).with_context(|| format!("cannot read '{shown}'"))?;
@@ -24,11 +24,11 @@ impl Table {
             .enumerate()
             .map(|(i, row)| {
                 let row = row.with_context(|| format!("'{shown}', line {}", i + 2))?;
-                row.iter()
-                    .map(|cell| {
-                        cell.trim().parse().with_context(|| format!("'{shown}', line {}: '{cell}' is no number", i + 2))
-                    })
-                    .collect()
+                let number = |cell: &str| match cell.trim() {
+                    "" => Ok(f64::NAN),
+                    text => text.parse().with_context(|| format!("'{shown}', line {}: '{cell}' is no number", i + 2)),
+                };
+                row.iter().map(number).collect()
             })
             .collect::<Result<_>>()?;
         Ok(Self { columns, rows })
@@ -90,7 +90,9 @@ impl Table {
         let mut writer = csv::Writer::from_path(path).with_context(cannot)?;
         writer.write_record(&self.columns).with_context(cannot)?;
         for row in &self.rows {
-            writer.write_record(row.iter().map(ToString::to_string)).with_context(cannot)?;
+            writer
+                .write_record(row.iter().map(|x| if x.is_nan() { String::new() } else { x.to_string() }))
+                .with_context(cannot)?;
         }
         writer.flush().with_context(cannot)
     }

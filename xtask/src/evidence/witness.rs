@@ -73,8 +73,14 @@ impl Witness {
 
     pub(super) fn of(speeds: &Table, inertial: &Table) -> Result<Self> {
         let (time, left, right) = (speeds.column("time")?, speeds.column("velL")?, speeds.column("velR")?);
+        let whole = |row: &&Vec<f64>| row.iter().all(|x| x.is_finite());
+        let inertial =
+            Table { columns: inertial.columns.clone(), rows: inertial.rows.iter().filter(whole).cloned().collect() };
         let (its_time, wz, ax) = (inertial.column("time")?, inertial.column("wz")?, inertial.column("ax")?);
         ensure!(!time.is_empty() && !its_time.is_empty(), "there is not a row in it");
+        // Times count from the first stamp of both, as in the program's answers.
+        let origin = time[0].min(its_time[0]);
+        let [time, its_time] = [time, its_time].map(|t| t.iter().map(|x| x - origin).collect::<Vec<f64>>());
         let turning: Vec<f64> = right.iter().zip(&left).map(|(r, l)| r - l).collect();
         let forward: Vec<f64> = right.iter().zip(&left).map(|(r, l)| 0.5 * (r + l)).collect();
         let yaw = mean_over(&its_time, &wz, YAW_MEAN);

@@ -10,7 +10,7 @@ use crate::steady::clock::{self, Alignment};
 pub struct SpeedRun {
     /// Name of the recording.
     pub name: String,
-    /// Time of each row, s.
+    /// Time of each row from the recording's first stamp, s.
     pub time: Vec<f64>,
     /// Speed at the tyre of each side, m/s (set-points, if nothing else was recorded).
     pub speed: [Vec<f64>; 2],
@@ -45,7 +45,8 @@ impl BodyRates {
     fn new(recording: &Recording) -> Option<Self> {
         let axes = [Signal::GyroX, Signal::GyroY, Signal::GyroZ].map(|s| recording.get(s));
         let [Some(x), Some(y), Some(z)] = axes else { return None };
-        let (time, _) = samples(z);
+        let origin = origin(recording);
+        let (time, _) = samples(z, origin);
         let (first, last) = (*time.first()?, *time.last()?);
         if ((last - first) / RATE_STEP) as usize > SPARSE * time.len() {
             return None;
@@ -53,7 +54,7 @@ impl BodyRates {
         let grid: Vec<f64> =
             (0..=((last - first) / RATE_STEP) as usize).map(|k| first + k as f64 * RATE_STEP).collect();
         let rate = [x, y, z].map(|channel| {
-            let (t, values) = samples(channel);
+            let (t, values) = samples(channel, origin);
             let mean = clock::box_mean(&t, values, RATE_STEP);
             grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
         });
@@ -61,9 +62,14 @@ impl BodyRates {
     }
 }
 
-/// Times in s and values of a channel.
-fn samples(channel: &Channel) -> (Vec<f64>, &[f64]) {
-    (channel.t_ns().iter().map(|t| *t as f64 * 1e-9).collect(), channel.values())
+/// The first stamp of a recording, ns: times count from here, whatever epoch the stamps have.
+fn origin(recording: &Recording) -> i64 {
+    recording.channels().iter().filter_map(|c| c.t_ns().first().copied()).min().unwrap_or(0)
+}
+
+/// Times in s from the recording's origin, and values of a channel.
+fn samples(channel: &Channel, origin: i64) -> (Vec<f64>, &[f64]) {
+    (channel.t_ns().iter().map(|t| (*t - origin) as f64 * 1e-9).collect(), channel.values())
 }
 
 /// Shortest recording that can hold three seconds of steady driving, rows.
@@ -115,7 +121,8 @@ impl SpeedRun {
         if speed.iter().flatten().all(|v| v.abs() < 1e-9) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
-        let time: Vec<f64> = common.iter().map(|t| *t as f64 * 1e-9).collect();
+        let origin = origin(recording);
+        let time: Vec<f64> = common.iter().map(|t| (*t - origin) as f64 * 1e-9).collect();
         let attributes = load_left.attributes();
         let mut run = Self {
             torque: [take(load_left, factor), take(load_right, factor)],
@@ -130,7 +137,7 @@ impl SpeedRun {
             speed,
         };
         if let Some(gyro) = recording.get(Signal::GyroZ) {
-            let (t, values) = samples(gyro);
+            let (t, values) = samples(gyro, origin);
             let smooth = clock::box_mean(&t, values, GYRO_MEAN);
             let turning: Vec<f64> = run.speed[1].iter().zip(&run.speed[0]).map(|(r, l)| r - l).collect();
             let alignment = if gyro.clock() == left.clock() {
@@ -299,6 +306,20 @@ pub(crate) mod tests {
         // Speeds and gyro share a clock: nothing is to be aligned.
         assert!(run.alignment.expect("a gyro").lag.iter().all(|l| *l == 0.0));
         assert_eq!(run.body_rates, None);
+    }
+
+    #[test]
+    fn the_epoch_of_the_stamps_does_not_matter() {
+        const EPOCH: i64 = 1_700_000_000_123_456_789;
+        let at_zero = recording(GROUND, &[([0.5, 0.5], 6.0), ([0.3, 0.6], 6.0)], None);
+        let shift = |c: &Channel| {
+            let t = c.t_ns().iter().map(|t| t + EPOCH).collect();
+            Channel::new(c.signal(), 0, t, c.values().to_vec()).expect("a channel").with_attributes(c.attributes())
+        };
+        let shifted = at_zero.channels().iter().map(shift).collect();
+        let later = Recording::new("run", at_zero.clocks().to_vec(), shifted).expect("a recording");
+        let [a, b] = [&at_zero, &later].map(|r| SpeedRun::new(r, RADIUS, CONSTANT).expect("a run"));
+        assert_eq!((a.time, a.yaw_rate, a.alignment), (b.time, b.yaw_rate, b.alignment));
     }
 
     #[test]
