@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::diagnose::FORMAT;
 use crate::locate::Located;
 use crate::predict::Prediction;
 
@@ -194,4 +195,31 @@ pub struct Diagnosis {
     /// Predicted responses of the held-out drives: corrected, then without the effect.
     #[serde(skip)]
     pub predictions: Vec<(Prediction, Prediction)>,
+}
+
+impl Diagnosis {
+    /// No answer yet: what a diagnosis starts from.
+    pub fn withheld() -> Self {
+        Self {
+            format: FORMAT,
+            verdict: Verdict::Withheld,
+            sentences: Vec::new(),
+            ranked: Vec::new(),
+            indistinguishable: Vec::new(),
+            findings: Vec::new(),
+            cells: Vec::new(),
+            located: Located::default(),
+            free_runs: Vec::new(),
+            unexplained: None,
+            limits: Vec::new(),
+            trials: Vec::new(),
+            costs: [0.0; 3],
+            accusations: Vec::new(),
+            screened: Vec::new(),
+            tuning: BTreeMap::new(),
+            steady: None,
+            response: None,
+            predictions: Vec::new(),
+        }
+    }
 }

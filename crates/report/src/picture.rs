@@ -254,25 +254,11 @@ mod tests {
             placebo: None,
         };
         Diagnosis {
-            format: 1,
             verdict: Verdict::Explained,
             sentences: vec!["Missing: extra <mass> & more, 2.5 kg (probability 0.97).".to_owned()],
             ranked: vec![cause("payload", "extra <mass> & more", 0.97), cause("none", "nothing is missing", 0.03)],
-            indistinguishable: Vec::new(),
-            findings: Vec::new(),
-            cells: Vec::new(),
-            located: diagnosis::Located::default(),
             free_runs: vec![run("run_1", 0.1), run("run_2", 0.3)],
-            unexplained: None,
-            limits: Vec::new(),
-            trials: Vec::new(),
-            costs: [0.0; 3],
-            accusations: Vec::new(),
-            screened: Vec::new(),
-            tuning: BTreeMap::new(),
-            steady: None,
-            response: None,
-            predictions: Vec::new(),
+            ..Diagnosis::withheld()
         }
     }
 

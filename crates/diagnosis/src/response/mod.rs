@@ -22,8 +22,6 @@ use robot_model::Robot;
 use serde::Serialize;
 
 use crate::DiagnosisError;
-use crate::diagnose::FORMAT;
-use crate::locate::Located;
 use crate::verdict::{Diagnosis, Verdict};
 
 use compare::{Errors, Four, free_runs, summary};
@@ -117,7 +115,7 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     }
     let response = response(&windows, unseen.list.len(), &base, &found, &four, nominal);
     let (_, off_error) = mean(&windows.by_block(|w| left_out[0][0][w]));
-    let mut out = blank();
+    let mut out = Diagnosis::withheld();
     let ranked = name::ranked(&found, &response.parameters, summary(&left_out[0][0])[0], off_error, nominal[1]);
     out.ranked = ranked;
     out.verdict = if response.parameters.is_empty() { Verdict::NoMismatch } else { Verdict::Explained };
@@ -172,30 +170,6 @@ fn told(four: &[Errors; 4], drive_only: &Errors, has_position: bool) -> Told {
         [rms(&four[0]), rms(&four[1]), rms(&four[2]), rms(&four[3]), rms(drive_only)]
     };
     Told { wheel: of(0), position: has_position.then(|| of(1)), yaw: of(2) }
-}
-
-fn blank() -> Diagnosis {
-    Diagnosis {
-        format: FORMAT,
-        verdict: Verdict::Withheld,
-        sentences: Vec::new(),
-        ranked: Vec::new(),
-        indistinguishable: Vec::new(),
-        findings: Vec::new(),
-        cells: Vec::new(),
-        located: Located::default(),
-        free_runs: Vec::new(),
-        unexplained: None,
-        limits: Vec::new(),
-        trials: Vec::new(),
-        costs: [0.0; 3],
-        accusations: Vec::new(),
-        screened: Vec::new(),
-        tuning: std::collections::BTreeMap::new(),
-        steady: None,
-        response: None,
-        predictions: Vec::new(),
-    }
 }
 
 fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> {

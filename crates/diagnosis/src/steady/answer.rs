@@ -1,10 +1,6 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
-use std::collections::BTreeMap;
-
-use crate::diagnose::FORMAT;
 use crate::hypothesis::Place;
-use crate::locate::Located;
 use crate::steady::name::{Named, Naming};
 use crate::steady::words::{clocks, sentences};
 use crate::steady::{Loads, SpeedRun, SteadyCase};
@@ -21,27 +17,7 @@ const LEAST_PLAUSIBLE: f64 = 2.0;
 const LISTED: f64 = 1e-3;
 
 pub(super) fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosis {
-    let mut out = Diagnosis {
-        format: FORMAT,
-        verdict: Verdict::Withheld,
-        sentences: Vec::new(),
-        ranked: Vec::new(),
-        indistinguishable: Vec::new(),
-        findings: Vec::new(),
-        cells: Vec::new(),
-        located: Located::default(),
-        free_runs: Vec::new(),
-        unexplained: None,
-        limits: Vec::new(),
-        trials: Vec::new(),
-        costs: [0.0; 3],
-        accusations: Vec::new(),
-        screened: Vec::new(),
-        tuning: BTreeMap::new(),
-        steady: None,
-        response: None,
-        predictions: Vec::new(),
-    };
+    let mut out = Diagnosis::withheld();
     if let Some(naming) = naming {
         weigh(naming, &mut out);
     }
