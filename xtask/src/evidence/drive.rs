@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask};
-use super::drive_layout::lay_out;
+use super::drive_layout::{STEP, WINDOW, lay_out};
 use super::find::{Found, Kind};
 use super::hide::Table;
 use crate::binary::Binary;
@@ -15,9 +15,6 @@ use crate::binary::Binary;
 const ROBOTS: [(&str, f64); 2] = [("husky-drive", 0.1651), ("warthog-drive", 0.30)];
 /// Share of the windows that a fit may see where no other table is named for it.
 const TRAINING: f64 = 2.0 / 3.0;
-/// Samples of a window, and their interval, s.
-const WINDOW: usize = 40;
-const STEP: f64 = 0.05;
 /// Windows that tell the radius: wheels that turn this fast, rad/s, and differ by at most this share.
 const ROLLING: f64 = 2.0;
 const STRAIGHT: f64 = 0.2;

@@ -17,9 +17,9 @@ use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
 
 /// Sample interval, s.
-const STEP: f64 = 0.05;
+pub(super) const STEP: f64 = 0.05;
 /// Samples of a window.
-const WINDOW: usize = 40;
+pub(super) const WINDOW: usize = 40;
 /// Samples whose mean motion bridges the border of two windows: half a second.
 const BRIDGE: usize = 10;
 

@@ -1,6 +1,7 @@
 //! What is asked of the evidence, and what was reached.
 
 use serde_json::Value;
+use sim::statistics::{quantile, sorted};
 
 use super::Evidence;
 use super::ask::interval;
@@ -9,16 +10,8 @@ use super::slopes::{Claim, Outcome, Seen};
 use super::turns::{Turns, share};
 use crate::output::{Asked, Figure};
 
-fn median(mut all: Vec<f64>) -> Option<f64> {
-    quantile(&mut all, 0.5)
-}
-
-fn quantile(all: &mut [f64], share: f64) -> Option<f64> {
-    all.sort_by(f64::total_cmp);
-    let last = all.len().checked_sub(1)?;
-    let at = share * last as f64;
-    let (i, f) = (at as usize, at.fract());
-    Some(all[i] + f * (all[(i + 1).min(last)] - all[i]))
+fn median(all: impl IntoIterator<Item = f64>) -> Option<f64> {
+    quantile(&sorted(all), 0.5)
 }
 
 /// Loads of one kind over the references': value, half of its interval, ratio and its interval, speed.
@@ -71,13 +64,7 @@ fn labels(e: &Evidence, out: &mut Vec<Figure>) {
     let sand: Vec<Load> = labelled(e, "SANDY_LOAM").flat_map(|r| loads(r, "straight_load")).collect();
     let off = |centre: f64| move |l: &Load| (l.ratio - centre).abs();
     let most = |all: Vec<f64>| all.into_iter().max_by(f64::total_cmp);
-    add(
-        out,
-        "sandy loam: straight load, median of the runs",
-        median(sand.iter().map(|l| l.ratio).collect()),
-        "times",
-        None,
-    );
+    add(out, "sandy loam: straight load, median of the runs", median(sand.iter().map(|l| l.ratio)), "times", None);
     add(
         out,
         "sandy loam: furthest from 2.05",
@@ -176,10 +163,9 @@ fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
             Some(Asked::AtLeast(0.8)),
         );
     }
-    let mut clocks: Vec<f64> =
-        e.husky.iter().filter_map(|r| r.witness.as_ref()).flat_map(|w| &w.left_out).map(|c| c.abs()).collect();
-    add(out, "clocks on turns left out: median error", quantile(&mut clocks, 0.5), "s", Some(Asked::AtMost(0.2)));
-    add(out, "clocks on turns left out: 90 % below", quantile(&mut clocks, 0.9), "s", Some(Asked::AtMost(0.5)));
+    let clocks = sorted(e.husky.iter().filter_map(|r| r.witness.as_ref()).flat_map(|w| &w.left_out).map(|c| c.abs()));
+    add(out, "clocks on turns left out: median error", quantile(&clocks, 0.5), "s", Some(Asked::AtMost(0.2)));
+    add(out, "clocks on turns left out: 90 % below", quantile(&clocks, 0.9), "s", Some(Asked::AtMost(0.5)));
 }
 
 /// Slopes on hard ground, of which something is asked, or on all other ground.
@@ -271,7 +257,7 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
             .filter(move |f| f["quantity"].as_str().is_some_and(|q| q.starts_with(quantity)))
     };
     let number = |f: &Value, what: &str| f[what].as_f64().unwrap_or(f64::NAN);
-    let gain = median(of("torque").map(|f| number(f, "retuned") / number(f, "corrected")).collect());
+    let gain = median(of("torque").map(|f| number(f, "retuned") / number(f, "corrected")));
     add(
         out,
         "hard ground, forecast of currents: re-tuned level over corrected, median of the runs",
@@ -294,7 +280,7 @@ fn forecasts(e: &Evidence, out: &mut Vec<Figure>) {
             Some(Asked::AtLeast(0.833)),
         );
     }
-    let yaw = median(of("yaw").map(|f| number(f, "corrected")).collect());
+    let yaw = median(of("yaw").map(|f| number(f, "corrected")));
     add(out, "hard ground, forecast of the yaw rate: rms, median of the runs", yaw, "rad/s", Some(Asked::AtMost(0.02)));
 }
 

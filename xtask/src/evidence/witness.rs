@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use diagnosis::steady::align;
+use diagnosis::steady::{align, box_mean, interpolate};
 
 use super::hide::Table;
 
@@ -42,28 +42,6 @@ pub(super) struct Tilted {
     pub(super) slope: f64,
 }
 
-fn mean_over(time: &[f64], z: &[f64], width: f64) -> Vec<f64> {
-    let mut sum = vec![0.0; z.len() + 1];
-    for (i, v) in z.iter().enumerate() {
-        sum[i + 1] = sum[i] + v;
-    }
-    time.iter()
-        .map(|t| {
-            let from = time.partition_point(|x| *x < t - 0.5 * width);
-            let until = time.partition_point(|x| *x <= t + 0.5 * width);
-            (sum[until] - sum[from]) / (until - from).max(1) as f64
-        })
-        .collect()
-}
-
-fn interpolate(time: &[f64], z: &[f64], at: f64) -> f64 {
-    match time.partition_point(|t| *t <= at) {
-        0 => z[0],
-        i if i >= time.len() => z[z.len() - 1],
-        i => z[i - 1] + (z[i] - z[i - 1]) * (at - time[i - 1]) / (time[i] - time[i - 1]),
-    }
-}
-
 impl Witness {
     /// Opens the envelope of a run.
     pub(super) fn open(speeds: &Path, inertial: &Path) -> Result<Self> {
@@ -83,9 +61,9 @@ impl Witness {
         let [time, its_time] = [time, its_time].map(|t| t.iter().map(|x| x - origin).collect::<Vec<f64>>());
         let turning: Vec<f64> = right.iter().zip(&left).map(|(r, l)| r - l).collect();
         let forward: Vec<f64> = right.iter().zip(&left).map(|(r, l)| 0.5 * (r + l)).collect();
-        let yaw = mean_over(&its_time, &wz, YAW_MEAN);
+        let yaw = box_mean(&its_time, &wz, YAW_MEAN);
         let alignment = align(&time, &turning, &its_time, &yaw);
-        let tilt = mean_over(&its_time, &ax, TILT_MEAN);
+        let tilt = box_mean(&its_time, &ax, TILT_MEAN);
         let at = |z: &[f64]| -> Vec<f64> {
             time.iter().zip(&alignment.lag).map(|(t, lag)| interpolate(&its_time, z, t + lag)).collect()
         };

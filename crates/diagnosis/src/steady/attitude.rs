@@ -8,6 +8,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::steady::clock::interpolate;
+use crate::steady::median::median;
 use crate::steady::run::SpeedRun;
 use crate::steady::straight::Reading;
 
@@ -84,9 +85,8 @@ pub(crate) fn attitude(
             seen[step as usize].push(i);
         }
     }
-    let mut exact: Vec<f64> = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value()).collect();
-    exact.sort_by(f64::total_cmp);
-    let excess = exact.get(exact.len() / 2).map_or(0.0, |median| (median / usual - 1.0).abs());
+    let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
+    let excess = median(exact).map_or(0.0, |middle| (middle / usual - 1.0).abs());
     let rolling = ROLLING.max(EXCESS * excess) * usual / weight;
     let keep = 1.0 - dt / ROLLING_TIME;
     let mut walk = Square::zeros();

@@ -9,6 +9,7 @@ use crate::steady::attitude::{Attitude, attitude};
 use crate::steady::extract::CLASSES;
 use crate::steady::jumps::jumps;
 use crate::steady::level::levels;
+use crate::steady::median::median;
 use crate::steady::name::UNNAMED_STRAIGHT;
 use crate::steady::run::SpeedRun;
 use crate::steady::slopes::slopes;
@@ -96,18 +97,17 @@ fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: 
     let plausible =
         |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * UNNAMED_STRAIGHT && l > r / UNNAMED_STRAIGHT);
     // Median of the class's levels, if there is enough of it.
-    let median = |c: usize, keep: &dyn Fn(f64) -> bool| {
+    let of_class = |c: usize, keep: &dyn Fn(f64) -> bool| {
         let exact = |i: &usize| readings[*i].is_some_and(Reading::is_exact) && class(run.forward(*i).abs()) == c;
-        let mut all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
-        all.sort_by(f64::total_cmp);
-        (all.len() as f64 * run.period() >= KNOWN).then(|| all[all.len() / 2])
+        let all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
+        if all.len() as f64 * run.period() >= KNOWN { median(all) } else { None }
     };
     let references: Usual = usual.map(|own| own.or(known));
-    let like: Usual = std::array::from_fn(|c| median(c, &|l| plausible(l, references[c])));
+    let like: Usual = std::array::from_fn(|c| of_class(c, &|l| plausible(l, references[c])));
     // A run of which no part is like the references is compared with itself: the whole of it is told elsewhere.
     let alike = like.iter().any(Option::is_some);
     std::array::from_fn(|c| {
-        let own = like[c].or_else(|| if alike { references[c] } else { median(c, &|_| true) });
+        let own = like[c].or_else(|| if alike { references[c] } else { of_class(c, &|_| true) });
         own.or(references[c])
     })
 }

@@ -19,7 +19,7 @@ const WANDER: f64 = 0.15;
 const ANCHOR: f64 = 13.3;
 /// A turn that can be left out: difference of the speeds, m/s, how long at least, which pauses do not end it, and what
 /// is taken before and after, s.
-const TURN: f64 = 0.04;
+pub(super) const TURN: f64 = 0.04;
 const TURN_SECONDS: f64 = 0.8;
 const TURN_PAUSE: f64 = 1.0;
 const TURN_MARGIN: f64 = 2.0;
@@ -45,8 +45,8 @@ impl Alignment {
     }
 }
 
-/// Mean over `width` seconds about each sample.
-pub(crate) fn box_mean(t: &[f64], z: &[f64], width: f64) -> Vec<f64> {
+/// Mean over `width` seconds about each sample; times ascend.
+pub fn box_mean(t: &[f64], z: &[f64], width: f64) -> Vec<f64> {
     let mut sum = vec![0.0; z.len() + 1];
     for (i, v) in z.iter().enumerate() {
         sum[i + 1] = sum[i] + v;
@@ -65,8 +65,8 @@ pub(crate) fn box_mean(t: &[f64], z: &[f64], width: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Linear interpolation, held beyond the ends.
-pub(crate) fn interpolate(t: &[f64], z: &[f64], at: f64) -> f64 {
+/// Linear interpolation of `z` at the instants `t`, which ascend; held beyond the ends, 0 of nothing.
+pub fn interpolate(t: &[f64], z: &[f64], at: f64) -> f64 {
     match t.partition_point(|&x| x <= at) {
         0 => z.first().copied().unwrap_or(0.0),
         i if i >= t.len() => z.last().copied().unwrap_or(0.0),

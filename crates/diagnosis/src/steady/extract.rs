@@ -110,7 +110,7 @@ const TURN: f64 = 4.5 / 127.0;
 /// How long a drive must have been straight, s: loads wind up after a turn. How constant a turn must have been, m/s,
 /// and for how long, s.
 const STRAIGHT_HOLD: f64 = 1.5;
-const TURN_HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
+pub(super) const TURN_HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
 /// For how long a turn must go on for its yaw rate to count, s.
 const TURN_AHEAD: f64 = 0.5;
 /// Difference over sum of the speeds above which scrub is fully developed.

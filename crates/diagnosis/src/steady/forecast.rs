@@ -2,16 +2,16 @@
 
 use serde::Serialize;
 
+use crate::steady::clock::TURN;
 use crate::steady::extract::{Quantity, extract};
 use crate::steady::law::{Law, error, fit, torques};
+use crate::steady::median::median;
 use crate::steady::run::SpeedRun;
 use crate::verdict::FreeRun;
 
 /// Recordings shorter than this are not split, s; nor those that turn less in either part, s.
 const LEAST_SECONDS: f64 = 15.0;
 const LEAST_TURNING: f64 = 3.0;
-/// Difference of the speeds in a turn, m/s.
-const TURN: f64 = 0.04;
 /// Lags of the body behind its set speeds that are tried, s.
 const LAGS: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 
@@ -63,12 +63,8 @@ impl Nominal {
             .filter(|r| turning_seconds(r, 0, r.time.len()) >= LEAST_TURNING)
             .map(|r| fit(Law::Turning, r, r.time.len(), straight))
             .collect();
-        let median = |k: usize| {
-            let mut all: Vec<f64> = fits.iter().map(|c| c[k]).collect();
-            all.sort_by(f64::total_cmp);
-            all[all.len() / 2]
-        };
-        Self { constants: (!fits.is_empty()).then(|| std::array::from_fn(median)), track, straight }
+        let middle = |k: usize| median(fits.iter().map(|c| c[k])).unwrap_or(f64::NAN);
+        Self { constants: (!fits.is_empty()).then(|| std::array::from_fn(middle)), track, straight }
     }
 }
 

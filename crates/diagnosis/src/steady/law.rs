@@ -130,7 +130,7 @@ pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Cons
     let span: Constants = std::array::from_fn(|k| high[k] - low[k]);
     let residuals = |c: &Constants| -> Vec<f64> {
         let rows = torques(law, c, run);
-        (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - run.torque[j][i].abs_if(run.magnitude_only))).collect()
+        (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
     };
     let cost = |r: &[f64]| r.iter().map(|e| 2.0 * ((1.0 + (e / FAR_OFF).powi(2)).sqrt() - 1.0)).sum::<f64>();
     let mut r = residuals(&x);
@@ -172,20 +172,14 @@ pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Cons
     x
 }
 
-/// Magnitude where only that is known.
-trait AbsIf {
-    fn abs_if(self, magnitude_only: bool) -> Self;
-}
-
-impl AbsIf for f64 {
-    fn abs_if(self, magnitude_only: bool) -> Self {
-        if magnitude_only { self.abs() } else { self }
-    }
+/// What was recorded of a side's torque at a row: a magnitude where only that is known, N m.
+fn recorded(run: &SpeedRun, i: usize, side: usize) -> f64 {
+    let torque = run.torque[side][i];
+    if run.magnitude_only { torque.abs() } else { torque }
 }
 
 /// Root mean squared error of forecast torques over the rows from `from`, N m.
 pub(crate) fn error(rows: &[[f64; 2]], run: &SpeedRun, from: usize) -> f64 {
-    let squares = (from..run.time.len())
-        .flat_map(|i| [0, 1].map(|j| (rows[i][j] - run.torque[j][i].abs_if(run.magnitude_only)).powi(2)));
+    let squares = (from..run.time.len()).flat_map(|i| [0, 1].map(|j| (rows[i][j] - recorded(run, i, j)).powi(2)));
     (squares.sum::<f64>() / (2 * (run.time.len() - from)).max(1) as f64).sqrt()
 }

@@ -2,6 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use crate::steady::median::median;
 use crate::steady::straight::Reading;
 
 /// Levels on the grid, as multiples of the usual load: from a steep descent to five times the usual.
@@ -10,7 +11,7 @@ const LEVELS: usize = 170;
 /// What a jump costs, nats.
 const JUMP: f64 = 7.0;
 /// Readings follow one another closely: one second counts as so many independent ones.
-const PER_SECOND: f64 = 1.6;
+pub(super) const PER_SECOND: f64 = 1.6;
 /// Scatter of a reading at least, as a share of the usual load.
 const LEAST_SCATTER: f64 = 0.09;
 /// Few readings tell no scatter: it is taken for this share of the usual load.
@@ -25,9 +26,8 @@ fn scatter(readings: &[Option<Reading>], usual: f64) -> f64 {
     if exact.len() <= ENOUGH {
         return USUAL_SCATTER * usual;
     }
-    let mut steps: Vec<f64> = exact.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    steps.sort_by(f64::total_cmp);
-    (1.4826 / std::f64::consts::SQRT_2 * steps[steps.len() / 2]).max(LEAST_SCATTER * usual)
+    let step = median(exact.windows(2).map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0);
+    (1.4826 / std::f64::consts::SQRT_2 * step).max(LEAST_SCATTER * usual)
 }
 
 /// The level at each row: piecewise constant, penalised by its jumps (a Potts functional, solved exactly on a grid of

@@ -14,6 +14,7 @@ mod forecast;
 mod jumps;
 mod law;
 mod level;
+mod median;
 mod model;
 mod name;
 mod run;
@@ -40,7 +41,7 @@ use model::{Measured, Operating, Tuned, forecast, predicted, sensitivity, tune};
 use name::{Comparison, Difference, Naming, name};
 
 pub use changes::{Changes, Hidden, LoadChange};
-pub use clock::{Alignment, align};
+pub use clock::{Alignment, align, box_mean, interpolate};
 pub(crate) use compare::NINETY;
 pub use compare::Ratio;
 pub use extract::{Load, Quantity, Withheld};

@@ -4,6 +4,7 @@ use recordings::{Channel, Recording, Signal};
 
 use crate::DiagnosisError;
 use crate::steady::clock::{self, Alignment};
+use crate::steady::median::median;
 
 /// One recording of a speed-driven robot. Sides: 0 left, 1 right.
 #[derive(Debug, Clone)]
@@ -181,9 +182,7 @@ impl SpeedRun {
 
     /// Median time between rows, s.
     pub(crate) fn period(&self) -> f64 {
-        let mut gaps: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
-        gaps.sort_by(f64::total_cmp);
-        gaps.get(gaps.len() / 2).copied().unwrap_or(0.0)
+        median(self.time.windows(2).map(|w| w[1] - w[0])).unwrap_or(0.0)
     }
 
     /// Mean speed of the sides at a row, m/s.

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::steady::compare::NINETY;
 use crate::steady::extract::is_steady_turn;
-use crate::steady::level::levels;
+use crate::steady::level::{PER_SECOND, levels};
+use crate::steady::median::median;
 use crate::steady::run::SpeedRun;
 use crate::steady::straight::Reading;
 
@@ -31,8 +32,6 @@ pub struct TurningChange {
 const SAME: f64 = 1.25;
 /// Scatter of such torques on one ground, as a share.
 const SCATTER: f64 = 0.08;
-/// Readings follow one another closely: one second counts as so many independent ones.
-const PER_SECOND: f64 = 1.6;
 /// Least steady turning that shows a change, s; what is known after so many seconds.
 const LEAST: f64 = 3.0;
 const KNOWN: f64 = 5.0;
@@ -53,10 +52,8 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
     let readings = readings(run);
     let seen: Vec<usize> = (0..readings.len()).filter(|&i| readings[i].is_some()).collect();
     let period = run.period();
-    let mut values: Vec<f64> = readings.iter().flatten().map(|r| r.value()).collect();
-    values.sort_by(f64::total_cmp);
-    let Some(&median) = values.get(values.len() / 2) else { return Vec::new() };
-    let level = levels(&readings, usual.unwrap_or(median), period);
+    let Some(middle) = median(readings.iter().flatten().map(|r| r.value())) else { return Vec::new() };
+    let level = levels(&readings, usual.unwrap_or(middle), period);
     // The rest of the run is what is like the references, if anything is; else the middle of the run.
     let mut like: Vec<f64> = seen.iter().map(|&i| level[i]).collect();
     if let Some(u) = usual {
@@ -65,11 +62,7 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
             like = alike;
         }
     }
-    like.sort_by(f64::total_cmp);
-    let base = like[like.len() / 2];
-    if base <= 0.0 {
-        return Vec::new();
-    }
+    let Some(base) = median(like).filter(|base| *base > 0.0) else { return Vec::new() };
     let other = |i: usize| {
         let ratio = level[i] / base;
         if ratio > SAME {

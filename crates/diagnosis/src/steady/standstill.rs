@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::steady::extract::TURN_HOLD;
 use crate::steady::run::SpeedRun;
 
 /// A stretch in which the wheels were commanded to turn and the body did not.
@@ -23,14 +24,13 @@ const SHARE: f64 = 0.2;
 const LEAST_SECONDS: f64 = 3.0;
 /// Difference of the speeds in a turn that counts, m/s.
 const TURN: f64 = 0.08;
-/// How constant it must have been, m/s, and for how long, s.
-const HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
 
 /// Stretches of a recording in which the body stood although the wheels were told to turn it; `track` in m.
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
     let share = |i: usize| yaw[i] * track / run.difference(i);
-    let stands = |i: usize| run.difference(i).abs() > TURN && run.held(i, HOLD.0, HOLD.1) && share(i).abs() < SHARE;
+    let stands =
+        |i: usize| run.difference(i).abs() > TURN && run.held(i, TURN_HOLD.0, TURN_HOLD.1) && share(i).abs() < SHARE;
     let rows: Vec<usize> = (0..run.time.len()).collect();
     let stretch = |rows: &[usize]| {
         let (first, last) = (rows[0], rows[rows.len() - 1]);
