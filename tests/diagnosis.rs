@@ -100,7 +100,7 @@ fn both_of_a_pair_are_named() {
     for (effect, truth) in pair.iter().zip(&drawn.truth.effects) {
         assert!(first.contains(&effect.id().as_str()), "{}", told(&d));
         let found = d.ranked.iter().find(|c| c.effect == truth.id).expect("named");
-        assert_eq!(found.side.map(str::to_owned), truth.side, "{}", told(&d));
+        assert_eq!(found.side.as_deref(), truth.side.as_deref(), "{}", told(&d));
     }
 }
 

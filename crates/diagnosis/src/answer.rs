@@ -16,7 +16,7 @@ use crate::leave_out::{is_worthwhile, leave_one_out};
 use crate::linalg::solve_spd;
 use crate::motion::GyroError;
 use crate::predict::predict;
-use crate::redundancy::Redundant;
+use crate::redundancy::{Fault, Redundant};
 use crate::verdict::{Cause, Diagnosis, Estimate, Trial, Verdict};
 use crate::windows::Cut;
 use crate::{Options, locate, words};
@@ -84,12 +84,12 @@ impl Answer<'_> {
                 probability: SURE,
                 magnitude: Some(f.magnitude),
                 sigma: Some(f.sigma),
-                unit: words::unit(f.card),
+                unit: words::unit(f.card).into(),
                 parameters: BTreeMap::from([(
                     f.card.parameters[f.parameter].name.to_owned(),
                     Estimate { value: f.magnitude, sigma: Some(f.sigma), at_bound: false },
                 )]),
-                side: f.side.map(words::side),
+                side: f.side.map(|s| words::side(s).into()),
                 place: None,
                 intervals: None,
             });
@@ -146,9 +146,9 @@ impl Answer<'_> {
             probability: probability.min(1.0),
             magnitude: Some(variant.magnitude(e)),
             sigma,
-            unit: words::unit(card),
+            unit: words::unit(card).into(),
             parameters,
-            side: side.map(words::side),
+            side: side.map(|s| words::side(s).into()),
             place,
             intervals,
         }
@@ -262,6 +262,11 @@ impl Answer<'_> {
         });
         let indistinguishable = self.rivals(&ranked, verdict);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
+        let mut correction = corrector.map_or_else(
+            || p.correction(&none, &forecaster, &[]),
+            |w| p.correction(&w.trial.hypothesis, &forecaster, &w.trial.fitted.point.effects),
+        );
+        correction.effects.extend(self.sensors.faults.iter().map(Fault::effect));
         let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
         let located = locate::locate(self, &calibrated, fitted, &left_out, unexplained, &ranked);
         let mut limits = self.limits();
@@ -290,6 +295,8 @@ impl Answer<'_> {
             accusations: self.calibration.gate.accusations.clone(),
             screened,
             tuning,
+            correction,
+            traces: Vec::new(),
             steady: None,
             response: None,
             predictions,
@@ -299,13 +306,14 @@ impl Answer<'_> {
     }
 
     fn trials(&self, retuned: &Fitted) -> Vec<Trial> {
+        let p = self.problem;
         let row = |s: &Scored| Trial {
             hypothesis: s.trial.hypothesis.parts.iter().map(|(v, _)| v.label()).collect(),
             gain: retuned.cost - s.trial.fitted.cost,
             visits: s.visits,
             score: s.score,
             probability: s.probability,
-            values: s.trial.fitted.point.effects.clone(),
+            correction: p.correction(&s.trial.hypothesis, &s.trial.fitted.point.theta, &s.trial.fitted.point.effects),
         };
         self.decision.scored.iter().map(row).collect()
     }

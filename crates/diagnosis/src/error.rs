@@ -68,6 +68,28 @@ pub enum DiagnosisError {
         /// What is missing.
         reason: String,
     },
+    /// A correction names a constant that no robot has.
+    #[error("no constant '{id}' can be re-tuned; `lacuna diagnose --json` lists those that can, under 'tuning'")]
+    NoSuchConstant {
+        /// What was named.
+        id: String,
+    },
+    /// A correction names an effect that is not in the catalogue.
+    #[error("there is no effect '{id}'; `lacuna effects` lists them")]
+    NoSuchEffect {
+        /// What was named.
+        id: String,
+    },
+    /// A correction gives an effect a parameter that it does not have, or a value that is no number.
+    #[error("effect '{effect}' takes a finite number for each of {known}, but '{name}' is none of these")]
+    NoSuchParameter {
+        /// The effect.
+        effect: String,
+        /// What was named.
+        name: String,
+        /// Its parameters.
+        known: String,
+    },
     /// The robot cannot be what its file says.
     #[error(transparent)]
     Model(#[from] robot_model::ModelError),

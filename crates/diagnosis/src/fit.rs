@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
+use crate::correction::Correction;
 use crate::drives::Drives;
 use crate::hypothesis::{Free, Onsets, Variant, variants};
 use crate::simulate::{Body, Dose, Grid, Response, free_run};
@@ -116,6 +117,19 @@ pub(crate) struct Columns(pub(crate) Vec<Response>);
 impl Problem<'_> {
     pub(crate) fn origin(&self) -> Point {
         Point { theta: self.centre, run: vec![[0.0; PER_RUN]; self.cuts.len()], effects: Vec::new() }
+    }
+
+    /// A hypothesis at a point, for files.
+    pub(crate) fn correction(&self, h: &Hypothesis, theta: &[f64; NUISANCES], effects: &[f64]) -> Correction {
+        let tunings = tunables::<f64>().into_iter().zip(self.sigma).zip(theta);
+        let tuning = tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect();
+        let mut at = 0;
+        let effects = h.parts.iter().map(|(variant, onsets)| {
+            let n = variant.free(1.0).len();
+            at += n;
+            variant.at(&effects[at - n..at], onsets, self.cuts)
+        });
+        Correction { tuning, effects: effects.collect() }
     }
 
     /// Every form of every effect that these recordings may show in the motion.

@@ -4,7 +4,9 @@ use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
 use robot_model::{Card, Effect, effects};
 
+use crate::correction::{EffectAt, Side};
 use crate::simulate::Dose;
+use crate::windows::Cut;
 
 /// Where an effect is present.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,6 +109,28 @@ impl Variant {
             Place::Onset => presence.from = onset.unwrap_or(f64::MAX),
         }
         Dose { effect: self.effect, values, presence }
+    }
+
+    /// The same for files: by name, with onsets by recording.
+    pub(crate) fn at(&self, e: &[f64], onsets: &Onsets, recordings: &[Cut]) -> EffectAt {
+        let card = self.card();
+        let mut out = EffectAt { effect: card.id.to_owned(), ..EffectAt::default() };
+        let mut disc = Vec::new();
+        for (f, &v) in self.free(1.0).iter().zip(e) {
+            match f.parameter {
+                Some(i) => {
+                    out.values.insert(card.parameters[i].name.to_owned(), v);
+                }
+                None => disc.push(v),
+            }
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => out.side = Some(Side::of(s)),
+            Place::Disc => out.place = Some([disc[0], disc[1], disc[2]]),
+            Place::Onset => out.from = recordings.iter().map(|c| c.name.clone()).zip(onsets.iter().copied()).collect(),
+        }
+        out
     }
 
     /// Size of the effect in the unit of its card: the norm of its strengths, or the one that is free with its sign.

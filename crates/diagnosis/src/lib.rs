@@ -11,6 +11,7 @@
 mod answer;
 mod calibrate;
 pub mod case;
+mod correction;
 mod decide;
 mod diagnose;
 mod disc;
@@ -39,12 +40,14 @@ mod smooth;
 pub mod steady;
 #[cfg(test)]
 mod testing;
+mod trace;
 mod verdict;
 mod visits;
 mod windows;
 mod words;
 
 pub use case::{Case, HeldOut};
+pub use correction::{Correction, EffectAt, Side};
 pub use diagnose::diagnose;
 pub use error::DiagnosisError;
 pub use locate::{Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
@@ -53,4 +56,5 @@ pub use predict::Prediction;
 pub use response::{ResponseCase, diagnose_response};
 pub use run::Run;
 pub use steady::{SteadyCase, diagnose_steady};
-pub use verdict::{Cause, Cell, Diagnosis, Estimate, Finding, FreeRun, Trial, Verdict};
+pub use trace::{Compared, Trace};
+pub use verdict::{Cause, Cell, Diagnosis, Estimate, Finding, FreeRun, Trial, Verdict, Word};

@@ -3,9 +3,12 @@
 //! Every check measures a number in each run, pools the recordings robustly and takes off what the references show:
 //! the same robot without the fault. Only the check of the gyro's own zero and gain needs no reference.
 
+use std::collections::BTreeMap;
+
 use robot_model::effect::Redundancy;
 use robot_model::{Card, effects};
 
+use crate::correction::{EffectAt, Side};
 use crate::motion::GyroError;
 use crate::run::Run;
 
@@ -28,6 +31,18 @@ pub(crate) struct Fault {
     /// One sigma of it.
     pub(crate) sigma: f64,
     pub(crate) side: Option<usize>,
+}
+
+impl Fault {
+    /// The effect that shows it.
+    pub(crate) fn effect(&self) -> EffectAt {
+        EffectAt {
+            effect: self.card.id.to_owned(),
+            values: BTreeMap::from([(self.card.parameters[self.parameter].name.to_owned(), self.magnitude)]),
+            side: self.side.map(Side::of),
+            ..EffectAt::default()
+        }
+    }
 }
 
 /// What all checks found.

@@ -1,15 +1,21 @@
 //! What a diagnosis says.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::correction::Correction;
 use crate::diagnose::FORMAT;
 use crate::locate::Located;
 use crate::predict::Prediction;
+use crate::trace::Trace;
+
+/// A word of the program's own; of another's when read from JSON.
+pub type Word = Cow<'static, str>;
 
 /// The kind of answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// One or more effects of the catalogue explain the mismatch.
@@ -23,7 +29,7 @@ pub enum Verdict {
 }
 
 /// One possible cause with what is known about it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cause {
     /// Effect id, "none" or "unknown".
     pub effect: String,
@@ -36,11 +42,11 @@ pub struct Cause {
     /// One sigma of the size.
     pub sigma: Option<f64>,
     /// Unit of the size.
-    pub unit: &'static str,
+    pub unit: Word,
     /// Every number of its law, by name; of a place also x, y and radius, m.
     pub parameters: BTreeMap<String, Estimate>,
     /// Side, when it sits on one.
-    pub side: Option<&'static str>,
+    pub side: Option<Word>,
     /// Where on the ground, when it is a place: x, y, radius in m.
     pub place: Option<[f64; 3]>,
     /// When it was present in each recording, s; `None` when it was there all the time.
@@ -48,7 +54,7 @@ pub struct Cause {
 }
 
 /// A fitted number.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Its value in the unit of the card.
     pub value: f64,
@@ -72,7 +78,7 @@ impl Cause {
             probability,
             magnitude: None,
             sigma: None,
-            unit: "-",
+            unit: "-".into(),
             parameters: BTreeMap::new(),
             side: None,
             place: None,
@@ -82,7 +88,7 @@ impl Cause {
 }
 
 /// Free-run errors of a recording that was not used for the fit, rms.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FreeRun {
     /// Name of the recording that was left out.
     pub recording: String,
@@ -99,12 +105,12 @@ pub struct FreeRun {
 }
 
 /// A place in the data where the mismatch shows.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Which signal.
     pub signal: String,
     /// Side of the signal, if it has one.
-    pub side: Option<&'static str>,
+    pub side: Option<Word>,
     /// Mean squared mismatch of the calibrated model over what left-out references show in such driving.
     pub ratio: f64,
     /// Recording and interval in which it is largest, s.
@@ -118,12 +124,12 @@ pub struct Finding {
 }
 
 /// Mean mismatch in a range of speed, turning, slip or heading, or at a place on the ground.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// "speed" (|forward velocity|), "turning" (yaw rate), "slip" (the faster side's |slip speed|), "heading" or "place".
-    pub by: &'static str,
+    pub by: Word,
     /// Unit of the range.
-    pub unit: &'static str,
+    pub unit: Word,
     /// Range; of a place, those of x and y.
     pub range: Vec<[f64; 2]>,
     /// Seconds of driving in it.
@@ -137,7 +143,7 @@ pub struct Cell {
 }
 
 /// A hypothesis that was fitted in free run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Its effects, with side, axis and place.
     pub hypothesis: Vec<String>,
@@ -149,12 +155,12 @@ pub struct Trial {
     pub score: f64,
     /// Its share of the probability.
     pub probability: f64,
-    /// Fitted values in the order of the cards, then disc (x, y, radius).
-    pub values: Vec<f64>,
+    /// The simulation as this hypothesis would have it.
+    pub correction: Correction,
 }
 
 /// The answer to a case.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Diagnosis {
     /// Version of this structure.
     pub format: u32,
@@ -188,6 +194,10 @@ pub struct Diagnosis {
     pub screened: Vec<(String, f64)>,
     /// Constants of the robot as re-tuned together with the named effects, relative to sigma.
     pub tuning: BTreeMap<String, f64>,
+    /// The simulation as this diagnosis would have it: what held-out drives are predicted with.
+    pub correction: Correction,
+    /// Recordings beside the simulation.
+    pub traces: Vec<Trace>,
     /// Loads of steady driving (speed-driven cases).
     pub steady: Option<crate::steady::Loads>,
     /// Response from command over wheels to the body (command-driven cases).
@@ -217,6 +227,8 @@ impl Diagnosis {
             accusations: Vec::new(),
             screened: Vec::new(),
             tuning: BTreeMap::new(),
+            correction: Correction::default(),
+            traces: Vec::new(),
             steady: None,
             response: None,
             predictions: Vec::new(),

@@ -119,7 +119,7 @@ pub(crate) fn residual_torque(cuts: &[Cut], followed: &[Followed], references: &
             let half = NINETY_FIVE * healthy;
             out.push(ResidualTorque {
                 recording: cut.name.clone(),
-                side: words::side(j),
+                side: words::side(j).into(),
                 mean: valid().map(|b| b.torque).sum::<f64>() / n,
                 rms: (valid().map(|b| (b.torque - bands[j].mean).powi(2)).sum::<f64>() / n).sqrt(),
                 band: [bands[j].mean - half, bands[j].mean + half],

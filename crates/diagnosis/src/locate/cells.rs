@@ -122,8 +122,8 @@ pub(crate) fn cells(problem: &Problem<'_>, references: &Problem<'_>, energy: &En
         }
         let (by, unit) = AXES[key.0];
         out.push(Cell {
-            by,
-            unit,
+            by: by.into(),
+            unit: unit.into(),
             range: range(key, edge),
             seconds,
             ratio: blocks.iter().map(|b| b.energy * b.windows as f64).sum::<f64>() / windows as f64,
@@ -195,7 +195,7 @@ fn finding(problem: &Problem<'_>, energy: &Energy, c: usize, p: Option<f64>) -> 
     let length = (segment.windows * cut.rows_per_window) as f64 * cut.period;
     Some(Finding {
         signal: CHANNEL_NAMES[c].to_owned(),
-        side: (c < 2).then(|| words::side(c)),
+        side: (c < 2).then(|| words::side(c).into()),
         ratio: sum / n,
         recording: cut.name.clone(),
         interval: [from, from + length],

@@ -14,6 +14,7 @@ use crate::linalg::solve_spd;
 use crate::locate::rms;
 use crate::locate::told::ResidualModel;
 use crate::locate::torque::Followed;
+use crate::verdict::Word;
 use crate::windows::{CHANNELS, Cut};
 
 /// Wheel speeds, yaw rate, torque commands.
@@ -251,8 +252,8 @@ pub(crate) fn residual_model(
     }
     let net = fit(&sums.iter().collect::<Vec<_>>())?;
     Some(ResidualModel {
-        standing: "not a cause",
-        inputs: NAMES.into_iter().zip(layer.scale).collect(),
+        standing: "not a cause".into(),
+        inputs: NAMES.into_iter().map(Word::from).zip(layer.scale).collect(),
         // The units are centred: half of each weight goes to the constant.
         weights: net.weight.map(|w| {
             let constant = w[UNITS] - 0.5 * w[..UNITS].iter().sum::<f64>();

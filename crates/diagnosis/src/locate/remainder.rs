@@ -74,7 +74,7 @@ fn regime(problem: &Problem<'_>, energy: &Energy, channel: usize) -> Option<Regi
             let beyond = share - time;
             let better = best.as_ref().is_none_or(|b| beyond > b.share - b.time);
             if share >= MOST && beyond >= BEYOND_TIME && better {
-                best = Some(Regime { by, unit, range, share, time });
+                best = Some(Regime { by: by.into(), unit: unit.into(), range, share, time });
             }
         }
     }

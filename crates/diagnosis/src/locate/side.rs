@@ -16,7 +16,7 @@ pub(crate) fn side(
     residual: &[ResidualTorque],
 ) -> Option<&'static str> {
     let leaves = |side: &str| residual.iter().any(|t| t.side == side && !t.spans.is_empty());
-    let holds = |side: &str| findings.iter().any(|f| f.side == Some(side) && f.significant);
+    let holds = |side: &str| findings.iter().any(|f| f.side.as_deref() == Some(side) && f.significant);
     let clearly = |[l, r]: [f64; 2], seen: &dyn Fn(&str) -> bool| match () {
         () if l > CLEAR * r && seen("left") => Some("left"),
         () if r > CLEAR * l && seen("right") => Some("right"),
@@ -38,14 +38,10 @@ fn torque(all: &[ResidualTorque], side: &str) -> f64 {
 
 /// What to say when an effect is named on one side while the mismatch sits on the other, by the wheel speeds and by
 /// the residual torque.
-pub(crate) fn contradiction(
-    named: &[Cause],
-    located: Option<&'static str>,
-    residual: &[ResidualTorque],
-) -> Option<String> {
+pub(crate) fn contradiction(named: &[Cause], located: Option<&str>, residual: &[ResidualTorque]) -> Option<String> {
     let located = located?;
-    let cause = named.iter().find(|c| c.side.is_some_and(|s| s != located))?;
-    let named = cause.side?;
+    let cause = named.iter().find(|c| c.side.as_deref().is_some_and(|s| s != located))?;
+    let named = cause.side.as_deref()?;
     // Forces pass from side to side through the body: the torque must not speak for the named side.
     if torque(residual, named) > torque(residual, located) {
         return None;
@@ -65,7 +61,7 @@ mod tests {
     fn finding(side: &'static str, ratio: f64) -> Finding {
         Finding {
             signal: format!("{side} wheel speed"),
-            side: Some(side),
+            side: Some(side.into()),
             ratio,
             recording: "run".to_owned(),
             interval: [0.0, 2.0],
@@ -77,7 +73,15 @@ mod tests {
     fn residual(side: &'static str, rms: f64) -> ResidualTorque {
         let certificate = TorqueCertificate { holds: true, error_energy: 0.0, bound: 1.0, identity: 0.0 };
         let recording = "run".to_owned();
-        ResidualTorque { recording, side, mean: -rms, rms, band: [-0.1, 0.1], spans: Vec::new(), certificate }
+        ResidualTorque {
+            recording,
+            side: side.into(),
+            mean: -rms,
+            rms,
+            band: [-0.1, 0.1],
+            spans: Vec::new(),
+            certificate,
+        }
     }
 
     #[test]
@@ -87,14 +91,14 @@ mod tests {
         let located = side(&excess, &findings, &[]);
         assert_eq!(located, Some("right"));
         let mut cause = Cause::plain("coulomb_side", "dragging brake on one side: left", 0.9);
-        cause.side = Some("left");
+        cause.side = Some("left".into());
         let torques = [residual("left", 0.05), residual("right", 0.6)];
         let said = contradiction(std::slice::from_ref(&cause), located, &torques).expect("a contradiction");
         assert!(said.contains("named on the left") && said.contains("sits on the right"), "{said}");
         // The torque speaks for the named side: no contradiction.
         let torques = [residual("left", 0.6), residual("right", 0.05)];
         assert_eq!(contradiction(std::slice::from_ref(&cause), located, &torques), None);
-        cause.side = Some("right");
+        cause.side = Some("right".into());
         assert_eq!(contradiction(&[cause], located, &torques), None);
         // Excess alike on both sides locates nothing.
         assert_eq!(side(&[50.0, 80.0, 0.0, 0.0, 0.0, 0.0, 0.0], &findings, &[]), None);

@@ -85,7 +85,7 @@ fn a_brake_is_located_on_its_side_from_its_onset_on_whether_or_not_the_identifie
     let first = found.findings.first().expect("signals");
     assert!(first.significant, "{first:?}");
     for cut in &recordings {
-        let span = found.spans.iter().find(|s| s.recording == cut.name && s.side == Some("right"));
+        let span = found.spans.iter().find(|s| s.recording == cut.name && s.side.as_deref() == Some("right"));
         let span = span.expect("the right wheel mismatches");
         let [from, until] = span.onset.expect("it was not there from the start");
         assert!(from <= ONSET && ONSET <= until && until - from < 3.0, "{span:?}");

@@ -38,7 +38,7 @@ pub(crate) fn span(cut: &Cut, signal: &str, side: Option<usize>, change: &Change
     Span {
         recording: cut.name.clone(),
         signal: signal.to_owned(),
-        side: side.map(words::side),
+        side: side.map(|s| words::side(s).into()),
         interval: [change.from as f64 * bin, change.until as f64 * bin],
         onset: around(change.from, change.onset),
         end: around(change.until, change.end),

@@ -1,9 +1,11 @@
 //! What is told about where, when and how much.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Word;
 
 /// All that was found about where the mismatch sits, before and after the verdict.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Located {
     /// When each signal mismatches: at most one healthy case in twenty shows any.
     pub spans: Vec<Span>,
@@ -12,20 +14,20 @@ pub struct Located {
     /// What is left after the verdict.
     pub remainder: Option<Remainder>,
     /// The side on which the mismatch sits, when the wheel speeds tell.
-    pub side: Option<&'static str>,
+    pub side: Option<Word>,
     /// A network that lowers what is left; not a cause.
     pub residual_model: Option<ResidualModel>,
 }
 
 /// A stretch of a recording in which a signal mismatches the calibrated simulation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Span {
     /// Name of the recording.
     pub recording: String,
     /// Which signal.
     pub signal: String,
     /// Side of the signal, if it has one.
-    pub side: Option<&'static str>,
+    pub side: Option<Word>,
     /// From, until, s.
     pub interval: [f64; 2],
     /// 90 % interval of the onset, s; `None` when it was there from the start.
@@ -37,12 +39,12 @@ pub struct Span {
 }
 
 /// Torque that acts on a side's wheels beyond the calibrated model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResidualTorque {
     /// Name of the recording.
     pub recording: String,
     /// Side.
-    pub side: &'static str,
+    pub side: Word,
     /// Mean over the recording, N m; positive drives forward.
     pub mean: f64,
     /// Root mean square of half-second means, N m.
@@ -56,7 +58,7 @@ pub struct ResidualTorque {
 }
 
 /// The mean-square bound of the identifier over a recording, against zero weights.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TorqueCertificate {
     /// Whether the bound holds.
     pub holds: bool,
@@ -69,7 +71,7 @@ pub struct TorqueCertificate {
 }
 
 /// What the best answer leaves.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Remainder {
     /// Share of the mismatch that is left, as in [`crate::Diagnosis::unexplained`].
     pub share: f64,
@@ -82,12 +84,12 @@ pub struct Remainder {
 }
 
 /// A kind of driving.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Regime {
     /// "speed" or "turning".
-    pub by: &'static str,
+    pub by: Word,
     /// Unit of the limits.
-    pub unit: &'static str,
+    pub unit: Word,
     /// From, until; the last may be infinite, written as null.
     pub range: [f64; 2],
     /// Share of what is left that sits in it.
@@ -97,12 +99,12 @@ pub struct Regime {
 }
 
 /// The paper's network as a model of what the verdict leaves: a better simulator, not a cause.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResidualModel {
     /// Always "not a cause".
-    pub standing: &'static str,
+    pub standing: Word,
     /// Inputs of the network with their scales: `input / scale` goes in.
-    pub inputs: Vec<(&'static str, f64)>,
+    pub inputs: Vec<(Word, f64)>,
     /// First layer: threshold, then one weight per input, for each logistic unit.
     pub first_layer: Vec<Vec<f64>>,
     /// Torque of each side that adds to the command: one weight per unit, then a constant, N m.

@@ -76,7 +76,7 @@ pub(crate) fn locate(
             spans: spans(p, &energy, &healthy),
             torque,
             remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &healthy))),
-            side,
+            side: side.map(Into::into),
             residual_model: unexplained.filter(|share| *share > LEFT).and_then(|_| network(answer, best, left_out)),
         },
         findings,

@@ -1,6 +1,6 @@
 //! A constant of a response, and the elements that constants form.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A fitted constant: what it is called and where it may lie.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +16,7 @@ pub(crate) struct Constant {
 }
 
 /// A physical element: constants that stand or fall together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Element {
     /// Command to wheel: dead time.

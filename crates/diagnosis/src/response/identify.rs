@@ -1,7 +1,7 @@
 //! Chooses the structure of both parts by forecasts of windows that were left out.
 
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::response::constants::Element;
 use crate::response::controller::{Law, Scaling};
@@ -18,7 +18,7 @@ pub(crate) struct Simulated {
 }
 
 /// A structure that was tried beside the chosen one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alternative {
     /// What was changed.
     pub what: String,

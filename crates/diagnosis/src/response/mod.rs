@@ -19,7 +19,9 @@ mod windows;
 mod words;
 
 use robot_model::Robot;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Word;
 
 use crate::DiagnosisError;
 use crate::verdict::{Diagnosis, Verdict};
@@ -51,7 +53,7 @@ pub struct ResponseCase {
 }
 
 /// The response of a command-driven robot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Response {
     /// Windows of 2 s that were fitted, and command steps that they belong to.
     pub windows: usize,
@@ -60,7 +62,7 @@ pub struct Response {
     /// Windows that no fit has seen.
     pub held_out_windows: usize,
     /// How both sides are held below a wheel's limit, where there is one.
-    pub scaling: Option<&'static str>,
+    pub scaling: Option<Word>,
     /// Whether the other ways to hold them forecast left-out windows worse.
     pub scaling_is_told: bool,
     /// Whether sides are scaled after the acceleration limits.
@@ -153,7 +155,7 @@ fn response(
         windows: windows.list.len(),
         steps: windows.blocks,
         held_out_windows,
-        scaling: found.drive.has(Element::WheelLimit).then(|| law.scaling.words()),
+        scaling: found.drive.has(Element::WheelLimit).then(|| law.scaling.words().into()),
         scaling_is_told: found.scaling_is_told,
         scaled_after_ramps: law.after_ramp,
         parameters,

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Word;
 
 use crate::response::constants::{Constant, Element};
 use crate::response::identify::{Identified, Simulated};
@@ -12,14 +14,14 @@ use crate::steady::NINETY;
 use crate::verdict::{Cause, Estimate};
 
 /// A fitted constant of the response.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
     /// Element that it belongs to.
     pub element: Element,
     /// Its name.
-    pub id: &'static str,
+    pub id: Word,
     /// Unit.
-    pub unit: &'static str,
+    pub unit: Word,
     /// Fitted value.
     pub value: f64,
     /// Half of its 90 % interval, by a sandwich estimate with command steps as clusters, widened by what made-up robots
@@ -32,7 +34,7 @@ pub struct Parameter {
 }
 
 /// What left-out windows say about an element.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Earned {
     /// The element.
     pub element: Element,
@@ -63,8 +65,8 @@ pub(crate) fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]
             let value = t.model.x[k];
             Some(Parameter {
                 element: belongs(k)?,
-                id: c.id,
-                unit: c.unit,
+                id: c.id.into(),
+                unit: c.unit.into(),
                 value,
                 half_width: sigma.map(|s| NINETY * s),
                 simulated: Some(simulated[k]).filter(|s| s.is_finite()),
@@ -115,22 +117,23 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
         }
         let mut cause = Cause::plain(effect, name, p);
         let of: Vec<&Parameter> = parameters.iter().filter(|q| elements.contains(&q.element)).collect();
-        cause.parameters = of.iter().map(|q| (q.id.to_owned(), estimate(q))).collect();
+        cause.parameters = of.iter().map(|q| (q.id.to_string(), estimate(q))).collect();
         match of.as_slice() {
             [] => {}
             _ if effect == "drive_command" => {
                 // The size of a controller that does something else is what the wheels do otherwise.
-                (cause.magnitude, cause.sigma, cause.unit) = (Some(off), Some(off_error), "rad/s");
+                (cause.magnitude, cause.sigma, cause.unit) = (Some(off), Some(off_error), "rad/s".into());
             }
             [w, z] if effect == "motor_lag" => {
                 // A second-order lag is late by 2 ζ / ω.
                 let lag = 2.0 * z.value / w.value;
                 let relative = |q: &Parameter| q.half_width.map(|h| h / NINETY / q.value);
                 let sigma = relative(w).zip(relative(z)).map(|(a, b)| lag * a.hypot(b));
-                (cause.magnitude, cause.sigma, cause.unit) = (Some(lag), sigma, "s");
+                (cause.magnitude, cause.sigma, cause.unit) = (Some(lag), sigma, "s".into());
             }
             [q, ..] => {
-                let (factor, unit) = if effect == "effective_track" { (track, "m") } else { (1.0, q.unit) };
+                let (factor, unit) =
+                    if effect == "effective_track" { (track, "m".into()) } else { (1.0, q.unit.clone()) };
                 cause.magnitude = Some(factor * q.value);
                 cause.sigma = q.half_width.map(|h| factor * h / NINETY);
                 cause.unit = unit;
@@ -150,7 +153,7 @@ fn estimate(p: &Parameter) -> Estimate {
 
 /// Every fitted constant by name, for the re-tuned constants of the answer.
 pub(crate) fn tuning(parameters: &[Parameter]) -> BTreeMap<String, f64> {
-    parameters.iter().map(|p| (p.id.to_owned(), p.value)).collect()
+    parameters.iter().map(|p| (p.id.to_string(), p.value)).collect()
 }
 
 /// What the simulation has for each constant.

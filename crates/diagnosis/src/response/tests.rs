@@ -148,7 +148,7 @@ fn a_stock_controller_is_found_with_its_constants() {
         assert!(p > 0.9, "{id}: {p}");
     }
     let response = d.response.as_ref().expect("a response");
-    assert_eq!(response.scaling, Some(Scaling::Proportional.words()));
+    assert_eq!(response.scaling, Some(Scaling::Proportional.words().into()));
     let truth = [
         ("dead_time", 0.22),
         ("forward_gain", 1.3),
@@ -177,7 +177,7 @@ fn how_sides_are_held_at_the_limit_is_told_apart() {
         truth.law.scaling = scaling;
         truth.drive[TURN_LIMIT] = f64::INFINITY;
         let d = diagnosed(&truth, None);
-        assert_eq!(d.response.as_ref().expect("a response").scaling, Some(scaling.words()));
+        assert_eq!(d.response.as_ref().expect("a response").scaling, Some(scaling.words().into()));
         holds(&d, "wheel_limit", 6.0);
     }
 }

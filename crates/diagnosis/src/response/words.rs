@@ -108,7 +108,11 @@ fn controller(r: &Response) -> String {
         ],
     );
     if let Some(p) = find(r, "wheel_limit") {
-        let how = r.scaling.filter(|_| r.scaling_is_told).unwrap_or("both sides are held in a way that is not told");
+        let how = r
+            .scaling
+            .as_deref()
+            .filter(|_| r.scaling_is_told)
+            .unwrap_or("both sides are held in a way that is not told");
         parts.push(format!("at {} of a wheel {how}", value(p)));
     }
     parts.extend(list(

@@ -114,9 +114,9 @@ fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     Cause {
         magnitude: Some(variant.magnitude(values)),
         sigma: sigma.first().copied().filter(|s| s.is_finite()),
-        unit: words::unit(card),
+        unit: words::unit(card).into(),
         parameters,
-        side: if let Place::Side(s) = variant.place { Some(words::side(s)) } else { None },
+        side: if let Place::Side(s) = variant.place { Some(words::side(s).into()) } else { None },
         ..Cause::plain(card.id, &words::variant(variant), probability)
     }
 }

@@ -3,7 +3,9 @@
 //! From currents alone: the straight load as a piecewise constant course ([`level`](super::level)). With all three
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Word;
 
 use crate::steady::attitude::{Attitude, attitude};
 use crate::steady::extract::CLASSES;
@@ -16,7 +18,7 @@ use crate::steady::slopes::slopes;
 use crate::steady::straight::{Reading, readings};
 
 /// A change of the straight load inside a recording. Times in s on the clock of the loads.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LoadChange {
     /// Name of the recording.
     pub recording: String,
@@ -37,13 +39,13 @@ pub struct LoadChange {
     /// The currents sit in their dead band: ratio and slope are upper bounds.
     pub bound: bool,
     /// Ids of the effects that may be the cause; one if it is decided.
-    pub causes: Vec<&'static str>,
+    pub causes: Vec<Word>,
     /// What decided, or why nothing did.
-    pub reason: &'static str,
+    pub reason: Word,
 }
 
 /// What a recording shows of changes.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Changes {
     /// Changes of the load.
     pub found: Vec<LoadChange>,
@@ -52,7 +54,7 @@ pub struct Changes {
 }
 
 /// A stretch of driving in which no change could have been seen.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {
     /// Name of the recording.
     pub recording: String,
@@ -60,8 +62,8 @@ pub struct Hidden {
     pub interval: [f64; 2],
 }
 
-pub(super) const GRADE: &str = "grade";
-pub(super) const ROLLING: &str = "rolling_resistance";
+pub(super) const GRADE: Word = Word::Borrowed("grade");
+pub(super) const ROLLING: Word = Word::Borrowed("rolling_resistance");
 
 /// Rows that show the same change are at most this far apart, s.
 pub(super) const APART: f64 = 8.0;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::steady::extract::{CLASSES, Load, Quantity};
 
@@ -10,7 +10,7 @@ use crate::steady::extract::{CLASSES, Load, Quantity};
 pub(crate) const NINETY: f64 = 1.645;
 
 /// A load over the references'.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// Recording, or several joined by a comma when they are pooled.
     pub recording: String,

@@ -3,13 +3,13 @@
 //! One law per side: `|torque| = sgn(v) S/2 ± T`. `S` is the drag of both sides against rolling, `T` the scrub
 //! couple, plus on the outer side of a turn. In a spin both sides drive and each reads `S/2 + T`.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::steady::run::SpeedRun;
 use crate::steady::straight::{STRAIGHT, is_straight};
 
 /// What is measured in steady driving.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Torque of both sides in straight driving `S`, N m.
@@ -69,7 +69,7 @@ impl Quantity {
 }
 
 /// A measured load of one recording.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Name of the recording.
     pub recording: String,
@@ -86,7 +86,7 @@ pub struct Load {
 }
 
 /// An answer that a recording does not permit, and why.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Withheld {
     /// Name of the recording.
     pub recording: String,

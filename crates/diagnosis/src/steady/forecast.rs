@@ -1,6 +1,8 @@
 //! The last third of a recording forecast from its set speeds, with everything fitted on the first two.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::verdict::Word;
 
 use crate::steady::clock::TURN;
 use crate::steady::extract::{Quantity, extract};
@@ -16,12 +18,12 @@ const LEAST_TURNING: f64 = 3.0;
 const LAGS: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 
 /// Errors of the forecast of a recording's last third, rms.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Forecast {
     /// Name of the recording.
     pub recording: String,
     /// What is forecast, with its unit.
-    pub quantity: &'static str,
+    pub quantity: Word,
     /// From, until, s.
     pub interval: [f64; 2],
     /// With the references' constants.
@@ -31,7 +33,7 @@ pub struct Forecast {
     /// With the law and its constants from the first two thirds.
     pub corrected: f64,
     /// With wrong laws of the same freedom, by the effect that they stand for.
-    pub placebos: Vec<(&'static str, f64)>,
+    pub placebos: Vec<(Word, f64)>,
 }
 
 impl Forecast {
@@ -86,12 +88,12 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
         let of = |law| error(&torques(law, &fit(law, run, split, nominal.straight), run), run, split);
         out.push(Forecast {
             recording: run.name.clone(),
-            quantity: "torque of a side, N m",
+            quantity: "torque of a side, N m".into(),
             interval: [run.time[split], last],
             nominal: error(&torques(Law::Turning, constants, run), run, split),
             retuned: error(&vec![level(run, split); rows], run, split),
             corrected: of(Law::Turning),
-            placebos: Law::PLACEBOS.into_iter().map(|law| (law.effect(), of(law))).collect(),
+            placebos: Law::PLACEBOS.into_iter().map(|law| (law.effect().into(), of(law))).collect(),
         });
     }
     if let Some(yaw) = &run.yaw_rate {
@@ -108,7 +110,7 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
         let level = root_mean_square(yaw[split..].iter().map(|w| w - mean));
         out.push(Forecast {
             recording: run.name.clone(),
-            quantity: "yaw rate, rad/s",
+            quantity: "yaw rate, rad/s".into(),
             interval: [run.time[split], last],
             nominal: rms(nominal.track, 0.0, split, rows),
             retuned: level,

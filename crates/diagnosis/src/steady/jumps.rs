@@ -87,7 +87,7 @@ pub(super) fn jumps(
                 slope_half: NINETY * SCATTER * from / weight * 180.0 / std::f64::consts::PI,
                 bound,
                 causes,
-                reason,
+                reason: reason.into(),
             });
         }
     }
@@ -120,10 +120,10 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
         let whichever = seen.iter().any(|o| apart(o.0) > OTHER_HEADING && (o.1 / slope - 1.0).abs() < SCATTER);
         if way_back {
             change.causes = vec![GRADE];
-            change.reason = "the way back shows the opposite";
+            change.reason = "the way back shows the opposite".into();
         } else if whichever {
             change.causes = vec![ROLLING];
-            change.reason = "it is the same in another heading";
+            change.reason = "it is the same in another heading".into();
         }
     }
 }

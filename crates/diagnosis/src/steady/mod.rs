@@ -29,7 +29,7 @@ mod words;
 
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::DiagnosisError;
 use crate::fit::tuned;
@@ -68,7 +68,7 @@ pub struct SteadyCase {
 }
 
 /// Loads of a speed-driven case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Each recording's loads over the references'.
     pub ratios: Vec<Ratio>,
@@ -93,7 +93,7 @@ pub struct Loads {
 }
 
 /// The gyro's clock of a recording against that of the speeds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClockError {
     /// Name of the recording.
     pub recording: String,

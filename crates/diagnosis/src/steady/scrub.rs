@@ -1,6 +1,6 @@
 //! When inside a recording turning begins or ceases to cost another torque: another ground.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::steady::compare::NINETY;
 use crate::steady::extract::is_steady_turn;
@@ -10,7 +10,7 @@ use crate::steady::run::SpeedRun;
 use crate::steady::straight::Reading;
 
 /// A change of what turning costs inside a recording. Times in s on the clock of the loads.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TurningChange {
     /// Name of the recording.
     pub recording: String,

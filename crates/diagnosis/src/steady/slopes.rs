@@ -60,7 +60,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
                 slope_half: (NINETY * sigma).to_degrees(),
                 bound: false,
                 causes: vec![GRADE],
-                reason: "the gyro tilts with it",
+                reason: "the gyro tilts with it".into(),
             });
         }
     }

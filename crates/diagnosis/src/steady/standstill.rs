@@ -1,12 +1,12 @@
 //! Wheels that are commanded to turn the robot while its body does not turn: dug in, or spinning free.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::steady::extract::TURN_HOLD;
 use crate::steady::run::SpeedRun;
 
 /// A stretch in which the wheels were commanded to turn and the body did not.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Standstill {
     /// Name of the recording.
     pub recording: String,

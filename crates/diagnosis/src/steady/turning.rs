@@ -4,13 +4,13 @@
 //! is dragged and reads next to nothing. In a spin both sides read that much, and unsigned currents do not say which
 //! way it goes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::steady::clock::box_mean;
 use crate::steady::run::SpeedRun;
 
 /// Which way a robot turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Way {
     /// To the left: the right side is the outer one.
@@ -22,7 +22,7 @@ pub enum Way {
 }
 
 /// A stretch in which the loads say that the robot turns.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Turning {
     /// Name of the recording.
     pub recording: String,

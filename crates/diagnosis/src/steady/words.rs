@@ -133,15 +133,12 @@ fn moment([a, b]: [f64; 2]) -> String {
 }
 
 fn change(c: &LoadChange) -> String {
-    let name = |id: &&str| {
-        match *id {
-            "grade" => "slope",
-            "rolling_resistance" => "rolling resistance",
-            other => other,
-        }
-        .to_owned()
+    let name = |id| match id {
+        "grade" => "slope",
+        "rolling_resistance" => "rolling resistance",
+        other => other,
     };
-    let causes: Vec<String> = c.causes.iter().map(name).collect();
+    let causes: Vec<&str> = c.causes.iter().map(|id| name(id.as_ref())).collect();
     let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
     let size = if c.bound {
         format!("at least {:.1}° {way}", c.slope.abs())

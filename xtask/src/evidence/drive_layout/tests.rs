@@ -106,7 +106,7 @@ fn the_husky_did_not_drive_what_was_commanded() {
     assert_eq!(d.ranked[0].effect, "drive_command", "{:?}", d.ranked);
     assert!(d.sentences[0].contains("not what was driven") && d.sentences[0].contains("neither slip nor friction"));
     let response = d.response.as_ref().unwrap();
-    assert!(response.scaling.unwrap().contains("in proportion"), "{:?}", response.scaling);
+    assert!(response.scaling.as_ref().unwrap().contains("in proportion"), "{:?}", response.scaling);
     assert!(response.scaling_is_told);
     for (quantity, most) in [("wheel speed", 0.5), ("position", 0.32), ("yaw", 0.25), ("position at the end", 0.32)] {
         for statistic in ["rms", "median"] {

@@ -71,7 +71,7 @@ fn magnitude(c: &Cause) -> String {
 fn place(c: &Cause) -> String {
     let mut parts = Vec::new();
     if let Some(side) = c.side {
-        parts.push(side.to_owned());
+        parts.push(side.to_string());
     }
     if let Some([x, y, r]) = c.place {
         parts.push(format!("within {r:.2} m of ({x:.2}, {y:.2}) m"));
@@ -122,7 +122,7 @@ fn response(d: &Diagnosis) -> String {
         let simulated = p.simulated.map_or("no limit".to_owned(), number);
         let earned = response.elements.iter().find(|e| e.element == p.element);
         let rise = earned.map_or(String::new(), |e| format!("{:+.0} %", 100.0 * e.rise));
-        table.row([p.id.to_owned(), number(p.value), half, p.unit.to_owned(), simulated, rise]);
+        table.row([p.id.to_string(), number(p.value), half, p.unit.to_string(), simulated, rise]);
     }
     let title = format!(
         "Response ({} windows of 2 s in {} command steps; loss: rise on left-out windows)",
