@@ -236,7 +236,7 @@ mod tests {
             probability,
             magnitude: None,
             sigma: None,
-            unit: "-",
+            unit: "-".into(),
             parameters: BTreeMap::new(),
             side: None,
             place: None,

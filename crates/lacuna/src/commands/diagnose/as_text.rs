@@ -70,7 +70,7 @@ fn magnitude(c: &Cause) -> String {
 
 fn place(c: &Cause) -> String {
     let mut parts = Vec::new();
-    if let Some(side) = c.side {
+    if let Some(side) = &c.side {
         parts.push(side.to_string());
     }
     if let Some([x, y, r]) = c.place {
