@@ -228,8 +228,8 @@ impl Answer<'_> {
         let calibrated = p.response(&p.origin(), &none);
         let winner = self.winner();
         let theta = winner.map_or(retuned.point.theta, |w| w.trial.fitted.point.theta);
-        let (free_runs, left_out) = leave_one_out(self);
-        let worthwhile = is_worthwhile(p, &calibrated, &free_runs);
+        let forecasts = leave_one_out(self, retuned);
+        let worthwhile = is_worthwhile(p, &calibrated, &forecasts.free_runs);
         let (corrector, forecaster) = if worthwhile { (winner, theta) } else { (None, p.centre) };
         let gyro = self.sensors.gyro;
         let predictions = self
@@ -268,7 +268,7 @@ impl Answer<'_> {
         );
         correction.effects.extend(self.sensors.faults.iter().map(Fault::effect));
         let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
-        let located = locate::locate(self, &calibrated, fitted, &left_out, unexplained, &ranked);
+        let located = locate::locate(self, &calibrated, fitted, &forecasts, unexplained, &ranked);
         let mut limits = self.limits();
         limits.extend(located.contradiction);
         if winner.is_some() && !worthwhile {
@@ -287,7 +287,7 @@ impl Answer<'_> {
             findings: located.findings,
             cells: located.cells,
             located: located.told,
-            free_runs,
+            free_runs: forecasts.free_runs,
             unexplained,
             limits,
             trials: self.trials(retuned),
@@ -296,7 +296,7 @@ impl Answer<'_> {
             screened,
             tuning,
             correction,
-            traces: Vec::new(),
+            traces: located.traces,
             steady: None,
             response: None,
             predictions,

@@ -36,10 +36,12 @@ pub struct EffectAt {
     /// Only under wheels in this disc: x, y, radius, m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub place: Option<[f64; 3]>,
-    /// Where it began at an instant: when in each recording, s after its first row; `None` where it did not begin. A
-    /// drive that is not listed has it throughout.
+    /// Where it began at an instant: when in each recording, s after its first row.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub from: BTreeMap<String, Option<f64>>,
+    pub from: BTreeMap<String, f64>,
+    /// Recordings in which it did not begin. Drives that neither this nor `from` names have it throughout.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub absent: Vec<String>,
 }
 
 /// A side of the robot.
@@ -116,7 +118,9 @@ impl EffectAt {
             presence.disc = Some(Disc { centre: [x, y], radius });
         }
         if let Some(from) = self.from.get(drive) {
-            presence.from = from.unwrap_or(f64::MAX);
+            presence.from = *from;
+        } else if self.absent.iter().any(|name| name == drive) {
+            presence.from = f64::MAX;
         }
         Ok(Active::new(effect, &values, presence))
     }

@@ -15,7 +15,7 @@ use crate::windows::{Cut, CutOptions, cut};
 use crate::{DiagnosisError, Options};
 
 /// Version of the diagnosis' JSON.
-pub(crate) const FORMAT: u32 = 1;
+pub(crate) const FORMAT: u32 = 2;
 
 /// Diagnoses a torque-driven case. `progress` is told the stage that begins.
 ///

@@ -128,7 +128,14 @@ impl Variant {
             Place::Whole => {}
             Place::Side(s) => out.side = Some(Side::of(s)),
             Place::Disc => out.place = Some([disc[0], disc[1], disc[2]]),
-            Place::Onset => out.from = recordings.iter().map(|c| c.name.clone()).zip(onsets.iter().copied()).collect(),
+            Place::Onset => {
+                for (cut, onset) in recordings.iter().zip(onsets) {
+                    match onset {
+                        Some(t) => _ = out.from.insert(cut.name.clone(), *t),
+                        None => out.absent.push(cut.name.clone()),
+                    }
+                }
+            }
         }
         out
     }

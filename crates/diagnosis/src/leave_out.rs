@@ -23,23 +23,49 @@ pub(crate) struct LeftOut {
     pub(crate) point: Point,
 }
 
-/// Free runs on each recording, fitted on the others only, with the points behind them.
-pub(crate) fn leave_one_out(answer: &Answer<'_>) -> (Vec<FreeRun>, Vec<LeftOut>) {
+/// What was simulated for a recording: windows by segment.
+pub(crate) struct Simulated {
+    /// Whether the fits behind `retuned` and `corrected` left it out.
+    pub(crate) left_out: bool,
+    pub(crate) nominal: Vec<Vec<f64>>,
+    pub(crate) retuned: Vec<Vec<f64>>,
+    pub(crate) corrected: Option<Vec<Vec<f64>>>,
+}
+
+/// Free runs on recordings that were left out of the fit.
+pub(crate) struct Forecasts {
+    pub(crate) free_runs: Vec<FreeRun>,
+    /// The points behind them.
+    pub(crate) left_out: Vec<LeftOut>,
+    /// One for each recording.
+    pub(crate) simulated: Vec<Simulated>,
+}
+
+/// Free runs on each recording, fitted on the others only. A lone recording cannot be left out: it is simulated as fitted.
+pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts {
     let p = answer.problem;
-    if p.cuts.len() < 2 {
-        return (Vec::new(), Vec::new());
-    }
     let none = Hypothesis::default();
     let nominal = Point { theta: [0.0; NUISANCES], ..p.origin() };
+    if p.cuts.len() < 2 {
+        let simulated = (0..p.cuts.len()).map(|run| Simulated {
+            left_out: false,
+            nominal: p.run_response(run, &nominal, &none),
+            retuned: retuned.response[run].clone(),
+            corrected: answer.winner().map(|w| w.trial.fitted.response[run].clone()),
+        });
+        return Forecasts { free_runs: Vec::new(), left_out: Vec::new(), simulated: simulated.collect() };
+    }
     let wrong = placebo(answer);
     let mut out = Vec::new();
     let mut points = Vec::new();
+    let mut simulated = Vec::new();
     for left_out in 0..p.cuts.len() {
         let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != left_out).map(|r| p.cuts[r].clone()).collect();
         let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
         let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
         let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
-        let of = |point: &Point, h: &Hypothesis| locate::rms(p, &[(left_out, p.run_response(left_out, point, h))]);
+        let run = |point: &Point, h: &Hypothesis| p.run_response(left_out, point, h);
+        let rms = |response: &Vec<Vec<f64>>| locate::rms(p, &[(left_out, response.clone())]);
         let refit = |s: &Scored, theta: [f64; NUISANCES], columns: Option<Arc<Columns>>, steps: usize| {
             let h = without(&s.trial.hypothesis, left_out);
             let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
@@ -49,11 +75,18 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>) -> (Vec<FreeRun>, Vec<LeftOut>)
         // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
         let placebo = wrong.map(|s| {
             let point = refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS);
-            of(&point, &s.trial.hypothesis)
+            rms(&run(&point, &s.trial.hypothesis))
         });
         let retuned = elsewhere(&retuned);
-        let (a, b) = (of(&nominal, &none), of(&retuned, &none));
-        let c = corrected.as_ref().map_or(b, |(point, h)| of(point, h));
+        let shown = Simulated {
+            left_out: true,
+            nominal: run(&nominal, &none),
+            retuned: run(&retuned, &none),
+            corrected: corrected.as_ref().map(|(point, h)| run(point, h)),
+        };
+        let (a, b) = (rms(&shown.nominal), rms(&shown.retuned));
+        let c = shown.corrected.as_ref().map_or(b, rms);
+        simulated.push(shown);
         for (i, quantity) in ["wheel speed, rad/s", "yaw rate, rad/s"].into_iter().enumerate() {
             out.push(FreeRun {
                 recording: p.cuts[left_out].name.clone(),
@@ -66,7 +99,7 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>) -> (Vec<FreeRun>, Vec<LeftOut>)
         }
         points.push(LeftOut { run: left_out, point: corrected.map_or(retuned, |c| c.0) });
     }
-    (out, points)
+    Forecasts { free_runs: out, left_out: points, simulated }
 }
 
 /// Whether the correction (or re-tuning, without one) forecasts recordings that were left out of its fit no worse than the

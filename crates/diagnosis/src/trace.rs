@@ -4,6 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::verdict::Word;
 
+/// Five significant digits: more are not seen in a picture.
+pub(crate) fn rounded(v: f64) -> f64 {
+    if v == 0.0 || !v.is_finite() {
+        return v;
+    }
+    let scale = 10.0_f64.powi(4 - v.abs().log10().floor() as i32);
+    (v * scale).round() / scale
+}
+
 /// One recording beside the simulation.
 ///
 /// The simulation runs free and is set to the measured state at `restarts` only.

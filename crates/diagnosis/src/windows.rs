@@ -20,6 +20,9 @@ pub(crate) const CHANNEL_NAMES: [&str; CHANNELS] = [
     "lateral acceleration",
 ];
 
+/// Their units.
+pub(crate) const CHANNEL_UNITS: [&str; CHANNELS] = ["rad/s", "rad/s", "rad/s", "m/s", "m/s", "m/s²", "m/s²"];
+
 /// Channel of the forward velocity.
 pub(crate) const FORWARD: usize = 3;
 

@@ -1,5 +1,7 @@
 //! The flat JSON form of a robot: one key per value, its unit in the key's name, relative sigmas beside.
 
+use std::collections::BTreeMap;
+
 use robot_model::Robot;
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use serde::Deserialize;
@@ -191,8 +193,11 @@ impl FlatRobot {
         }
         Ok(RobotSpec {
             name: source.file.to_owned(),
+            description: self.description.clone(),
             causality: Causality::TorqueDriven,
             robot,
+            effects: Vec::new(),
+            sources: BTreeMap::new(),
             sigma,
             pose_sigma: self.sensors.pose_xy_std_m.unwrap_or(USUAL_POSE_SIGMA),
             torque_per_current: None,

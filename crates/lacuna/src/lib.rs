@@ -6,6 +6,7 @@
 
 pub mod answers;
 pub mod case_folder;
+pub mod envelope;
 mod flat_robot;
 pub mod inputs;
 pub mod predictions;
@@ -14,6 +15,7 @@ mod robot_error;
 pub mod robot_file;
 mod robot_parameters;
 mod robot_text;
+mod robot_write;
 pub mod skeleton;
 pub mod suggest;
 pub mod text_table;

@@ -63,6 +63,14 @@ pub enum RobotFileError {
         /// What is wrong.
         source: ModelError,
     },
+    /// An effect that the simulation is to be given is not as the catalogue has it.
+    #[error("{place}: {message}")]
+    Effect {
+        /// File and line.
+        place: String,
+        /// What is wrong.
+        message: String,
+    },
     /// A number is not what it must be.
     #[error("{place}: {what} of `{key}` is {value}, but it must be {must}; correct it")]
     Value {

@@ -1,9 +1,11 @@
 //! Robot files: TOML or JSON with value, unit, one sigma and source for each parameter.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use diagnosis::EffectAt;
 use robot_model::Robot;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::RobotFileError;
 use crate::flat_robot::FlatRobot;
@@ -12,7 +14,7 @@ use crate::robot_text::RobotText;
 use crate::suggest;
 
 /// What is imposed and what comes out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Causality {
     /// Torque in; wheel speeds and body motion out.
@@ -44,10 +46,16 @@ impl Causality {
 pub struct RobotSpec {
     /// Name of the robot.
     pub name: String,
+    /// What it is, for people.
+    pub description: Option<String>,
     /// Torque-driven, speed-driven or command-driven.
     pub causality: Causality,
     /// The model.
     pub robot: Robot<f64>,
+    /// What its simulation is given beside these constants.
+    pub effects: Vec<EffectAt>,
+    /// Where each parameter comes from, by its name in robot files.
+    pub sources: BTreeMap<&'static str, String>,
     /// One sigma of each tunable: relative for factors, absolute for offsets.
     pub sigma: [f64; robot_model::tunable::COUNT],
     /// Noise of the pose sensor, m.

@@ -1,55 +1,65 @@
 //! The form of a robot file with value, unit, one sigma and source for each parameter.
 
+use diagnosis::{DiagnosisError, EffectAt};
 use recordings::parse_unit;
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use robot_model::tunable::{Tuning, tunables};
 use robot_model::{ModelError, Robot};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::robot_file::USUAL_POSE_SIGMA;
 use crate::robot_text::RobotText;
-use crate::{Causality, RobotFileError, RobotSpec};
+use crate::{Causality, RobotFileError, RobotSpec, suggest};
 
 /// Slip ratio at the peak of the adhesion of a tyre of which nothing is known.
 const USUAL_SLIP_AT_PEAK: f64 = 0.12;
 /// A torque beyond any robot's, N m: a drive whose limit is not given.
-const NO_TORQUE_LIMIT: f64 = 1e6;
+pub(crate) const NO_TORQUE_LIMIT: f64 = 1e6;
 /// One sigma of the torque per ampere, relative, when the file says nothing.
 const USUAL_CURRENT_SIGMA: f64 = 0.1;
 
 /// A number with its unit, spread and source.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Quantity {
-    value: f64,
-    unit: String,
-    sigma: Option<f64>,
-    #[allow(dead_code, reason = "for people, and required so that every number has one")]
-    source: String,
+pub(crate) struct Quantity {
+    pub(crate) value: f64,
+    pub(crate) unit: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sigma: Option<f64>,
+    /// For people, and required so that every number has one.
+    pub(crate) source: String,
 }
 
 /// A robot file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct File {
-    name: String,
-    #[allow(dead_code, reason = "for people")]
-    description: Option<String>,
-    causality: Causality,
-    parameters: Parameters,
+    pub(crate) name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) description: Option<String>,
+    pub(crate) causality: Causality,
+    pub(crate) parameters: Parameters,
+    /// What the simulation is given beside its constants.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) effects: Vec<EffectAt>,
 }
 
 macro_rules! parameters {
     ($($name:ident : $unit:literal),* $(,)?) => {
-        #[derive(Debug, Deserialize)]
+        #[derive(Debug, Default, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
-        struct Parameters {
-            $($name: Option<Quantity>,)*
+        pub(crate) struct Parameters {
+            $(#[serde(skip_serializing_if = "Option::is_none")] $name: Option<Quantity>,)*
         }
         impl Parameters {
             /// Every parameter by name, with the unit it must be in.
             fn list(&self) -> Vec<(&'static str, &'static str, Option<&Quantity>)> {
                 vec![$((stringify!($name), $unit, self.$name.as_ref())),*]
+            }
+
+            /// Each parameter as `quantity` has it, given its name and unit.
+            pub(crate) fn make(quantity: impl Fn(&'static str, &'static str) -> Option<Quantity>) -> Self {
+                Self { $($name: quantity(stringify!($name), $unit)),* }
             }
         }
     };
@@ -73,9 +83,18 @@ parameters! {
     lateral_factor: "-",
     rolling_resistance: "-",
     coulomb: "N m",
+    coulomb_left: "N m",
+    coulomb_right: "N m",
     viscous: "N m s/rad",
+    viscous_left: "N m s/rad",
+    viscous_right: "N m s/rad",
+    stribeck: "N m",
     hitch_x: "m",
+    torque_gain: "-",
+    motor_delay: "s",
     motor_lag: "s",
+    second_lag: "s",
+    dead_band: "N m",
     torque_limit: "N m",
     gravity: "m/s2",
     torque_per_current: "N m/A",
@@ -83,12 +102,18 @@ parameters! {
 }
 
 /// Names of model quantities that files call otherwise.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 12] = [
     ("half_wheelbase", "wheelbase"),
     ("half_track", "track"),
     ("coulomb (left)", "coulomb"),
+    ("coulomb (right)", "coulomb_right"),
     ("viscous (left)", "viscous"),
+    ("viscous (right)", "viscous_right"),
+    ("drive.gain", "torque_gain"),
+    ("drive.delay", "motor_delay"),
     ("drive.lag", "motor_lag"),
+    ("drive.extra_lag", "second_lag"),
+    ("drive.dead_band", "dead_band"),
     ("drive.limit", "torque_limit"),
 ];
 
@@ -194,16 +219,43 @@ impl File {
             let key = KEYS.iter().find(|k| k.0 == name).map_or(name, |k| k.1);
             RobotFileError::Model { place: source.at(key), key: key.to_owned(), source: error }
         })?;
+        for (n, effect) in self.effects.iter().enumerate() {
+            effect
+                .active("")
+                .map_err(|error| RobotFileError::Effect { place: source.at_effect(n), message: nearest(&error) })?;
+        }
+        let told = |(key, _, q): &(&'static str, _, Option<&Quantity>)| q.map(|q| (*key, q.source.clone()));
         Ok(RobotSpec {
             name: self.name.clone(),
+            description: self.description.clone(),
             causality: self.causality,
             robot,
+            effects: self.effects.clone(),
+            sources: p.list.iter().filter_map(told).collect(),
             sigma: sigma(&p)?,
             pose_sigma: p.positive("pose_noise")?.map_or(USUAL_POSE_SIGMA, |v| v.0),
             torque_per_current: p
                 .positive("torque_per_current")?
                 .map(|(v, s)| [v, s.unwrap_or(USUAL_CURRENT_SIGMA * v)]),
         })
+    }
+}
+
+/// What is wrong with an effect, with the nearest name.
+fn nearest(error: &DiagnosisError) -> String {
+    match error {
+        DiagnosisError::NoSuchEffect { id } => {
+            let known: Vec<&str> = robot_model::effects::catalogue::<f64>().iter().map(|e| e.card().id).collect();
+            match suggest::nearest(id, known) {
+                Some(name) => format!("there is no effect `{id}`; did you mean `{name}`?"),
+                None => format!("there is no effect `{id}`; `lacuna effects` lists them"),
+            }
+        }
+        DiagnosisError::NoSuchParameter { effect, name, known } => {
+            let known: Vec<&str> = known.split(", ").collect();
+            format!("effect `{effect}` takes no number `{name}`, or not this one; {}", suggest::hint(name, &known))
+        }
+        other => other.to_string(),
     }
 }
 
@@ -223,34 +275,48 @@ fn robot(p: &Lookup<'_>) -> Result<Robot<f64>, RobotFileError> {
         sliding_share: p.or("sliding_share", USUAL_SLIDING_SHARE)?,
         lateral_factor: p.or("lateral_factor", 1.0)?,
         rolling_resistance: p.need("rolling_resistance")?,
-        coulomb: [p.or("coulomb", 0.0)?; 2],
-        viscous: [p.or("viscous", 0.0)?; 2],
-        stribeck: 0.0,
+        coulomb: sides(p, "coulomb", ["coulomb_left", "coulomb_right"])?,
+        viscous: sides(p, "viscous", ["viscous_left", "viscous_right"])?,
+        stribeck: p.or("stribeck", 0.0)?,
         hitch_x: p.or("hitch_x", -0.5 * p.need("wheelbase")?)?,
         drive: Drive {
-            gain: 1.0,
+            gain: p.or("torque_gain", 1.0)?,
             lag: p.or("motor_lag", 0.0)?,
-            extra_lag: 0.0,
-            delay: 0.0,
+            extra_lag: p.or("second_lag", 0.0)?,
+            delay: p.or("motor_delay", 0.0)?,
             limit: p.or("torque_limit", NO_TORQUE_LIMIT)?,
-            dead_band: 0.0,
+            dead_band: p.or("dead_band", 0.0)?,
         },
         gravity: p.or("gravity", 9.81)?,
     })
+}
+
+/// Parameters whose spread is that of a tunable; the first that has one counts.
+pub(crate) const fn keys(tunable: &'static str) -> [&'static str; 2] {
+    match tunable.as_bytes() {
+        b"coulomb_left" => ["coulomb_left", "coulomb"],
+        b"coulomb_right" => ["coulomb_right", "coulomb"],
+        b"viscous" => ["viscous", "viscous_left"],
+        b"torque_constant" => ["torque_gain", "torque_per_current"],
+        _ => [tunable, tunable],
+    }
+}
+
+/// What both sides have, unless the file says it of one.
+fn sides(p: &Lookup<'_>, both: &str, each: [&str; 2]) -> Result<[f64; 2], RobotFileError> {
+    let both = p.or(both, 0.0)?;
+    Ok([p.or(each[0], both)?, p.or(each[1], both)?])
 }
 
 /// One sigma of every tunable: the file's, or the usual one.
 fn sigma(p: &Lookup<'_>) -> Result<[f64; robot_model::tunable::COUNT], RobotFileError> {
     let mut sigma = diagnosis::case::usual_sigma();
     for (slot, t) in sigma.iter_mut().zip(tunables::<f64>()) {
-        let key = match t.id {
-            id if id.starts_with("coulomb") => "coulomb",
-            "torque_constant" => "torque_per_current",
-            id => id,
-        };
-        let Some((value, Some(s))) = p.get(key)? else {
-            continue;
-        };
+        let mut given = None;
+        for key in keys(t.id) {
+            given = given.or(p.get(key)?.and_then(|(value, s)| Some((value, s?))));
+        }
+        let Some((value, s)) = given else { continue };
         *slot = if t.tuning == Tuning::Factor { s / value.abs().max(1e-12) } else { s };
     }
     Ok(sigma)

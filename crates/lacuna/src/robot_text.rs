@@ -16,6 +16,12 @@ impl RobotText<'_> {
         line_of(self.text, key).map_or_else(|| self.file.to_owned(), |line| format!("{}: line {line}", self.file))
     }
 
+    /// The file with the line of the `n`-th effect that is given, where it is found.
+    pub(crate) fn at_effect(&self, n: usize) -> String {
+        let mut lines = self.text.lines().enumerate().filter(|(_, line)| line_of(line, "effect").is_some());
+        lines.nth(n).map_or_else(|| self.file.to_owned(), |(i, _)| format!("{}: line {}", self.file, i + 1))
+    }
+
     /// A refusal by the TOML parser.
     pub(crate) fn toml(&self, error: &toml::de::Error) -> RobotFileError {
         let start = error.span().map_or(0, |span| span.start.min(self.text.len()));

@@ -48,6 +48,7 @@ fn a_response_is_told_without_any_reference() {
     }
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
     assert_eq!(json["robot"]["causality"], "command-driven");
+    common::reads_back(&bench.read("out.json"));
     let parameters = json["diagnosis"]["response"]["parameters"].as_array().unwrap();
     let value = |id: &str| parameters.iter().find(|p| p["id"] == id).and_then(|p| p["value"].as_f64());
     assert!(value("lag").is_some_and(|v| (v - 0.3).abs() < 0.03), "{parameters:?}");

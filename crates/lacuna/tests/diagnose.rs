@@ -47,7 +47,17 @@ fn a_case_folder_becomes_a_verdict_json_and_predictions() {
     assert_eq!(json["lost"].as_array().map(Vec::len), Some(0));
     assert_eq!(json["robot"]["causality"], "torque-driven");
     assert_eq!(json["sources"]["recordings"].as_array().map(Vec::len), Some(2));
+    common::reads_back(&bench.read("out.json"));
     let d = &json["diagnosis"];
+    let trace = &d["traces"][0];
+    assert_eq!((&trace["recording"], &trace["left_out"]), (&"run_1".into(), &true.into()));
+    let signals: Vec<&str> =
+        trace["channels"].as_array().unwrap().iter().map(|c| c["signal"].as_str().unwrap()).collect();
+    assert_eq!(signals[..3], ["left wheel speed", "right wheel speed", "yaw rate"]);
+    let windows = trace["time"].as_array().unwrap().len();
+    for series in ["recorded", "nominal", "retuned", "corrected"] {
+        assert_eq!(trace["channels"][0][series].as_array().unwrap().len(), windows, "{series}");
+    }
     for key in [
         "format",
         "verdict",

@@ -1,5 +1,7 @@
 //! The real recordings that lie beside the workspace; skipped, and said so, where they do not.
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -23,6 +25,7 @@ fn diagnosis(args: &[&str], paths: &[(&str, Vec<PathBuf>)]) -> Value {
     }
     let out = command.output().expect("lacuna runs");
     assert!(matches!(out.status.code(), Some(0 | 3)), "{}", String::from_utf8_lossy(&out.stderr));
+    common::reads_back(std::str::from_utf8(&out.stdout).expect("UTF-8"));
     let whole: Value = serde_json::from_slice(&out.stdout).expect("JSON");
     whole["diagnosis"].clone()
 }

@@ -15,6 +15,7 @@ mod tests;
 mod times;
 mod told;
 mod torque;
+mod traces;
 mod whole;
 
 pub(crate) use remainder::sentence;

@@ -1,6 +1,6 @@
 //! What is told about where, when and how much.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::verdict::Word;
 
@@ -91,11 +91,18 @@ pub struct Regime {
     /// Unit of the limits.
     pub unit: Word,
     /// From, until; the last may be infinite, written as null.
+    #[serde(deserialize_with = "open_ended")]
     pub range: [f64; 2],
     /// Share of what is left that sits in it.
     pub share: f64,
     /// Share of the time driven in it.
     pub time: f64,
+}
+
+fn open_ended<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
+    let [from, until] =
+        <(f64, Option<f64>)>::deserialize(from).map(|(from, until)| [from, until.unwrap_or(f64::INFINITY)])?;
+    Ok([from, until])
 }
 
 /// The paper's network as a model of what the verdict leaves: a better simulator, not a cause.

@@ -3,7 +3,7 @@
 use crate::answer::Answer;
 use crate::diagnose::problem;
 use crate::fit::{Fitted, Hypothesis, Problem, tuned};
-use crate::leave_out::LeftOut;
+use crate::leave_out::{Forecasts, LeftOut};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
 use crate::locate::healthy::Healthy;
@@ -13,8 +13,10 @@ use crate::locate::side::{contradiction, side};
 use crate::locate::times::spans;
 use crate::locate::told::{Located, ResidualModel};
 use crate::locate::torque::{Followed, follow};
+use crate::locate::traces::traces;
 use crate::run::Run;
 use crate::simulate::Response;
+use crate::trace::Trace;
 use crate::verdict::{Cause, Cell, Finding};
 use crate::windows::Cut;
 
@@ -27,6 +29,7 @@ pub(crate) struct Whereabouts {
     pub(crate) cells: Vec<Cell>,
     pub(crate) told: Located,
     pub(crate) contradiction: Option<String>,
+    pub(crate) traces: Vec<Trace>,
 }
 
 /// The identifier over each run beside the calibrated model.
@@ -54,7 +57,7 @@ pub(crate) fn locate(
     answer: &Answer<'_>,
     calibrated: &Response,
     best: &Fitted,
-    left_out: &[LeftOut],
+    forecasts: &Forecasts,
     unexplained: Option<f64>,
     ranked: &[Cause],
 ) -> Whereabouts {
@@ -77,8 +80,11 @@ pub(crate) fn locate(
             torque,
             remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &healthy))),
             side: side.map(Into::into),
-            residual_model: unexplained.filter(|share| *share > LEFT).and_then(|_| network(answer, best, left_out)),
+            residual_model: unexplained
+                .filter(|share| *share > LEFT)
+                .and_then(|_| network(answer, best, &forecasts.left_out)),
         },
         findings,
+        traces: traces(p, &healthy, &forecasts.simulated),
     }
 }

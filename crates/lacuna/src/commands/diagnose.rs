@@ -6,12 +6,12 @@ use anyhow::{Context, Result, bail};
 use clap::Args as ClapArgs;
 use diagnosis::{Diagnosis, Options};
 use lacuna::case_folder::{self, CaseFolder};
+use lacuna::envelope::Envelope;
 use lacuna::{Causality, predictions, which_mapping};
 
 use super::{Outcome, Reading, Usage};
 use crate::console::{Progress, emit, emit_json, warning};
 
-mod as_json;
 mod as_text;
 mod where_and_when;
 
@@ -92,7 +92,9 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     };
     drop(progress);
 
-    let lost = case.lost();
+    let name = args.mapping.as_deref().unwrap_or(&mapping);
+    let envelope = Envelope::new(diagnosis, &case, &options, name, args.reading.name())?;
+    let (diagnosis, lost) = (&envelope.diagnosis, &envelope.lost);
     if let Some(dir) = &args.predictions {
         if case.robot.causality == Causality::CommandDriven {
             warning(
@@ -103,29 +105,22 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         } else if diagnosis.predictions.is_empty() {
             warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
         } else {
-            predictions::write(dir, &diagnosis)?;
+            predictions::write(dir, diagnosis)?;
         }
     }
     if let Some(file) = &args.picture {
-        let svg = report::picture::svg(&diagnosis)?;
+        let svg = report::picture::svg(diagnosis)?;
         std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
     }
     if let Some(target) = &args.json {
-        let provenance = as_json::Provenance {
-            case: &case,
-            lost: &lost,
-            options: &options,
-            mapping: args.mapping.as_deref().unwrap_or(&mapping),
-            reading: args.reading,
-        };
-        emit_json(target, &as_json::render(&diagnosis, &provenance)?)?;
+        emit_json(target, &serde_json::to_value(&envelope)?)?;
     }
     if args.json.as_deref() != Some("-") {
         // Tables say themselves which column is which signal.
         let found = (args.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
-        emit(&as_text::render(&diagnosis, &case, &lost, found))?;
+        emit(&as_text::render(diagnosis, &case, lost, found))?;
     }
-    Ok(Outcome::of(&lost))
+    Ok(Outcome::of(lost))
 }
 
 /// The case that the arguments name, and the name of the mapping that read it.

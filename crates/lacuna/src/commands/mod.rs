@@ -1,8 +1,8 @@
 //! The commands, one file each.
 
 use clap::ValueEnum;
+use lacuna::envelope::SourceFile;
 use recordings::{Policy, ReadOptions, Source};
-use serde_json::{Value, json};
 
 pub(crate) mod check;
 pub(crate) mod convert;
@@ -73,14 +73,8 @@ impl Reading {
 }
 
 /// Files with their SHA-256.
-pub(crate) fn sources(sources: &[Source]) -> Vec<Value> {
-    let one = |s: &Source| json!({ "name": s.name, "bytes": s.bytes, "sha256": s.sha256 });
-    sources.iter().map(one).collect()
-}
-
-/// Program and version that wrote a JSON.
-pub(crate) fn program() -> Value {
-    json!({ "name": "lacuna", "version": env!("CARGO_PKG_VERSION") })
+pub(crate) fn sources(sources: &[Source]) -> Vec<SourceFile> {
+    sources.iter().map(SourceFile::from).collect()
 }
 
 /// A list of sentences under a heading; nothing when there are none.

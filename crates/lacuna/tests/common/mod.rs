@@ -92,6 +92,16 @@ impl Bench {
     }
 }
 
+/// Reads what `lacuna diagnose --json` wrote with the types of the library and compares all of it.
+pub fn reads_back(written: &str) {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    fs::write(file.path(), written).unwrap();
+    let envelope = lacuna::envelope::Envelope::open(file.path()).unwrap();
+    envelope.robot().unwrap();
+    let again = serde_json::to_value(&envelope).unwrap();
+    assert!(again == serde_json::from_str::<serde_json::Value>(written).unwrap(), "not what was written");
+}
+
 /// What a run of the program did.
 pub struct Run(Output);
 

@@ -1,10 +1,10 @@
 //! What was found, for programs.
 
+use lacuna::envelope::Program;
 use recordings::{Contents, HeaderStamps};
 use serde_json::{Value, json};
 
 use super::{Checked, Measured, Used, tables};
-use crate::commands::program;
 
 /// Version of this form.
 const FORMAT: u32 = 1;
@@ -12,7 +12,7 @@ const FORMAT: u32 = 1;
 pub(super) fn render(c: &Checked) -> Value {
     json!({
         "format": FORMAT,
-        "program": program(),
+        "program": Program::default(),
         "bags": c.bags.iter().map(|(name, contents)| bag(name, contents)).collect::<Vec<_>>(),
         "tables": c.tables.iter().map(tables::as_json).collect::<Vec<_>>(),
         "mapping": mapping(&c.mapping),

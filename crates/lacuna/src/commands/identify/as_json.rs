@@ -1,10 +1,11 @@
 //! An identification as JSON.
 
+use lacuna::envelope::Program;
 use serde_json::{Value, json};
 
 use super::Identification;
 use super::follow::{COMPARISONS, Errors, Indices};
-use crate::commands::{program, sources};
+use crate::commands::sources;
 
 /// Version of this structure.
 const FORMAT: u32 = 1;
@@ -34,7 +35,7 @@ pub(super) fn render(done: &Identification, lost: &[String]) -> Value {
     };
     json!({
         "format": FORMAT,
-        "program": program(),
+        "program": Program::default(),
         "robot": { "name": done.robot, "causality": done.causality },
         "recording": done.recording,
         "sources": sources(&done.sources),
