@@ -13,16 +13,22 @@ pub(crate) fn rounded(v: f64) -> f64 {
     (v * scale).round() / scale
 }
 
+/// A time to a tenth of a millisecond.
+pub(crate) fn instant(t: f64) -> f64 {
+    (t * 1e4).round() / 1e4
+}
+
 /// One recording beside the simulation.
 ///
-/// The simulation runs free and is set to the measured state at `restarts` only.
+/// The simulation of a torque-driven or command-driven robot runs free and is set to the measured state at `restarts`
+/// only; that of a speed-driven robot follows its measured speeds, row by row.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
     /// Name of the recording.
     pub recording: String,
     /// Whether this recording was left out of the fits behind `retuned` and `corrected`.
     pub left_out: bool,
-    /// Middle of each window, s after the first row.
+    /// Middle of each window (of a torque-driven robot, 0.1 s long) or row, s after the first row.
     pub time: Vec<f64>,
     /// Windows at which a free run begins.
     pub restarts: Vec<usize>,
@@ -30,7 +36,8 @@ pub struct Trace {
     pub channels: Vec<Compared>,
     /// Position of the geometric centre in each window, m; empty without a pose.
     pub path: Vec<[f64; 2]>,
-    /// Mean squared mismatch of all channels over what the references show in such driving, of the simulation as it is.
+    /// Mean squared mismatch of all channels over what the references show in such driving, of the simulation as it is;
+    /// of a command-driven robot, over what the corrected simulation leaves on average.
     pub before: Vec<Option<f64>>,
     /// The same of the corrected simulation.
     pub after: Vec<Option<f64>>,

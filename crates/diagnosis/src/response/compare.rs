@@ -82,6 +82,22 @@ impl Four {
         })
     }
 
+    /// Wheel speeds of every piece and poses of every window by simulation `k`, each by a fit without its fold.
+    pub(crate) fn simulated_left_out(&self, windows: &Windows, k: usize) -> (Vec<Vec<[f64; 2]>>, Vec<Poses>) {
+        let s = &self.all[k];
+        let folds: Vec<_> =
+            (0..FOLDS).map(|f| self.simulated(windows, s.powers, &s.drive.folds[f], &s.ground.folds[f])).collect();
+        let mut wheels = folds[0].0.clone();
+        let mut poses = Vec::with_capacity(windows.list.len());
+        for (w, window) in windows.list.iter().enumerate() {
+            let (of_fold, own_poses) = &folds[windows.fold(w)];
+            let rows = window.start..window.start + WINDOW;
+            wheels[window.piece][rows.clone()].copy_from_slice(&of_fold[window.piece][rows]);
+            poses.push(own_poses[w].clone());
+        }
+        (wheels, poses)
+    }
+
     /// Errors on windows that no fit has seen.
     pub(crate) fn unseen(&self, windows: &Windows) -> [Errors; 4] {
         std::array::from_fn(|k| {
@@ -101,11 +117,23 @@ impl Four {
     }
 
     fn errors(&self, windows: &Windows, powers: usize, drive: &Model<Law>, ground: &Model<()>) -> Errors {
+        let (wheels, poses) = self.simulated(windows, powers, drive, ground);
+        errors(windows, &wheels, &poses)
+    }
+
+    /// Wheel speeds of every piece and poses of every window.
+    fn simulated(
+        &self,
+        windows: &Windows,
+        powers: usize,
+        drive: &Model<Law>,
+        ground: &Model<()>,
+    ) -> (Vec<Vec<[f64; 2]>>, Vec<Poses>) {
         let mut part = DrivePart::new(windows, powers);
         part.largest = self.largest;
         let wheels = part.wheels(drive.law, &drive.x);
         let poses = GroundPart::new(windows, wheels.clone(), self.nominal).poses(&ground.x);
-        errors(windows, &wheels, &poses)
+        (wheels, poses)
     }
 }
 

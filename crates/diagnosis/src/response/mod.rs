@@ -15,6 +15,7 @@ mod run;
 mod search;
 #[cfg(test)]
 mod tests;
+mod traces;
 mod windows;
 mod words;
 
@@ -127,6 +128,7 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
     out.sentences = words::sentences(&out, &response, &told, nominal[1], !case.references.is_empty());
+    out.traces = traces::traces(&case.recordings, &windows, &four);
     out.response = Some(response);
     Ok(out)
 }

@@ -29,6 +29,8 @@ pub struct ResponseRun {
 /// A stretch without a gap, every [`STEP`].
 #[derive(Debug, Clone)]
 pub(crate) struct Piece {
+    /// When it begins, s after the recording's first row.
+    pub(crate) start: f64,
     /// Commanded wheel speed, rad/s.
     pub(crate) command: Vec<[f64; 2]>,
     /// Measured wheel speed, rad/s.
@@ -72,13 +74,16 @@ impl ResponseRun {
         let headings = unwrapped(turning.values());
         let headings = if yaw.is_some() { headings } else { integral(turning) };
         let mut pieces = Vec::new();
-        for [from, until] in stretches(&used) {
+        let stretches = stretches(&used);
+        let first = stretches.first().map_or(0.0, |s| s[0]);
+        for [from, until] in stretches {
             let rows = ((until - from + STAMP) / STEP).floor() as usize + 1;
             let time = |i: usize| from + i as f64 * STEP;
             let pair = |c: [&Channel; 2], at: fn(&Channel, &[f64], f64) -> f64| -> Vec<[f64; 2]> {
                 (0..rows).map(|i| c.map(|c| at(c, c.values(), time(i)))).collect()
             };
             let piece = Piece {
+                start: from - first,
                 command: pair(command, held),
                 wheel: pair(wheel, linear),
                 heading: Some((0..rows).map(|i| linear(turning, &headings, time(i))).collect()),

@@ -69,7 +69,8 @@ impl Truth {
         }
         // The first row of every window would begin where it was measured: one window per drive, whole and unmeasured.
         let mut wheel = vec![[0.0; 2]];
-        let mut piece = Piece { command: command.clone(), wheel: command.clone(), heading: None, position: None };
+        let mut piece =
+            Piece { start: 0.0, command: command.clone(), wheel: command.clone(), heading: None, position: None };
         piece.wheel[0] = [0.0; 2];
         let free = super::controller::free_run(self.law, &self.drive, &piece);
         wheel.extend_from_slice(&free[1..]);

@@ -24,6 +24,7 @@ mod standstill;
 mod straight;
 #[cfg(test)]
 mod testing;
+mod traces;
 mod turning;
 mod words;
 
@@ -32,13 +33,12 @@ use robot_model::tunable::{COUNT as NUISANCES, tunables};
 use serde::{Deserialize, Serialize};
 
 use crate::DiagnosisError;
-use crate::fit::tuned;
-use crate::verdict::{Diagnosis, FreeRun};
+use crate::verdict::{Diagnosis, FreeRun, Verdict};
 
 use answer::{limits, verdict};
 use compare::{Reference, matching, references, scaled};
-use model::{Measured, Operating, Tuned, forecast, predicted, sensitivity, tune};
-use name::{Comparison, Difference, Naming, name};
+use model::{Measured, Operating, predicted, sensitivity, tune};
+use name::{Comparison, Difference, name};
 
 pub use changes::{Changes, Hidden, LoadChange};
 pub use clock::{Alignment, align, box_mean, interpolate};
@@ -50,6 +50,7 @@ pub(crate) use name::UNNAMED_STRAIGHT;
 pub use run::{BodyRates, SpeedRun};
 pub use scrub::TurningChange;
 pub use standstill::Standstill;
+use traces::Fits;
 pub use turning::{Turning, Way};
 
 /// A speed-driven case.
@@ -137,8 +138,16 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
         if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
     let naming = comparison.as_ref().and_then(name);
     progress("forecasting recordings that were not used");
-    let free_runs =
-        naming.as_ref().map_or_else(Vec::new, |n| free_runs(case, &robot, &known, &differences, &calibrated, n));
+    let fits = Fits {
+        case,
+        robot: &robot,
+        known: &known,
+        differences: &differences,
+        calibrated: &calibrated,
+        naming: naming.as_ref(),
+    };
+    let (free_runs, traces) = fits.forecasts();
+    let correction = fits.correction();
     withheld.extend(not_given);
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
@@ -146,6 +155,11 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
     let mut out = verdict(case, naming.as_ref(), loads);
     out.free_runs = free_runs;
+    out.traces = traces;
+    out.correction = correction;
+    if out.verdict == Verdict::NoMismatch {
+        out.correction.effects.clear();
+    }
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
@@ -274,37 +288,4 @@ fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
             })
         })
         .collect()
-}
-
-/// Torques of each recording forecast from its speeds, with everything fitted on the others.
-fn free_runs(
-    case: &SteadyCase,
-    robot: &Robot<f64>,
-    known: &[Measured],
-    differences: &[Difference],
-    calibrated: &Tuned,
-    naming: &Naming,
-) -> Vec<FreeRun> {
-    let Some(best) = naming.effects.first().filter(|e| e.score > 0.0) else { return Vec::new() };
-    let mut out = Vec::new();
-    for run in &case.recordings {
-        let others: Vec<Difference> = differences.iter().filter(|d| d.recording != run.name).cloned().collect();
-        if others.is_empty() {
-            continue;
-        }
-        let data: Vec<Measured> = known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
-        let Some(retuned) = tune(robot, &case.sigma, &data) else { continue };
-        let refitted = Comparison::new(&others, robot, &case.sigma, calibrated).and_then(|c| c.fit(&best.parts, None));
-        let model = tuned(robot, &case.sigma, &calibrated.theta);
-        let corrected = refitted.map_or_else(|| forecast(run, &model, &[]), |e| forecast(run, &model, &e.doses()));
-        out.push(FreeRun {
-            recording: run.name.clone(),
-            quantity: "torque of a side, N m".to_owned(),
-            nominal: forecast(run, robot, &[]),
-            retuned: forecast(run, &tuned(robot, &case.sigma, &retuned.theta), &[]),
-            corrected,
-            placebo: None,
-        });
-    }
-    out
 }

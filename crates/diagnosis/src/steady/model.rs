@@ -131,25 +131,65 @@ pub(crate) fn tune(robot: &Robot<f64>, sigma: &[f64; NUISANCES], data: &[Measure
     Some(Tuned { theta, covariance })
 }
 
-/// Root mean squared error of the torques that a robot predicts from a recording's speeds alone, row by row in
-/// steady motion plus inertia, N m.
+/// What a robot's sensors would show row by row, by its speeds alone: in steady motion plus inertia.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    /// Torque of each side, N m; `None` where it would show something unknown.
+    pub(crate) torque: [Vec<Option<f64>>; 2],
+    /// Yaw rate, rad/s.
+    pub(crate) yaw_rate: Vec<Option<f64>>,
+}
+
+impl Rows {
+    /// Root mean squared error of the torques, N m.
+    pub(crate) fn rms(&self, run: &SpeedRun) -> f64 {
+        let (mut sum, mut n) = (0.0, 0.0);
+        for i in 0..run.time.len() {
+            for square in self.squares(run, i) {
+                sum += square;
+                n += 1.0;
+            }
+        }
+        (sum / f64::max(n, 1.0)).sqrt()
+    }
+
+    /// Mean squared error of the torques of a row, (N m)².
+    pub(crate) fn square(&self, run: &SpeedRun, i: usize) -> Option<f64> {
+        let (n, sum) = self.squares(run, i).fold((0.0, 0.0), |(n, sum), square| (n + 1.0, sum + square));
+        (n > 0.0).then(|| sum / n)
+    }
+
+    /// What lies in the dead band on both accounts counts as right.
+    fn squares<'a>(&'a self, run: &'a SpeedRun, i: usize) -> impl Iterator<Item = f64> + 'a {
+        (0..2).filter_map(move |j| {
+            let shown = self.torque[j][i]?;
+            let measured = run.torque[j][i];
+            let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };
+            Some((measured - shown).powi(2))
+        })
+    }
+}
+
+/// What a robot's sensors would show in a recording.
 ///
 /// Of currents without sign, a side that brakes reads nothing (the drive feeds back), below [`BRAKING_READS`]
-/// something unknown, which is left out; what lies in the dead band on both accounts counts as right.
-pub(crate) fn forecast(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> f64 {
+/// something unknown, which is left out.
+pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> Rows {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let plant = Plant::new(robot, &active, STEP);
     let radius = robot.wheel_radius;
     let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
-    let (mut sum, mut n) = (0.0, 0.0);
+    let rows = run.time.len();
+    let mut out = Rows { torque: [vec![None; rows], vec![None; rows]], yaw_rate: vec![None; rows] };
     let mut s = State::default();
-    for i in 1..run.time.len() {
+    for i in 1..rows {
         let span = run.time[i] - run.time[i - 1];
         let speed = [run.speed[0][i], run.speed[1][i]];
         // The body follows its wheels within a tenth of a second: rows are longer than that.
         s.yaw_rate = (speed[1] - speed[0]) / (3.0 * robot.half_track);
         plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
         plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
+        out.yaw_rate[i] = Some(s.yaw_rate).filter(|w| w.is_finite());
         let forward = 0.5 * (speed[0] + speed[1] - run.speed[0][i - 1] - run.speed[1][i - 1]) / span;
         let mean = [0, 1].map(|j| {
             let own = (speed[j] - run.speed[j][i - 1]) / radius / span;
@@ -160,18 +200,14 @@ pub(crate) fn forecast(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> f6
             if run.magnitude_only && brakes && speed[j].abs() < BRAKING_READS {
                 continue;
             }
-            let shown = if !run.magnitude_only {
+            out.torque[j][i] = Some(if !run.magnitude_only {
                 m
             } else if brakes {
                 run.dead_band
             } else {
                 m.abs().max(run.dead_band)
-            };
-            let measured = run.torque[j][i];
-            let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };
-            sum += (measured - shown).powi(2);
-            n += 1.0;
+            });
         }
     }
-    (sum / f64::max(n, 1.0)).sqrt()
+    out
 }
