@@ -17,6 +17,7 @@ use crate::linalg::solve_spd;
 use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::{Fault, Redundant};
+use crate::simulate::Dose;
 use crate::verdict::{Cause, Diagnosis, Estimate, Trial, Verdict};
 use crate::windows::Cut;
 use crate::{Options, locate, words};
@@ -246,7 +247,8 @@ impl Answer<'_> {
                         .iter()
                         .map(|(v, o)| (*v, o.iter().map(|_| Some(-1.0)).collect()))
                         .collect();
-                    Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0)
+                    let doses = Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0);
+                    doses.iter().map(Dose::active).collect()
                 });
                 let corrected = predict(h, &tuned(p.robot, &p.sigma, &forecaster), &doses, gyro, self.options.step);
                 let plain =

@@ -38,6 +38,8 @@ pub struct HeldOut {
     pub period: f64,
     /// Time of the first row, s.
     pub first_time: f64,
+    /// Time of each row as it was stamped, ns.
+    pub stamps: Vec<i64>,
     /// Torque command of each side, N m.
     pub torque: Vec<[f64; 2]>,
     /// Rows at which the model is set to a known state.
@@ -67,6 +69,21 @@ impl HeldOut {
     /// # Errors
     /// When torque is missing or no row holds a state.
     pub fn new(recording: &Recording) -> Result<Self, DiagnosisError> {
+        let inputs = Self::inputs(recording)?;
+        if inputs.restarts.is_empty() {
+            return Err(DiagnosisError::MissingSignal {
+                recording: inputs.name,
+                what: "state (pose, body velocity, gyro, wheels) in any row",
+            });
+        }
+        Ok(inputs)
+    }
+
+    /// The same where no state need be known.
+    ///
+    /// # Errors
+    /// When torque is missing.
+    pub fn inputs(recording: &Recording) -> Result<Self, DiagnosisError> {
         let name = recording.name().to_owned();
         let channel = |s: Signal| {
             recording.get(s).ok_or_else(|| DiagnosisError::MissingSignal { recording: name.clone(), what: s.name() })
@@ -118,13 +135,23 @@ impl HeldOut {
                 })
             })
             .collect();
-        if restarts.is_empty() {
-            return Err(DiagnosisError::MissingSignal {
-                recording: name,
-                what: "state (pose, body velocity, gyro, wheels) in any row",
-            });
-        }
-        Ok(Self { name, period: period_ns as f64 * 1e-9, first_time: start as f64 * 1e-9, torque, restarts })
+        let stamps = left.t_ns().to_vec();
+        Ok(Self { name, period: period_ns as f64 * 1e-9, first_time: start as f64 * 1e-9, stamps, torque, restarts })
+    }
+
+    /// The same with restarts at least `seconds` apart: of a recording that holds the whole state in every row.
+    #[must_use]
+    pub fn restarting_every(mut self, seconds: f64) -> Self {
+        let apart = ((seconds / self.period).round() as usize).max(1);
+        let mut next = 0;
+        self.restarts.retain(|r| {
+            let keep = r.row >= next;
+            if keep {
+                next = r.row + apart;
+            }
+            keep
+        });
+        self
     }
 }
 

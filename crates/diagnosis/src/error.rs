@@ -90,6 +90,19 @@ pub enum DiagnosisError {
         /// Its parameters.
         known: String,
     },
+    /// A simulation left the numbers.
+    #[error(
+        "the simulation of '{recording}' gives no finite {what} after {time:.2} s; check the inputs there, and the robot's \
+         constants"
+    )]
+    NotFinite {
+        /// Name of the recording.
+        recording: String,
+        /// Which quantity.
+        what: &'static str,
+        /// When, s after the first row.
+        time: f64,
+    },
     /// The robot cannot be what its file says.
     #[error(transparent)]
     Model(#[from] robot_model::ModelError),

@@ -5,7 +5,6 @@ use robot_model::{Active, Plant, Robot, State};
 use crate::case::HeldOut;
 use crate::hold::Hold;
 use crate::motion::GyroError;
-use crate::simulate::Dose;
 
 /// The predicted response of a held-out drive, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,11 +20,16 @@ pub struct Prediction {
 }
 
 /// Runs the plant freely from restart to restart.
-pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: GyroError, step: f64) -> Prediction {
-    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+pub(crate) fn predict(
+    held: &HeldOut,
+    robot: &Robot<f64>,
+    active: &[Active<f64>],
+    gyro: GyroError,
+    step: f64,
+) -> Prediction {
     let substeps = (held.period / step).round().max(1.0) as usize;
     let h = held.period / substeps as f64;
-    let plant = Plant::new(robot, &active, h);
+    let plant = Plant::new(robot, active, h);
     let hold = Hold::new(held.period, substeps, plant.drive().delay);
     let shown = |yaw_rate: f64| yaw_rate * (1.0 + gyro.scale) + gyro.bias;
     let mut s = State::default();
@@ -34,20 +38,8 @@ pub(crate) fn predict(held: &HeldOut, robot: &Robot<f64>, doses: &[Dose], gyro: 
         Prediction { name: held.name.clone(), time: Vec::new(), wheel_speed: Vec::new(), yaw_rate: Vec::new() };
     for k in 0..held.torque.len() {
         if let Some(r) = next.next_if(|r| r.row == k) {
-            let (sin, cos) = r.pose[2].sin_cos();
-            s = State {
-                time: k as f64 * held.period,
-                position: [r.pose[0], r.pose[1]],
-                heading: [cos, sin],
-                yaw_rate: (r.gyro - gyro.bias) / (1.0 + gyro.scale),
-                wheel_speed: r.wheel_speed,
-                front_speed: r.wheel_speed,
-                wheel_angle: r.wheel_angle,
-                torque: s.torque,
-                lagged: s.lagged,
-                ..State::default()
-            };
-            plant.set_velocity(&mut s, r.velocity);
+            s.time = k as f64 * held.period;
+            r.set(&plant, &mut s, gyro);
         }
         out.time.push(held.first_time + k as f64 * held.period);
         out.wheel_speed.push(s.wheel_speed);

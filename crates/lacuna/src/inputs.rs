@@ -60,7 +60,7 @@ fn not_read(unmatched: &[String]) -> impl Iterator<Item = String> + '_ {
 /// When it can be neither found nor parsed.
 pub fn mapping(name: &str) -> Result<Mapping> {
     let path = Path::new(name);
-    if path.exists() {
+    if path.is_file() {
         let text = fs::read_to_string(path).with_context(|| format!("cannot read mapping '{name}'"))?;
         return Ok(Mapping::parse(name, &text)?);
     }
@@ -74,7 +74,7 @@ pub fn mapping(name: &str) -> Result<Mapping> {
 /// When it can be neither found nor parsed.
 pub fn robot(name: &str) -> Result<RobotSpec> {
     let path = Path::new(name);
-    if path.exists() {
+    if path.is_file() {
         let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
         return Ok(RobotSpec::parse(name, &text)?);
     }

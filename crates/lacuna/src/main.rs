@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 mod commands;
 mod console;
 
-use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, identify};
+use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, identify, predict, simulate};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -47,6 +47,10 @@ enum Command {
     Diagnose(diagnose::Args),
     /// Follow a recording with the online neural identifier and check its certificate.
     Identify(identify::Args),
+    /// Simulate a robot file on the inputs of a recording.
+    Simulate(simulate::Args),
+    /// Forecast held-out drives with one or more robot files, and compare.
+    Predict(predict::Args),
     /// List the effects that a simulation may lack.
     Effects(effects::Args),
     /// Explain one effect: law, parameters, what reveals it, what it looks like.
@@ -67,6 +71,8 @@ fn run() -> ExitCode {
         Command::Convert(args) => convert::run(args),
         Command::Diagnose(args) => diagnose::run(args, cli.verbose),
         Command::Identify(args) => identify::run(args),
+        Command::Simulate(args) => simulate::run(args),
+        Command::Predict(args) => predict::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),
     };

@@ -20,6 +20,15 @@ pub fn write(dir: &Path, diagnosis: &Diagnosis) -> Result<()> {
     Ok(())
 }
 
+/// Writes `DIR/<drive>.csv`.
+///
+/// # Errors
+/// When the folder or the file cannot be written.
+pub fn write_one(dir: &Path, prediction: &Prediction) -> Result<()> {
+    fs::create_dir_all(dir).with_context(|| format!("cannot create '{}'", dir.display()))?;
+    save(&dir.join(format!("{}.csv", file_stem(&prediction.name))), &csv(prediction))
+}
+
 /// A drive's name without what would lead into another folder.
 fn file_stem(name: &str) -> String {
     name.replace(['/', '\\'], "_")

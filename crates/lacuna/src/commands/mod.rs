@@ -10,6 +10,8 @@ pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;
 pub(crate) mod identify;
+pub(crate) mod predict;
+pub(crate) mod simulate;
 
 /// How a command that did not fail ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

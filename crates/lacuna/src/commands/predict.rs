@@ -1,0 +1,165 @@
+//! `lacuna predict`: robot files against drives that they have not seen.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args as ClapArgs;
+use diagnosis::{Correction, HeldOut, Options, Prediction};
+use lacuna::case_folder::{self, file_names};
+use lacuna::envelope::Program;
+use lacuna::text_table::TextTable;
+use lacuna::{Causality, RobotSpec, inputs, predictions, which_mapping};
+use recordings::{Read, Recording, Signal};
+use serde_json::{Value, json};
+
+use super::{Outcome, Reading, sources};
+use crate::console::{emit, emit_json};
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna predict robot.toml --drives heldout/ --out predicted/
+  lacuna predict robot.toml corrected.toml --drives run_7.csv run_8.csv
+
+Several robot files are compared on the same drives. The simulation runs freely and is set to the recorded state at
+rows that hold all of it (pose, body velocity, gyro, wheels), at most every --restart seconds. Errors are told where the
+drive also holds what was to be predicted. Torque-driven robots only.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+
+/// Arguments of `lacuna predict`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Robot files, or names of built-in robots.
+    #[arg(required = true, num_args = 1..)]
+    robot: Vec<String>,
+    /// Files or folders of drives.
+    #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
+    drives: Vec<PathBuf>,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
+    /// Least time between two restarts from the recorded state, s.
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = seconds)]
+    restart: f64,
+    /// What to do with bad rows and cells of recordings.
+    #[arg(long, value_enum, default_value_t)]
+    reading: Reading,
+    /// Write the predicted responses as CSV into this folder; of several robots, into a folder for each.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write the errors as JSON to a file; `-` is standard output, instead of the text.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
+}
+
+/// A time between a hundredth of a second and an hour.
+fn seconds(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.01..=3600.0).contains(&value) { Ok(value) } else { Err("must lie between 0.01 and 3600 s".to_owned()) }
+}
+
+/// Root mean squared errors of a drive's prediction; `None` where the drive does not hold what is predicted.
+struct Errors {
+    drive: String,
+    /// By robot: wheel speed, rad/s; yaw rate, rad/s.
+    of: Vec<[Option<f64>; 2]>,
+}
+
+/// Predicts drives.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let robots: Vec<RobotSpec> = args.robot.iter().map(|name| case_folder::robot(name)).collect::<Result<_>>()?;
+    for robot in &robots {
+        ensure!(
+            robot.causality == Causality::TorqueDriven,
+            "robot '{}' is {}; only torque-driven robots are predicted",
+            robot.name,
+            robot.causality.name()
+        );
+    }
+    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.drives)?;
+    let loaded = inputs::load(&mapping, &args.drives, &args.reading.options())?;
+    let mut errors = Vec::new();
+    for read in &loaded.reads {
+        let held = HeldOut::new(&read.recording).with_context(|| file_names(read))?.restarting_every(args.restart);
+        let mut of = Vec::new();
+        for (robot, name) in robots.iter().zip(&args.robot) {
+            let effects = Correction { effects: robot.effects.clone(), ..Correction::default() };
+            let prediction =
+                diagnosis::forecast(&robot.robot, &effects.active(&held.name)?, &held, &Options::default());
+            of.push(compare(&prediction, &read.recording, &held));
+            if let Some(dir) = &args.out {
+                let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };
+                predictions::write_one(&dir, &prediction)?;
+            }
+        }
+        errors.push(Errors { drive: read.recording.name().to_owned(), of });
+    }
+    if let Some(target) = &args.json {
+        emit_json(target, &as_json(args, &loaded.reads, &errors))?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&as_text(&args.robot, &errors))?;
+    }
+    let lost: Vec<String> = loaded.lost().collect();
+    Ok(Outcome::of(&lost))
+}
+
+/// The folder of a robot's predictions: the name of its file.
+fn stem(robot: &str) -> Result<&str> {
+    match Path::new(robot).file_stem().and_then(|s| s.to_str()) {
+        Some(stem) => Ok(stem),
+        None => bail!("'{robot}' has no name that a folder could have; rename it"),
+    }
+}
+
+/// Root mean squared errors of wheel speed and yaw rate, without the rows at which the state was given.
+fn compare(prediction: &Prediction, drive: &Recording, held: &HeldOut) -> [Option<f64>; 2] {
+    let given: Vec<usize> = held.restarts.iter().map(|r| r.row).collect();
+    let rms = |signal: Signal, predicted: &dyn Fn(usize) -> f64| -> Option<(f64, f64)> {
+        let channel = drive.get(signal)?;
+        let mut sum = (0.0, 0.0);
+        for (k, t) in held.stamps.iter().enumerate().filter(|(k, _)| given.binary_search(k).is_err()) {
+            if let Ok(at) = channel.t_ns().binary_search(t)
+                && k < prediction.time.len()
+            {
+                sum.0 += (channel.values()[at] - predicted(k)).powi(2);
+                sum.1 += 1.0;
+            }
+        }
+        (sum.1 > 0.0).then_some(sum)
+    };
+    let side = |j: usize, signal| rms(signal, &|k| prediction.wheel_speed[k][j]);
+    let wheels = side(0, Signal::WheelSpeedLeft).zip(side(1, Signal::WheelSpeedRight));
+    [
+        wheels.map(|(l, r)| ((l.0 + r.0) / (l.1 + r.1)).sqrt()),
+        rms(Signal::GyroZ, &|k| prediction.yaw_rate[k]).map(|(sum, n)| (sum / n).sqrt()),
+    ]
+}
+
+fn as_text(robots: &[String], errors: &[Errors]) -> String {
+    let mut table = TextTable::new(&["drive", "robot", ">wheel speed, rad/s", ">yaw rate, rad/s"]);
+    let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), lacuna::text_table::number);
+    for e in errors {
+        for (robot, [wheel, yaw]) in robots.iter().zip(&e.of) {
+            table.row([e.drive.clone(), robot.clone(), number(*wheel), number(*yaw)]);
+        }
+    }
+    format!("Free runs against what was recorded (rms; - where it was not)\n{}", table.render())
+}
+
+fn as_json(args: &Args, reads: &[Read], errors: &[Errors]) -> Value {
+    let of = |e: &Errors| -> Vec<Value> {
+        let rows = args.robot.iter().zip(&e.of);
+        rows.map(|(robot, [wheel, yaw])| json!({ "robot": robot, "wheel_speed_rad_s": wheel, "yaw_rate_rad_s": yaw }))
+            .collect()
+    };
+    let drives = errors.iter().zip(reads);
+    json!({
+        "format": 1,
+        "program": Program::default(),
+        "restart_s": args.restart,
+        "drives": drives.map(|(e, read)| json!({ "drive": e.drive, "sources": sources(&read.sources), "rms": of(e) })).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,100 @@
+//! `lacuna simulate`: a robot file on the inputs of a recording.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use clap::Args as ClapArgs;
+use diagnosis::{Correction, Options};
+use lacuna::case_folder::{self, file_names};
+use lacuna::envelope::Program;
+use lacuna::{Causality, RobotSpec, inputs, which_mapping};
+use recordings::{Recording, write_csv};
+use serde_json::json;
+
+use super::{Outcome, Reading, sources};
+use crate::console::{emit, emit_json};
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna simulate robot.toml run_1.csv > simulated.csv
+  lacuna simulate corrected.toml run_1.csv -o simulated.csv
+  lacuna simulate husky-a200 FLOORING/pro_01.csv --mapping husky-open -o simulated.csv
+
+The robot file may hold effects: `lacuna export verdict.json --to toml` writes such a file, corrected.
+Torque-driven robots need the commanded torques of both sides, and start in the state of the first row where all of it
+was recorded, else at rest. Speed-driven robots need the wheel speeds; the torque that they take comes out.
+The columns are those of the mapping skid-steer-columns.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+
+/// Arguments of `lacuna simulate`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Robot file, or name of a built-in robot.
+    robot: String,
+    /// Recording with the inputs; of a run in several files, any one, or all.
+    #[arg(required = true, num_args = 1..)]
+    recording: Vec<PathBuf>,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
+    /// What to do with bad rows and cells of recordings.
+    #[arg(long, value_enum, default_value_t)]
+    reading: Reading,
+    /// Write the simulated drive as CSV to a file; `-` is standard output.
+    #[arg(short, long, value_name = "FILE|-", default_value = "-")]
+    out: String,
+    /// Write it as JSON to a file instead; `-` is standard output.
+    #[arg(long, value_name = "FILE|-", conflicts_with = "out")]
+    json: Option<String>,
+}
+
+/// Simulates a drive.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let robot = case_folder::robot(&args.robot)?;
+    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
+    let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
+    let [read] = loaded.reads.as_slice() else {
+        let names: Vec<String> = loaded.reads.iter().map(file_names).collect();
+        bail!("give one recording at a time, not {}: {}", names.len(), names.join(", "));
+    };
+    let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;
+    if let Some(target) = &args.json {
+        let columns = simulated.channels().iter().map(|c| (c.signal().column_name(), json!(c.values())));
+        let stamps = simulated.channels().first().map(|c| c.t_ns().to_vec());
+        let whole = json!({
+            "format": 1,
+            "program": Program::default(),
+            "robot": robot.to_json()?,
+            "recording": simulated.name(),
+            "sources": sources(&read.sources),
+            "t_ns": stamps,
+            "columns": columns.collect::<serde_json::Map<_, _>>(),
+        });
+        emit_json(target, &whole)?;
+    } else {
+        let csv = write_csv(&simulated, 0);
+        if args.out == "-" {
+            emit(&csv)?;
+        } else {
+            std::fs::write(&args.out, csv).with_context(|| format!("cannot write '{}'", args.out))?;
+        }
+    }
+    let lost: Vec<String> = loaded.lost().collect();
+    Ok(Outcome::of(&lost))
+}
+
+fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
+    let effects = Correction { effects: robot.effects.clone(), ..Correction::default() }.active(inputs.name())?;
+    match robot.causality {
+        Causality::TorqueDriven => Ok(diagnosis::simulate(&robot.robot, &effects, inputs, &Options::default())?),
+        Causality::SpeedDriven => Ok(diagnosis::simulate_at_speed(&robot.robot, &effects, inputs)?),
+        Causality::CommandDriven => bail!(
+            "robot '{}' is command-driven: its file has no drive to be simulated, only a diagnosis fits one; `lacuna \
+             diagnose` forecasts held-out drives of it",
+            robot.name
+        ),
+    }
+}
