@@ -70,6 +70,11 @@ impl Bench {
         fs::write(path, bytes).unwrap();
     }
 
+    /// Where a file below the folder is.
+    pub fn path(&self, name: &str) -> std::path::PathBuf {
+        self.0.path().join(name)
+    }
+
     /// Reads a file below the folder.
     pub fn read(&self, name: &str) -> String {
         fs::read_to_string(self.0.path().join(name)).unwrap()

@@ -1,0 +1,91 @@
+//! `lacuna simulate` and `lacuna predict`: robot files forward.
+
+mod common;
+
+use common::{Bench, ROBOT, drive};
+use examiner::{Case, Content, EffectId, Setting, Settings, Severity, TyreLaw};
+use lacuna::envelope::Envelope;
+use serde_json::Value;
+
+#[test]
+fn a_corrected_robot_file_predicts_what_the_diagnosis_predicted() {
+    let settings = Settings {
+        content: Content::Effects(vec![EffectId::Payload]),
+        severity: Some(Severity::Strong),
+        setting: Some(Setting::Normal),
+        law: Some(TyreLaw::Brush),
+        duration_s: 9.0,
+        references: 2,
+        recordings: Some(2),
+        heldout: 1,
+        ..Settings::default()
+    };
+    let drawn = Case::draw("x", 5, &settings).unwrap();
+    let bench = Bench::empty();
+    for (path, bytes) in &drawn.files {
+        bench.write(&format!("case/{}", path.display()), std::str::from_utf8(bytes).unwrap());
+    }
+    let run = bench.run(&["diagnose", "case", "--json", "verdict.json", "--predictions", "by_diagnose"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let envelope = Envelope::open(&bench.path("verdict.json")).unwrap();
+    let corrected = envelope.robot().unwrap().corrected(&envelope.diagnosis.correction).unwrap();
+    bench.write("corrected.toml", &corrected.to_toml().unwrap());
+
+    let run = bench.run(&["predict", "corrected.toml", "--drives", "case/heldout", "--out", "by_predict"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert_eq!(bench.read("by_predict/held_1.csv"), bench.read("by_diagnose/held_1.csv"));
+
+    // Its recordings never hold the whole state of the robot.
+    bench.run(&["predict", "case/robot.json", "--drives", "case/recordings"]).failed(&["run_1", "state"]);
+}
+
+#[test]
+fn a_simulated_drive_is_a_recording_like_any_other() {
+    let bench = Bench::new();
+    let run = bench.run(&["simulate", "case/robot.toml", "case/recordings/run_1.csv", "-o", "sim/plain.csv"]);
+    run.failed(&["cannot write 'sim/plain.csv'"]);
+    let run = bench.run(&["simulate", "case/robot.toml", "case/recordings/run_1.csv", "-o", "plain.csv"]);
+    assert_eq!((run.code(), run.out()), (Some(0), String::new()), "{}", run.err());
+    assert_eq!(bench.read("plain.csv").lines().count(), 301);
+
+    // What it shows is predicted exactly: every row holds the whole state, and nothing is missing.
+    let run = bench.run(&["predict", "case/robot.toml", "--drives", "plain.csv", "--restart", "1", "--json", "-"]);
+    let told: Value = serde_json::from_str(&run.out()).unwrap();
+    let rms = &told["drives"][0]["rms"][0];
+    assert!(rms["wheel_speed_rad_s"].as_f64().unwrap() < 0.01, "{rms}");
+
+    // With an effect in the robot file it is another drive.
+    let with = format!("{ROBOT}\n[[effects]]\neffect = \"payload\"\nvalues = {{ mass = 10.0 }}\n");
+    bench.write("loaded.toml", &with);
+    let run = bench.run(&["predict", "case/robot.toml", "loaded.toml", "--drives", "plain.csv", "--restart", "1"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert!(run.out().contains("loaded.toml"), "{}", run.out());
+    let loaded = bench.run(&["simulate", "loaded.toml", "case/recordings/run_1.csv"]);
+    assert!(loaded.out() != bench.read("plain.csv") && loaded.out().lines().count() == 301);
+}
+
+#[test]
+fn a_speed_driven_robot_shows_the_torque_that_its_speeds_take() {
+    let bench = Bench::new();
+    bench.write("speed.toml", &ROBOT.replace("torque-driven", "speed-driven"));
+    bench.write("run.csv", &drive(100, 0.2));
+    let run = bench.run(&["simulate", "speed.toml", "run.csv", "--json", "-"]);
+    let told: Value = serde_json::from_str(&run.out()).unwrap_or_else(|_| panic!("{}", run.err()));
+    let torque = told["columns"]["torque_left_Nm"].as_array().unwrap();
+    assert!(torque.len() == 100 && torque.iter().any(|t| t.as_f64().unwrap().abs() > 0.1));
+}
+
+#[test]
+fn what_cannot_be_simulated_is_said() {
+    let bench = Bench::new();
+    bench.write("command.toml", &ROBOT.replace("torque-driven", "command-driven"));
+    bench
+        .run(&["simulate", "command.toml", "case/recordings/run_1.csv"])
+        .failed(&["command-driven", "lacuna diagnose"]);
+    bench.run(&["predict", "command.toml", "--drives", "case/recordings"]).failed(&["only torque-driven"]);
+    bench
+        .run(&["simulate", "case/robot.toml", "case/recordings/run_1.csv", "case/reference/ref_1.csv"])
+        .failed(&["one recording at a time"]);
+    bench.write("wrong.toml", &format!("{ROBOT}\n[[effects]]\neffect = \"paylod\"\nvalues = {{}}\n"));
+    bench.run(&["simulate", "wrong.toml", "case/recordings/run_1.csv"]).failed(&["wrong.toml: line", "`payload`"]);
+}
