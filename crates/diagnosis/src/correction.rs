@@ -9,6 +9,7 @@ use robot_model::{Active, Effect, Robot, effects};
 use serde::{Deserialize, Serialize};
 
 use crate::DiagnosisError;
+use crate::response::ResponseModel;
 
 /// What a robot's simulation is to be given: constants re-tuned and effects added.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,9 @@ pub struct Correction {
     /// Effects, at values.
     #[serde(default)]
     pub effects: Vec<EffectAt>,
+    /// Response to commands, of a command-driven robot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response: Option<ResponseModel>,
 }
 
 /// An effect of the catalogue at values, present somewhere.

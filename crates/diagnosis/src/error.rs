@@ -90,6 +90,18 @@ pub enum DiagnosisError {
         /// Its parameters.
         known: String,
     },
+    /// A constant of a response is beyond what is sensible.
+    #[error("`{name}` is {value}, but must lie between {least} and {most}; correct it")]
+    OutOfBounds {
+        /// The constant.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Least value.
+        least: f64,
+        /// Largest value.
+        most: f64,
+    },
     /// A simulation left the numbers.
     #[error(
         "the simulation of '{recording}' gives no finite {what} after {time:.2} s; check the inputs there, and the robot's \

@@ -129,7 +129,7 @@ impl Problem<'_> {
             at += n;
             variant.at(&effects[at - n..at], onsets, self.cuts)
         });
-        Correction { tuning, effects: effects.collect() }
+        Correction { tuning, effects: effects.collect(), response: None }
     }
 
     /// Every form of every effect that these recordings may show in the motion.

@@ -197,6 +197,7 @@ impl FlatRobot {
             causality: Causality::TorqueDriven,
             robot,
             effects: Vec::new(),
+            response: None,
             sources: BTreeMap::new(),
             sigma,
             pose_sigma: self.sensors.pose_xy_std_m.unwrap_or(USUAL_POSE_SIGMA),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use diagnosis::EffectAt;
+use diagnosis::response::ResponseModel;
 use robot_model::Robot;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +55,8 @@ pub struct RobotSpec {
     pub robot: Robot<f64>,
     /// What its simulation is given beside these constants.
     pub effects: Vec<EffectAt>,
+    /// Response to commands, of a command-driven robot; without one, the wheels do what is commanded.
+    pub response: Option<ResponseModel>,
     /// Where each parameter comes from, by its name in robot files.
     pub sources: BTreeMap<&'static str, String>,
     /// One sigma of each tunable: relative for factors, absolute for offsets.

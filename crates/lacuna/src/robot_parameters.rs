@@ -1,5 +1,6 @@
 //! The form of a robot file with value, unit, one sigma and source for each parameter.
 
+use diagnosis::response::ResponseModel;
 use diagnosis::{DiagnosisError, EffectAt};
 use recordings::parse_unit;
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
@@ -42,6 +43,9 @@ pub(crate) struct File {
     /// What the simulation is given beside its constants.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) effects: Vec<EffectAt>,
+    /// Response to commands, of a command-driven robot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) response: Option<ResponseModel>,
 }
 
 macro_rules! parameters {
@@ -224,6 +228,11 @@ impl File {
                 .active("")
                 .map_err(|error| RobotFileError::Effect { place: source.at_effect(n), message: nearest(&error) })?;
         }
+        if let Some(response) = &self.response {
+            response
+                .checked()
+                .map_err(|error| RobotFileError::Effect { place: source.at("response"), message: nearest(&error) })?;
+        }
         let told = |(key, _, q): &(&'static str, _, Option<&Quantity>)| q.map(|q| (*key, q.source.clone()));
         Ok(RobotSpec {
             name: self.name.clone(),
@@ -231,6 +240,7 @@ impl File {
             causality: self.causality,
             robot,
             effects: self.effects.clone(),
+            response: self.response.clone(),
             sources: p.list.iter().filter_map(told).collect(),
             sigma: sigma(&p)?,
             pose_sigma: p.positive("pose_noise")?.map_or(USUAL_POSE_SIGMA, |v| v.0),

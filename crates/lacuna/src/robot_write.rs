@@ -22,6 +22,7 @@ impl RobotSpec {
     pub fn corrected(&self, correction: &Correction) -> Result<Self> {
         let mut out = Self { robot: correction.robot(&self.robot)?, ..self.clone() };
         out.effects.extend(correction.effects.iter().cloned());
+        out.response = correction.response.clone().or(out.response);
         let (before, after) = (constants(self), constants(&out));
         for (key, value) in &after {
             let was = before.get(key).copied().unwrap_or_default();
@@ -66,6 +67,7 @@ impl RobotSpec {
             causality: self.causality,
             parameters: Parameters::make(quantity),
             effects: self.effects.clone(),
+            response: self.response.clone(),
         }
     }
 
@@ -125,6 +127,7 @@ fn constants(spec: &RobotSpec) -> BTreeMap<&'static str, f64> {
 
 #[cfg(test)]
 mod tests {
+    use diagnosis::response::{ResponseModel, Scaling};
     use diagnosis::{Correction, EffectAt, Side};
 
     use crate::RobotSpec;
@@ -142,6 +145,11 @@ mod tests {
         Correction {
             tuning: [("coulomb_right".to_owned(), 0.1), ("com_y".to_owned(), 0.002)].into(),
             effects: vec![brake],
+            response: Some(ResponseModel {
+                scaling: Scaling::TurnFirst,
+                constants: [("dead_time".to_owned(), 0.25), ("track_factor".to_owned(), 1.5)].into(),
+                ..ResponseModel::default()
+            }),
         }
     }
 
@@ -155,8 +163,8 @@ mod tests {
                 for again in [RobotSpec::parse("a.toml", &toml), RobotSpec::parse("a.json", &json)] {
                     let again = again.unwrap_or_else(|e| panic!("{e}\n{toml}"));
                     assert_eq!(
-                        (&again.robot, &again.effects, again.causality),
-                        (&robot.robot, &robot.effects, robot.causality)
+                        (&again.robot, &again.effects, &again.response, again.causality),
+                        (&robot.robot, &robot.effects, &robot.response, robot.causality)
                     );
                     assert_eq!((&again.name, again.torque_per_current), (&robot.name, robot.torque_per_current));
                     for (a, b) in again.sigma.iter().zip(robot.sigma) {

@@ -54,6 +54,26 @@ fn a_response_is_told_without_any_reference() {
     assert!(value("lag").is_some_and(|v| (v - 0.3).abs() < 0.03), "{parameters:?}");
     assert!(value("track_factor").is_some_and(|v| (v - 2.0).abs() < 0.1), "{parameters:?}");
     assert_eq!(json["diagnosis"]["response"]["held_out_windows"], 15);
+    let trace = &json["diagnosis"]["traces"][0];
+    let signals: Vec<&str> =
+        trace["channels"].as_array().unwrap().iter().map(|c| c["signal"].as_str().unwrap()).collect();
+    assert_eq!(signals, ["left wheel speed", "right wheel speed", "heading"]);
+
+    // The corrected robot file forecasts what the diagnosis says that it forecasts.
+    let envelope = lacuna::envelope::Envelope::open(&bench.path("out.json")).unwrap();
+    let corrected = envelope.robot().unwrap().corrected(&envelope.diagnosis.correction).unwrap();
+    bench.write("corrected.toml", &corrected.to_toml().unwrap());
+    let args = ["predict", "case/robot.toml", "corrected.toml", "--drives", "case/heldout", "--json", "-"];
+    let told: Value = serde_json::from_str(&bench.run(&args).out()).unwrap();
+    let free_runs = json["diagnosis"]["free_runs"].as_array().unwrap();
+    for (quantity, rms) in [("wheel speed, rad/s", "wheel speed (rms), rad/s"), ("yaw, rad", "yaw (rms), rad")] {
+        let found = free_runs.iter().find(|f| f["recording"] == "held out" && f["quantity"] == rms).unwrap();
+        for (robot, column) in ["nominal", "corrected"].into_iter().enumerate() {
+            assert_eq!(told["drives"][0]["of"][robot]["rms"][quantity], found[column], "{quantity} {column}");
+        }
+    }
+    let run = bench.run(&["simulate", "corrected.toml", "case/heldout/run_2.csv"]);
+    assert_eq!((run.code(), run.out().lines().count()), (Some(0), 601), "{}", run.err());
 }
 
 #[test]

@@ -51,8 +51,8 @@ fn a_simulated_drive_is_a_recording_like_any_other() {
     // What it shows is predicted exactly: every row holds the whole state, and nothing is missing.
     let run = bench.run(&["predict", "case/robot.toml", "--drives", "plain.csv", "--restart", "1", "--json", "-"]);
     let told: Value = serde_json::from_str(&run.out()).unwrap();
-    let rms = &told["drives"][0]["rms"][0];
-    assert!(rms["wheel_speed_rad_s"].as_f64().unwrap() < 0.01, "{rms}");
+    let rms = &told["drives"][0]["of"][0]["rms"];
+    assert!(rms["wheel speed, rad/s"].as_f64().unwrap() < 0.01, "{rms}");
 
     // With an effect in the robot file it is another drive.
     let with = format!("{ROBOT}\n[[effects]]\neffect = \"payload\"\nvalues = {{ mass = 10.0 }}\n");
@@ -78,11 +78,15 @@ fn a_speed_driven_robot_shows_the_torque_that_its_speeds_take() {
 #[test]
 fn what_cannot_be_simulated_is_said() {
     let bench = Bench::new();
-    bench.write("command.toml", &ROBOT.replace("torque-driven", "command-driven"));
-    bench
-        .run(&["simulate", "command.toml", "case/recordings/run_1.csv"])
-        .failed(&["command-driven", "lacuna diagnose"]);
-    bench.run(&["predict", "command.toml", "--drives", "case/recordings"]).failed(&["only torque-driven"]);
+    let command_driven = ROBOT.replace("torque-driven", "command-driven");
+    bench.write("command.toml", &command_driven);
+    bench.run(&["simulate", "command.toml", "case/recordings/run_1.csv"]).failed(&["command_speed of both sides"]);
+    bench.write("speed.toml", &ROBOT.replace("torque-driven", "speed-driven"));
+    bench.run(&["predict", "speed.toml", "--drives", "case/recordings"]).failed(&["lacuna simulate"]);
+    let two = ["predict", "speed.toml", "command.toml", "--drives", "case/recordings"];
+    bench.run(&two).failed(&["compare robots of one kind"]);
+    bench.write("response.toml", &format!("{command_driven}\n[response.constants]\ndead_tme = 0.1\n"));
+    bench.run(&["simulate", "response.toml", "case/recordings/run_1.csv"]).failed(&["`dead_time`"]);
     bench
         .run(&["simulate", "case/robot.toml", "case/recordings/run_1.csv", "case/reference/ref_1.csv"])
         .failed(&["one recording at a time"]);

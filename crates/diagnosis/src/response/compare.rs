@@ -137,7 +137,8 @@ impl Four {
     }
 }
 
-fn errors(windows: &Windows, wheels: &[Vec<[f64; 2]>], poses: &[Poses]) -> Errors {
+/// Errors of every window.
+pub(crate) fn errors(windows: &Windows, wheels: &[Vec<[f64; 2]>], poses: &[Poses]) -> Errors {
     let rms = |sum: f64, n: usize| (sum / n as f64).sqrt();
     let mut out: Errors = std::array::from_fn(|_| Vec::with_capacity(windows.list.len()));
     for (w, p) in windows.list.iter().zip(poses) {

@@ -7,6 +7,7 @@
 //! proportion), both BSD.
 
 use nalgebra::Matrix2;
+use serde::{Deserialize, Serialize};
 
 use crate::response::constants::Constant;
 use crate::response::run::{Piece, STEP, WINDOW};
@@ -16,11 +17,13 @@ const SUBSTEPS: usize = 2;
 const H: f64 = STEP / SUBSTEPS as f64;
 
 /// How both sides are kept below a wheel's limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scaling {
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scaling {
     /// Each side is cut off on its own.
     EachSide,
     /// Both sides by the same factor: the path keeps its curvature.
+    #[default]
     Proportional,
     /// Turning keeps, forward speed gives way.
     TurnFirst,
@@ -123,17 +126,16 @@ pub(crate) fn simulate(law: Law, x: &[f64], largest: f64, piece: &Piece) -> Vec<
     forecast(law, x, largest, piece, WINDOW)
 }
 
-/// Wheel speeds from one measured start.
-#[cfg(test)]
+/// Wheel speeds from one start.
 pub(crate) fn free_run(law: Law, x: &[f64], piece: &Piece) -> Vec<[f64; 2]> {
-    forecast(law, x, 1.0, piece, usize::MAX)
+    forecast(law, x, 1.0, piece, piece.wheel.len())
 }
 
 /// Restarts from the measured wheel speeds every `restart` rows.
 fn forecast(law: Law, x: &[f64], largest: f64, piece: &Piece, restart: usize) -> Vec<[f64; 2]> {
     let delay = x[DEAD_TIME] / H;
     let (whole, share) = (delay.floor() as usize, delay.fract());
-    let rows = piece.windows() * WINDOW;
+    let rows = if restart == WINDOW { piece.windows() * WINDOW } else { piece.wheel.len() };
     // The controller takes no notice of when: its set-points are delayed instead of its commands, which a fit can follow,
     // since ramps make them smooth.
     let sets = set_points(law, x, largest, piece, rows);

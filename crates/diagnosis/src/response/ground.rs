@@ -83,6 +83,11 @@ fn twist(x: &[f64], [radius, track]: [f64; 2], wheels: &[[f64; 2]]) -> Vec<[f64;
         .collect()
 }
 
+/// Poses along a drive at these wheel speeds.
+pub(crate) fn driven(x: &[f64], nominal: [f64; 2], wheels: &[[f64; 2]]) -> Poses {
+    poses(x, &twist(x, nominal, wheels))
+}
+
 /// Poses by the trapezoidal rule.
 fn poses(x: &[f64], twists: &[[f64; 2]]) -> Poses {
     let velocity = |[v, w]: [f64; 2], heading: f64| {

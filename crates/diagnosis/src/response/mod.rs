@@ -10,6 +10,7 @@ mod controller;
 mod drive;
 mod ground;
 mod identify;
+mod model;
 mod name;
 mod run;
 mod search;
@@ -35,7 +36,9 @@ use windows::{FOLDS, Windows, mean};
 use words::Told;
 
 pub use constants::Element;
+pub use controller::Scaling;
 pub use identify::Alternative;
+pub use model::{ResponseModel, response_errors, simulate_response};
 pub use name::{Earned, Parameter};
 pub use run::ResponseRun;
 
@@ -129,6 +132,8 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     out.limits = limits(case, has_position, &response);
     out.sentences = words::sentences(&out, &response, &told, nominal[1], !case.references.is_empty());
     out.traces = traces::traces(&case.recordings, &windows, &four);
+    let corrected = Simulated { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
+    out.correction.response = Some(ResponseModel::of(&corrected));
     out.response = Some(response);
     Ok(out)
 }

@@ -114,6 +114,22 @@ impl ResponseRun {
     }
 }
 
+/// Time of the first command, ns, and the commanded wheel speeds from then on, every [`STEP`].
+pub(crate) fn commands(recording: &Recording) -> Result<(i64, Vec<[f64; 2]>), DiagnosisError> {
+    let both = recording.get(Signal::CommandSpeedLeft).zip(recording.get(Signal::CommandSpeedRight));
+    let missing = || DiagnosisError::MissingSignal {
+        recording: recording.name().to_owned(),
+        what: "command_speed of both sides",
+    };
+    let (l, r) = both.filter(|(l, r)| !l.is_empty() && !r.is_empty()).ok_or_else(missing)?;
+    let first = l.t_ns()[0].max(r.t_ns()[0]);
+    let last = seconds(l).last().zip(seconds(r).last()).map_or(0.0, |(a, b)| a.max(b));
+    let from = first as f64 * NS;
+    let rows = ((last - from + STAMP) / STEP).floor().max(0.0) as usize + 1;
+    let at = |c: &Channel, i: usize| held(c, c.values(), from + i as f64 * STEP);
+    Ok((first, (0..rows).map(|i| [at(l, i), at(r, i)]).collect()))
+}
+
 impl Piece {
     pub(crate) fn windows(&self) -> usize {
         self.wheel.len() / WINDOW

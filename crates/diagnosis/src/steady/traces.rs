@@ -65,6 +65,7 @@ impl Fits<'_> {
         Correction {
             tuning: tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect(),
             effects: effects.collect(),
+            response: None,
         }
     }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
+use diagnosis::response::{ResponseRun, response_errors};
 use diagnosis::{Correction, HeldOut, Options, Prediction};
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
@@ -12,7 +13,7 @@ use lacuna::{Causality, RobotSpec, inputs, predictions, which_mapping};
 use recordings::{Read, Recording, Signal};
 use serde_json::{Value, json};
 
-use super::{Outcome, Reading, sources};
+use super::{Outcome, Reading, Usage, sources};
 use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -22,7 +23,8 @@ Examples:
 
 Several robot files are compared on the same drives. The simulation runs freely and is set to the recorded state at
 rows that hold all of it (pose, body velocity, gyro, wheels), at most every --restart seconds. Errors are told where the
-drive also holds what was to be predicted. Torque-driven robots only.
+drive also holds what was to be predicted. Command-driven robots are forecast from their commands in windows of 2 s.
+Of speed-driven robots no drive is forecast freely: `lacuna simulate` tells the torque that their speeds take.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -60,41 +62,51 @@ fn seconds(text: &str) -> Result<f64, String> {
     if (0.01..=3600.0).contains(&value) { Ok(value) } else { Err("must lie between 0.01 and 3600 s".to_owned()) }
 }
 
-/// Root mean squared errors of a drive's prediction; `None` where the drive does not hold what is predicted.
+/// Root mean squared errors of a drive's prediction by quantity with its unit; `None` where the drive does not hold what
+/// is predicted.
+type Rms = Vec<(String, Option<f64>)>;
+
+/// Errors of all robots on a drive.
 struct Errors {
     drive: String,
-    /// By robot: wheel speed, rad/s; yaw rate, rad/s.
-    of: Vec<[Option<f64>; 2]>,
+    of: Vec<Rms>,
 }
 
 /// Predicts drives.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robots: Vec<RobotSpec> = args.robot.iter().map(|name| case_folder::robot(name)).collect::<Result<_>>()?;
+    let causality = robots[0].causality;
     for robot in &robots {
         ensure!(
-            robot.causality == Causality::TorqueDriven,
-            "robot '{}' is {}; only torque-driven robots are predicted",
+            robot.causality == causality,
+            "robot '{}' is {}, robot '{}' {}; compare robots of one kind",
+            robots[0].name,
+            causality.name(),
             robot.name,
             robot.causality.name()
         );
+    }
+    match causality {
+        Causality::TorqueDriven => {}
+        Causality::CommandDriven if args.out.is_none() => {}
+        Causality::CommandDriven => bail!(Usage(
+            "--out is for torque-driven robots; `lacuna simulate` writes what a command-driven robot does".to_owned()
+        )),
+        Causality::SpeedDriven => bail!(
+            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna simulate` tells the torque that \
+             their speeds take",
+            robots[0].name
+        ),
     }
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.drives)?;
     let loaded = inputs::load(&mapping, &args.drives, &args.reading.options())?;
     let mut errors = Vec::new();
     for read in &loaded.reads {
-        let held = HeldOut::new(&read.recording).with_context(|| file_names(read))?.restarting_every(args.restart);
-        let mut of = Vec::new();
-        for (robot, name) in robots.iter().zip(&args.robot) {
-            let effects = Correction { effects: robot.effects.clone(), ..Correction::default() };
-            let prediction =
-                diagnosis::forecast(&robot.robot, &effects.active(&held.name)?, &held, &Options::default());
-            of.push(compare(&prediction, &read.recording, &held));
-            if let Some(dir) = &args.out {
-                let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };
-                predictions::write_one(&dir, &prediction)?;
-            }
-        }
-        errors.push(Errors { drive: read.recording.name().to_owned(), of });
+        let of = match causality {
+            Causality::CommandDriven => by_commands(&robots, read),
+            _ => by_torque(args, &robots, read),
+        };
+        errors.push(Errors { drive: read.recording.name().to_owned(), of: of.with_context(|| file_names(read))? });
     }
     if let Some(target) = &args.json {
         emit_json(target, &as_json(args, &loaded.reads, &errors))?;
@@ -104,6 +116,31 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     }
     let lost: Vec<String> = loaded.lost().collect();
     Ok(Outcome::of(&lost))
+}
+
+fn by_torque(args: &Args, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
+    let held = HeldOut::new(&read.recording)?.restarting_every(args.restart);
+    let mut out = Vec::new();
+    for (robot, name) in robots.iter().zip(&args.robot) {
+        let effects = Correction { effects: robot.effects.clone(), ..Correction::default() };
+        let prediction = diagnosis::forecast(&robot.robot, &effects.active(&held.name)?, &held, &Options::default());
+        let [wheel, yaw] = compare(&prediction, &read.recording, &held);
+        out.push(vec![("wheel speed, rad/s".to_owned(), wheel), ("yaw rate, rad/s".to_owned(), yaw)]);
+        if let Some(dir) = &args.out {
+            let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };
+            predictions::write_one(&dir, &prediction)?;
+        }
+    }
+    Ok(out)
+}
+
+fn by_commands(robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
+    let run = ResponseRun::new(&read.recording)?;
+    let of = |robot: &RobotSpec| {
+        let errors = response_errors(&robot.robot, &robot.response.clone().unwrap_or_default(), &run)?;
+        Ok(errors.into_iter().map(|(quantity, e)| (quantity, Some(e))).collect())
+    };
+    robots.iter().map(of).collect()
 }
 
 /// The folder of a robot's predictions: the name of its file.
@@ -139,11 +176,18 @@ fn compare(prediction: &Prediction, drive: &Recording, held: &HeldOut) -> [Optio
 }
 
 fn as_text(robots: &[String], errors: &[Errors]) -> String {
-    let mut table = TextTable::new(&["drive", "robot", ">wheel speed, rad/s", ">yaw rate, rad/s"]);
+    let quantities = errors.first().and_then(|e| e.of.first()).map_or(&[][..], Vec::as_slice);
+    let header: Vec<String> = ["drive".to_owned(), "robot".to_owned()]
+        .into_iter()
+        .chain(quantities.iter().map(|(quantity, _)| format!(">{quantity}")))
+        .collect();
+    let mut table = TextTable::new(&header.iter().map(String::as_str).collect::<Vec<_>>());
     let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), lacuna::text_table::number);
     for e in errors {
-        for (robot, [wheel, yaw]) in robots.iter().zip(&e.of) {
-            table.row([e.drive.clone(), robot.clone(), number(*wheel), number(*yaw)]);
+        for (robot, rms) in robots.iter().zip(&e.of) {
+            let of = |quantity: &String| rms.iter().find(|(q, _)| q == quantity).and_then(|(_, e)| *e);
+            let cells = quantities.iter().map(|(quantity, _)| number(of(quantity)));
+            table.row([e.drive.clone(), robot.clone()].into_iter().chain(cells));
         }
     }
     format!("Free runs against what was recorded (rms; - where it was not)\n{}", table.render())
@@ -152,14 +196,14 @@ fn as_text(robots: &[String], errors: &[Errors]) -> String {
 fn as_json(args: &Args, reads: &[Read], errors: &[Errors]) -> Value {
     let of = |e: &Errors| -> Vec<Value> {
         let rows = args.robot.iter().zip(&e.of);
-        rows.map(|(robot, [wheel, yaw])| json!({ "robot": robot, "wheel_speed_rad_s": wheel, "yaw_rate_rad_s": yaw }))
-            .collect()
+        let rms = |rms: &Rms| rms.iter().cloned().map(|(q, e)| (q, json!(e))).collect::<serde_json::Map<_, _>>();
+        rows.map(|(robot, of)| json!({ "robot": robot, "rms": rms(of) })).collect()
     };
-    let drives = errors.iter().zip(reads);
+    let one = |(e, read): (&Errors, &Read)| json!({ "drive": e.drive, "sources": sources(&read.sources), "of": of(e) });
     json!({
         "format": 1,
         "program": Program::default(),
         "restart_s": args.restart,
-        "drives": drives.map(|(e, read)| json!({ "drive": e.drive, "sources": sources(&read.sources), "rms": of(e) })).collect::<Vec<_>>(),
+        "drives": errors.iter().zip(reads).map(one).collect::<Vec<_>>(),
     })
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args as ClapArgs;
+use diagnosis::response::simulate_response;
 use diagnosis::{Correction, Options};
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
@@ -23,6 +24,7 @@ Examples:
 The robot file may hold effects: `lacuna export verdict.json --to toml` writes such a file, corrected.
 Torque-driven robots need the commanded torques of both sides, and start in the state of the first row where all of it
 was recorded, else at rest. Speed-driven robots need the wheel speeds; the torque that they take comes out.
+Command-driven robots need the commanded wheel speeds, and do what the file's [response] says.
 The columns are those of the mapping skid-steer-columns.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
@@ -91,10 +93,9 @@ fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
     match robot.causality {
         Causality::TorqueDriven => Ok(diagnosis::simulate(&robot.robot, &effects, inputs, &Options::default())?),
         Causality::SpeedDriven => Ok(diagnosis::simulate_at_speed(&robot.robot, &effects, inputs)?),
-        Causality::CommandDriven => bail!(
-            "robot '{}' is command-driven: its file has no drive to be simulated, only a diagnosis fits one; `lacuna \
-             diagnose` forecasts held-out drives of it",
-            robot.name
-        ),
+        Causality::CommandDriven => {
+            let response = robot.response.clone().unwrap_or_default();
+            Ok(simulate_response(&robot.robot, &response, inputs)?)
+        }
     }
 }
