@@ -11,6 +11,7 @@ mod child;
 mod document;
 mod evidence;
 mod learn;
+mod mujoco;
 mod output;
 mod reproduce;
 
@@ -32,6 +33,8 @@ enum Command {
     Blind(Box<blind::Args>),
     /// Diagnose real recordings with the effect concealed, then open the witness.
     Evidence(evidence::Args),
+    /// Run exported models in MuJoCo on held-out inputs and compare with the truth.
+    Mujoco(mujoco::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
         Command::Learn(args) => learn::run(args),
         Command::Blind(args) => blind::run(&args),
         Command::Evidence(args) => evidence::run(&args),
+        Command::Mujoco(args) => mujoco::run(&args),
         Command::Bag(args) => bag::run(&args),
     };
     match outcome {

@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 mod commands;
 mod console;
 
-use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, identify, predict, simulate};
+use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, export, identify, predict, simulate};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,6 +20,7 @@ Examples:
   lacuna diagnose case/                        a folder with robot.toml, reference/, recordings/
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
+  lacuna export verdict.json --to mjcf         the corrected robot for MuJoCo
   lacuna identify robot.toml run_1.csv         the online identifier with its certificate
   lacuna effects                               what a simulation may lack
   lacuna explain payload                       one of them in full
@@ -51,6 +52,8 @@ enum Command {
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
     Predict(predict::Args),
+    /// Write a diagnosed robot as a model of a simulator, corrected.
+    Export(export::Args),
     /// List the effects that a simulation may lack.
     Effects(effects::Args),
     /// Explain one effect: law, parameters, what reveals it, what it looks like.
@@ -73,6 +76,7 @@ fn run() -> ExitCode {
         Command::Identify(args) => identify::run(args),
         Command::Simulate(args) => simulate::run(args),
         Command::Predict(args) => predict::run(args),
+        Command::Export(args) => export::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),
     };

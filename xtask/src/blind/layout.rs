@@ -4,26 +4,26 @@ use std::path::{Path, PathBuf};
 
 /// The folder of a set.
 #[derive(Debug, Clone)]
-pub(super) struct Layout {
+pub(crate) struct Layout {
     root: PathBuf,
 }
 
 impl Layout {
-    pub(super) fn new(root: PathBuf) -> Self {
+    pub(crate) fn new(root: PathBuf) -> Self {
         Self { root }
     }
 
-    pub(super) fn root(&self) -> &Path {
+    pub(crate) fn root(&self) -> &Path {
         &self.root
     }
 
     /// All that a diagnoser gets to see.
-    pub(super) fn cases(&self) -> PathBuf {
+    pub(crate) fn cases(&self) -> PathBuf {
         self.root.join("cases")
     }
 
     /// The folder of a case.
-    pub(super) fn case(&self, name: &str) -> PathBuf {
+    pub(crate) fn case(&self, name: &str) -> PathBuf {
         self.cases().join(name)
     }
 

@@ -18,13 +18,13 @@ mod diagnose;
 mod draw;
 mod figures;
 mod given;
-mod layout;
+pub(crate) mod layout;
 mod score;
-mod seal;
+pub(crate) mod seal;
 mod set;
 mod tables;
 mod totals;
-mod truth;
+pub(crate) mod truth;
 mod write;
 
 use layout::Layout;

@@ -64,12 +64,12 @@ impl Seal {
 /// The seals of all cases in a folder, by name.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(super) struct Seals(pub(super) BTreeMap<String, Seal>);
+pub(crate) struct Seals(pub(super) BTreeMap<String, Seal>);
 
 impl Seals {
     /// The seals of what was drawn into this folder before. A folder with cases of others is refused: drawing would
     /// replace them.
-    pub(super) fn open(layout: &Layout) -> Result<Self> {
+    pub(crate) fn open(layout: &Layout) -> Result<Self> {
         let path = layout.seals();
         if !path.exists() {
             let cases = layout.cases();
@@ -83,6 +83,11 @@ impl Seals {
         let text = fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
         serde_json::from_str(&text)
             .with_context(|| format!("'{}' holds no seals; delete it together with the cases", path.display()))
+    }
+
+    /// Names of the cases that are sealed, in order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
     }
 
     pub(super) fn save(&self, layout: &Layout) -> Result<()> {

@@ -12,18 +12,18 @@ use super::layout::Layout;
 use super::seal::Seals;
 
 /// Wheel speeds of both sides and yaw rate, row by row.
-pub(super) type Response = Vec<[f64; 3]>;
+pub(crate) type Response = Vec<[f64; 3]>;
 
 /// All that was hidden.
 #[derive(Debug, Clone)]
-pub(super) struct Opened {
-    pub(super) truth: Truth,
+pub(crate) struct Opened {
+    pub(crate) truth: Truth,
     /// True responses by held-out drive.
-    pub(super) responses: BTreeMap<String, Response>,
+    pub(crate) responses: BTreeMap<String, Response>,
 }
 
 /// Opens the truth of a case; refuses one that was changed since it was sealed.
-pub(super) fn open(layout: &Layout, name: &str, seals: &Seals) -> Result<Opened> {
+pub(crate) fn open(layout: &Layout, name: &str, seals: &Seals) -> Result<Opened> {
     seals.of(name)?.check_truth(layout, name)?;
     let folder = layout.truth(name);
     let path = folder.join("truth.json");
@@ -38,7 +38,7 @@ pub(super) fn open(layout: &Layout, name: &str, seals: &Seals) -> Result<Opened>
 }
 
 /// Reads a true or predicted response.
-pub(super) fn response(path: &Path) -> Result<Response> {
+pub(crate) fn response(path: &Path) -> Result<Response> {
     #[derive(Deserialize)]
     struct Row {
         #[serde(rename = "wheel_speed_left_rad_s")]

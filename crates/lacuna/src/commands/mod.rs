@@ -9,6 +9,7 @@ pub(crate) mod convert;
 pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;
+pub(crate) mod export;
 pub(crate) mod identify;
 pub(crate) mod predict;
 pub(crate) mod simulate;

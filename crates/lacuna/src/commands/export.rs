@@ -1,0 +1,149 @@
+//! `lacuna export`: a diagnosed robot as a model of a simulator.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+use clap::{Args as ClapArgs, ValueEnum};
+use diagnosis::Cause;
+use lacuna::envelope::Envelope;
+use lacuna::{Causality, RobotSpec, case_folder};
+use model_export::{Engine, Model};
+
+use super::{Outcome, Usage};
+use crate::console::{emit, warning};
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna diagnose case/ --json verdict.json
+  lacuna export verdict.json --to mjcf -o robot.xml      for MuJoCo; what it cannot hold in robot_residual.py
+  lacuna export verdict.json --to toml -o robot.toml     for lacuna simulate and predict
+  lacuna export verdict.json --to sdf --retuned          constants re-tuned, no effects
+  lacuna export robot.toml --to urdf                     a robot file, with the effects that it holds
+
+Laws that an engine has become values of its model, with comments that say where they come from. What an engine
+cannot hold is listed in the model as lines to be added, with the reason.";
+
+/// Arguments of `lacuna export`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// What `lacuna diagnose --json` wrote, or a robot file (.toml).
+    from: PathBuf,
+    /// Format of the model.
+    #[arg(long, value_enum)]
+    to: Format,
+    /// File to write; `-` is standard output.
+    #[arg(short, long, value_name = "FILE|-", default_value = "-")]
+    out: String,
+    /// The robot as its file had it: nothing re-tuned, no effects.
+    #[arg(long, conflicts_with = "retuned")]
+    nominal: bool,
+    /// The robot with its constants as re-tuned together with the effects, but without these.
+    #[arg(long)]
+    retuned: bool,
+    /// Write over a file that is there.
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Robot file of lacuna: every constant and every effect.
+    Toml,
+    /// The same as JSON.
+    Json,
+    /// MuJoCo.
+    Mjcf,
+    /// ROS, with tags for Gazebo.
+    Urdf,
+    /// Gazebo, with the ground.
+    Sdf,
+}
+
+/// A robot and where it comes from.
+struct Source {
+    robot: RobotSpec,
+    before: Option<RobotSpec>,
+    causes: Vec<Cause>,
+}
+
+/// Exports a robot.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let Source { robot, before, causes } = source(args)?;
+    let engine = match args.to {
+        Format::Toml => return save(args, &robot.to_toml()?, None),
+        Format::Json => return save(args, &(serde_json::to_string_pretty(&robot.to_json()?)? + "\n"), None),
+        Format::Mjcf => Engine::Mjcf,
+        Format::Urdf => Engine::Urdf,
+        Format::Sdf => Engine::Sdf,
+    };
+    ensure!(
+        !matches!(robot.causality, Causality::CommandDriven),
+        "robot '{}' is command-driven: nothing is known of its masses and forces that a model could hold; export it with \
+         --to toml or json",
+        robot.name
+    );
+    let name = stem(&robot.name);
+    let model = Model {
+        name: &name,
+        robot: &robot.robot,
+        effects: &robot.effects,
+        before: before.as_ref().map(|b| &b.robot),
+        causes: &causes,
+    };
+    let exported = model.export(engine)?;
+    for note in &exported.notes {
+        warning(&format!("{} does not hold {note}", engine.name()));
+    }
+    save(args, &exported.text, exported.residual.as_deref())
+}
+
+fn source(args: &Args) -> Result<Source> {
+    let toml = args.from.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    if toml {
+        let whole = case_folder::robot(&args.from.display().to_string())?;
+        let robot = if args.nominal || args.retuned { RobotSpec { effects: Vec::new(), ..whole } } else { whole };
+        return Ok(Source { robot, before: None, causes: Vec::new() });
+    }
+    let envelope = Envelope::open(&args.from)?;
+    let nominal = envelope.robot()?;
+    if args.nominal {
+        return Ok(Source { robot: nominal, before: None, causes: Vec::new() });
+    }
+    let mut correction = envelope.diagnosis.correction.clone();
+    if args.retuned {
+        correction.effects.clear();
+    }
+    let robot = nominal.corrected(&correction)?;
+    Ok(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked })
+}
+
+/// A name without folders and ending, such as robots have that are named after their file.
+fn stem(name: &str) -> String {
+    let last = Path::new(name).file_stem().map(|s| s.to_string_lossy().into_owned());
+    last.filter(|s| !s.is_empty()).unwrap_or_else(|| "robot".to_owned())
+}
+
+/// Writes the model, and beside it what its engine cannot hold.
+fn save(args: &Args, text: &str, residual: Option<&str>) -> Result<Outcome> {
+    if args.out == "-" {
+        if residual.is_some() {
+            warning("the residual forces are a file of their own: write to a file with -o to get it");
+        }
+        emit(text)?;
+        return Ok(Outcome::Done);
+    }
+    let out = Path::new(&args.out);
+    let mut files = vec![(out.to_owned(), text)];
+    // A name that Python can import.
+    let beside = format!("{}_residual.py", out.file_stem().unwrap_or_default().to_string_lossy());
+    files.extend(residual.map(|r| (out.with_file_name(beside), r)));
+    for (path, _) in &files {
+        let free = args.force || !path.exists();
+        ensure!(free, Usage(format!("'{}' is there already; --force writes over it", path.display())));
+    }
+    for (path, text) in &files {
+        std::fs::write(path, text).with_context(|| format!("cannot write '{}'", path.display()))?;
+    }
+    Ok(Outcome::Done)
+}

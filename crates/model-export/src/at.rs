@@ -1,0 +1,74 @@
+//! An effect at values, as the translations read it.
+
+use diagnosis::{DiagnosisError, EffectAt, Side};
+use robot_model::Effect;
+use robot_model::effect::{Card, MAX_PARAMETERS, Values};
+
+use crate::number::number;
+
+/// An effect at values in the order of its card.
+pub(crate) struct At<'a> {
+    of: &'a EffectAt,
+    effect: &'static dyn Effect<f64>,
+    values: Values<f64>,
+}
+
+impl<'a> At<'a> {
+    /// Looks the effect up.
+    pub(crate) fn new(of: &'a EffectAt) -> Result<Self, DiagnosisError> {
+        // Refuses what the catalogue does not have.
+        of.active("")?;
+        let effect = of.in_catalogue()?;
+        let mut values = [0.0; MAX_PARAMETERS];
+        for (value, p) in values.iter_mut().zip(effect.card().parameters) {
+            *value = of.values.get(p.name).copied().unwrap_or(p.neutral);
+        }
+        Ok(Self { of, effect, values })
+    }
+
+    pub(crate) fn card(&self) -> &'static Card {
+        self.effect.card()
+    }
+
+    pub(crate) fn law(&self) -> &'static dyn Effect<f64> {
+        self.effect
+    }
+
+    pub(crate) fn values(&self) -> &Values<f64> {
+        &self.values
+    }
+
+    /// A value as text.
+    pub(crate) fn text(&self, index: usize) -> String {
+        number(self.values[index])
+    }
+
+    /// Which sides have it.
+    pub(crate) fn sides(&self) -> [bool; 2] {
+        [self.of.side != Some(Side::Right), self.of.side != Some(Side::Left)]
+    }
+
+    /// Indices of these sides, as a Python tuple.
+    pub(crate) fn sides_text(&self) -> &'static str {
+        match self.of.side {
+            None => "(0, 1)",
+            Some(Side::Left) => "(0,)",
+            Some(Side::Right) => "(1,)",
+        }
+    }
+
+    pub(crate) fn side_name(&self) -> Option<&'static str> {
+        self.of.side.map(|s| if s == Side::Left { "left" } else { "right" })
+    }
+
+    /// The disc that it is limited to: x, y, radius, m.
+    pub(crate) fn place(&self) -> Option<[f64; 3]> {
+        self.of.place
+    }
+
+    /// Where it began at an instant: when in each recording.
+    pub(crate) fn began(&self) -> String {
+        let began = self.of.from.iter().map(|(drive, t)| format!("at {} s in {drive}", number(*t)));
+        began.chain(self.of.absent.iter().map(|drive| format!("not in {drive}"))).collect::<Vec<_>>().join(", ")
+    }
+}

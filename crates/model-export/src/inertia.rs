@@ -1,0 +1,91 @@
+//! Masses and inertias of the parts, which sum up to those of the robot.
+
+use crate::vehicle::Vehicle;
+
+/// Roll and pitch inertia over yaw inertia of chassis and load. A planar robot does not know them; they decide how fast
+/// loads move between wheels, not how much. Above one half, as every body must be.
+const FLAT: f64 = 0.6;
+/// A wheel's inertia across its axle over that about it: one half of a thin disc, more with its width.
+const ACROSS: f64 = 0.55;
+/// Largest share of the robot's mass in a wheel.
+const HEAVIEST: f64 = 0.05;
+/// Least share of the yaw inertia that must be left to the chassis.
+const LEFT: f64 = 0.3;
+
+/// A rigid part: mass, centre in the robot's frame, inertia about it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Part {
+    pub(crate) mass: f64,
+    pub(crate) centre: [f64; 3],
+    pub(crate) inertia: [f64; 3],
+}
+
+/// The parts of a robot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Parts {
+    pub(crate) chassis: Part,
+    /// Front left, front right, rear left, rear right.
+    pub(crate) wheels: [Part; 4],
+    pub(crate) payload: Option<Part>,
+}
+
+impl Parts {
+    /// Wheels are solid discs by their inertia about the axle, unless that makes them too heavy for the robot.
+    ///
+    /// Where joints have no rotor, the rear wheels turn with the motors' inertia: `rotor_in_wheel`.
+    pub(crate) fn new(v: &Vehicle, rotor_in_wheel: bool) -> Self {
+        let r = &v.robot;
+        let rotor = if rotor_in_wheel { r.motor_inertia } else { 0.0 };
+        let disc = 2.0 * r.wheel_inertia / (r.wheel_radius * r.wheel_radius);
+        let mut wheel = disc.min(HEAVIEST * r.mass);
+        loop {
+            let parts = Self::with_wheels_of(v, wheel, rotor);
+            let fits = parts.chassis.inertia[2] > LEFT * r.yaw_inertia && parts.chassis.centre[2] > 0.0;
+            if fits || wheel < 1e-6 * r.mass {
+                return parts;
+            }
+            wheel *= 0.5;
+        }
+    }
+
+    fn with_wheels_of(v: &Vehicle, mass: f64, rotor: f64) -> Self {
+        let r = &v.robot;
+        let wheels = std::array::from_fn(|i| {
+            let spin = r.wheel_inertia + if i < 2 { 0.0 } else { rotor };
+            let across = ACROSS * spin;
+            let (front, left) = ([1.0, -1.0][i / 2], [1.0, -1.0][i % 2]);
+            let centre = [front * r.half_wheelbase, left * r.half_track, r.wheel_radius];
+            Part { mass, centre, inertia: [across, spin, across] }
+        });
+        let payload = v.payload.map(|p| Part {
+            mass: p.mass,
+            centre: [r.com[0], r.com[1], p.height],
+            inertia: [FLAT, FLAT, 1.0].map(|k| k * p.yaw_inertia),
+        });
+        let others = || wheels.iter().chain(&payload);
+        let left = r.mass - others().map(|p| p.mass).sum::<f64>();
+        let centre: [f64; 3] =
+            std::array::from_fn(|k| (r.mass * r.com[k] - others().map(|p| p.mass * p.centre[k]).sum::<f64>()) / left);
+        let apart = |p: &[f64; 3]| (p[0] - r.com[0]).powi(2) + (p[1] - r.com[1]).powi(2);
+        let taken: f64 = others().map(|p| p.inertia[2] + p.mass * apart(&p.centre)).sum();
+        let yaw = r.yaw_inertia - taken - left * apart(&centre);
+        let chassis = Part { mass: left, centre, inertia: [FLAT, FLAT, 1.0].map(|k| k * yaw) };
+        Self { chassis, wheels, payload }
+    }
+
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Part> {
+        std::iter::once(&self.chassis).chain(&self.wheels).chain(&self.payload)
+    }
+
+    /// Mass, centre of mass, and inertia about it.
+    pub(crate) fn total(&self) -> Part {
+        let mass: f64 = self.all().map(|p| p.mass).sum();
+        let centre: [f64; 3] = std::array::from_fn(|k| self.all().map(|p| p.mass * p.centre[k]).sum::<f64>() / mass);
+        let inertia = std::array::from_fn(|k| {
+            let (m, n) = ((k + 1) % 3, (k + 2) % 3);
+            let arm2 = |p: &Part| (p.centre[m] - centre[m]).powi(2) + (p.centre[n] - centre[n]).powi(2);
+            self.all().map(|p| p.inertia[k] + p.mass * arm2(p)).sum()
+        });
+        Part { mass, centre, inertia }
+    }
+}

@@ -1,0 +1,66 @@
+//! Contacts of MuJoCo that slip like tyres do on average.
+//!
+//! Up to the cone, MuJoCo's friction is viscous: `f = b v / R` with the damping b of `solreffriction` and the regularisation
+//! `R = A (1 − d)/d`, A the inverse inertia of the contact and d the impedance of `solimp`. A tyre creeps in proportion to
+//! the speed of its rim, `F = 2 μ N s/(λp u)`; MuJoCo's contact knows no rim. So the creep is that at one rim speed.
+
+use crate::contact::{WHEELS, grips};
+use crate::inertia::Parts;
+use crate::number::number;
+use crate::vehicle::Vehicle;
+use crate::xml::{Element, element};
+
+/// Half the width of a wheel's capsule, m.
+pub(super) const HALF_WIDTH: f64 = 0.002;
+/// Reference speed `sqrt((ω r)² + v0²)` whose creep the contacts have, m/s: free runs of four drawn robots came closest to
+/// the planar plant at 0.7 to 0.8.
+const CREEP_AT: f64 = 0.75;
+/// Damping b of the friction, 1/s. It must be fast against turning, or friction points the wrong way: MuJoCo balances
+/// accelerations in axes that turn with the wheel. More of it changes nothing.
+const DAMPING: f64 = 400.0;
+/// Time constant of the normal force, s.
+const NORMAL: f64 = 0.02;
+/// Contacts of a capsule with the ground.
+const CONTACTS: f64 = 2.0;
+
+/// Contacts of the wheels with the floor.
+pub(super) fn pairs(v: &Vehicle, parts: &Parts) -> Element {
+    let inverse = inverse_mass(parts);
+    let pair = |i: usize| {
+        let grip = &grips(v)[i];
+        let slope = 2.0 * grip.adhesion * grip.load / (grip.slip_at_peak * CREEP_AT) / CONTACTS;
+        let impedance = 1.0 / (1.0 + DAMPING / (slope.max(1.0) * inverse[i]));
+        let [along, across] = grip.friction;
+        element("pair")
+            .with("name", WHEELS[i])
+            .with("geom1", "floor")
+            .with("geom2", WHEELS[i])
+            .with("condim", "3")
+            // Along the axle and across it; the others are not used.
+            .nums("friction", &[along.max(MIN_FRICTION), across.max(MIN_FRICTION), 0.0, 0.0, 0.0])
+            .nums("solref", &[NORMAL, 1.0])
+            .nums("solimp", &[impedance, impedance, 0.001])
+            // Negative: stiffness, which friction does not use, and damping, which MuJoCo divides by the impedance.
+            .with("solreffriction", format!("-1 {}", number(-DAMPING * impedance)))
+    };
+    let comment = format!(
+        "Sliding friction along and across the axle; solimp and solreffriction make it creep like the tyre does at {CREEP_AT} m/s.",
+    );
+    element("contact").comments([comment]).children((0..4).map(pair))
+}
+
+/// Least friction that MuJoCo's cones take.
+const MIN_FRICTION: f64 = 1e-5;
+
+/// Inverse inertia of each wheel's contact as MuJoCo reckons it: the mean over three directions of `1/m + (r × e)ᵀ I⁻¹ (r × e)`
+/// at the wheel's centre. A wheel that turns freely takes no part in pitching.
+fn inverse_mass(parts: &Parts) -> [f64; 4] {
+    let total = parts.total();
+    let spin: f64 = parts.wheels.iter().map(|w| w.inertia[1]).sum();
+    let [ix, iy, iz] = [total.inertia[0], total.inertia[1] - spin, total.inertia[2]];
+    std::array::from_fn(|i| {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|k| parts.wheels[i].centre[k] - total.centre[k]);
+        let (x2, y2, z2) = (x * x, y * y, z * z);
+        1.0 / total.mass + ((y2 + z2) / ix + (x2 + z2) / iy + (x2 + y2) / iz) / 3.0
+    })
+}

@@ -1,0 +1,70 @@
+//! What is exported, and what comes out.
+
+use diagnosis::{Cause, DiagnosisError, EffectAt};
+use robot_model::Robot;
+
+use crate::engine::Engine;
+use crate::residual::Residual;
+use crate::vehicle::Vehicle;
+use crate::{mjcf, sdf, urdf};
+
+/// A robot with the effects that are to be part of its simulation.
+#[derive(Debug, Clone, Copy)]
+pub struct Model<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Its constants, re-tuned if they are to be.
+    pub robot: &'a Robot<f64>,
+    /// Effects of the catalogue, at values.
+    pub effects: &'a [EffectAt],
+    /// The robot before it was re-tuned: comments say what changed.
+    pub before: Option<&'a Robot<f64>>,
+    /// Causes that the effects come from: comments give their intervals.
+    pub causes: &'a [Cause],
+}
+
+/// A model as text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exported {
+    /// The model's file.
+    pub text: String,
+    /// Python that adds what the engine cannot hold, where there is such a thing: MuJoCo only.
+    pub residual: Option<String>,
+    /// What the engine does not hold, one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Why a model could not be exported.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// An effect that is not in the catalogue, or a value that it does not have.
+    #[error(transparent)]
+    Effect(#[from] DiagnosisError),
+    /// A robot that cannot be, with its effects.
+    #[error("the robot with its effects cannot exist: {0}; correct the values of the effects")]
+    Robot(#[from] robot_model::ModelError),
+    /// An effect of the catalogue that has no translation.
+    #[error("effect '{0}' has no translation yet; leave it out")]
+    NoTranslation(&'static str),
+    /// XML that could not be written.
+    #[error("the model could not be written as XML: {0}")]
+    Xml(#[from] std::io::Error),
+}
+
+impl Model<'_> {
+    /// The model for an engine.
+    ///
+    /// # Errors
+    /// An effect or value that the catalogue does not have, or a robot that cannot be.
+    pub fn export(&self, engine: Engine) -> Result<Exported, ExportError> {
+        let vehicle = Vehicle::new(self, engine)?;
+        let text = match engine {
+            Engine::Mjcf => mjcf::document(self, &vehicle)?,
+            Engine::Urdf => urdf::document(self, &vehicle)?,
+            Engine::Sdf => sdf::document(self, &vehicle)?,
+        };
+        let residual = (engine == Engine::Mjcf).then(|| crate::residual::python(self.name, &vehicle)).flatten();
+        Ok(Exported { text, residual, notes: vehicle.residuals.iter().map(Residual::note).collect() })
+    }
+}

@@ -1,0 +1,180 @@
+//! The translation as a whole.
+
+use std::collections::BTreeMap;
+
+use diagnosis::{EffectAt, Side};
+use robot_model::effects::catalogue;
+use robot_model::{Card, Robot, paper};
+
+use crate::at::At;
+use crate::inertia::Parts;
+use crate::vehicle::Vehicle;
+use crate::{Engine, Exported, Model, Way, way};
+
+fn robot() -> Robot<f64> {
+    let mut r = Robot::from(&paper::Parameters::SET_B);
+    (r.adhesion, r.slip_at_peak, r.sliding_share) = (0.64, 0.12, 1.0);
+    (r.viscous, r.motor_inertia, r.com[0], r.com[1]) = ([0.1, 0.12], 0.02, 0.01, -0.02);
+    (r.drive.lag, r.drive.limit) = (0.01, 15.0);
+    r
+}
+
+/// An effect at a small size that no robot refuses.
+fn at(card: &Card, side: Option<Side>) -> EffectAt {
+    let value = |p: &robot_model::Parameter| if p.name == "T_b" || p.name == "T_max" { 1.5 } else { p.probes[0] };
+    let values: BTreeMap<String, f64> = card.parameters.iter().map(|p| (p.name.to_owned(), value(p))).collect();
+    EffectAt { effect: card.id.to_owned(), values, side: side.filter(|_| card.wears.side), ..EffectAt::default() }
+}
+
+fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported {
+    let model = Model { name: "tested", robot, effects, before: None, causes: &[] };
+    model.export(engine).expect("a model")
+}
+
+#[test]
+fn every_effect_of_the_catalogue_is_translated_for_every_engine() {
+    let robot = robot();
+    for effect in catalogue::<f64>() {
+        let card = effect.card();
+        for engine in Engine::ALL {
+            let plain = export(&robot, &[], engine);
+            let with = export(&robot, &[at(card, Some(Side::Left))], engine);
+            let way = way(engine, card.id).unwrap_or_else(|| panic!("{} has no translation", card.id));
+            assert!(with.text.contains(card.id), "{}: {} does not name it", card.id, engine.name());
+            // Without comments: a held effect changes the model itself, another one leaves it as it is.
+            let changed = bare(&with.text) != bare(&plain.text);
+            assert_eq!(changed, matches!(way, Way::Held(_)), "{} in {}", card.id, engine.name());
+            assert_eq!(with.notes.len() > plain.notes.len(), !changed && !is_drive(card, engine), "{}", card.id);
+            assert!(is_well_formed(&with.text), "{}", card.id);
+        }
+    }
+}
+
+/// Constants of the drive have one residual for all of them where the engine has no drive.
+fn is_drive(card: &Card, engine: Engine) -> bool {
+    engine != Engine::Mjcf && ["motor_lag", "transport_delay", "torque_constant"].contains(&card.id)
+}
+
+fn bare(xml: &str) -> String {
+    let mut out = String::new();
+    let mut rest = xml;
+    while let Some((before, after)) = rest.split_once("<!--") {
+        out.push_str(before.trim_end());
+        rest = after.split_once("-->").map_or("", |c| c.1);
+    }
+    out + rest.trim_end()
+}
+
+fn is_well_formed(xml: &str) -> bool {
+    roxmltree::Document::parse(xml).is_ok()
+}
+
+fn text(node: roxmltree::Node<'_, '_>, child: &str) -> f64 {
+    let child = node.children().find(|c| c.has_tag_name(child)).unwrap_or_else(|| panic!("no {child}"));
+    child.text().and_then(|t| t.trim().parse().ok()).unwrap_or(f64::NAN)
+}
+
+#[test]
+fn masses_and_inertias_sum_up_to_those_of_the_robot() {
+    let robot = robot();
+    let payload = catalogue::<f64>().into_iter().find(|e| e.card().id == "payload").expect("payload");
+    let load = at(payload.card(), None);
+    let model = Model { name: "tested", robot: &robot, effects: &[load], before: None, causes: &[] };
+    let mut expected = robot;
+    payload.robot(At::new(&model.effects[0]).expect("values").values(), &mut expected);
+    for engine in Engine::ALL {
+        let v = Vehicle::new(&model, engine).expect("a vehicle");
+        let total = Parts::new(&v, engine != Engine::Mjcf).total();
+        approx(total.mass, expected.mass);
+        approx(total.inertia[2], expected.yaw_inertia);
+        for k in 0..3 {
+            approx(total.centre[k], expected.com[k]);
+        }
+        let text = model.export(engine).expect("a model").text;
+        assert!((mass_of(&text, engine) / expected.mass - 1.0).abs() < 1e-4, "{}", engine.name());
+    }
+}
+
+/// The masses that a file holds.
+fn mass_of(xml: &str, engine: Engine) -> f64 {
+    let document = roxmltree::Document::parse(xml).expect("XML");
+    let attribute =
+        |n: roxmltree::Node<'_, '_>, name: &str| n.attribute(name).and_then(|a| a.parse().ok()).unwrap_or(f64::NAN);
+    let inertials = document.descendants().filter(|n| n.has_tag_name("inertial"));
+    inertials
+        .map(|n| match engine {
+            Engine::Mjcf => attribute(n, "mass"),
+            Engine::Urdf => n.children().find(|c| c.has_tag_name("mass")).map_or(f64::NAN, |m| attribute(m, "value")),
+            Engine::Sdf => text(n, "mass"),
+        })
+        .sum()
+}
+
+fn approx(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} is not {b}");
+}
+
+#[test]
+fn urdf_is_read_by_a_parser_of_urdf() {
+    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.card(), Some(Side::Right))).collect();
+    let text = export(&robot(), &all, Engine::Urdf).text;
+    let read = urdf_rs::read_from_string(&text).expect("URDF");
+    let links: Vec<&str> = read.links.iter().map(|l| l.name.as_str()).collect();
+    assert_eq!(links, ["chassis", "payload", "imu", "front_left", "front_right", "rear_left", "rear_right"]);
+    for joint in &read.joints {
+        assert!(links.contains(&joint.child.link.as_str()) && joint.parent.link == "chassis", "{}", joint.name);
+    }
+    let rear = read.joints.iter().find(|j| j.name == "rear_right").expect("a joint");
+    let dynamics = rear.dynamics.as_ref().expect("dynamics");
+    // Half of the side's: its own, and what viscous_friction adds.
+    approx((dynamics.damping * 1e6).round() / 1e6, 0.08);
+    approx(rear.limit.effort, 1.5);
+}
+
+#[test]
+fn sdf_joints_join_links_that_are_there_and_every_link_of_the_robot_weighs() {
+    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.card(), Some(Side::Left))).collect();
+    let text_of = export(&robot(), &all, Engine::Sdf).text;
+    let document = roxmltree::Document::parse(&text_of).expect("XML");
+    let robot = document.descendants().find(|n| n.attribute("name") == Some("tested")).expect("the robot");
+    let links: Vec<_> = robot.children().filter(|n| n.has_tag_name("link")).collect();
+    let names: Vec<&str> = links.iter().filter_map(|l| l.attribute("name")).collect();
+    for link in &links {
+        let inertial = link.children().find(|c| c.has_tag_name("inertial")).expect("inertial");
+        let inertia = inertial.children().find(|c| c.has_tag_name("inertia")).expect("inertia");
+        let [x, y, z] = ["ixx", "iyy", "izz"].map(|k| text(inertia, k));
+        assert!(text(inertial, "mass") > 0.0 && x + y >= z && y + z >= x && z + x >= y, "{x} {y} {z}");
+    }
+    for joint in robot.children().filter(|n| n.has_tag_name("joint")) {
+        for end in ["parent", "child"] {
+            let link = joint.children().find(|c| c.has_tag_name(end)).and_then(|c| c.text()).expect("a link");
+            assert!(names.contains(&link), "no link {link}");
+        }
+    }
+    let gravity = document.descendants().find(|n| n.has_tag_name("gravity")).and_then(|n| n.text()).expect("gravity");
+    assert!(gravity.starts_with("0.19") && gravity.contains("-9.8"), "{gravity}");
+}
+
+#[test]
+fn a_place_is_a_disc_on_the_ground_or_a_residual() {
+    let patch = EffectAt {
+        effect: "adhesion_patch".to_owned(),
+        values: [("lost share".to_owned(), 0.5)].into(),
+        place: Some([1.0, -2.0, 0.4]),
+        ..EffectAt::default()
+    };
+    let sdf = export(&robot(), std::slice::from_ref(&patch), Engine::Sdf);
+    assert!(sdf.text.contains("disc_0") && sdf.text.contains("1 -2 0 0 0 0"), "{}", sdf.text);
+    let mjcf = export(&robot(), &[patch], Engine::Mjcf);
+    let python = mjcf.residual.expect("a residual");
+    assert!(python.contains("grip[i] *= 1.0 - 0.5 * share(i, 1, -2, 0.4)"), "{python}");
+}
+
+#[test]
+fn an_effect_that_is_not_in_the_catalogue_is_refused() {
+    let robot = robot();
+    let stranger = [EffectAt { effect: "wind".to_owned(), ..EffectAt::default() }];
+    let model = Model { name: "tested", robot: &robot, effects: &stranger, before: None, causes: &[] };
+    let error = model.export(Engine::Mjcf).expect_err("refused").to_string();
+    assert!(error.contains("wind"), "{error}");
+}

@@ -1,0 +1,116 @@
+//! URDF, with what it cannot say in gazebo tags.
+
+use std::io;
+
+use crate::contact::{SIDES, WHEELS, grips};
+use crate::engine::Engine;
+use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
+use crate::inertia::{Part, Parts};
+use crate::model::Model;
+use crate::origin::Section;
+use crate::residual;
+use crate::vehicle::Vehicle;
+use crate::xml::{Element, element};
+
+/// URDF asks for a limit of the speed, rad/s: none that matters.
+const ANY_SPEED: f64 = 1000.0;
+
+/// The model as a document.
+pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
+    let parts = Parts::new(v, true);
+    let mut root =
+        element("robot").with("name", model.name).comments(v.comments(Section::Body)).child(chassis(v, &parts));
+    if let Some(load) = &parts.payload {
+        root = root
+            .child(element("link").with("name", "payload").child(inertial(load, [0.0; 3])))
+            .child(joint("payload", "fixed").child(origin([0.0; 3], [0.0; 3])));
+    }
+    root = root
+        .comments(v.comments(Section::Sensors))
+        .child(element("link").with("name", "imu"))
+        .child(joint("imu", "fixed").child(origin([0.0; 3], imu_angles(v))))
+        .comments(v.comments(Section::Wheels))
+        .comments(v.comments(Section::Drive));
+    for i in 0..4 {
+        root = root.child(wheel(v, &parts, i)).child(axle(v, &parts, i));
+    }
+    root = root.comments(v.comments(Section::Ground)).comments(["mu1 is along the axle, mu2 across it.".to_owned()]);
+    let all = grips(v);
+    for i in 0..4 {
+        let [along, across] = all[i].friction;
+        root = root.child(
+            element("gazebo")
+                .with("reference", WHEELS[i])
+                .value("mu1", &[along])
+                .value("mu2", &[across])
+                .leaf("fdir1", "0 1 0"),
+        );
+    }
+    root = root.child(element("gazebo").child(slip_plugin(v, &all)));
+    residual::comments(root, v, Engine::Urdf).document(vec![format!(
+        "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
+         the middle of the wheels. The rear wheel joints take the torque of a side.",
+        model.name
+    )])
+}
+
+fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Element {
+    element("origin").nums("xyz", &xyz).nums("rpy", &rpy)
+}
+
+fn inertial(part: &Part, link: [f64; 3]) -> Element {
+    let [x, y, z] = part.inertia;
+    let centre: [f64; 3] = std::array::from_fn(|k| part.centre[k] - link[k]);
+    element("inertial").child(origin(centre, [0.0; 3])).child(element("mass").num("value", part.mass)).child(
+        element("inertia").num("ixx", x).num("ixy", 0.0).num("ixz", 0.0).num("iyy", y).num("iyz", 0.0).num("izz", z),
+    )
+}
+
+/// A joint from the chassis to the link of the same name.
+fn joint(name: &'static str, kind: &'static str) -> Element {
+    element("joint")
+        .with("name", name)
+        .with("type", kind)
+        .child(element("parent").with("link", "chassis"))
+        .child(element("child").with("link", name))
+}
+
+fn chassis(v: &Vehicle, parts: &Parts) -> Element {
+    let r = &v.robot;
+    let size = [2.0 * r.half_wheelbase, 1.6 * r.half_track, 0.6 * r.wheel_radius];
+    let visual = element("visual")
+        .child(origin([0.0, 0.0, r.wheel_radius], [0.0; 3]))
+        .child(element("geometry").child(element("box").nums("size", &size)));
+    element("link").with("name", "chassis").child(inertial(&parts.chassis, [0.0; 3])).child(visual)
+}
+
+fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
+    let shape = |name: &'static str| {
+        element(name)
+            .child(origin(shape_place(v, i), [LYING, 0.0, 0.0]))
+            .child(element("geometry").child(element("cylinder").num("radius", v.world.radius[i]).num("length", WIDTH)))
+    };
+    let part = &parts.wheels[i];
+    element("link")
+        .with("name", WHEELS[i])
+        .child(inertial(part, part.centre))
+        .child(shape("visual"))
+        .child(shape("collision"))
+}
+
+fn axle(v: &Vehicle, parts: &Parts, i: usize) -> Element {
+    let grip = &grips(v)[i];
+    let axle = joint(WHEELS[i], "continuous")
+        .child(origin(parts.wheels[i].centre, [0.0; 3]))
+        .child(element("axis").with("xyz", "0 1 0"))
+        .child(element("dynamics").num("damping", grip.viscous).num("friction", grip.dry));
+    let limit = v.robot.drive.limit;
+    if i < 2 {
+        let rear = format!("rear_{}", SIDES[i]);
+        axle.child(element("mimic").with("joint", rear).num("multiplier", 1.0).num("offset", 0.0))
+    } else if limit < NO_LIMIT {
+        axle.child(element("limit").num("effort", limit).num("velocity", ANY_SPEED))
+    } else {
+        axle
+    }
+}
