@@ -4,7 +4,6 @@ mod common;
 
 use common::{Bench, ROBOT, drive};
 use examiner::{Case, Content, EffectId, Setting, Settings, Severity, TyreLaw};
-use lacuna::envelope::Envelope;
 use serde_json::Value;
 
 #[test]
@@ -27,9 +26,8 @@ fn a_corrected_robot_file_predicts_what_the_diagnosis_predicted() {
     }
     let run = bench.run(&["diagnose", "case", "--json", "verdict.json", "--predictions", "by_diagnose"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
-    let envelope = Envelope::open(&bench.path("verdict.json")).unwrap();
-    let corrected = envelope.robot().unwrap().corrected(&envelope.diagnosis.correction).unwrap();
-    bench.write("corrected.toml", &corrected.to_toml().unwrap());
+    let run = bench.run(&["export", "verdict.json", "--to", "toml", "-o", "corrected.toml"]);
+    assert_eq!((run.code(), run.out()), (Some(0), String::new()), "{}", run.err());
 
     let run = bench.run(&["predict", "corrected.toml", "--drives", "case/heldout", "--out", "by_predict"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
@@ -37,6 +35,29 @@ fn a_corrected_robot_file_predicts_what_the_diagnosis_predicted() {
 
     // Its recordings never hold the whole state of the robot.
     bench.run(&["predict", "case/robot.json", "--drives", "case/recordings"]).failed(&["run_1", "state"]);
+}
+
+#[test]
+fn exports_hold_the_effect_and_nothing_is_written_over() {
+    let bench = Bench::new();
+    let loaded = format!("{ROBOT}\n[[effects]]\neffect = \"payload\"\nvalues = {{ mass = 10.0 }}\n");
+    bench.write("loaded.toml", &loaded);
+    for (format, root) in [("mjcf", "<mujoco"), ("urdf", "<robot"), ("sdf", "<sdf")] {
+        let run = bench.run(&["export", "loaded.toml", "--to", format]);
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+        assert!(run.out().contains(root) && run.out().contains("payload"), "{}", run.out());
+        let nominal = bench.run(&["export", "loaded.toml", "--to", format, "--nominal"]).out();
+        assert!(!nominal.contains("payload"), "{nominal}");
+    }
+    let sticky = format!("{ROBOT}\n[[effects]]\neffect = \"stiction\"\nvalues = {{ Ts = 1.5 }}\n");
+    bench.write("sticky.toml", &sticky);
+    let run = bench.run(&["export", "sticky.toml", "--to", "mjcf", "-o", "robot.xml"]);
+    assert!(run.code() == Some(0) && run.err().starts_with("warning: "), "{}", run.err());
+    assert!(bench.read("robot_residual.py").contains("class Residual"));
+    let run = bench.run(&["export", "sticky.toml", "--to", "mjcf", "-o", "robot.xml"]);
+    assert!(run.code() == Some(2) && run.err().contains("--force"), "{}", run.err());
+    bench.write("command.toml", &ROBOT.replace("torque-driven", "command-driven"));
+    bench.run(&["export", "command.toml", "--to", "sdf"]).failed(&["command-driven", "--to toml or json"]);
 }
 
 #[test]
