@@ -7,6 +7,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
+use crate::stale::newer_source;
+
 /// The program and what tells it from other builds.
 #[derive(Debug, Clone)]
 pub(crate) struct Binary {
@@ -48,18 +50,6 @@ fn build(this: &Path, name: &str) -> Result<PathBuf> {
     Ok(built)
 }
 
-/// A source file that was changed after the program was built from it, as far as cargo and the file system know.
-fn newer_source(program: &Path) -> Option<PathBuf> {
-    let written = |path: &Path| fs::metadata(path).and_then(|m| m.modified()).ok();
-    let built = written(program)?;
-    // Cargo lists the sources beside the program as a rule of make, in which a space of a name has a backslash.
-    let rule = fs::read_to_string(program.with_extension("d")).ok()?;
-    let (_, sources) = rule.lines().next()?.split_once(": ")?;
-    let names = sources.replace("\\ ", "\0");
-    let mut paths = names.split(' ').map(|name| PathBuf::from(name.replace('\0', " ")));
-    paths.find(|path| written(path).is_some_and(|changed| changed > built))
-}
-
 /// SHA-256 of a file.
 pub(crate) fn sha256_of(path: &Path) -> Result<String> {
     let bytes = fs::read(path).with_context(|| format!("cannot read '{}'", path.display()))?;
@@ -71,7 +61,7 @@ mod tests {
     use std::fs::File;
     use std::time::{Duration, SystemTime};
 
-    use super::newer_source;
+    use crate::stale::newer_source;
 
     #[test]
     fn a_source_that_is_newer_than_the_program_is_found() {

@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand};
 mod bag;
 mod binary;
 mod blind;
+mod book;
 mod child;
 mod document;
 mod evidence;
@@ -14,6 +15,7 @@ mod learn;
 mod mujoco;
 mod output;
 mod reproduce;
+mod stale;
 
 /// Development commands of Lacuna.
 #[derive(Debug, Parser)]
@@ -35,6 +37,8 @@ enum Command {
     Evidence(evidence::Args),
     /// Run exported models in MuJoCo on held-out inputs and compare with the truth.
     Mujoco(mujoco::Args),
+    /// Build the documentation as a book that opens offline.
+    Book(book::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -46,6 +50,7 @@ fn main() -> ExitCode {
         Command::Blind(args) => blind::run(&args),
         Command::Evidence(args) => evidence::run(&args),
         Command::Mujoco(args) => mujoco::run(&args),
+        Command::Book(args) => book::run(&args),
         Command::Bag(args) => bag::run(&args),
     };
     match outcome {

@@ -1,20 +1,20 @@
 //! Standard output for results, standard error for everything else.
 
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{ErrorKind, Write};
 use std::panic::AssertUnwindSafe;
 use std::process::ExitCode;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 use anyhow::{Context, Result};
-use indicatif::ProgressBar;
 use serde_json::Value;
+
+mod excerpt;
+mod progress;
+
+pub(crate) use progress::{Progress, Stages};
 
 /// Bold, for headings; left out where colours are not wanted (`NO_COLOR`, no terminal).
 pub(crate) const HEADING: anstyle::Style = anstyle::Style::new().bold();
-
-/// How often the spinner turns, ms.
-const TICK: u64 = 100;
 
 /// A heading.
 pub(crate) fn heading(text: &str) -> String {
@@ -39,8 +39,18 @@ pub(crate) fn emit_json(target: &str, value: &Value) -> Result<()> {
     std::fs::write(target, text).with_context(|| format!("cannot write '{target}'"))
 }
 
-/// Says on standard error why nothing, or not everything, was done.
-pub(crate) fn error(message: &str) {
+/// Says on standard error why nothing, or not everything, was done; with the lines that it is about, if any.
+pub(crate) fn failure(error: &anyhow::Error) {
+    let sentence = format!("{error:#}");
+    match excerpt::render(error, &sentence) {
+        // Nobody listens when this fails.
+        Some(report) => drop(writeln!(anstream::stderr(), "{report}")),
+        None => line("error", anstyle::AnsiColor::Red, &sentence),
+    }
+}
+
+/// Says on standard error that the program itself is wrong.
+pub(crate) fn defect(message: &str) {
     line("error", anstyle::AnsiColor::Red, message);
 }
 
@@ -75,41 +85,6 @@ pub(crate) fn catch_panics(program: impl FnOnce() -> ExitCode) -> Result<ExitCod
 /// A panic while the message is stored leaves it as good as it was.
 fn last_panic() -> MutexGuard<'static, Option<String>> {
     LAST_PANIC.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// What is being done: a spinner on a terminal, lines with `--verbose`, otherwise nothing.
-pub(crate) struct Progress {
-    spinner: Option<ProgressBar>,
-    lines: bool,
-}
-
-impl Progress {
-    pub(crate) fn new(verbose: bool) -> Self {
-        let spinner = (!verbose && io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::new_spinner();
-            bar.enable_steady_tick(Duration::from_millis(TICK));
-            bar
-        });
-        Self { spinner, lines: verbose }
-    }
-
-    /// A stage begins.
-    pub(crate) fn stage(&self, what: &str) {
-        if let Some(bar) = &self.spinner {
-            bar.set_message(what.to_owned());
-        }
-        if self.lines {
-            let _ = writeln!(io::stderr(), "{what}");
-        }
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.spinner {
-            bar.finish_and_clear();
-        }
-    }
 }
 
 #[cfg(test)]

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use diagnosis::{Diagnosis, Options};
+use recordings::Spot;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::RobotSpec;
 use crate::case_folder::CaseFolder;
+use crate::{RobotSpec, TextError};
 
 /// Version of this envelope; the diagnosis inside has its own.
 const FORMAT: u32 = 2;
@@ -179,17 +180,17 @@ impl Envelope {
         let shown = file.display();
         let text = std::fs::read_to_string(file)
             .with_context(|| format!("cannot read '{shown}'; `lacuna diagnose ... --json FILE` writes such a file"))?;
-        let refused = |e: serde_json::Error| {
+        let refused = |e: &serde_json::Error| {
             let message = e.to_string();
             let end = message.rfind(" at line ").unwrap_or(message.len());
-            format!(
-                "{shown}: line {}, column {}: this is not what `lacuna diagnose --json` of version {} writes ({}); \
-                 write it again",
-                e.line(),
-                e.column(),
-                Program::default().version,
-                &message[..end]
-            )
+            TextError {
+                spot: Spot { file: shown.to_string(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
+                message: format!(
+                    "this is not what `lacuna diagnose --json` of version {} writes ({}); write it again",
+                    Program::default().version,
+                    &message[..end]
+                ),
+            }
         };
         if let Ok(version) = serde_json::from_str::<Version>(&text)
             && version.format != FORMAT
@@ -201,7 +202,7 @@ impl Envelope {
                 version.format
             );
         }
-        serde_json::from_str(&text).map_err(|e| anyhow::anyhow!(refused(e)))
+        Ok(serde_json::from_str(&text).map_err(|e| refused(&e))?)
     }
 
     /// The robot that was diagnosed, as its file had it.

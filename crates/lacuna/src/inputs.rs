@@ -10,6 +10,7 @@ use recordings::{
 };
 
 use crate::robot_file::RobotSpec;
+use crate::watched::{Pass, Watch, Watched};
 
 /// Recordings read from files, with what was lost.
 #[derive(Debug, Default)]
@@ -203,7 +204,7 @@ fn run_names(groups: &[Group]) -> Vec<String> {
 /// # Errors
 /// The first file that cannot be read, or none at all.
 pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Loaded> {
-    let runs = runs(mapping, paths, |run, files| read_from(mapping, run, files, options))?;
+    let runs = runs(mapping, paths, &|_, _| {}, |run, files| read_from(mapping, run, files, options))?;
     let (losses, sources) = (runs.found.iter().flat_map(|r| &r.losses), runs.found.iter().flat_map(|r| &r.sources));
     Ok(Loaded {
         losses: losses.cloned().collect(),
@@ -214,12 +215,12 @@ pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Resu
     })
 }
 
-/// Measures every recording in files and folders, without keeping its samples.
+/// Measures every recording in files and folders, without keeping its samples; `watch` is told how far that is.
 ///
 /// # Errors
 /// As [`load`].
-pub fn survey(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Result<Surveyed> {
-    let runs = runs(mapping, paths, |run, files| survey_from(mapping, run, files, options))?;
+pub fn survey(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions, watch: Watch<'_>) -> Result<Surveyed> {
+    let runs = runs(mapping, paths, watch, |run, files| survey_from(mapping, run, files, options))?;
     Ok(Surveyed { surveys: runs.found, unmatched: runs.unmatched })
 }
 
@@ -234,6 +235,7 @@ struct Runs<T> {
 fn runs<T>(
     mapping: &Mapping,
     paths: &[PathBuf],
+    watch: Watch<'_>,
     mut read: impl FnMut(&str, &mut [Opened<'_>]) -> Result<T, RecordingError>,
 ) -> Result<Runs<T>> {
     let files = files(mapping, paths)?;
@@ -243,11 +245,16 @@ fn runs<T>(
         complete(group, mapping);
     }
     let names = run_names(&grouping.groups);
+    let all = grouping.groups.iter().flat_map(|group| &group.files);
+    let pass = Pass::new(all.filter_map(|f| Some(fs::metadata(&f.name).ok()?.len())).sum(), watch);
     for (group, run) in grouping.groups.iter().zip(&names) {
         let mut files = group
             .files
             .iter()
-            .map(|f| fs::File::open(&f.name).with_context(|| format!("cannot read '{}'", f.name)))
+            .map(|f| {
+                let file = fs::File::open(&f.name).with_context(|| format!("cannot read '{}'", f.name))?;
+                Ok(Watched::new(file, &pass))
+            })
             .collect::<Result<Vec<_>>>()?;
         let mut opened: Vec<Opened<'_>> =
             group.files.iter().zip(&mut files).map(|(f, source)| Opened { name: &f.name, source }).collect();

@@ -12,57 +12,67 @@ use clap::{Parser, Subcommand};
 mod commands;
 mod console;
 
-use commands::{Outcome, Usage, check, convert, diagnose, effects, explain, export, identify, predict, simulate};
+use commands::{
+    Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, predict, simulate,
+};
 
 const EXAMPLES: &str = "\
 Examples:
-  lacuna check walk/                           what is inside a bag, and how good it is
-  lacuna diagnose case/                        a folder with robot.toml, reference/, recordings/
+  lacuna check walk/               what is inside a bag, and how good it is
+  lacuna diagnose case/            robot.toml, reference/ and recordings/
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
-  lacuna export verdict.json --to mjcf         the corrected robot for MuJoCo
-  lacuna identify robot.toml run_1.csv         the online identifier with its certificate
-  lacuna effects                               what a simulation may lack
-  lacuna explain payload                       one of them in full
+  lacuna export verdict.json --to mjcf   the corrected robot for MuJoCo
+  lacuna explain payload           one effect in full
 
-Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+Exit codes:
+  0  done
+  1  failed
+  2  wrong usage
+  3  done, but some input was lost
+  4  done, and a mismatch was found (diagnose --fail-on mismatch)";
 
 /// Says which physics a robot simulation left out.
 #[derive(Debug, Parser)]
-#[command(name = "lacuna", version, about, after_help = EXAMPLES)]
+#[command(name = "lacuna", version, after_help = EXAMPLES, max_term_width = 80)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
     /// Tell on standard error what is being done.
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, display_order = 999)]
     verbose: bool,
 }
 
+/// In the order in which they are used.
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Tell what is inside recordings, and how good it is.
     Check(check::Args),
     /// Write a recording in another format.
     Convert(convert::Args),
-    /// Compare recordings with a robot's simulation and name what it lacks.
-    Diagnose(diagnose::Args),
-    /// Follow a recording with the online neural identifier and check its certificate.
-    Identify(identify::Args),
+    /// Compare recordings with a simulation and name what it lacks.
+    Diagnose(Box<diagnose::Args>),
     /// Simulate a robot file on the inputs of a recording.
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
     Predict(predict::Args),
     /// Write a diagnosed robot as a model of a simulator, corrected.
     Export(export::Args),
+    /// Follow a recording with the online neural identifier.
+    Identify(identify::Args),
     /// List the effects that a simulation may lack.
     Effects(effects::Args),
-    /// Explain one effect: law, parameters, what reveals it, what it looks like.
+    /// Explain one effect: law, parameters, what reveals it.
     Explain(explain::Args),
+    /// Write what a shell needs to complete commands.
+    Completions(completions::Args),
+    /// Write the manual pages.
+    Man(man::Args),
 }
 
 fn main() -> ExitCode {
     console::catch_panics(run).unwrap_or_else(|defect| {
-        console::error(&defect);
+        console::defect(&defect);
         ExitCode::FAILURE
     })
 }
@@ -79,13 +89,57 @@ fn run() -> ExitCode {
         Command::Export(args) => export::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),
+        Command::Completions(args) => completions::run(args),
+        Command::Man(args) => man::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::InputLost) => ExitCode::from(3),
+        Ok(Outcome::Mismatch) => ExitCode::from(4),
         Err(error) => {
-            console::error(&format!("{error:#}"));
+            console::failure(&error);
             ExitCode::from(if error.is::<Usage>() { 2 } else { 1 })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::Cli;
+
+    #[test]
+    fn the_arguments_make_sense() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_has_examples_and_exit_codes() {
+        let program = Cli::command();
+        for command in program.get_subcommands() {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let name = command.get_name();
+            assert!(help.contains("Examples:\n") || help.contains("Example:\n"), "{name} has no examples");
+            assert!(help.contains(&format!("lacuna {name}")), "{name}: its examples are another's");
+            assert!(help.contains("Exit codes: 0 done, 1 failed, 2 wrong usage"), "{name} tells no exit codes");
+        }
+    }
+
+    #[test]
+    fn help_fits_eighty_columns() {
+        let mut program = Cli::command();
+        program.build();
+        let names: Vec<String> = program.get_subcommands().map(|c| c.get_name().to_owned()).collect();
+        let mut pages = vec![program.render_long_help().to_string()];
+        for name in names {
+            let command = program.find_subcommand_mut(&name).expect("it was listed");
+            pages.push(command.render_long_help().to_string());
+        }
+        for page in &pages {
+            for line in page.lines() {
+                assert!(line.chars().count() <= 80, "{line}");
+            }
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Why a robot file cannot be used.
 
+use recordings::Spot;
 use robot_model::ModelError;
 
-/// Why a robot file cannot be used. `place` is the file, with the line where that is known.
+/// Why a robot file cannot be used. `place` is the file, with line and column where they are known.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotFileError {
@@ -17,22 +18,22 @@ pub enum RobotFileError {
     /// Nothing in it.
     #[error("{place}: the file is empty; a robot file holds at least name, causality and parameters")]
     Empty {
-        /// File.
-        place: String,
+        /// Where.
+        place: Spot,
     },
     /// The text is not what a robot file looks like.
     #[error("{place}: {message}")]
     Syntax {
-        /// File, line and column.
-        place: String,
+        /// Where.
+        place: Spot,
         /// What is wrong.
         message: String,
     },
     /// A parameter is in a unit that does not fit.
     #[error("{place}: parameter `{key}` has unit `{unit}`; give it in {expected}")]
     Unit {
-        /// File and line.
-        place: String,
+        /// Where.
+        place: Spot,
         /// Parameter.
         key: String,
         /// Unit given.
@@ -46,8 +47,8 @@ pub enum RobotFileError {
          add `{key} = {{ value = ..., unit = \"{expected}\", source = \"...\" }}` to the parameters"
     )]
     Missing {
-        /// File.
-        place: String,
+        /// Where.
+        place: Spot,
         /// Parameter.
         key: String,
         /// Unit expected.
@@ -56,8 +57,8 @@ pub enum RobotFileError {
     /// A parameter has a value that no robot can have.
     #[error("{place}: parameter `{key}`: {source}; correct it")]
     Model {
-        /// File and line.
-        place: String,
+        /// Where.
+        place: Spot,
         /// Key in the file.
         key: String,
         /// What is wrong.
@@ -66,16 +67,16 @@ pub enum RobotFileError {
     /// An effect that the simulation is to be given is not as the catalogue has it.
     #[error("{place}: {message}")]
     Effect {
-        /// File and line.
-        place: String,
+        /// Where.
+        place: Spot,
         /// What is wrong.
         message: String,
     },
     /// A number is not what it must be.
     #[error("{place}: {what} of `{key}` is {value}, but it must be {must}; correct it")]
     Value {
-        /// File and line.
-        place: String,
+        /// Where.
+        place: Spot,
         /// Key in the file.
         key: String,
         /// Which of its numbers.
@@ -85,4 +86,20 @@ pub enum RobotFileError {
         /// What it must be.
         must: &'static str,
     },
+}
+
+impl RobotFileError {
+    /// The place in the robot file, where it is about one.
+    pub fn spot(&self) -> Option<&Spot> {
+        match self {
+            Self::Unknown { .. } => None,
+            Self::Empty { place }
+            | Self::Syntax { place, .. }
+            | Self::Unit { place, .. }
+            | Self::Missing { place, .. }
+            | Self::Effect { place, .. }
+            | Self::Model { place, .. }
+            | Self::Value { place, .. } => Some(place),
+        }
+    }
 }

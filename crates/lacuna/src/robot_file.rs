@@ -5,6 +5,7 @@ use std::path::Path;
 
 use diagnosis::EffectAt;
 use diagnosis::response::ResponseModel;
+use recordings::{Spot, suggest};
 use robot_model::Robot;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,6 @@ use crate::RobotFileError;
 use crate::flat_robot::FlatRobot;
 use crate::robot_parameters::File;
 use crate::robot_text::RobotText;
-use crate::suggest;
 
 /// What is imposed and what comes out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -101,7 +101,7 @@ impl RobotSpec {
     pub fn parse(file: &str, text: &str) -> Result<Self, RobotFileError> {
         let source = RobotText { file, text };
         if text.trim().is_empty() {
-            return Err(RobotFileError::Empty { place: file.to_owned() });
+            return Err(RobotFileError::Empty { place: Spot::file(file) });
         }
         let json = Path::new(file).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
         if !json {

@@ -2,7 +2,7 @@
 
 use diagnosis::response::ResponseModel;
 use diagnosis::{DiagnosisError, EffectAt};
-use recordings::parse_unit;
+use recordings::{Spot, parse_unit};
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use robot_model::tunable::{Tuning, tunables};
 use robot_model::{ModelError, Robot};
@@ -197,7 +197,7 @@ impl Lookup<'_> {
     fn need(&self, key: &'static str) -> Result<f64, RobotFileError> {
         let expected = self.list.iter().find(|l| l.0 == key).map_or("-", |l| l.1);
         let got = self.get(key)?.ok_or_else(|| RobotFileError::Missing {
-            place: self.source.file.to_owned(),
+            place: Spot::file(self.source.file),
             key: key.to_owned(),
             expected: expected.to_owned(),
         })?;

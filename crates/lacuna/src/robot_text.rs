@@ -1,7 +1,8 @@
 //! The text of a robot file: where a key stands, and what a parser's message means to people.
 
+use recordings::{Spot, suggest};
+
 use crate::RobotFileError;
-use crate::suggest;
 
 /// A robot file's name and text.
 #[derive(Debug, Clone, Copy)]
@@ -11,46 +12,42 @@ pub(crate) struct RobotText<'a> {
 }
 
 impl RobotText<'_> {
-    /// The file with the line of a key, where it is found: `robot.toml: line 6`.
-    pub(crate) fn at(&self, key: &str) -> String {
-        line_of(self.text, key).map_or_else(|| self.file.to_owned(), |line| format!("{}: line {line}", self.file))
+    /// The place of a key, where it is found: `robot.toml: line 6, column 1`.
+    pub(crate) fn at(&self, key: &str) -> Spot {
+        byte_of(self.text, key).map_or_else(|| Spot::file(self.file), |byte| Spot::of_byte(self.file, self.text, byte))
     }
 
-    /// The file with the line of the `n`-th effect that is given, where it is found.
-    pub(crate) fn at_effect(&self, n: usize) -> String {
-        let mut lines = self.text.lines().enumerate().filter(|(_, line)| line_of(line, "effect").is_some());
-        lines.nth(n).map_or_else(|| self.file.to_owned(), |(i, _)| format!("{}: line {}", self.file, i + 1))
+    /// The place of the `n`-th effect that is given, where it is found.
+    pub(crate) fn at_effect(&self, n: usize) -> Spot {
+        let mut start = 0;
+        let mut places = self.text.split_inclusive('\n').filter_map(|line| {
+            let begin = start;
+            start += line.len();
+            byte_of(line, "effect").map(|at| begin + at)
+        });
+        places.nth(n).map_or_else(|| Spot::file(self.file), |byte| Spot::of_byte(self.file, self.text, byte))
     }
 
     /// A refusal by the TOML parser.
     pub(crate) fn toml(&self, error: &toml::de::Error) -> RobotFileError {
-        let start = error.span().map_or(0, |span| span.start.min(self.text.len()));
-        let before = self.text.get(..start).unwrap_or_default();
-        let line = 1 + before.matches('\n').count();
-        let column = 1 + before.rsplit('\n').next().unwrap_or_default().chars().count();
-        self.syntax(line, column, error.message())
+        let place = Spot::of_byte(self.file, self.text, error.span().map_or(0, |span| span.start));
+        RobotFileError::Syntax { place, message: in_words(error.message()) }
     }
 
     /// A refusal by the JSON parser.
     pub(crate) fn json(&self, error: &serde_json::Error) -> RobotFileError {
-        let (line, column) = (error.line().max(1), error.column().max(1));
+        let at = Some((error.line().max(1) as u32, error.column().max(1) as u32));
         let message = error.to_string();
         let end = message.rfind(" at line ").unwrap_or(message.len());
-        self.syntax(line, column, &message[..end])
-    }
-
-    fn syntax(&self, line: usize, column: usize, message: &str) -> RobotFileError {
-        RobotFileError::Syntax {
-            place: format!("{}: line {line}, column {column}", self.file),
-            message: in_words(message),
-        }
+        let place = Spot { file: self.file.to_owned(), at };
+        RobotFileError::Syntax { place, message: in_words(&message[..end]) }
     }
 }
 
-/// The line (from 1) in which a key is set, in TOML or JSON.
-fn line_of(text: &str, key: &str) -> Option<usize> {
+/// The byte at which a key is set, in TOML or JSON.
+fn byte_of(text: &str, key: &str) -> Option<usize> {
     let sets = |line: &str, first: bool| {
-        line.match_indices(key).any(|(start, _)| {
+        line.match_indices(key).map(|(start, _)| start).find(|&start| {
             let (before, after) = (&line[..start], &line[start + key.len()..]);
             let word = |c: char| c.is_alphanumeric() || c == '_';
             let lead = before.trim_end_matches(['"', '\'']);
@@ -62,41 +59,28 @@ fn line_of(text: &str, key: &str) -> Option<usize> {
     };
     // A line that begins with the key, before one that only mentions it.
     let find = |first: bool| {
-        text.lines().position(|line| !line.trim_start().starts_with('#') && sets(line, first)).map(|index| index + 1)
+        let mut start = 0;
+        text.split_inclusive('\n').find_map(|line| {
+            let (begin, comment) = (start, line.trim_start().starts_with('#'));
+            start += line.len();
+            if comment { None } else { sets(line, first).map(|at| begin + at) }
+        })
     };
     find(true).or_else(|| find(false))
 }
 
-/// A parser's message in the words of a robot file, with the nearest known key.
+/// A parser's message in the words of a robot file.
 fn in_words(message: &str) -> String {
-    let message = message.trim().replace('\n', "; ");
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let Some((&given, known)) = quoted.split_first() else {
-        return message
-            .replace("expected f64", "expected a number")
-            .replace("expected struct Quantity", "expected value, unit and source");
-    };
-    if message.starts_with("unknown field") {
-        format!("unknown key `{given}`; {}", suggest::hint(given, known))
-    } else if message.starts_with("unknown variant") {
-        format!("unknown value `{given}`; {}", suggest::hint(given, known))
-    } else if message.starts_with("missing field") {
-        format!("the key `{given}` is missing here; add it")
-    } else if message.starts_with("duplicate field") {
-        format!("the key `{given}` is given twice; keep one")
-    } else {
-        message
-            .replace("expected f64", "expected a number")
-            .replace("expected struct Quantity", "expected value, unit and source")
-    }
+    suggest::in_words(message).replace("expected struct Quantity", "expected value, unit and source")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{in_words, line_of};
+    use super::byte_of;
 
     #[test]
     fn keys_are_found_where_they_are_set() {
+        let line_of = |text: &str, key: &str| Some(text[..byte_of(text, key)?].matches('\n').count() + 1);
         let toml =
             "# mass = 1\nname = \"mass: x\"\n[parameters]\nmass = { value = 1.0 }\ncom_x = 2\n[parameters.track]\n";
         assert_eq!(line_of(toml, "mass"), Some(4));
@@ -105,18 +89,5 @@ mod tests {
         let json = "{\n \"motor\": { \"torque_limit\": 3 },\n \"mass_kg\" : 4\n}";
         assert_eq!(line_of(json, "mass_kg"), Some(3));
         assert_eq!(line_of(json, "torque_limit"), Some(2));
-    }
-
-    #[test]
-    fn parser_messages_become_advice() {
-        assert_eq!(
-            in_words("unknown field `mas`, expected one of `mass`, `track`"),
-            "unknown key `mas`; did you mean `mass`?"
-        );
-        assert_eq!(in_words("missing field `source`"), "the key `source` is missing here; add it");
-        assert_eq!(
-            in_words("invalid type: string \"x\", expected f64"),
-            "invalid type: string \"x\", expected a number"
-        );
     }
 }

@@ -194,7 +194,10 @@ mod tests {
         let line = 1 + toml.lines().position(|l| l.starts_with("effect = ")).expect("an effect");
         let wrong = toml.replace("coulomb_side", "coulomb_sides");
         let e = RobotSpec::parse("r.toml", &wrong).expect_err("refused").to_string();
-        assert_eq!(e, format!("r.toml: line {line}: there is no effect `coulomb_sides`; did you mean `coulomb_side`?"));
+        assert_eq!(
+            e,
+            format!("r.toml: line {line}, column 1: there is no effect `coulomb_sides`; did you mean `coulomb_side`?")
+        );
         let wrong = toml.replace("Tb = 1.25", "Tc = 1.25");
         let e = RobotSpec::parse("r.toml", &wrong).expect_err("refused").to_string();
         assert!(e.contains("takes no number `Tc`") && e.contains("Tb"), "{e}");

@@ -70,6 +70,21 @@ fn an_unknown_key() {
 }
 
 #[test]
+fn the_place_is_shown_with_a_mark_below_it() {
+    let run = bench(&ROBOT.replace("adhesion =", "adhesoin =")).run(&["diagnose", "case"]);
+    let expected = "\
+error: case/robot.toml: line 12, column 1: unknown key `adhesoin`; did you mean `adhesion`?
+  --> case/robot.toml:12:1
+   |
+12 | adhesoin = { value = 0.8, unit = \"-\", source = \"test\" }
+   | ^^^^^^^^
+";
+    assert_eq!(run.err(), expected);
+    let text = flat("0.22,", "\"wide\",").err();
+    assert!(text.contains("\"half_track_m\": \"wide\"") && text.contains('^'), "{text}");
+}
+
+#[test]
 fn an_unknown_causality() {
     bench(&ROBOT.replace("torque-driven", "torque")).refuses(&[FILE, "line 2", "`torque`", "torque-driven"]);
 }

@@ -33,7 +33,7 @@ fn effects_lists_what_explain_explains() {
     assert_eq!((run.code(), run.err().as_str()), (Some(0), ""));
     assert!(run.out().contains("mass (kg)"));
     let json: Value = serde_json::from_str(&bench.run(&["effects", "--json", "-"]).out()).unwrap();
-    let ids: Vec<&str> = json.as_array().unwrap().iter().map(|c| c["id"].as_str().unwrap()).collect();
+    let ids: Vec<&str> = json["effects"].as_array().unwrap().iter().map(|c| c["id"].as_str().unwrap()).collect();
     assert!(ids.len() >= 10);
     for id in ids {
         assert!(run.out().contains(id));
@@ -137,4 +137,83 @@ fn one_file_of_a_pair_is_enough_and_a_missing_one_is_told() {
     let run = bench.run(&args("alone/pro_01.csv"));
     assert_eq!(run.code(), Some(3));
     assert!(run.out().contains("alone/imu_01.csv: 1 file is missing"), "{}", run.out());
+}
+
+#[test]
+fn completions_know_every_command_in_every_shell() {
+    let bench = Bench::empty();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let run = bench.run(&["completions", shell]);
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+        for word in ["diagnose", "fail-on", "explain"] {
+            assert!(run.out().contains(word), "{shell}: no {word}");
+        }
+    }
+    let unknown = bench.run(&["completions", "zhs"]);
+    assert_eq!(unknown.code(), Some(2));
+    assert!(unknown.err().contains("zsh"), "{}", unknown.err());
+}
+
+#[test]
+fn there_is_a_manual_page_for_every_command() {
+    let bench = Bench::empty();
+    let first = bench.run(&["man"]);
+    assert!(first.out().contains(".TH lacuna 1"), "{}", first.out());
+    assert_eq!(bench.run(&["man", "--out", "pages"]).code(), Some(0));
+    assert_eq!(bench.read("pages/lacuna.1"), first.out());
+    let page = bench.read("pages/lacuna-diagnose.1");
+    for word in ["lacuna\\-diagnose", "fail", "Exit codes"] {
+        assert!(page.contains(word), "no {word} in {page}");
+    }
+}
+
+#[test]
+fn a_wrong_command_suggests_the_nearest() {
+    let run = Bench::empty().run(&["diagnos", "case"]);
+    assert_eq!((run.code(), run.out()), (Some(2), String::new()));
+    assert!(run.err().contains("a similar subcommand exists: 'diagnose'"), "{}", run.err());
+}
+
+#[test]
+fn pipes_get_no_colour_and_no_progress() {
+    let bench = Bench::new();
+    let runs = [
+        bench.run(&["check", "case/recordings"]),
+        bench.run(&["explain", "payload"]),
+        bench.run(&["effects"]),
+        bench.run(&["diagnose", "nowhere"]),
+        bench.run(&["diagnose", "--help"]),
+        bench.run(&["diagnose", "case", "--robot", "husky"]),
+    ];
+    for run in runs {
+        assert!(!run.out().contains('\u{1b}') && !run.err().contains('\u{1b}'), "{}{}", run.out(), run.err());
+        assert!(run.code() != Some(0) || run.err().is_empty(), "{}", run.err());
+    }
+}
+
+#[test]
+fn a_conversion_is_told_as_json() {
+    let bench = Bench::new();
+    let run = bench.run(&["convert", RUN, "--out", "run.csv", "--json", "-"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let json: Value = serde_json::from_str(&run.out()).unwrap();
+    assert_eq!((&json["format"], &json["program"]["name"]), (&1.into(), &"lacuna".into()));
+    assert_eq!(
+        (&json["written"][0], &json["channels"], &json["samples"]),
+        (&"run.csv".into(), &4.into(), &1200.into())
+    );
+    assert!(json["not_kept"].is_array());
+    assert_eq!(json["sources"][0]["sha256"].as_str().map(str::len), Some(64));
+}
+
+#[test]
+fn colours_can_be_asked_for_and_no_color_goes_before() {
+    let out = |variables: &[(&str, &str)]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lacuna"));
+        command.args(["explain", "payload"]).env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+        let output = command.envs(variables.iter().copied()).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert!(out(&[("CLICOLOR_FORCE", "1")]).contains('\u{1b}'));
+    assert!(!out(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]).contains('\u{1b}'));
 }

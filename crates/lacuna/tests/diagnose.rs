@@ -36,8 +36,12 @@ fn bench(drawn: &DrawnCase) -> Bench {
 fn a_case_folder_becomes_a_verdict_json_and_predictions() {
     let drawn = drawn();
     let bench = bench(&drawn);
-    let run = bench.run(&["diagnose", "blind", "--json", "out.json", "--predictions", "predicted"]);
-    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let args = ["diagnose", "blind", "--json", "out.json", "--predictions", "predicted", "--mcap", "out.mcap", "-v"];
+    let run = bench.run(&[&args[..], &["--fail-on", "mismatch"]].concat());
+    // A payload that the simulation does not know.
+    assert_eq!(run.code(), Some(4), "{}", run.err());
+    // Every stage says how far the work is.
+    assert!(run.err().lines().count() > 5 && run.err().lines().all(|line| line.starts_with('[')), "{}", run.err());
     assert!(run.out().contains("mass") || run.out().contains("payload"), "{}", run.out());
 
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
@@ -80,6 +84,15 @@ fn a_case_folder_becomes_a_verdict_json_and_predictions() {
     for id in ["none", "unknown"] {
         assert!(ranked.iter().any(|c| c["effect"] == id), "{ranked:?}");
     }
+
+    let layout: Value = serde_json::from_str(&bench.read("out.layout.json")).unwrap();
+    let tabs = layout["configById"]["Tab!recordings"]["tabs"].as_array();
+    let traces = d["traces"].as_array().map(Vec::len);
+    assert_eq!(tabs.map(Vec::len), traces);
+    let check = bench.run(&["check", "out.mcap", "--json", "-"]);
+    let inside: Value = serde_json::from_str(&check.out()).unwrap();
+    let topics = inside["bags"][0]["topics"].as_array().unwrap();
+    assert!(topics.iter().any(|t| t["name"] == "/verdict" && t["type"] == "foxglove.Log"), "{topics:?}");
 
     // A row of prediction for each row of input, with and without the effect.
     let inputs = bench.read("blind/heldout/held_1.csv").lines().count();

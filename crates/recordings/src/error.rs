@@ -2,6 +2,7 @@
 
 use crate::place::Place;
 use crate::signal::Signal;
+use crate::spot::Spot;
 use crate::units::Unit;
 
 /// Why a mapping, a file or a channel was refused. Each sentence says what, where and what to do.
@@ -92,28 +93,28 @@ pub enum RecordingError {
     DuplicateStamp { file: String, place: Place, line: u64, column: String, now_s: f64 },
 
     /// TOML that does not parse, an unknown key, a wrong type.
-    #[error("{mapping}: line {line}: {message}")]
-    MappingSyntax { mapping: String, line: usize, message: String },
+    #[error("{spot}: {message}")]
+    MappingSyntax { spot: Spot, message: String },
 
     /// A key with a value that makes no sense.
-    #[error("{mapping}: line {line}: {key}: {message}")]
-    MappingValue { mapping: String, line: usize, key: String, message: String },
+    #[error("{spot}: {key}: {message}")]
+    MappingValue { spot: Spot, key: String, message: String },
 
     /// A signal id outside the vocabulary.
-    #[error("{mapping}: line {line}: no signal is called `{name}`; {hint}")]
-    UnknownSignal { mapping: String, line: usize, name: String, hint: String },
+    #[error("{spot}: no signal is called `{name}`; {hint}")]
+    UnknownSignal { spot: Spot, name: String, hint: String },
 
     /// A unit name that is not understood.
-    #[error("{mapping}: line {line}: {key}: no unit is called `{unit}`; {hint}")]
-    UnknownUnit { mapping: String, line: usize, key: String, unit: String, hint: String },
+    #[error("{spot}: {key}: no unit is called `{unit}`; {hint}")]
+    UnknownUnit { spot: Spot, key: String, unit: String, hint: String },
 
     /// A unit of another quantity than the key's.
     #[error(
-        "{mapping}: line {line}: {key}: wrong unit `{unit}`, {} where {} is expected; \
+        "{spot}: {key}: wrong unit `{unit}`, {} where {} is expected; \
          give a unit of that kind, such as {expected}{hint}",
         is.quantity(), expected.quantity()
     )]
-    WrongUnit { mapping: String, line: usize, key: String, unit: String, is: Unit, expected: Unit, hint: String },
+    WrongUnit { spot: Spot, key: String, unit: String, is: Unit, expected: Unit, hint: String },
 
     /// No built-in mapping has this name.
     #[error("no built-in mapping is called `{name}`; {hint}")]
@@ -182,4 +183,18 @@ pub enum RecordingError {
     /// A channel that names a clock that its recording does not have.
     #[error("recording {recording}: channel {channel} is on clock {clock}, but there are {clocks}")]
     NoSuchClock { recording: String, channel: String, clock: usize, clocks: usize },
+}
+
+impl RecordingError {
+    /// The place in a text that somebody has written, where it is about one.
+    pub fn spot(&self) -> Option<&Spot> {
+        match self {
+            Self::MappingSyntax { spot, .. }
+            | Self::MappingValue { spot, .. }
+            | Self::UnknownSignal { spot, .. }
+            | Self::UnknownUnit { spot, .. }
+            | Self::WrongUnit { spot, .. } => Some(spot),
+            _ => None,
+        }
+    }
 }

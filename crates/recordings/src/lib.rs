@@ -57,7 +57,8 @@ mod read;
 mod recording;
 mod samples;
 mod signal;
-mod suggest;
+mod spot;
+pub mod suggest;
 mod survey;
 mod table;
 mod table_contents;
@@ -87,6 +88,7 @@ pub use quality::{
 pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
+pub use spot::Spot;
 pub use survey::{Survey, SurveyedChannel, survey_from};
 pub use table_contents::{TableContents, TableFormat, table_contents};
 pub use units::{Scale, Unit, parse_unit};

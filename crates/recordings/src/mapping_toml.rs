@@ -1,4 +1,4 @@
-//! Reading a mapping from TOML: every complaint names the file, the line and the key.
+//! Reading a mapping from TOML: every complaint names the file, the place and the key.
 
 use toml::Spanned;
 
@@ -9,6 +9,7 @@ use crate::mapping::{BAG_PATTERN, ColumnMapping, FileMapping, Mapping, TimeMappi
 use crate::mapping_raw::{Kind, RawFile, RawMapping, RawSignal, RawTime};
 use crate::mapping_text::Text;
 use crate::signal::Signal;
+use crate::suggest;
 use crate::units::Unit;
 
 /// Nanoseconds in a second.
@@ -19,13 +20,12 @@ impl Mapping {
     ///
     /// # Errors
     /// On bad syntax, unknown keys, signals or units, a unit of the wrong kind, and values without sense; the message
-    /// names the line and the key.
+    /// names the place and the key.
     pub fn parse(source: &str, text: &str) -> Result<Self, RecordingError> {
         let text_of = Text { source, text };
         let raw: RawMapping = toml::from_str(text).map_err(|error| RecordingError::MappingSyntax {
-            mapping: source.to_owned(),
-            line: text_of.line(error.span().map_or(0, |span| span.start)),
-            message: error.message().replace('\n', "; "),
+            spot: text_of.spot(error.span().map_or(0, |span| span.start)),
+            message: suggest::in_words(error.message()),
         })?;
         let place = raw.files.span().start;
         let mut files: Vec<FileMapping> = Vec::new();
@@ -148,8 +148,7 @@ impl Text<'_> {
         let name = key.get_ref().as_str();
         let key_at = key.span().start;
         let signal = Signal::from_name(name).ok_or_else(|| RecordingError::UnknownSignal {
-            mapping: self.source.to_owned(),
-            line: self.line(key_at),
+            spot: self.spot(key_at),
             name: name.to_owned(),
             hint: Signal::hint(name),
         })?;

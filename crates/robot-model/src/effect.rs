@@ -108,6 +108,17 @@ pub enum Kind {
     Sensor,
 }
 
+impl Kind {
+    /// In one word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Physics => "physics",
+            Self::Command => "command",
+            Self::Sensor => "sensor",
+        }
+    }
+}
+
 /// What a parameter says about its effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
@@ -117,6 +128,17 @@ pub enum Role {
     Shaped,
     /// What kind: meaningless at zero strength.
     Shape,
+}
+
+impl Role {
+    /// For people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Strength => "strength",
+            Self::Shaped => "strength, not proportional",
+            Self::Shape => "shape",
+        }
+    }
 }
 
 /// One number of an effect's law.
@@ -136,6 +158,16 @@ pub struct Parameter {
     pub probes: &'static [f64],
     /// Probes and bounds count in this quantity of the recordings instead of one.
     pub scale: Scale,
+}
+
+impl Parameter {
+    /// The unit that bounds and probes are counted in.
+    pub const fn counted_in(&self) -> &'static str {
+        match self.scale {
+            Scale::Own => self.unit,
+            Scale::LargestTorque => "largest commanded torque",
+        }
+    }
 }
 
 /// What a parameter's probes are measured in.
@@ -159,6 +191,19 @@ pub struct Wears {
     pub disc: bool,
     /// On one side only, left or right.
     pub side: bool,
+}
+
+impl Wears {
+    /// The forms in which an effect is looked for, in words.
+    pub fn forms(self) -> impl Iterator<Item = &'static str> {
+        let all = [
+            (self.everywhere && !self.side, "everywhere, always"),
+            (self.side, "on one side"),
+            (self.onset, "from an instant on"),
+            (self.disc, "at one place on the ground"),
+        ];
+        all.into_iter().filter(|(is_worn, _)| *is_worn).map(|(_, words)| words)
+    }
 }
 
 /// Present always and everywhere on the whole robot.

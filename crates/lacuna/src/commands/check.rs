@@ -21,14 +21,20 @@ mod tables;
 
 const EXAMPLES: &str = "\
 Examples:
-  lacuna check walk/                                   a rosbag2 folder: topics, fields, what is lost
-  lacuna check walk_0.mcap --fields                    with every field that a mapping can name
-  lacuna check walk/ --write-mapping map.toml          a mapping to look through and use with --mapping map.toml
-  lacuna check FLOORING --mapping husky-open           the channels of CSV recordings
-  lacuna check log.csv --write-mapping map.toml        of an unknown table a skeleton, to say which column is what
+  lacuna check walk/                     a rosbag2 folder: topics, what is lost
+  lacuna check walk_0.mcap --fields      every field that a mapping can name
+  lacuna check walk/ --write-mapping map.toml
+                                         a mapping to look through, then to use
+                                         with --mapping map.toml
+  lacuna check FLOORING --mapping husky-open
+                                         the channels of CSV recordings
+  lacuna check log.csv --write-mapping map.toml
+                                         of an unknown table a skeleton, to say
+                                         which column is what
 
-Without --mapping the built-in mappings are tried; the first that fits is used and named. Where none fits a bag, one is
-proposed and used here, with all that was inferred; lacuna diagnose asks for it to be written and named.
+Without --mapping the built-in mappings are tried; the first that fits is used
+and named. Where none fits a bag, one is proposed and used here, with all that
+was inferred; lacuna diagnose asks for it to be written and named.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use lacuna::case_folder::file_names;
+use lacuna::envelope::Program;
 use lacuna::{inputs, which_mapping};
 use recordings::{Recording, lost_in_csv, write_csv, write_mcap, write_parquet};
+use serde_json::json;
 
-use super::{Outcome, Reading, Usage, listed};
-use crate::console::{emit, warning};
+use super::{Outcome, Reading, Usage, listed, sources};
+use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -19,11 +21,16 @@ Examples:
   lacuna convert run_1.csv --out run_1.mcap
   lacuna convert pro_01.csv imu_01.csv --mapping husky-open --out run.csv
 
-The ending of OUT says the format: mcap (JSON messages, one topic per signal, all clocks in one file), parquet or csv (a
-table per clock; with several clocks their names stand before the ending). Values are in SI and read back bit for bit, by
-the built-in mapping lacuna; MCAP and Parquet keep what the mapping said of signals and clocks, CSV cannot.
+The ending of OUT says the format: mcap (JSON messages, one topic per signal,
+all clocks in one file), parquet or csv (a table per clock; with several clocks
+their names stand before the ending). Values are in SI and read back bit for
+bit, by the built-in mapping lacuna; MCAP and Parquet keep what the mapping said
+of signals and clocks, CSV cannot.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+
+/// Version of the JSON.
+const FORMAT: u32 = 1;
 
 /// Arguments of `lacuna convert`.
 #[derive(Debug, ClapArgs)]
@@ -45,6 +52,9 @@ pub(crate) struct Args {
     /// What to do with bad rows and cells of recordings.
     #[arg(long, value_enum, default_value_t)]
     reading: Reading,
+    /// Write what was written as JSON to a file; `-` is standard output, instead of the text.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,11 +133,20 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let samples: usize = recording.channels().iter().map(recordings::Channel::len).sum();
     let written: Vec<String> = targets.iter().map(|(path, _)| path.display().to_string()).collect();
     let channels = recording.channels().len();
-    emit(&format!("{channels} channels with {samples} samples written to {}\n", written.join(", ")))?;
-    if format == Format::Csv {
-        emit(&listed("Not kept by CSV, so that a mapping has to say it anew", &lost_in_csv(recording)))?;
-    }
+    let not_kept = if format == Format::Csv { lost_in_csv(recording) } else { Vec::new() };
     let lost: Vec<String> = loaded.lost().collect();
+    if let Some(target) = &args.json {
+        let told = json!({
+            "format": FORMAT, "program": Program::default(), "recording": recording.name(), "mapping": mapping.name,
+            "sources": sources(&loaded.sources), "written": written, "channels": channels, "samples": samples,
+            "not_kept": not_kept, "lost": lost,
+        });
+        emit_json(target, &told)?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&format!("{channels} channels with {samples} samples written to {}\n", written.join(", ")))?;
+        emit(&listed("Not kept by CSV, so that a mapping has to say it anew", &not_kept))?;
+    }
     for sentence in &lost {
         warning(sentence);
     }

@@ -4,15 +4,22 @@ use anyhow::Result;
 use clap::Args as ClapArgs;
 use robot_model::Card;
 use robot_model::effects::catalogue;
+use serde_json::{Value, json};
 
 use super::{Outcome, explain};
 use crate::console::{emit, emit_json};
+use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna effects
-  lacuna effects --json -";
+  lacuna effects --json -
+
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
+
+/// Version of the JSON of cards.
+pub(crate) const FORMAT: u32 = 1;
 
 /// Arguments of `lacuna effects`.
 #[derive(Debug, ClapArgs)]
@@ -31,8 +38,8 @@ pub(crate) fn cards() -> Vec<&'static Card> {
 /// Lists the effects.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     if let Some(target) = &args.json {
-        let all = cards().into_iter().map(explain::as_json).collect();
-        emit_json(target, &all)?;
+        let all: Vec<Value> = cards().into_iter().map(explain::as_json).collect();
+        emit_json(target, &json!({ "format": FORMAT, "program": Program::default(), "effects": all }))?;
     }
     if args.json.as_deref() != Some("-") {
         emit(&render())?;
@@ -51,7 +58,7 @@ fn render() -> String {
         table.row([
             card.id.to_owned(),
             card.name.to_owned(),
-            explain::kind(card).to_owned(),
+            card.kind.name().to_owned(),
             parameters.join(", "),
             card.revealed_by.to_owned(),
         ]);

@@ -3,18 +3,21 @@
 use anyhow::Result;
 use clap::Args as ClapArgs;
 use lacuna::suggest;
-use robot_model::effect::{Parameter, Scale};
-use robot_model::{Card, Kind, Role};
+use robot_model::Card;
 use serde_json::{Value, json};
 
-use super::{Outcome, Usage, effects};
+use super::effects::{self, FORMAT};
+use super::{Outcome, Usage};
 use crate::console::{emit, emit_json, heading};
+use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna explain payload
-  lacuna explain gyro_bias --json -";
+  lacuna explain gyro_bias --json -
+
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
 /// Arguments of `lacuna explain`.
 #[derive(Debug, ClapArgs)]
@@ -37,7 +40,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         return Err(Usage(format!("no effect is called `{}`; {hint}", args.effect)).into());
     };
     if let Some(target) = &args.json {
-        emit_json(target, &as_json(card))?;
+        emit_json(target, &json!({ "format": FORMAT, "program": Program::default(), "effect": as_json(card) }))?;
     }
     if args.json.as_deref() != Some("-") {
         emit(&render(card))?;
@@ -45,41 +48,9 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// Where in the chain an effect sits.
-pub(crate) const fn kind(card: &Card) -> &'static str {
-    match card.kind {
-        Kind::Physics => "physics",
-        Kind::Command => "command",
-        Kind::Sensor => "sensor",
-    }
-}
-
-const fn role(p: &Parameter) -> &'static str {
-    match p.role {
-        Role::Strength => "strength",
-        Role::Shaped => "strength, not proportional",
-        Role::Shape => "shape",
-    }
-}
-
-/// The unit that bounds and probes are counted in.
-const fn counted_in(p: &Parameter) -> &'static str {
-    match p.scale {
-        Scale::Own => p.unit,
-        Scale::LargestTorque => "largest commanded torque",
-    }
-}
-
 /// The forms in which the diagnosis looks for it.
 fn wears(card: &Card) -> Vec<&'static str> {
-    let w = card.wears;
-    let all = [
-        (w.everywhere && !w.side, "everywhere, always"),
-        (w.side, "on one side"),
-        (w.onset, "from an instant on"),
-        (w.disc, "at one place on the ground"),
-    ];
-    all.into_iter().filter(|f| f.0).map(|f| f.1).collect()
+    card.wears.forms().collect()
 }
 
 fn render(card: &Card) -> String {
@@ -89,7 +60,7 @@ fn render(card: &Card) -> String {
             out += &format!("  {key:<13}{text}\n");
         }
     };
-    line("kind", kind(card));
+    line("kind", card.kind.name());
     line("law", card.law);
     line("one sees", card.seen);
     line("sign", if card.signed { "either" } else { "" });
@@ -112,8 +83,8 @@ fn render(card: &Card) -> String {
             p.bounds[0].to_string(),
             p.bounds[1].to_string(),
             p.neutral.to_string(),
-            role(p).to_owned(),
-            counted_in(p).to_owned(),
+            p.role.name().to_owned(),
+            p.counted_in().to_owned(),
         ]);
     }
     out + "\n" + &table.render()
@@ -126,13 +97,13 @@ pub(crate) fn as_json(card: &Card) -> Value {
         .iter()
         .map(|p| {
             json!({
-                "name": p.name, "unit": p.unit, "role": role(p), "bounds": p.bounds, "neutral": p.neutral,
-                "probes": p.probes, "bounds_in": counted_in(p),
+                "name": p.name, "unit": p.unit, "role": p.role.name(), "bounds": p.bounds, "neutral": p.neutral,
+                "probes": p.probes, "bounds_in": p.counted_in(),
             })
         })
         .collect();
     json!({
-        "id": card.id, "name": card.name, "kind": kind(card), "law": card.law, "seen": card.seen,
+        "id": card.id, "name": card.name, "kind": card.kind.name(), "law": card.law, "seen": card.seen,
         "parameters": parameters, "signed": card.signed, "axes": card.axes, "looked_for": wears(card),
         "redundancy": card.redundancy.shows_in(), "interest": card.interest, "revealed_by": card.revealed_by,
         "resembles": card.resembles, "source": card.source,

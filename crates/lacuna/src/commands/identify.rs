@@ -26,9 +26,11 @@ Examples:
   lacuna identify husky-a200 FLOORING/pro_01.csv --mapping husky-open
   lacuna identify robot.toml run_1.csv --step 0.001 --seed 7 --json -
 
-The identifier of Hendzel & Trojnacki 2014: d/dt x^ = -8 x^ + W'phi for each wheel speed, gamma 500, six logistic
-units of a random first layer per side. Torque-driven robots: measured wheel speeds, commanded torques. Speed-driven
-robots: commanded wheel speeds, currents times torque_per_current of the robot file.
+The identifier of Hendzel & Trojnacki 2014: d/dt x^ = -8 x^ + W'phi for each
+wheel speed, gamma 500, six logistic units of a random first layer per side.
+Torque-driven robots: measured wheel speeds, commanded torques. Speed-driven
+robots: commanded wheel speeds, currents times torque_per_current of the robot
+file.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

@@ -5,12 +5,14 @@ use lacuna::envelope::SourceFile;
 use recordings::{Policy, ReadOptions, Source};
 
 pub(crate) mod check;
+pub(crate) mod completions;
 pub(crate) mod convert;
 pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod identify;
+pub(crate) mod man;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 
@@ -21,6 +23,8 @@ pub(crate) enum Outcome {
     Done,
     /// Done, but some input was lost.
     InputLost,
+    /// Done, and a mismatch was found by a caller who asked to be told; says more than lost input.
+    Mismatch,
 }
 
 impl Outcome {

@@ -21,10 +21,12 @@ Examples:
   lacuna predict robot.toml --drives heldout/ --out predicted/
   lacuna predict robot.toml corrected.toml --drives run_7.csv run_8.csv
 
-Several robot files are compared on the same drives. The simulation runs freely and is set to the recorded state at
-rows that hold all of it (pose, body velocity, gyro, wheels), at most every --restart seconds. Errors are told where the
-drive also holds what was to be predicted. Command-driven robots are forecast from their commands in windows of 2 s.
-Of speed-driven robots no drive is forecast freely: `lacuna simulate` tells the torque that their speeds take.
+Several robot files are compared on the same drives. The simulation runs freely
+and is set to the recorded state at rows that hold all of it (pose, body
+velocity, gyro, wheels), at most every --restart seconds. Errors are told where
+the drive also holds what was to be predicted. Command-driven robots are
+forecast from their commands in windows of 2 s. Of speed-driven robots no drive
+is forecast freely: `lacuna simulate` tells the torque that their speeds take.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

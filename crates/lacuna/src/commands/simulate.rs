@@ -19,13 +19,15 @@ const EXAMPLES: &str = "\
 Examples:
   lacuna simulate robot.toml run_1.csv > simulated.csv
   lacuna simulate corrected.toml run_1.csv -o simulated.csv
-  lacuna simulate husky-a200 FLOORING/pro_01.csv --mapping husky-open -o simulated.csv
+  lacuna simulate husky-a200 FLOORING/pro_01.csv --mapping husky-open -o s.csv
 
-The robot file may hold effects: `lacuna export verdict.json --to toml` writes such a file, corrected.
-Torque-driven robots need the commanded torques of both sides, and start in the state of the first row where all of it
-was recorded, else at rest. Speed-driven robots need the wheel speeds; the torque that they take comes out.
-Command-driven robots need the commanded wheel speeds, and do what the file's [response] says.
-The columns are those of the mapping skid-steer-columns.
+The robot file may hold effects: `lacuna export verdict.json --to toml` writes
+such a file, corrected. Torque-driven robots need the commanded torques of both
+sides, and start in the state of the first row where all of it was recorded,
+else at rest. Speed-driven robots need the wheel speeds; the torque that they
+take comes out. Command-driven robots need the commanded wheel speeds, and do
+what the file's [response] says. The columns are those of the mapping
+skid-steer-columns.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

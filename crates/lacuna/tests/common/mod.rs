@@ -126,12 +126,15 @@ impl Run {
         String::from_utf8_lossy(&self.0.stderr).into_owned()
     }
 
-    /// Exit code 1, nothing on standard output, one line on standard error in which all `parts` occur.
+    /// Exit code 1, nothing on standard output, one line on standard error in which all `parts` occur, and below it at
+    /// most an excerpt of the file.
     pub fn failed(&self, parts: &[&str]) {
         let err = self.err();
         assert_eq!(self.code(), Some(1), "{err}");
         assert_eq!(self.out(), "");
-        assert!(err.starts_with("error: ") && err.trim_end().lines().count() == 1, "{err}");
+        let (sentence, excerpt) = err.split_once('\n').unwrap();
+        assert!(sentence.starts_with("error: "), "{err}");
+        assert!(excerpt.is_empty() || excerpt.trim_start().starts_with("--> "), "{err}");
         assert!(!err.contains("panicked") && !err.contains("defect"), "{err}");
         for part in parts {
             assert!(err.contains(part), "no `{part}` in: {err}");

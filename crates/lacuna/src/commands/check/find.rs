@@ -35,7 +35,7 @@ pub(super) fn find(args: &Args, progress: &Progress) -> Result<(Bags, Found)> {
     }
     progress.stage("channels");
     let first = Candidates::of(args, glances.iter().map(|glance| (glance.bag.as_str(), &glance.contents)))?;
-    let mut found = first.try_all(args)?;
+    let mut found = first.try_all(args, progress)?;
     let passed = found.surveyed.surveys.iter_mut().flat_map(|survey| std::mem::take(&mut survey.contents));
     let bags = whole(glances, passed.collect())?;
     let right = Candidates::of(args, bags.iter().map(|(bag, contents)| (bag.as_str(), contents)))?;
@@ -43,7 +43,7 @@ pub(super) fn find(args: &Args, progress: &Progress) -> Result<(Bags, Found)> {
         found.mapping = right.told_of(found.mapping);
     } else {
         progress.stage("channels, by another mapping");
-        found = right.try_all(args)?;
+        found = right.try_all(args, progress)?;
     }
     Ok((bags, found))
 }
@@ -119,9 +119,10 @@ impl Candidates {
 
     /// The recordings by the mapping that was named, else by the first built-in one that fits all, else by the one that
     /// is proposed.
-    fn try_all(&self, args: &Args) -> Result<Found> {
+    fn try_all(&self, args: &Args, progress: &Progress) -> Result<Found> {
         let options = args.reading.options();
-        let survey = |mapping: &Mapping| inputs::survey(mapping, &args.paths, &options);
+        let watch = |done, of| progress.bytes(done, of);
+        let survey = |mapping: &Mapping| inputs::survey(mapping, &args.paths, &options, &watch);
         let found = |mapping, surveyed| Ok(Found { mapping, surveyed, tables: Vec::new() });
         if let Some((name, mapping)) = &self.named {
             return found(Used::Named(name.clone()), survey(mapping)?);

@@ -1,0 +1,83 @@
+//! Every command in the documentation runs, what it shows is what comes out, and every link leads somewhere.
+//!
+//! A `sh` block is run line by line, page by page, in a folder of its own. `text` blocks below it are what comes out: each
+//! of their lines must come, in this order; `...` stands for what was left out. Words behind `sh`:
+//!
+//! * `example`: files that the reader has; the arguments are checked, nothing is run.
+//! * `long`: takes minutes; run where `LACUNA_LONG_DOCS` is set, otherwise the arguments are checked.
+//! * `exit=3`: the exit code of the last command, where it is not 0.
+//!
+//! `text,above` is what an earlier command of the page said, and is not compared.
+//! A block of another language with `file=NAME` behind it is written to that file first.
+//!
+//! What needs data that are no part of this repository is skipped where they are not beside it.
+
+mod blocks;
+mod command;
+mod compare;
+mod links;
+mod run;
+#[path = "../../xtask/src/stale.rs"]
+mod stale;
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+/// The workspace.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All pages: of the workspace, of the documentation, of the crates.
+fn pages() -> Vec<PathBuf> {
+    let mut out = vec![root().join("README.md"), root().join("CHANGELOG.md")];
+    let mut folders = vec![root().join("docs"), root().join("crates")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "md") {
+                out.push(path);
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+/// A page as messages call it.
+fn shown(page: &Path) -> String {
+    page.strip_prefix(root()).unwrap_or(page).display().to_string()
+}
+
+#[test]
+fn every_command_in_the_documentation_runs() {
+    let programs = run::Programs::find();
+    let told: Vec<run::Told> = pages().par_iter().map(|page| run::page(&programs, page)).collect();
+    let mut all = run::Told::default();
+    for told in told {
+        all.add(told);
+    }
+    eprintln!(
+        "commands in the documentation: {} run, {} with their arguments checked only, {} skipped",
+        all.run,
+        all.checked.len(),
+        all.skipped.len()
+    );
+    for line in &all.checked {
+        eprintln!("  not run: {line}");
+    }
+    for line in &all.skipped {
+        eprintln!("  skipped, its data are not beside the repository: {line}");
+    }
+    assert!(all.failures.is_empty(), "\n{}", all.failures.join("\n\n"));
+    assert!(all.run >= 8, "the documentation has lost its commands");
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let dead: Vec<String> = pages().iter().flat_map(|page| links::dead(page)).collect();
+    assert!(dead.is_empty(), "\n{}", dead.join("\n"));
+}

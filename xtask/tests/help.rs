@@ -1,0 +1,21 @@
+//! Every command tells what it takes.
+
+use std::process::Command;
+
+/// What the program prints for these arguments.
+fn printed(args: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_xtask")).args(args).output().expect("it starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn every_command_tells_what_it_takes() {
+    let all = printed(&["--help"]);
+    let listed = all.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let names: Vec<&str> = listed.filter_map(|line| line.split_whitespace().next()).filter(|n| *n != "help").collect();
+    assert!(names.contains(&"book") && names.contains(&"blind"), "{names:?}");
+    for name in names {
+        assert!(printed(&[name, "--help"]).contains(&format!("xtask {name}")), "{name}");
+    }
+}
