@@ -28,7 +28,7 @@ fn husky(ground: &str) -> Option<Diagnosis> {
     let paths = [vec![data.join("FLOORING")], vec![data.join(ground)], vec![]];
     let case = CaseFolder::from_paths(robot, [&paths[0], &paths[1], &paths[2]], &mapping, &ReadOptions::default());
     let case = case.expect("readable").speed_driven().expect("speeds and currents");
-    Some(diagnose_steady(&case, &|_| {}).expect("a diagnosis"))
+    Some(diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis"))
 }
 
 fn pooled(d: &Diagnosis, quantity: Quantity) -> &Ratio {

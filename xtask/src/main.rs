@@ -13,6 +13,7 @@ mod document;
 mod evidence;
 mod learn;
 mod mujoco;
+mod next;
 mod output;
 mod reproduce;
 mod stale;
@@ -39,6 +40,8 @@ enum Command {
     Mujoco(mujoco::Args),
     /// Build the documentation as a book that opens offline.
     Book(book::Args),
+    /// Ask whether it pays to follow the advice on the next drive.
+    Next(next::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Command::Evidence(args) => evidence::run(&args),
         Command::Mujoco(args) => mujoco::run(&args),
         Command::Book(args) => book::run(&args),
+        Command::Next(args) => next::run(&args),
         Command::Bag(args) => bag::run(&args),
     };
     match outcome {

@@ -301,6 +301,7 @@ impl Answer<'_> {
             traces: located.traces,
             steady: None,
             response: None,
+            next: None,
             predictions,
         };
         out.sentences = words::sentences(&out);

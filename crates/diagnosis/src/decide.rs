@@ -19,7 +19,7 @@ const NONE: f64 = 12.0;
 /// Width of the smallest-size-of-interest penalty in ln(size).
 const SIZE_WIDTH: f64 = 0.35;
 /// Temperature that turns scores into probabilities.
-const TEMPERATURE: f64 = 4.0;
+pub(crate) const TEMPERATURE: f64 = 4.0;
 /// Logistic of "worse than healthy" and of "most of the mismatch is left" for "unknown". From 119 cases of our own
 /// generator (seed 8001): the logarithm of cost over healthy cost reaches 0.44 in 42 healthy cases and begins at 0.69 in 19
 /// with a cause outside the catalogue.

@@ -12,7 +12,7 @@ use crate::run::Run;
 use crate::search::search;
 use crate::verdict::Diagnosis;
 use crate::windows::{Cut, CutOptions, cut};
-use crate::{DiagnosisError, Options};
+use crate::{DiagnosisError, Options, next};
 
 /// Version of the diagnosis' JSON.
 pub(crate) const FORMAT: u32 = 2;
@@ -73,7 +73,12 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
         sensors: &sensors,
         decision: &decision,
     };
-    Ok(answer.diagnosis(&found.retuned, found.screened.clone()))
+    let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
+    if let Some(length) = options.next {
+        progress("looking for the drive that tells the rivals apart");
+        out.next = Some(next::advise(&answer, &found.retuned, length));
+    }
+    Ok(out)
 }
 
 /// What the recordings are compared with after calibration.

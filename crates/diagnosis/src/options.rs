@@ -11,10 +11,12 @@ pub struct Options {
     pub temper: f64,
     /// Saturation of outliers, in expected misfits of a segment.
     pub kappa: f64,
+    /// Length of the drives among which to advise on the next one, s; no advice if not given, for it takes a few seconds.
+    pub next: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { step: 1e-3, segment: 2.0, temper: 0.15, kappa: 3.0 }
+        Self { step: 1e-3, segment: 2.0, temper: 0.15, kappa: 3.0, next: None }
     }
 }

@@ -202,6 +202,9 @@ pub struct Diagnosis {
     pub steady: Option<crate::steady::Loads>,
     /// Response from command over wheels to the body (command-driven cases).
     pub response: Option<crate::response::Response>,
+    /// Which drive would tell the rivals apart, if that was asked.
+    #[serde(default)]
+    pub next: Option<crate::next::Advice>,
     /// Predicted responses of the held-out drives: corrected, then without the effect.
     #[serde(skip)]
     pub predictions: Vec<(Prediction, Prediction)>,
@@ -231,6 +234,7 @@ impl Diagnosis {
             traces: Vec::new(),
             steady: None,
             response: None,
+            next: None,
             predictions: Vec::new(),
         }
     }

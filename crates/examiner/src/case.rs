@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::draw::Draw;
+use crate::draw::{Draw, HiddenRuns};
 use crate::free::{error, predict, restarts, rms, shown};
 use crate::measure::note_coverage;
 use crate::random::Stream;
 use crate::run::{Run, shown_rate};
 use crate::truth::{HeldoutTruth, Truth};
-use crate::{Error, Settings, csv, robot_json};
+use crate::{Course, Error, Settings, csv, robot_json};
 
 /// Draws cases.
 #[derive(Debug, Clone, Copy)]
@@ -93,6 +93,39 @@ impl Case {
         }
         truth_files.push((PathBuf::from("truth.json"), truth.json()?.into_bytes()));
         Ok(DrawnCase { files, truth_files, truth })
+    }
+}
+
+/// A drawn robot with what it hides, for further recordings.
+pub struct Again<'a> {
+    draw: Draw<'a>,
+    hidden: HiddenRuns,
+    settings: &'a Settings,
+}
+
+impl<'a> Again<'a> {
+    /// The robot of a case, as [`Case::draw`] draws it from the same seed and settings.
+    ///
+    /// # Errors
+    /// As [`Case::draw`].
+    pub fn new(seed: u64, settings: &'a Settings) -> Result<Self, Error> {
+        let mut draw = Draw::new(seed, settings)?;
+        let references: Vec<Run> = draw.references();
+        let hidden = draw.hide(&references);
+        Ok(Self { draw, hidden, settings })
+    }
+
+    /// A further recording on a course that was asked for: its text, in the form of the case's recordings. What differs
+    /// from run to run is fixed by `number`, so that two courses can be compared on the same run.
+    ///
+    /// # Errors
+    /// When the course has no points, is shorter than 400 rows, or runs back in time.
+    pub fn record(&self, number: usize, course: &Course) -> Result<String, Error> {
+        if !course.is_sound() || course.duration() * self.settings.row_rate_hz < 400.0 {
+            return Err(Error::Settings("a course needs points in the order of time and at least 400 rows"));
+        }
+        let run = self.draw.further(&self.hidden, number, course);
+        Ok(csv::recording(&run, &self.draw.sheet, self.draw.row, self.settings.pose, self.settings.accelerometer))
     }
 }
 

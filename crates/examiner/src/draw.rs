@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::course::Course;
 use crate::drive::{Manoeuvre, kinds};
 use crate::effect::{self, EffectId, Sizing};
 use crate::events::Events;
@@ -107,6 +108,18 @@ impl<'a> Draw<'a> {
     }
 
     fn run(&self, name: &str, i: usize, kinds: [Manoeuvre; 2], h: &Hidden, rows: usize) -> Run {
+        self.run_on(name, i, kinds, None, h, rows)
+    }
+
+    fn run_on(
+        &self,
+        name: &str,
+        i: usize,
+        kinds: [Manoeuvre; 2],
+        course: Option<&Course>,
+        h: &Hidden,
+        rows: usize,
+    ) -> Run {
         let seed = key(self.seed, name, i as u64);
         let spread = match self.setting {
             Setting::Normal => 1.0,
@@ -122,10 +135,24 @@ impl<'a> Draw<'a> {
             events: Events::draw(&h.foreign, seed, duration),
             sheet: self.sheet,
             kinds,
+            course,
             gain: self.gain,
             row: self.row,
             rows,
         })
+    }
+
+    /// A further recording with what is hidden, on a course that was asked for.
+    pub(crate) fn further(&self, hidden: &HiddenRuns, number: usize, course: &Course) -> Run {
+        let name = format!("further {}", hidden.attempt);
+        let mut h = hidden.in_heldout.clone();
+        let rows = (course.duration() / self.row).round() as usize;
+        if let Some((at, _)) = &mut h.onset {
+            let [from, until] = self.settings.onset;
+            let share = Stream::new(self.seed, &name, number as u64).uniform(from, until);
+            *at = (100.0 * course.duration() * share).round() / 100.0;
+        }
+        self.run_on(&name, number, [Manoeuvre::Random; 2], Some(course), &h, rows)
     }
 
     /// The runs without anything hidden.

@@ -2,6 +2,7 @@
 
 mod case;
 mod contact;
+mod course;
 mod csv;
 mod draw;
 mod drive;
@@ -25,7 +26,8 @@ mod settings;
 mod truth;
 mod tyre;
 
-pub use case::{Case, DrawnCase};
+pub use case::{Again, Case, DrawnCase};
+pub use course::Course;
 pub use drive::Manoeuvre;
 pub use effect::EffectId;
 pub use error::Error;

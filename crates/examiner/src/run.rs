@@ -1,5 +1,6 @@
 //! One closed-loop drive of the true robot and what its recording holds.
 
+use crate::Course;
 use crate::drive::{Controller, Driver, Manoeuvre};
 use crate::events::Events;
 use crate::hidden::Hidden;
@@ -47,6 +48,8 @@ pub(crate) struct Task<'a> {
     pub events: Events,
     pub sheet: Sheet,
     pub kinds: [Manoeuvre; 2],
+    /// A drive that was asked for, instead of these kinds.
+    pub course: Option<&'a Course>,
     /// Factor on the gain of the controller.
     pub gain: f64,
     pub row: f64,
@@ -58,7 +61,8 @@ pub(crate) fn record(task: Task<'_>) -> Run {
     let mut s = Stream::new(task.seed, "run", 0);
     let plant = Plant::new(task.robot, task.hidden);
     let mut motors = Motors::new(task.robot, task.hidden, task.row, STEP);
-    let start = [s.normal(0.2), s.normal(0.2), s.uniform(-3.1, 3.1)];
+    let drawn = [s.normal(0.2), s.normal(0.2), s.uniform(-3.1, 3.1)];
+    let start = task.course.and_then(|c| c.start).unwrap_or(drawn);
     let mut state = plant.settled([start[0], start[1], start[2], 0.0, 0.0, 0.0], [0.0; 2], [0.0; 2]);
     let stream = |name| Stream::new(task.seed, name, 0);
     let mut sampler = Sampler::new(task.sheet, stream("sensors"));
@@ -100,9 +104,14 @@ pub(crate) fn record(task: Task<'_>) -> Run {
         counted = angle;
         let pose = [state[0], state[1], state[2]];
         let drive_time = (if k < half { k } else { k - half }) as f64 * task.row;
-        let want = driver.want(drive_time, task.row, pose);
+        let want = match task.course {
+            Some(course) => course.want(t),
+            None => driver.want(drive_time, task.row, pose),
+        };
+        let free = task.course.is_some_and(|c| c.is_free(t));
         let command = controller
             .command(want, state[2], seen.speed, task.row)
+            .map(|torque| if free { 0.0 } else { torque })
             .map(|torque| round_to(torque, task.sheet.torque_step));
         commands.push(command);
         let mut row = Row {

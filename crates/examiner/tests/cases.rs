@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use examiner::{
-    Case, Content, DrawnCase, EffectId, Manoeuvre, Mix, Outsider, Place, RobotClass, Setting, Settings, Severity,
-    TyreLaw, set,
+    Again, Case, Content, Course, DrawnCase, EffectId, Manoeuvre, Mix, Outsider, Place, RobotClass, Setting, Settings,
+    Severity, TyreLaw, set,
 };
 
 /// Settings of a short case.
@@ -213,4 +213,42 @@ fn rates_classes_and_missing_sensors_are_as_asked() {
     }
     let odd = Settings { row_rate_hz: 333.0, ..Settings::default() };
     assert!(Case::draw("x", 1, &odd).is_err());
+}
+
+#[test]
+fn courses_are_driven_as_asked_with_what_is_hidden() {
+    let settings = short(Content::Effects(vec![EffectId::Payload]));
+    let straight = Course {
+        start: Some([1.0, -2.0, 0.5]),
+        points: vec![[0.0; 3], [1.0, 0.4, 0.0], [5.0, 0.4, 0.0], [6.0, 0.0, 0.0]],
+        torque_free: vec![[5.0, 6.0]],
+    };
+    let spin = Course { points: vec![[0.0; 3], [1.0, 0.0, 0.8], [5.0, 0.0, 0.8]], ..Course::default() };
+    let again = Again::new(11, &settings).unwrap();
+    let texts = [&straight, &spin].map(|c| again.record(0, c).unwrap());
+    assert!(texts[0] == Again::new(11, &settings).unwrap().record(0, &straight).unwrap());
+    assert!(texts[0] != again.record(1, &straight).unwrap(), "each run is another");
+    let healthy = short(Content::Null);
+    assert!(texts[0] != Again::new(11, &healthy).unwrap().record(0, &straight).unwrap(), "nothing is hidden in it");
+
+    let rows = |text: &str| -> Vec<Vec<Option<f64>>> {
+        text.lines().skip(1).map(|l| l.split(',').map(|c| c.parse().ok()).collect()).collect()
+    };
+    let [ahead, round] = [rows(&texts[0]), rows(&texts[1])];
+    assert_eq!((ahead.len(), round.len()), (600, 500));
+    let first: Vec<f64> = [10, 11, 12].iter().filter_map(|&c| ahead[..12].iter().find_map(|r| r[c])).collect();
+    assert!((first[0] - 1.0).abs() < 0.05 && (first[1] + 2.0).abs() < 0.05 && (first[2] - 0.5).abs() < 0.05);
+    let mean = |rows: &[Vec<Option<f64>>], c: usize| {
+        let all: Vec<f64> = rows.iter().filter_map(|r| r[c]).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    // Pose at 2 s and 4 s: 0.8 m along the heading.
+    let at = |t: usize, c: usize| ahead[t..].iter().find_map(|r| r[c]).unwrap();
+    let way = (at(400, 10) - at(200, 10)).hypot(at(400, 11) - at(200, 11));
+    assert!((way - 0.8).abs() < 0.08, "{way} m");
+    assert!((mean(&round[250..450], 7) - 0.8).abs() < 0.15, "{} rad/s", mean(&round[250..450], 7));
+    assert!(mean(&ahead[510..590], 5).abs() < 0.02 && mean(&ahead[300..500], 5).abs() > 0.05);
+
+    let unsound = Course { points: vec![[2.0, 0.0, 0.0], [1.0, 0.0, 0.0]], ..Course::default() };
+    assert!(again.record(0, &unsound).is_err());
 }

@@ -13,7 +13,8 @@ mod commands;
 mod console;
 
 use commands::{
-    Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, predict, simulate,
+    Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, next, predict,
+    simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -22,7 +23,8 @@ Examples:
   lacuna diagnose case/            robot.toml, reference/ and recordings/
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
-  lacuna export verdict.json --to mjcf   the corrected robot for MuJoCo
+  lacuna next case/                which drive tells rivals apart
+  lacuna export verdict.json --to mjcf
   lacuna explain payload           one effect in full
 
 Exit codes:
@@ -56,6 +58,8 @@ enum Command {
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
     Predict(predict::Args),
+    /// Say which drive would tell the remaining causes apart best.
+    Next(next::Args),
     /// Write a diagnosed robot as a model of a simulator, corrected.
     Export(export::Args),
     /// Follow a recording with the online neural identifier.
@@ -87,6 +91,7 @@ fn run() -> ExitCode {
         Command::Simulate(args) => simulate::run(args),
         Command::Predict(args) => predict::run(args),
         Command::Export(args) => export::run(args),
+        Command::Next(args) => next::run(args, cli.verbose),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),
         Command::Completions(args) => completions::run(args),

@@ -2,6 +2,7 @@
 
 pub mod chart;
 mod drawing;
+pub mod manoeuvre;
 pub mod page;
 pub mod picture;
 pub mod reliability;

@@ -14,6 +14,8 @@ pub enum Purpose {
     Comparison,
     /// Noise of sensors.
     SensorNoise,
+    /// Candidates of a search.
+    Search,
 }
 
 /// A stream of random numbers, fixed by seed, purpose and draw.

@@ -28,6 +28,7 @@ pub(crate) mod truth;
 mod write;
 
 use layout::Layout;
+pub(crate) use score::statistics::Rate;
 
 const EXAMPLES: &str = "\
 Examples:

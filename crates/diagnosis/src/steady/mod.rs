@@ -32,12 +32,13 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 use serde::{Deserialize, Serialize};
 
-use crate::DiagnosisError;
+use crate::next::advise_steady;
 use crate::verdict::{Diagnosis, FreeRun, Verdict};
+use crate::{DiagnosisError, Options};
 
 use answer::{limits, verdict};
 use compare::{Reference, matching, references, scaled};
-use model::{Measured, Operating, predicted, sensitivity, tune};
+use model::{Measured, tune};
 use name::{Comparison, Difference, name};
 
 pub use changes::{Changes, Hidden, LoadChange};
@@ -46,7 +47,8 @@ pub(crate) use compare::NINETY;
 pub use compare::Ratio;
 pub use extract::{Load, Quantity, Withheld};
 pub use forecast::Forecast;
-pub(crate) use name::UNNAMED_STRAIGHT;
+pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
+pub(crate) use name::{Named, Naming, UNNAMED_STRAIGHT};
 pub use run::{BodyRates, SpeedRun};
 pub use scrub::TurningChange;
 pub use standstill::Standstill;
@@ -106,11 +108,16 @@ pub struct ClockError {
     pub left_out: Vec<f64>,
 }
 
-/// Diagnoses a speed-driven case. `progress` is told the stage that begins.
+/// Diagnoses a speed-driven case; of the options only whether to advise on the next drive counts. `progress` is told the
+/// stage that begins.
 ///
 /// # Errors
 /// When there is no recording, or nothing permits any answer.
-pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+pub fn diagnose_steady(
+    case: &SteadyCase,
+    options: &Options,
+    progress: &dyn Fn(&str),
+) -> Result<Diagnosis, DiagnosisError> {
     if case.recordings.is_empty() {
         return Err(DiagnosisError::Empty { what: "recording" });
     }
@@ -163,6 +170,12 @@ pub fn diagnose_steady(case: &SteadyCase, progress: &dyn Fn(&str)) -> Result<Dia
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
+    if options.next.is_some() {
+        progress("looking for the drive that tells the rivals apart");
+        let speeds = case.recordings.iter().flat_map(|r| r.speed.iter().flatten());
+        let fastest = speeds.fold(0.0_f64, |most, v| most.max(v.abs()));
+        out.next = Some(advise_steady(fastest, &robot, &case.sigma, &calibrated, naming.as_ref()));
+    }
     Ok(out)
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::{Args as ClapArgs, ValueEnum};
-use diagnosis::{Diagnosis, Options, Verdict};
+use diagnosis::{Advice, Diagnosis, Options, Verdict};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::{Causality, mcap_out, predictions, which_mapping};
@@ -54,38 +54,51 @@ const STAGES: Stages = &[
     ("comparing on data that was not fitted", 0.85),
 ];
 
+/// Length of the drives that are advised, s.
+pub(crate) const NEXT_LENGTH: f64 = 12.0;
+/// Why there is no advice for these robots.
+const COMMAND_DRIVEN: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
+    steps, and which steps would tell more of them is not computed yet";
+
 const USAGE: &str = "\
 lacuna diagnose [OPTIONS] <CASE>
        lacuna diagnose [OPTIONS] --robot <NAME|FILE>
                        [--reference <PATH>...] --recordings <PATH>...";
 
+/// A case on the command line.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Input {
+    /// Folder with robot.toml (or robot.json), reference/, recordings/ and perhaps heldout/.
+    #[arg(required_unless_present_all = ["robot", "recordings"])]
+    pub(crate) case: Option<PathBuf>,
+    /// Robot file, or name of a built-in robot.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) robot: Option<String>,
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) mapping: Option<String>,
+    /// Files or folders of drives in which the simulation was right; a speed-driven or command-driven
+    /// robot can do without, and is then compared with its robot file.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    pub(crate) reference: Vec<PathBuf>,
+    /// Files or folders of drives in which it was not.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    pub(crate) recordings: Vec<PathBuf>,
+    /// Files or folders of inputs whose response is to be predicted.
+    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
+    pub(crate) heldout: Vec<PathBuf>,
+    /// What to do with bad rows and cells of recordings.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) reading: Reading,
+}
+
 /// Arguments of `lacuna diagnose`.
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES, override_usage = USAGE)]
 pub(crate) struct Args {
-    /// Folder with robot.toml (or robot.json), reference/, recordings/ and perhaps heldout/.
-    #[arg(required_unless_present_all = ["robot", "recordings"])]
-    case: Option<PathBuf>,
-    /// Robot file, or name of a built-in robot.
-    #[arg(long, value_name = "NAME|FILE")]
-    robot: Option<String>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
-    /// for bags the built-in one that fits].
-    #[arg(long, value_name = "NAME|FILE")]
-    mapping: Option<String>,
-    /// Files or folders of drives in which the simulation was right; a speed-driven or command-driven
-    /// robot can do without, and is then compared with its robot file.
-    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
-    reference: Vec<PathBuf>,
-    /// Files or folders of drives in which it was not.
-    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
-    recordings: Vec<PathBuf>,
-    /// Files or folders of inputs whose response is to be predicted.
-    #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
-    heldout: Vec<PathBuf>,
-    /// What to do with bad rows and cells of recordings.
-    #[arg(long, value_enum, default_value_t)]
-    reading: Reading,
+    #[command(flatten)]
+    input: Input,
     /// Write everything as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
@@ -102,6 +115,9 @@ pub(crate) struct Args {
     /// End with exit code 4 when there is a mismatch, whether it could be explained or not.
     #[arg(long, value_enum, value_name = "WHAT")]
     fail_on: Option<FailOn>,
+    /// Advise on the next drive too, in the JSON and as a sentence: a few seconds more (`lacuna next` shows all of it).
+    #[arg(long)]
+    next: bool,
 }
 
 /// What shall count as a failure of the simulation.
@@ -123,18 +139,13 @@ fn outcome(verdict: Verdict, fail_on: Option<FailOn>, lost: &[String]) -> Outcom
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
-    let (case, mapping) = read(args)?;
-    let options = Options::default();
-    let stage = |what: &str| progress.stage(what);
-    let diagnosis = match case.robot.causality {
-        Causality::TorqueDriven => torque_driven(&case, &options, &stage)?,
-        Causality::SpeedDriven => speed_driven(&case, &stage)?,
-        Causality::CommandDriven => command_driven(&case, &stage)?,
-    };
+    let options = Options { next: args.next.then_some(NEXT_LENGTH), ..Options::default() };
+    let (case, mapping) = read(&args.input)?;
+    let diagnosis = diagnosed(&case, &options, &progress)?;
     drop(progress);
 
-    let name = args.mapping.as_deref().unwrap_or(&mapping);
-    let envelope = Envelope::new(diagnosis, &case, &options, name, args.reading.name())?;
+    let name = args.input.mapping.as_deref().unwrap_or(&mapping);
+    let envelope = Envelope::new(diagnosis, &case, &options, name, args.input.reading.name())?;
     let (diagnosis, lost) = (&envelope.diagnosis, &envelope.lost);
     if let Some(dir) = &args.predictions {
         if case.robot.causality == Causality::CommandDriven {
@@ -164,14 +175,15 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     }
     if args.json.as_deref() != Some("-") {
         // Tables say themselves which column is which signal.
-        let found = (args.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
+        let found =
+            (args.input.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
         emit(&as_text::render(diagnosis, &case, lost, found))?;
     }
     Ok(outcome(diagnosis.verdict, args.fail_on, lost))
 }
 
 /// The case that the arguments name, and the name of the mapping that read it.
-fn read(args: &Args) -> Result<(CaseFolder, String)> {
+pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
     let options = args.reading.options();
     if let Some(folder) = &args.case {
         let parts: Vec<PathBuf> = case_folder::folders(folder).into_iter().filter(|part| part.is_dir()).collect();
@@ -196,16 +208,18 @@ fn read(args: &Args) -> Result<(CaseFolder, String)> {
     Ok((case, mapping.name))
 }
 
-fn torque_driven(case: &CaseFolder, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-    Ok(diagnosis::diagnose(&case.torque_driven()?, options, progress)?)
-}
-
-fn speed_driven(case: &CaseFolder, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-    Ok(diagnosis::diagnose_steady(&case.speed_driven()?, progress)?)
-}
-
-fn command_driven(case: &CaseFolder, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-    Ok(diagnosis::diagnose_response(&case.command_driven()?, progress)?)
+/// Diagnoses a case by what drives its robot.
+pub(crate) fn diagnosed(case: &CaseFolder, options: &Options, progress: &Progress) -> Result<Diagnosis> {
+    let stage = |what: &str| progress.stage(what);
+    Ok(match case.robot.causality {
+        Causality::TorqueDriven => diagnosis::diagnose(&case.torque_driven()?, options, &stage)?,
+        Causality::SpeedDriven => diagnosis::diagnose_steady(&case.speed_driven()?, options, &stage)?,
+        Causality::CommandDriven => {
+            let mut out = diagnosis::diagnose_response(&case.command_driven()?, &stage)?;
+            out.next = options.next.map(|_| Advice::withheld(COMMAND_DRIVEN));
+            out
+        }
+    })
 }
 
 #[cfg(test)]

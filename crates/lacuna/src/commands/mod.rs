@@ -13,6 +13,7 @@ pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod identify;
 pub(crate) mod man;
+pub(crate) mod next;
 pub(crate) mod predict;
 pub(crate) mod simulate;
 

@@ -7,9 +7,9 @@ const NINETY_FIVE: f64 = 1.96;
 
 /// How often something is so.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(in crate::blind) struct Rate {
-    pub(in crate::blind) hits: usize,
-    pub(in crate::blind) count: usize,
+pub(crate) struct Rate {
+    pub(crate) hits: usize,
+    pub(crate) count: usize,
 }
 
 impl FromIterator<bool> for Rate {
@@ -20,7 +20,7 @@ impl FromIterator<bool> for Rate {
 
 impl Rate {
     /// Hits over all, if there are any.
-    pub(in crate::blind) fn share(self) -> Option<f64> {
+    pub(crate) fn share(self) -> Option<f64> {
         (self.count > 0).then(|| self.hits as f64 / self.count as f64)
     }
 

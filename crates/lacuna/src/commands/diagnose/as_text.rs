@@ -1,6 +1,6 @@
 //! A diagnosis for people: the verdict first.
 
-use diagnosis::{Cause, Diagnosis};
+use diagnosis::{Advice, Cause, Diagnosis};
 use lacuna::answers::NINETY;
 use lacuna::case_folder::CaseFolder;
 
@@ -29,12 +29,25 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping:
     out += &free_runs(d);
     out += &where_and_when::network(d);
     out += &listed("Answers that the recordings do not permit", &withheld(d));
+    out += &listed("The next drive", &d.next.iter().map(next).collect::<Vec<_>>());
     out += &listed("What limits this answer", &d.limits);
     out += &listed("Lost input", lost);
     out += &listed("Not used", &not_used(case));
     let found = |name: &str| format!("{name}, which is built in and fits these bags; --mapping names another");
     out += &listed("Mapping", &mapping.map(found).into_iter().collect::<Vec<_>>());
     out
+}
+
+/// The drive that would tell the rivals apart, in a sentence.
+fn next(advice: &Advice) -> String {
+    let best = advice
+        .best()
+        .map(|m| format!("{}: {:.2} of {:.2} bits are expected of it", m.name, m.expected_bits, advice.entropy_bits));
+    match (&advice.withheld, best) {
+        (None, Some(best)) => best,
+        (Some(reason), _) => reason.clone(),
+        (None, None) => "there is none on the menu".to_owned(),
+    }
 }
 
 fn causes(ranked: &[Cause]) -> String {
