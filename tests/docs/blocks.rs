@@ -61,7 +61,7 @@ pub(crate) fn of(markdown: &str) -> Vec<Block> {
                         follows = false;
                     }
                     ("text", Some(block)) if follows && info == "text" => {
-                        block.shown.extend(text.lines().map(str::to_owned))
+                        block.shown.extend(text.lines().map(str::to_owned));
                     }
                     _ => follows = false,
                 }

@@ -11,8 +11,7 @@ use serde_json::{Value, json};
 
 use crate::predictions::save;
 
-/// Half the width of a 90 % interval in sigmas of a normal distribution.
-pub const NINETY: f64 = 1.645;
+pub use report::words::NINETY;
 
 /// What an answer is made of: a part of the JSON of a diagnosis.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -12,6 +12,7 @@ pub mod inputs;
 pub mod mcap_out;
 pub mod predictions;
 pub mod propose;
+pub mod report_page;
 mod robot_error;
 pub mod robot_file;
 mod robot_parameters;

@@ -14,7 +14,7 @@ mod console;
 
 use commands::{
     Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, next, predict,
-    simulate,
+    report, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -58,6 +58,8 @@ enum Command {
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
     Predict(predict::Args),
+    /// Make a page of what `diagnose --json` wrote.
+    Report(report::Args),
     /// Say which drive would tell the remaining causes apart best.
     Next(next::Args),
     /// Write a diagnosed robot as a model of a simulator, corrected.
@@ -92,6 +94,7 @@ fn run() -> ExitCode {
         Command::Predict(args) => predict::run(args),
         Command::Export(args) => export::run(args),
         Command::Next(args) => next::run(args, cli.verbose),
+        Command::Report(args) => report::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),
         Command::Completions(args) => completions::run(args),

@@ -1,5 +1,7 @@
 //! Tables of plain text.
 
+pub use report::words::number;
+
 /// A table with a line of names; columns are as wide as their widest cell.
 #[derive(Debug)]
 pub struct TextTable {
@@ -43,34 +45,14 @@ impl TextTable {
     }
 }
 
-/// A number with four digits that count, without an exponent where that is readable.
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".to_owned()
-    } else if (1e-4..1e5).contains(&size) {
-        let decimals = (3 - size.log10().floor() as i32).clamp(0, 7) as usize;
-        format!("{x:.decimals$}")
-    } else {
-        format!("{x:.2e}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{TextTable, number};
+    use super::TextTable;
 
     #[test]
     fn columns_line_up() {
         let mut t = TextTable::new(&["name", ">size"]);
         t.row(["µ".to_owned(), "12".to_owned()]);
         assert_eq!(t.render(), "  name  size\n  µ       12\n");
-    }
-
-    #[test]
-    fn numbers_keep_four_digits() {
-        assert_eq!(number(0.012_345), "0.01235");
-        assert_eq!(number(-123.44), "-123.4");
-        assert_eq!(number(3.2e-15), "3.20e-15");
     }
 }

@@ -77,6 +77,22 @@ fn a_response_is_told_without_any_reference() {
 }
 
 #[test]
+fn the_page_is_the_same_at_once_and_from_the_json() {
+    let bench = bench();
+    let run = bench.run(&["diagnose", "case", "--json", "out.json", "--report", "page.html"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let page = bench.read("page.html");
+    assert!(page.starts_with("<!doctype html>") && page.contains("effective track") && page.contains("SHA-256"));
+    let run = bench.run(&["report", "out.json", "-o", "again.html"]);
+    assert_eq!((run.code(), run.out()), (Some(0), String::new()), "{}", run.err());
+    assert!(bench.read("again.html") == page, "another page");
+    assert!(bench.run(&["report", "out.json", "-o", "-"]).out() == page, "another page");
+    bench.write("cut.json", &bench.read("out.json")[..2000]);
+    bench.run(&["report", "cut.json", "-o", "-"]).failed(&["cut.json", "line", "lacuna diagnose --json"]);
+    bench.run(&["report", "absent.json", "-o", "-"]).failed(&["absent.json"]);
+}
+
+#[test]
 fn other_robots_still_need_references() {
     let bench = bench();
     bench.write("torque.toml", common::ROBOT);

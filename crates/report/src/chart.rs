@@ -1,12 +1,12 @@
 //! Line charts from plain numbers.
 
-use plotly::common::{DashType, Line as Stroke, Mode, Orientation, Title};
-use plotly::configuration::DisplayModeBar;
-use plotly::layout::{Annotation, Axis, Legend, Margin};
-use plotly::{Configuration, Layout, Plot, Scatter};
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use serde_json::json;
 
-/// About so many points per line are kept: a page then opens quickly, and peaks stay visible.
-const POINTS: usize = 2000;
+use crate::thin;
+
+/// About so many points per line are kept: peaks stay visible, and pages of many lines small.
+const POINTS: usize = 4000;
 
 /// One line of a chart.
 #[derive(Debug, Clone, Default)]
@@ -19,12 +19,16 @@ pub struct Line {
     pub y: Vec<f64>,
     /// Drawn dashed.
     pub dashed: bool,
+    /// Drawn in the colour of what it stands for, if it is one of these.
+    pub role: Option<crate::figure::Role>,
+    /// Drawn as points, each with its interval, instead of a line; one for each point, or none.
+    pub intervals: Vec<[f64; 2]>,
 }
 
 impl Line {
     /// A solid line.
     pub fn new(name: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
-        Self { name: name.into(), x: x.to_vec(), y: y.to_vec(), dashed: false }
+        Self { name: name.into(), x: x.to_vec(), y: y.to_vec(), ..Self::default() }
     }
 
     /// The same line, dashed.
@@ -51,81 +55,59 @@ pub struct Chart {
     pub marks: Vec<(f64, f64, String)>,
 }
 
+impl Serialize for Chart {
+    /// As the page's script reads it: thinned, abscissae that lines share once.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut abscissae: Vec<Vec<Option<f64>>> = Vec::new();
+        let lines: Vec<_> = self.lines.iter().map(|line| self.line(line, &mut abscissae)).collect();
+        let mut out = serializer.serialize_struct("Chart", 6)?;
+        out.serialize_field("x_label", &self.x_label)?;
+        out.serialize_field("y_label", &self.y_label)?;
+        out.serialize_field("equal", &self.equal_scales)?;
+        out.serialize_field("x", &abscissae)?;
+        out.serialize_field("lines", &lines)?;
+        out.serialize_field("marks", &self.marks)?;
+        out.end()
+    }
+}
+
 impl Chart {
-    /// The chart as the JSON that plotly.js draws, safe inside a script element.
-    pub(crate) fn to_json(&self) -> String {
-        let mut plot = Plot::new();
-        for line in &self.lines {
-            // A path may return to the same abscissa, so extremes per interval of x mean nothing there.
-            let kept = if self.equal_scales { every_nth(&line.y) } else { extremes(&line.y) };
-            let pick = |v: &[f64]| kept.iter().filter_map(|i| v.get(*i)).map(|v| six_digits(*v)).collect::<Vec<_>>();
-            let stroke = Stroke::new().width(1.4).dash(if line.dashed { DashType::Dash } else { DashType::Solid });
-            plot.add_trace(Scatter::new(pick(&line.x), pick(&line.y)).mode(Mode::Lines).name(&line.name).line(stroke));
-        }
-        let axis = |label: &str| Axis::new().title(Title::with_text(label)).zero_line(false).auto_margin(true);
-        let y_axis = if self.equal_scales { axis(&self.y_label).scale_anchor("x") } else { axis(&self.y_label) };
-        let marks =
-            self.marks.iter().map(|(x, y, text)| Annotation::new().x(*x).y(*y).text(text).arrow_size(0.6)).collect();
-        plot.set_layout(
-            Layout::new()
-                .x_axis(axis(&self.x_label))
-                .y_axis(y_axis)
-                .annotations(marks)
-                .legend(Legend::new().orientation(Orientation::Horizontal).y(1.14))
-                .margin(Margin::new().left(58).right(12).top(24).bottom(44))
-                .height(320),
-        );
-        plot.set_configuration(Configuration::new().responsive(true).display_mode_bar(DisplayModeBar::False));
-        plot.to_json().replace("</", "<\\/")
+    fn line(&self, line: &Line, abscissae: &mut Vec<Vec<Option<f64>>>) -> serde_json::Value {
+        let count = line.x.len().min(line.y.len());
+        let y: Vec<Option<f64>> = line.y[..count].iter().map(|v| thin::six_digits(*v)).collect();
+        // A path may return to the same abscissa, so extremes per interval of x mean nothing there.
+        let (at, y) = if self.equal_scales {
+            let at: Vec<usize> = (0..count).step_by(count.div_ceil(POINTS).max(1)).collect();
+            let y = at.iter().map(|i| y[*i]).collect();
+            (at, y)
+        } else {
+            let size = thin::group(count, POINTS);
+            (thin::places(count, size), thin::extremes(&y, size))
+        };
+        let x: Vec<Option<f64>> = at.iter().map(|i| thin::six_digits(line.x[*i])).collect();
+        let place = abscissae.iter().position(|known| *known == x).unwrap_or_else(|| {
+            abscissae.push(x);
+            abscissae.len() - 1
+        });
+        json!({
+            "name": line.name, "x": place, "y": y, "dashed": line.dashed, "role": line.role, "intervals": line.intervals,
+        })
     }
-}
-
-/// Indices of the smallest and the largest value of each of [`POINTS`]/2 intervals, in order.
-fn extremes(y: &[f64]) -> Vec<usize> {
-    if y.len() <= POINTS {
-        return (0..y.len()).collect();
-    }
-    let width = y.len().div_ceil(POINTS / 2);
-    let mut kept = Vec::with_capacity(POINTS + 2);
-    kept.push(0);
-    for (n, part) in y.chunks(width).enumerate() {
-        let place = |best: Option<(usize, &f64)>| n * width + best.map_or(0, |(i, _)| i);
-        let low = place(part.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)));
-        let high = place(part.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)));
-        kept.extend([low.min(high), low.max(high)]);
-    }
-    kept.push(y.len() - 1);
-    kept.dedup();
-    kept
-}
-
-fn every_nth(y: &[f64]) -> Vec<usize> {
-    (0..y.len()).step_by(y.len().div_ceil(POINTS).max(1)).collect()
-}
-
-/// Six significant digits: more are not seen in a figure.
-fn six_digits(v: f64) -> f64 {
-    format!("{v:.5e}").parse().unwrap_or(v)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{POINTS, extremes, six_digits};
+    use super::{Chart, Line, POINTS};
 
     #[test]
-    fn thinning_keeps_ends_peaks_and_order() {
-        let mut y: Vec<f64> = (0..32_000).map(|i| (f64::from(i) * 1e-3).sin() * 0.1).collect();
-        y[12_345] = 5.0;
-        let kept = extremes(&y);
-        assert!(kept.len() <= POINTS + 2 && kept.contains(&12_345));
-        assert!(kept.windows(2).all(|p| p[0] < p[1]));
-        assert_eq!((kept[0], kept[kept.len() - 1]), (0, 31_999));
-        assert_eq!(extremes(&[1.0, 2.0]), vec![0, 1]);
-    }
-
-    #[test]
-    fn digits_are_limited() {
-        assert_eq!(six_digits(1.0 / 3.0), 0.333_333);
-        assert!(six_digits(f64::NAN).is_nan());
+    fn lines_share_their_abscissae_and_keep_their_peaks() {
+        let x: Vec<f64> = (0..32_000).map(|i| f64::from(i) * 1e-3).collect();
+        let mut y = x.clone();
+        y[12_345] = 99.0;
+        let chart = Chart { lines: vec![Line::new("a", &x, &y), Line::new("b", &x, &x)], ..Chart::default() };
+        let json = serde_json::to_value(&chart).expect("serialises");
+        assert_eq!(json["x"].as_array().map(Vec::len), Some(1));
+        let kept = json["lines"][0]["y"].as_array().expect("a list");
+        assert!(kept.len() <= POINTS && kept.contains(&99.0.into()));
     }
 }

@@ -19,7 +19,10 @@ pub(crate) const PAPER: RGBColor = RGBColor(255, 255, 255);
 pub(crate) const FRAME: RGBColor = RGBColor(208, 215, 222);
 pub(crate) const INK: RGBColor = RGBColor(31, 41, 51);
 pub(crate) const SOFT: RGBColor = RGBColor(92, 105, 117);
-pub(crate) const CORRECTED: RGBColor = RGBColor(42, 125, 110);
+// As on the pages: what is before, re-tuned only, and corrected.
+pub(crate) const BEFORE: RGBColor = RGBColor(201, 72, 11);
+pub(crate) const RETUNED: RGBColor = RGBColor(122, 91, 168);
+pub(crate) const CORRECTED: RGBColor = RGBColor(11, 102, 176);
 
 /// A rectangle from corner to corner.
 pub(crate) fn rectangle(root: &Area<'_>, [a, b, c, d]: [i32; 4], style: ShapeStyle) -> Result<(), PictureError> {

@@ -1,156 +1,204 @@
-//! The shell that all pages share: one file that opens offline, readable in light and dark.
+//! A page in the making: one file that opens offline, readable in light and dark, on a phone and on paper.
 
 use std::fmt::Write;
 
 use crate::chart::Chart;
+use crate::figure::{Drawing, Figure};
+use crate::shell;
+use crate::table::table;
 
-/// How a table cell is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tone {
-    /// Plain.
-    #[default]
-    Plain,
-    /// Met, or good news.
-    Good,
-    /// Missed, or bad news.
-    Bad,
-}
+pub use crate::table::{Cell, Tone};
 
-/// A cell of a table.
-#[derive(Debug, Clone, Default)]
-pub struct Cell {
-    /// Text, escaped by the page.
-    pub text: String,
-    /// How it is shown.
-    pub tone: Tone,
-}
-
-impl<S: Into<String>> From<S> for Cell {
-    fn from(text: S) -> Self {
-        Self { text: text.into(), tone: Tone::Plain }
-    }
-}
+/// Letters of a heading that is shown large.
+const ONE_LINE: usize = 90;
 
 /// A page in the making. All text is escaped; nothing from a user becomes markup.
 #[derive(Debug, Clone)]
 pub struct Page {
     title: String,
     body: String,
-    charts: usize,
+    sections: Vec<(String, String)>,
+    figures: usize,
 }
 
-const CSS: &str = "\
-:root{color-scheme:light dark;--ink:#1d2329;--soft:#5b6670;--paper:#ffffff;--line:#d5dbe0;--good:#0b6b3a;--bad:#b3261e}
-@media(prefers-color-scheme:dark){:root{--ink:#e4e8eb;--soft:#9aa5ae;--paper:#14181c;--line:#343c43;--good:#62d394;--bad:#ff8a80}}
-body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:1200px;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem}p{max-width:75ch}p.note{color:var(--soft)}
-.scroll{overflow-x:auto}table{border-collapse:collapse;font-variant-numeric:tabular-nums}
-svg{max-width:100%;height:auto}th,td{padding:.25rem .7rem;border-bottom:1px solid var(--line);text-align:right}
-th:first-child,td:first-child{text-align:left}.good{color:var(--good)}.bad{color:var(--bad);font-weight:600}
-.grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,480px),1fr));gap:1rem}
-figure{margin:0;min-width:0}figcaption{color:var(--soft);font-size:.9rem}";
-
-/// Follows the colours of the page, also when the reader changes them.
-const THEME: &str = "\
-const dark=matchMedia('(prefers-color-scheme: dark)');
-function paint(){const c=getComputedStyle(document.documentElement);const ink=c.getPropertyValue('--ink').trim();
-const line=c.getPropertyValue('--line').trim();
-for(const d of document.querySelectorAll('.chart'))Plotly.relayout(d,{'paper_bgcolor':'rgba(0,0,0,0)',
-'plot_bgcolor':'rgba(0,0,0,0)','font.color':ink,'xaxis.gridcolor':line,'yaxis.gridcolor':line});}
-paint();dark.addEventListener('change',paint);";
-
 impl Page {
-    /// An empty page.
+    /// A page under its title.
     pub fn new(title: &str) -> Self {
-        Self { title: title.into(), body: String::new(), charts: 0 }
+        Self::headed(title, "", &[title.to_owned()])
+    }
+
+    /// A page whose heading says something else than its title; `eyebrow` is a line above the heading.
+    pub fn headed(title: &str, eyebrow: &str, heading: &[String]) -> Self {
+        let mut page = Self { title: title.into(), body: String::new(), sections: Vec::new(), figures: 0 };
+        if !eyebrow.is_empty() {
+            page.push(format_args!("<p class=\"eyebrow\">{}</p>\n", escape(eyebrow)));
+        }
+        let class = if heading.iter().map(String::len).sum::<usize>() > ONE_LINE { " class=\"several\"" } else { "" };
+        let lines: Vec<String> = heading.iter().map(|line| format!("<span>{}</span> ", escape(line))).collect();
+        page.push(format_args!("<h1{class}>{}</h1>\n", lines.concat()));
+        page
+    }
+
+    /// Adds a section that the reader can jump to by a short name.
+    pub fn section(&mut self, short: &str, heading: &str) {
+        let id = format!("section-{}", self.sections.len() + 1);
+        self.push(format_args!("<h2 id=\"{id}\">{}</h2>\n", escape(heading)));
+        self.sections.push((id, short.to_owned()));
     }
 
     /// Adds a section heading.
     pub fn heading(&mut self, text: &str) {
-        self.push(format_args!("<h2>{}</h2>\n", escape(text)));
+        self.element("h2", "", text);
+    }
+
+    /// Adds a heading inside a section.
+    pub fn subheading(&mut self, text: &str) {
+        self.element("h3", "", text);
     }
 
     /// Adds a paragraph.
     pub fn paragraph(&mut self, text: &str) {
-        self.push(format_args!("<p>{}</p>\n", escape(text)));
+        self.element("p", "", text);
+    }
+
+    /// Adds a paragraph that leads into a page.
+    pub fn lead(&mut self, text: &str) {
+        self.element("p", "lead", text);
     }
 
     /// Adds a paragraph in a softer colour.
     pub fn note(&mut self, text: &str) {
-        self.push(format_args!("<p class=\"note\">{}</p>\n", escape(text)));
+        self.element("p", "note", text);
+    }
+
+    /// Adds a paragraph that stands out.
+    pub fn aside(&mut self, text: &str) {
+        self.body += "<aside>";
+        self.paragraph(text);
+        self.body += "</aside>\n";
+    }
+
+    /// Adds a list of sentences.
+    pub fn list<S: AsRef<str>>(&mut self, sentences: &[S]) {
+        self.body += "<ul class=\"plain\">\n";
+        for s in sentences {
+            self.element("li", "", s.as_ref());
+        }
+        self.body += "</ul>\n";
     }
 
     /// Adds a table; the first column is text, the others numbers.
     pub fn table(&mut self, header: &[&str], rows: &[Vec<Cell>]) {
-        self.body += "<div class=\"scroll\"><table><thead><tr>";
-        for text in header {
-            self.push(format_args!("<th>{}</th>", escape(text)));
-        }
-        self.body += "</tr></thead><tbody>\n";
-        for row in rows {
-            self.body += "<tr>";
-            for cell in row {
-                let class = match cell.tone {
-                    Tone::Plain => "",
-                    Tone::Good => " class=\"good\"",
-                    Tone::Bad => " class=\"bad\"",
-                };
-                self.push(format_args!("<td{class}>{}</td>", escape(&cell.text)));
-            }
-            self.body += "</tr>\n";
-        }
-        self.body += "</tbody></table></div>\n";
+        self.body += &table(header, rows, "");
+    }
+
+    /// Adds a table of words.
+    pub fn table_of_words(&mut self, header: &[&str], rows: &[Vec<Cell>]) {
+        self.body += &table(header, rows, " class=\"words\"");
     }
 
     /// Adds charts side by side where the window is wide enough.
     pub fn charts(&mut self, charts: &[Chart]) {
+        let figure = |c: &Chart| Figure {
+            title: String::new(),
+            caption: c.caption.clone(),
+            table: (Vec::new(), Vec::new()),
+            drawing: Drawing::Lines(c.clone()),
+        };
+        self.grid(&charts.iter().map(figure).collect::<Vec<_>>());
+    }
+
+    /// Adds figures side by side where the window is wide enough.
+    pub fn grid(&mut self, figures: &[Figure]) {
         self.body += "<div class=\"grid\">\n";
-        for chart in charts {
-            self.charts += 1;
-            let (n, json) = (self.charts, chart.to_json());
-            let caption = escape(&chart.caption);
-            self.push(format_args!(
-                "<figure><div id=\"chart{n}\" class=\"chart\" role=\"img\" aria-label=\"{caption}\"></div>\
-                 <script>Plotly.newPlot(\"chart{n}\",{json});</script><figcaption>{caption}</figcaption></figure>\n"
-            ));
+        for f in figures {
+            self.figure(f);
         }
         self.body += "</div>\n";
     }
 
-    /// Adds a picture that was drawn by this crate, with a caption below it.
-    pub fn picture(&mut self, svg: &str, caption: &str) {
-        self.body += "<figure>";
-        self.body += svg;
-        self.push(format_args!("<figcaption>{}</figcaption></figure>\n", escape(caption)));
+    /// Adds a figure with its caption and its numbers.
+    pub fn figure(&mut self, f: &Figure) {
+        self.figures += 1;
+        let n = self.figures;
+        let (title, caption) = (escape(&f.title), escape(&f.caption));
+        let label = if f.title.is_empty() { &caption } else { &title };
+        let (keys, role) = if f.drawing.has_cursor() {
+            (" Arrow keys move the cursor, plus and minus zoom, 0 shows all.", "application")
+        } else if f.drawing.zooms() {
+            (" Plus and minus zoom, 0 shows all.", "application")
+        } else {
+            ("", "img")
+        };
+        let tools = if f.drawing.zooms() {
+            "<div class=\"tools\"><button type=\"button\" data-zoom=\"0.5\" aria-label=\"Zoom in\">+</button>\
+             <button type=\"button\" data-zoom=\"2\" aria-label=\"Zoom out\">−</button>\
+             <button type=\"button\" data-zoom=\"0\">All</button></div>"
+        } else {
+            ""
+        };
+        let head = if title.is_empty() { String::new() } else { format!("<h3>{title}</h3>") };
+        let head =
+            if head.is_empty() && tools.is_empty() { head } else { format!("<div class=\"head\">{head}{tools}</div>") };
+        let numbers = match &f.table {
+            (_, rows) if rows.is_empty() => String::new(),
+            (header, rows) => {
+                format!("<details class=\"data\"><summary>Numbers</summary>{}</details>", table(header, rows, ""))
+            }
+        };
+        let json = f.drawing.to_json();
+        self.push(format_args!(
+            "<figure>{head}<div class=\"plot\" data-chart=\"data-{n}\" tabindex=\"0\" role=\"{role}\" \
+             aria-label=\"{label}.{keys}\" aria-describedby=\"caption-{n}\"></div>\
+             <p class=\"readout\" aria-live=\"polite\"></p>\
+             <script type=\"application/json\" id=\"data-{n}\">{json}</script>\
+             <figcaption id=\"caption-{n}\">{caption}</figcaption>{numbers}</figure>\n"
+        ));
     }
 
-    /// The finished page. With charts it carries plotly.js (4.6 MB) once and needs no network.
+    /// Adds a picture that was drawn by this crate, with a caption below it.
+    pub fn picture(&mut self, svg: &str, caption: &str) {
+        self.body += "<figure><div class=\"picture\">";
+        self.body += svg;
+        self.push(format_args!("</div><figcaption>{}</figcaption></figure>\n", escape(caption)));
+    }
+
+    /// Adds what the reader may open; charts inside are drawn then.
+    pub fn folded(&mut self, summary: &str, more: &str, open: bool, content: impl FnOnce(&mut Self)) {
+        let open = if open { " open" } else { "" };
+        self.push(format_args!("<details class=\"block\"{open}><summary>{}", escape(summary)));
+        if !more.is_empty() {
+            self.push(format_args!("<span>{}</span>", escape(more)));
+        }
+        self.body += "</summary>\n";
+        content(self);
+        self.body += "</details>\n";
+    }
+
+    /// Adds markup of this crate, whose parts are escaped already.
+    pub(crate) fn markup(&mut self, html: &str) {
+        self.body += html;
+    }
+
+    /// The finished page, which needs no network.
     pub fn render(&self) -> String {
-        let title = escape(&self.title);
-        let (library, theme) = if self.charts > 0 { (plotly_js(), THEME) } else { (String::new(), "") };
-        let body = &self.body;
-        format!(
-            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-             <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-             <title>{title}</title>\n<style>{CSS}</style>\n{library}</head>\n\
-             <body><h1>{title}</h1>\n{body}<script>{theme}</script>\n</body></html>\n"
-        )
+        shell::render(&shell::Content {
+            title: &self.title,
+            body: &self.body,
+            sections: &self.sections,
+            has_charts: self.figures > 0,
+        })
+    }
+
+    fn element(&mut self, name: &str, class: &str, text: &str) {
+        let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
+        self.push(format_args!("<{name}{class}>{}</{name}>\n", escape(text)));
     }
 
     fn push(&mut self, text: std::fmt::Arguments) {
         // Writing to a string cannot fail.
         let _ = self.body.write_fmt(text);
     }
-}
-
-/// plotly.js alone: the bundle's second script, MathJax, is another 2 MB that no chart here uses.
-fn plotly_js() -> String {
-    const END: &str = "</script>";
-    let mut sources = plotly::Plot::offline_js_sources();
-    if let Some(end) = sources.find(END) {
-        sources.truncate(end + END.len());
-    }
-    sources
 }
 
 /// Text that is safe in HTML, also inside quoted attributes.
@@ -178,9 +226,14 @@ mod tests {
     fn text_never_becomes_markup() {
         let mut page = Page::new("a<b>");
         page.table(&["<i>"], &[vec!["\"&'".into()]]);
+        page.section("<s>", "<h>");
+        page.folded("<d>", "<m>", true, |page| page.list(&["<l>"]));
         let html = page.render();
         assert!(html.contains("<title>a&lt;b&gt;</title>") && html.contains("&quot;&amp;&#39;"));
-        assert!(!html.contains("Plotly"), "a page without charts carries no library");
+        for markup in ["<i>", "<s>", "<h>", "<d>", "<m>", "<l>"] {
+            assert!(!html.contains(markup), "{markup} got through");
+        }
+        assert!(!html.contains("plotly.js v"), "a page without charts carries no library");
     }
 
     #[test]
@@ -191,7 +244,16 @@ mod tests {
         page.charts(&[chart.clone(), chart]);
         let html = page.render();
         assert_eq!(html.matches("plotly.js v").count(), 1);
-        assert!(!html.contains("</script><b>"));
+        assert!(!html.contains("</script><b>") && html.contains("\\u003c/script"));
         assert!(html.len() < 6_000_000);
+    }
+
+    #[test]
+    fn only_the_scripts_of_the_page_may_run_and_nothing_is_fetched() {
+        let html = Page::new("t").render();
+        let policy = html.split("Content-Security-Policy\" content=\"").nth(1).and_then(|s| s.split('"').next());
+        let policy = policy.expect("there is a policy");
+        assert!(policy.starts_with("default-src 'none'; script-src 'sha256-"));
+        assert!(!policy.contains("http") && !policy.contains("connect-src"));
     }
 }

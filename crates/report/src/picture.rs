@@ -5,7 +5,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 pub use crate::drawing::PictureError;
-use crate::drawing::{Area, CORRECTED, FRAME, INK, PAPER, SOFT, bold, failed, rectangle, text};
+use crate::drawing::{Area, BEFORE, CORRECTED, FRAME, INK, PAPER, RETUNED, SOFT, bold, failed, rectangle, text};
+use crate::words::{is_no_cause, probability, quantities, quantity_and_unit, verdict};
 
 /// Width, margin and gap between the panels, px.
 const WIDTH: i32 = 800;
@@ -36,8 +37,6 @@ const SENTENCES: usize = 3;
 const SHOWN: f64 = 0.005;
 
 const TRACK: RGBColor = RGBColor(236, 239, 242);
-const PLAIN: RGBColor = RGBColor(160, 171, 182);
-const RETUNED: RGBColor = RGBColor(125, 161, 196);
 /// "None" and "unknown" are answers, but no causes.
 const NO_CAUSE: RGBColor = RGBColor(160, 171, 182);
 
@@ -59,7 +58,7 @@ struct Errors {
 /// When the drawing library fails.
 pub fn svg(d: &Diagnosis) -> Result<String, PictureError> {
     let title: Vec<String> =
-        verdict(d).iter().flat_map(|s| wrap(s, width(WIDTH - 2 * MARGIN, TITLE, BOLD_LETTER))).collect();
+        verdict(d, SENTENCES).iter().flat_map(|s| wrap(s, width(WIDTH - 2 * MARGIN, TITLE, BOLD_LETTER))).collect();
     let causes = causes(d);
     let errors = errors(&d.free_runs);
     let top = MARGIN + rows(title.len(), TITLE_LINE) + 40;
@@ -92,46 +91,27 @@ pub fn svg(d: &Diagnosis) -> Result<String, PictureError> {
     Ok(out)
 }
 
-/// The sentences that give the verdict: the first, and those that name further causes in the same way. Probabilities
-/// are left to the bars.
-fn verdict(d: &Diagnosis) -> Vec<String> {
-    let kind = |s: &str| s.split_once(": ").map(|s| s.0.to_owned());
-    let first = d.sentences.first().map(String::as_str).unwrap_or_default();
-    let more = d.sentences.iter().skip(1).take_while(|s| kind(s).is_some() && kind(s) == kind(first));
-    std::iter::once(first)
-        .chain(more.map(String::as_str))
-        .take(SENTENCES)
-        .map(|s| s.split_once(" (probability").map_or_else(|| s.to_owned(), |s| format!("{}.", s.0)))
-        .collect()
-}
-
 /// The most probable answers.
 fn causes(d: &Diagnosis) -> Vec<&Cause> {
-    let worth = |c: &&Cause| c.probability >= SHOWN || c.effect == "none" || c.effect == "unknown";
+    let worth = |c: &&Cause| c.probability >= SHOWN || is_no_cause(c);
     d.ranked.iter().filter(worth).take(CAUSES).collect()
 }
 
 /// Means over the recordings that were left out, quantity by quantity, in the order in which they come.
 fn errors(runs: &[FreeRun]) -> Vec<Errors> {
-    let mut quantities: Vec<&str> = Vec::new();
-    for r in runs {
-        if !quantities.contains(&r.quantity.as_str()) {
-            quantities.push(&r.quantity);
-        }
-    }
     let of = |quantity: &str| {
         let same: Vec<&FreeRun> = runs.iter().filter(|r| r.quantity == quantity).collect();
         let mean = |f: &dyn Fn(&FreeRun) -> f64| same.iter().map(|r| f(r)).sum::<f64>() / same.len() as f64;
-        let (name, unit) = quantity.rsplit_once(", ").unwrap_or((quantity, ""));
+        let (name, unit) = quantity_and_unit(quantity);
         Errors {
-            quantity: name.to_owned(),
-            unit: unit.to_owned(),
+            quantity: name,
+            unit,
             nominal: mean(&|r| r.nominal),
             retuned: mean(&|r| r.retuned),
             corrected: mean(&|r| r.corrected),
         }
     };
-    quantities.into_iter().map(of).filter(|e| e.nominal > 0.0).collect()
+    quantities(runs).into_iter().map(of).filter(|e| e.nominal > 0.0).collect()
 }
 
 impl Errors {
@@ -144,16 +124,11 @@ fn cause(root: &Area<'_>, c: &Cause, y: i32) -> Result<(), PictureError> {
     let name = clip(&c.name, width(PANEL - NUMBERS, LABEL, LETTER));
     text(root, &name, [MARGIN, y], LABEL, INK, HPos::Left)?;
     let p = c.probability.clamp(0.0, 1.0);
-    let colour = if c.effect == "none" || c.effect == "unknown" { NO_CAUSE } else { CORRECTED };
+    let colour = if is_no_cause(c) { NO_CAUSE } else { CORRECTED };
     let whole = PANEL - NUMBERS;
     bar(root, MARGIN, y + 17, whole, whole, TRACK)?;
     bar(root, MARGIN, y + 17, (p * f64::from(whole)).round() as i32, whole, colour)?;
-    let value = match p {
-        p if p > 0.99 => "> 0.99".to_owned(),
-        p if p < 0.01 => "< 0.01".to_owned(),
-        p => format!("{p:.2}"),
-    };
-    text(root, &value, [MARGIN + PANEL, y + 17], LABEL, INK, HPos::Right)
+    text(root, &probability(p), [MARGIN + PANEL, y + 17], LABEL, INK, HPos::Right)
 }
 
 fn error(root: &Area<'_>, e: &Errors, y: i32, most: f64) -> Result<(), PictureError> {
@@ -162,7 +137,7 @@ fn error(root: &Area<'_>, e: &Errors, y: i32, most: f64) -> Result<(), PictureEr
     let begin = RIGHT + 72;
     let whole = PANEL - 72 - 92;
     let values = [e.nominal, e.retuned, e.corrected];
-    let kinds = ["as it is", "re-tuned", "corrected"].into_iter().zip([PLAIN, RETUNED, CORRECTED]);
+    let kinds = ["as it is", "re-tuned", "corrected"].into_iter().zip([BEFORE, RETUNED, CORRECTED]);
     for (i, (name, colour)) in kinds.enumerate() {
         let at = y + 23 + rows(i, ERROR);
         text(root, name, [RIGHT, at], LABEL, SOFT, HPos::Left)?;

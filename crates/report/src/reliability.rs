@@ -4,7 +4,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use serde::Serialize;
 
+use crate::chart::{Chart, Line};
 use crate::drawing::{CORRECTED, FRAME, INK, PAPER, PictureError, SOFT, failed};
+use crate::figure::Role;
 
 /// Answers of similar confidence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,6 +23,29 @@ pub struct Bin {
     pub right: f64,
     /// 95 % interval of that share.
     pub interval: [f64; 2],
+}
+
+/// The same picture for a page.
+pub fn chart(bins: &[Bin]) -> Chart {
+    let filled = || bins.iter().filter(|b| b.count > 0);
+    let [x, y] = [|b: &Bin| b.confidence, |b: &Bin| b.right].map(|f| filled().map(f).collect::<Vec<f64>>());
+    let answers = Line {
+        intervals: filled().map(|b| b.interval).collect(),
+        role: Some(Role::After),
+        ..Line::new("answers", &x, &y)
+    };
+    let ends = [0.0, 1.0];
+    Chart {
+        caption:
+            "How often the first answer is right, over its probability; bars: 95 % intervals after Wilson; numbers: \
+                  answers. A perfect tool lies on the dashed line."
+                .to_owned(),
+        x_label: "probability of the first answer".to_owned(),
+        y_label: "share that is right".to_owned(),
+        equal_scales: true,
+        lines: vec![Line { role: Some(Role::Placebo), ..Line::new("perfect", &ends, &ends).dashed() }, answers],
+        marks: filled().map(|b| (b.confidence, b.right, b.count.to_string())).collect(),
+    }
 }
 
 /// Width and height, px.
@@ -83,7 +108,7 @@ pub fn svg(bins: &[Bin]) -> Result<String, PictureError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bin, svg};
+    use super::{Bin, chart, svg};
     use crate::drawing::well_formed;
 
     #[test]
@@ -101,5 +126,7 @@ mod tests {
         assert!(picture.contains("17") && picture.contains("probability of the first answer"));
         assert_eq!(picture.matches("<circle").count(), 1);
         well_formed(&svg(&[]).expect("draws"));
+        let chart = chart(&[bin(17, 0.95, 0.9), bin(0, 0.0, 0.0)]);
+        assert_eq!((chart.lines[1].y.len(), chart.marks.len()), (1, 1));
     }
 }

@@ -23,16 +23,13 @@ pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) 
     let sections = tables::all(rows, figures);
     let intro = format!("{set} {}", verdict(figures));
     write(folder, "blind.md", &to_markdown(TITLE, &intro, &sections))?;
-    let picture = reliability::svg(&bins(&rows.iter().collect::<Vec<_>>(), tables::FINE))?;
-    write(folder, "reliability.svg", &picture)?;
+    let bins = bins(&rows.iter().collect::<Vec<_>>(), tables::FINE);
+    write(folder, "reliability.svg", &reliability::svg(&bins)?)?;
     let mut page = Page::new(TITLE);
     page.paragraph(&intro);
     to_page(&mut page, &sections[..1]);
     page.heading("Reliability");
-    page.picture(
-        &picture,
-        "How often the first answer is right, over its probability; bars: 95 % intervals after Wilson",
-    );
+    page.charts(&[reliability::chart(&bins)]);
     to_page(&mut page, &sections[1..]);
     write(folder, "page.html", &page.render())?;
     print!("{}", summary(set, rows, figures));

@@ -9,7 +9,7 @@ use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::{Causality, mcap_out, predictions, which_mapping};
 
-use super::{Outcome, Reading, Usage};
+use super::{Outcome, Reading, Usage, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
 
 mod as_text;
@@ -20,6 +20,7 @@ Examples:
   lacuna diagnose case/
   lacuna diagnose case/ --json verdict.json --predictions out/
   lacuna diagnose case/ --fail-on mismatch        guards a simulator in CI
+  lacuna diagnose case/ --report page.html
   lacuna diagnose --robot robot.toml --mapping my-robot.toml \\
          --reference monday/ --recordings tuesday/run_3.csv tuesday/run_4.csv
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
@@ -108,6 +109,10 @@ pub(crate) struct Args {
     /// Draw the verdict as one SVG picture: probabilities of the causes, errors on drives left out of the fit.
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
+    /// Write a page that shows the verdict, all evidence for it and the next drive (as with --next): one file that opens
+    /// in any browser, offline.
+    #[arg(long, value_name = "PAGE.html")]
+    report: Option<String>,
     /// Write recorded and simulated signals, their difference and the verdict as MCAP for Foxglove, with a layout beside
     /// it (FILE.layout.json).
     #[arg(long, value_name = "FILE.mcap")]
@@ -139,7 +144,7 @@ fn outcome(verdict: Verdict, fail_on: Option<FailOn>, lost: &[String]) -> Outcom
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
-    let options = Options { next: args.next.then_some(NEXT_LENGTH), ..Options::default() };
+    let options = Options { next: (args.next || args.report.is_some()).then_some(NEXT_LENGTH), ..Options::default() };
     let (case, mapping) = read(&args.input)?;
     let diagnosis = diagnosed(&case, &options, &progress)?;
     drop(progress);
@@ -161,8 +166,11 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         }
     }
     if let Some(file) = &args.picture {
-        let svg = report::picture::svg(diagnosis)?;
+        let svg = ::report::picture::svg(diagnosis)?;
         std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
+    }
+    if let Some(file) = &args.report {
+        report::write(file, &envelope)?;
     }
     if let Some(file) = &args.mcap {
         if diagnosis.traces.is_empty() {

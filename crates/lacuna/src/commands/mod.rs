@@ -15,6 +15,7 @@ pub(crate) mod identify;
 pub(crate) mod man;
 pub(crate) mod next;
 pub(crate) mod predict;
+pub(crate) mod report;
 pub(crate) mod simulate;
 
 /// How a command that did not fail ended.

@@ -1,20 +1,18 @@
 //! A diagnosis for people: the verdict first.
 
 use diagnosis::{Advice, Cause, Diagnosis};
-use lacuna::answers::NINETY;
 use lacuna::case_folder::CaseFolder;
 
 use super::where_and_when;
 use crate::commands::listed;
 use crate::console::heading;
 use lacuna::text_table::{TextTable, number};
+use report::words::{free_runs as title_of_free_runs, is_no_cause, probability, size, where_and_when as place};
 
 /// Rows of each table at most; everything is in the JSON.
 const ROWS: usize = 6;
 /// Causes less probable than this are not shown.
 const SHOWN: f64 = 0.005;
-/// Intervals shown per cause.
-const INTERVALS: usize = 3;
 
 /// The whole answer; `mapping` is one that was found to fit, not named.
 pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping: Option<&str>) -> String {
@@ -52,55 +50,11 @@ fn next(advice: &Advice) -> String {
 
 fn causes(ranked: &[Cause]) -> String {
     let mut table = TextTable::new(&["cause", ">probability", "magnitude (90 %)", "where and when"]);
-    let certain = |c: &Cause| c.effect == "none" || c.effect == "unknown";
-    let shown = ranked.iter().filter(|c| c.probability >= SHOWN || certain(c));
+    let shown = ranked.iter().filter(|c| c.probability >= SHOWN || is_no_cause(c));
     for c in shown.take(ROWS + 2) {
-        table.row([c.name.clone(), probability(c.probability), magnitude(c), place(c)]);
+        table.row([c.name.clone(), probability(c.probability), size(c).join(" ").trim().to_owned(), place(c)]);
     }
     format!("\n{}{}", heading("Causes"), table.render())
-}
-
-fn probability(p: f64) -> String {
-    if p > 0.0 && p < 0.01 {
-        "< 0.01".to_owned()
-    } else if p < 1.0 && p > 0.99 {
-        "> 0.99".to_owned()
-    } else {
-        format!("{p:.2}")
-    }
-}
-
-/// Size with its 90 % interval, with as many digits as that deserves.
-fn magnitude(c: &Cause) -> String {
-    let Some(m) = c.magnitude else { return String::new() };
-    let unit = if c.unit == "-" { String::new() } else { format!(" {}", c.unit) };
-    let Some(half) = c.sigma.map(|s| NINETY * s).filter(|h| *h > 0.0 && h.is_finite()) else {
-        return number(m) + &unit;
-    };
-    let digits = (1 - half.log10().floor() as i32).clamp(0, 6) as usize;
-    format!("{m:.digits$}{unit} [{:.digits$}, {:.digits$}]", m - half, m + half)
-}
-
-fn place(c: &Cause) -> String {
-    let mut parts = Vec::new();
-    if let Some(side) = &c.side {
-        parts.push(side.to_string());
-    }
-    if let Some([x, y, r]) = c.place {
-        parts.push(format!("within {r:.2} m of ({x:.2}, {y:.2}) m"));
-    }
-    let intervals = c.intervals.iter().flatten();
-    let spans: Vec<String> =
-        intervals.flat_map(|(run, spans)| spans.iter().map(move |[a, b]| format!("{run} {a:.1}-{b:.1} s"))).collect();
-    if !spans.is_empty() {
-        let more = spans.len().saturating_sub(INTERVALS);
-        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        parts.push(spans[..spans.len().min(INTERVALS)].join(", ") + &more);
-    }
-    if c.is_at_bound() {
-        parts.push("a number is at its bound".to_owned());
-    }
-    parts.join("; ")
 }
 
 /// Loads of steady driving over the references'.
@@ -162,14 +116,7 @@ fn free_runs(d: &Diagnosis) -> String {
         let cells = errors.into_iter().chain(placebo.then_some(r.placebo)).map(|e| e.map_or(String::new(), number));
         table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(cells));
     }
-    let title = if d.response.is_some() {
-        "Forecasts of windows of 2 s from the commands alone (placebo: the best wrong cause, as many constants)"
-    } else if placebo {
-        "Free runs on recordings that were left out of the fit (rms error; placebo: the best other effect)"
-    } else {
-        "Free runs on recordings that were left out of the fit (rms error)"
-    };
-    format!("\n{}{}", heading(title), table.render())
+    format!("\n{}{}", heading(title_of_free_runs(d)), table.render())
 }
 
 /// Files and columns that were there and that nobody asked for.

@@ -4,6 +4,7 @@ use diagnosis::{Cell, Diagnosis, ResidualTorque, Span};
 
 use crate::console::heading;
 use lacuna::text_table::{TextTable, number};
+use report::words::{borders, range};
 
 /// What cells are ranges of, in the order of the table.
 const AXES: [&str; 5] = ["speed", "turning", "slip", "heading", "place"];
@@ -38,15 +39,6 @@ fn place(d: &Diagnosis) -> String {
     format!("\n{}{}", heading(title), table.render())
 }
 
-fn range(cell: &Cell) -> String {
-    match cell.range.as_slice() {
-        [[a, b]] if cell.by == "heading" => format!("{:.0}° to {:.0}°", a.to_degrees(), b.to_degrees()),
-        [[a, b]] => format!("{a} to {b} {}", cell.unit),
-        [[a, b], [c, d]] => format!("x {a} to {b}, y {c} to {d} {}", cell.unit),
-        _ => String::new(),
-    }
-}
-
 /// Rows per recording: from when until when, by the signal that tells most.
 fn time(d: &Diagnosis) -> String {
     let all = &d.located.spans;
@@ -67,13 +59,6 @@ fn time(d: &Diagnosis) -> String {
         return String::new();
     }
     format!("\n{}{}", heading("When it shows"), table.render())
-}
-
-fn borders(s: &Span) -> [String; 2] {
-    let at = |t: f64, range: Option<[f64; 2]>, border: &str| {
-        range.map_or_else(|| border.to_owned(), |[a, b]| format!("{t:.1} s [{a:.1}, {b:.1}]"))
-    };
-    [at(s.interval[0], s.onset, "start"), at(s.interval[1], s.end, "end")]
 }
 
 /// Recordings whose residual torque leaves the references' band.

@@ -1,0 +1,49 @@
+//! `lacuna report`: a diagnosis as a page.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use clap::Args as ClapArgs;
+use lacuna::envelope::Envelope;
+use lacuna::report_page::page;
+
+use super::Outcome;
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna diagnose case/ --json verdict.json
+  lacuna report verdict.json -o page.html
+  lacuna report verdict.json -o - > page.html
+
+The page is one file that opens in any browser and needs no network.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
+
+/// Arguments of `lacuna report`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// What `lacuna diagnose ... --json VERDICT.json` wrote.
+    #[arg(value_name = "VERDICT.json")]
+    verdict: PathBuf,
+    /// The page; `-` is standard output.
+    #[arg(short, long, value_name = "PAGE.html|-")]
+    output: String,
+}
+
+/// Makes the page.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    write(&args.output, &Envelope::open(&args.verdict)?)?;
+    Ok(Outcome::Done)
+}
+
+/// Writes the page of a diagnosis to a file, or to standard output for `-`.
+pub(crate) fn write(target: &str, envelope: &Envelope) -> Result<()> {
+    let page = page(envelope);
+    if target == "-" {
+        // Byte for byte: what strips colours from text would take parts of the scripts for colours.
+        return std::io::stdout().write_all(page.as_bytes()).context("cannot write to standard output");
+    }
+    std::fs::write(target, page).with_context(|| format!("cannot write '{target}'"))
+}

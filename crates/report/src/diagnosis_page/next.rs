@@ -1,0 +1,71 @@
+//! What to record next.
+
+use diagnosis::next::Manoeuvre;
+use diagnosis::{Advice, Diagnosis};
+
+use crate::chart::{Chart, Line};
+use crate::page::{Cell, Page};
+use crate::words::probability;
+
+/// Drives that are listed.
+const SHOWN: usize = 12;
+/// Points of a profile's curve.
+const POINTS: usize = 200;
+
+/// Adds the section; without advice what the diagnosis itself says about it, and nothing where it says nothing.
+pub(super) fn add(page: &mut Page, d: &Diagnosis) {
+    let own: Vec<&String> = d.sentences.iter().filter(|s| s.contains("record:")).collect();
+    if d.next.is_none() && own.is_empty() {
+        return;
+    }
+    page.section("Next", "What to record next");
+    for sentence in own {
+        page.paragraph(sentence);
+    }
+    if let Some(advice) = &d.next {
+        advised(page, advice);
+    }
+}
+
+fn advised(page: &mut Page, advice: &Advice) {
+    if let Some(reason) = &advice.withheld {
+        page.paragraph(&format!("{}{}.", reason[..1].to_uppercase(), &reason[1..]));
+    }
+    if advice.rivals.len() > 1 {
+        let names: Vec<String> =
+            advice.rivals.iter().map(|r| format!("{} ({})", r.name, probability(r.probability))).collect();
+        page.paragraph(&format!("Still possible: {}; {:.2} bits are open.", names.join(", "), advice.entropy_bits));
+    }
+    if let Some(best) = advice.best() {
+        page.paragraph(&format!("Drive next: {}. {}", best.name, best.why));
+        page.charts(&profile(best));
+    }
+    let row = |m: &Manoeuvre| -> Vec<Cell> {
+        let name = if m.joins { m.name.clone() } else { format!("{} (the robot is changed for it)", m.name) };
+        let splits = m.splits.as_ref().map_or_else(|| "-".to_owned(), |[a, b]| format!("{a} from {b}"));
+        vec![name.into(), format!("{:.2}", m.expected_bits).into(), splits.into()]
+    };
+    let rows: Vec<Vec<Cell>> = advice.manoeuvres.iter().take(SHOWN).map(row).collect();
+    if !rows.is_empty() {
+        page.table(&["drive", "expected bits", "tells apart best"], &rows);
+    }
+    for limit in &advice.limits {
+        page.note(limit);
+    }
+    if !advice.manoeuvres.is_empty() {
+        page.note("`lacuna next --profile drive.csv` writes the speeds of a drive.");
+    }
+}
+
+/// Wanted speed and yaw rate over time.
+fn profile(drive: &Manoeuvre) -> [Chart; 2] {
+    let time: Vec<f64> = (0..=POINTS).map(|i| i as f64 * drive.length() / POINTS as f64).collect();
+    let chart = |which: usize, caption: &str, unit: &str| Chart {
+        caption: caption.to_owned(),
+        x_label: "time, s".to_owned(),
+        y_label: unit.to_owned(),
+        lines: vec![Line::new(unit, &time, &time.iter().map(|t| drive.wanted(*t)[which]).collect::<Vec<_>>())],
+        ..Chart::default()
+    };
+    [chart(0, "Speed of the drive", "m/s"), chart(1, "Yaw rate of the drive", "rad/s")]
+}
