@@ -15,13 +15,17 @@ use crate::console::{emit, warning};
 const EXAMPLES: &str = "\
 Examples:
   lacuna diagnose case/ --json verdict.json
-  lacuna export verdict.json --to mjcf -o robot.xml      for MuJoCo; what it cannot hold in robot_residual.py
-  lacuna export verdict.json --to toml -o robot.toml     for lacuna simulate and predict
-  lacuna export verdict.json --to sdf --retuned          constants re-tuned, no effects
-  lacuna export robot.toml --to urdf                     a robot file, with the effects that it holds
+  lacuna export verdict.json --to mjcf -o robot.xml    for MuJoCo
+  lacuna export verdict.json --to toml -o robot.toml   for simulate and predict
+  lacuna export verdict.json --to sdf --retuned        re-tuned, no effects
+  lacuna export robot.toml --to urdf                   with the file's effects
 
-Laws that an engine has become values of its model, with comments that say where they come from. What an engine
-cannot hold is listed in the model as lines to be added, with the reason.";
+Laws that an engine has become values of its model, with comments that say
+where they come from. What an engine cannot hold is listed in the model as
+lines to be added, with the reason; for MuJoCo they also are a Python file
+beside the model, robot_residual.py.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
 /// Arguments of `lacuna export`.
 #[derive(Debug, ClapArgs)]

@@ -22,12 +22,16 @@ Examples:
   lacuna next case/ --profile drive.csv --picture drive.svg
   lacuna next case/ --manoeuvre 'fast spins, both ways' --profile spins.csv
 
-The case is diagnosed first, as by `lacuna diagnose`. The profile has time, wanted speed and yaw rate, wheel speeds, and
-whether the drives get no torque (coasting). Record it, add it to the recordings, and diagnose again.";
+The case is diagnosed first, as by `lacuna diagnose`. The profile has time,
+wanted speed and yaw rate, wheel speeds, and whether the drives get no torque
+(coasting). Record it, add it to the recordings, and diagnose again.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
 const USAGE: &str = "\
 lacuna next [OPTIONS] <CASE>
-       lacuna next [OPTIONS] --robot <NAME|FILE> [--reference <PATH>...] --recordings <PATH>...";
+       lacuna next [OPTIONS] --robot <NAME|FILE>
+                   [--reference <PATH>...] --recordings <PATH>...";
 
 /// Rows of a profile per second.
 const RATE: f64 = 50.0;

@@ -29,12 +29,12 @@ pub(crate) struct Args {
     verdict: PathBuf,
     /// The page; `-` is standard output.
     #[arg(short, long, value_name = "PAGE.html|-")]
-    output: String,
+    out: String,
 }
 
 /// Makes the page.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    write(&args.output, &Envelope::open(&args.verdict)?)?;
+    write(&args.out, &Envelope::open(&args.verdict)?)?;
     Ok(Outcome::Done)
 }
 
