@@ -19,7 +19,8 @@ pub(crate) struct View {
 
 /// Entropy of a distribution, bits: `−Σ p log2 p`.
 pub(crate) fn entropy(p: &[f64]) -> f64 {
-    -p.iter().filter(|p| **p > 0.0).map(|p| p * p.log2()).sum::<f64>()
+    // A sum of no surprise at all is zero, not minus zero.
+    p.iter().filter(|p| **p > 0.0).map(|p| -p * p.log2()).sum::<f64>().abs()
 }
 
 /// Bits that a drive is expected to gain: the entropy of the rivals less its expectation afterwards,
