@@ -1,6 +1,7 @@
 //! The flat JSON form of a robot: one key per value, its unit in the key's name, relative sigmas beside.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use robot_model::Robot;
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
@@ -132,6 +133,11 @@ const KEYS: [(&str, &str); 18] = [
     ("gravity", "gravity_m_s2"),
 ];
 
+/// A robot without a name has that of its file, whatever the folders.
+fn name_of(file: &str) -> String {
+    Path::new(file).file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
 impl FlatRobot {
     /// The robot of this file.
     pub(crate) fn spec(self, source: RobotText<'_>) -> Result<RobotSpec, RobotFileError> {
@@ -192,7 +198,7 @@ impl FlatRobot {
             *s = given(t.id).map_or(*s, |g| g.max(*s));
         }
         Ok(RobotSpec {
-            name: source.file.to_owned(),
+            name: name_of(source.file),
             description: self.description.clone(),
             causality: Causality::TorqueDriven,
             robot,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
-use diagnosis::Cause;
+use diagnosis::{Cause, Diagnosis, EffectAt, Verdict};
 use lacuna::envelope::Envelope;
 use lacuna::{Causality, RobotSpec, case_folder};
 use model_export::{Engine, Model};
@@ -114,12 +114,34 @@ fn source(args: &Args) -> Result<Source> {
     if args.nominal {
         return Ok(Source { robot: nominal, before: None, causes: Vec::new() });
     }
+    for doubt in doubts(&envelope.diagnosis) {
+        warning(&doubt);
+    }
     let mut correction = envelope.diagnosis.correction.clone();
     if args.retuned {
         correction.effects.clear();
     }
     let robot = nominal.corrected(&correction)?;
     Ok(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked })
+}
+
+/// What speaks against taking the corrected robot for the true one.
+fn doubts(d: &Diagnosis) -> Vec<String> {
+    let mut out = Vec::new();
+    match d.verdict {
+        Verdict::Explained => {}
+        Verdict::NoMismatch => out.push("the diagnosis found nothing missing: constants alone are re-tuned".to_owned()),
+        Verdict::Unknown => out.push("what is missing is not in the catalogue: the effect is the nearest".to_owned()),
+        Verdict::Withheld => out.push("the recordings permitted no answer: the robot is as it was".to_owned()),
+    }
+    for class in d.indistinguishable.iter().filter(|class| class.len() > 1) {
+        out.push(format!("these recordings cannot tell apart {}; the first is exported", class.join(", ")));
+    }
+    let onset = |e: &&EffectAt| !e.from.is_empty() || !e.absent.is_empty();
+    for e in d.correction.effects.iter().filter(onset) {
+        out.push(format!("{} began at an instant; the model of an engine has it throughout", e.effect));
+    }
+    out
 }
 
 /// A name without folders and ending, such as robots have that are named after their file.

@@ -9,6 +9,8 @@ use crate::words::probability;
 
 /// Drives that are listed.
 const SHOWN: usize = 12;
+/// Entropy below which nothing is open, bits.
+const LEAST_ENTROPY: f64 = 0.005;
 /// Points of a profile's curve.
 const POINTS: usize = 200;
 
@@ -29,32 +31,48 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
 
 fn advised(page: &mut Page, advice: &Advice) {
     if let Some(reason) = &advice.withheld {
-        page.paragraph(&format!("{}{}.", reason[..1].to_uppercase(), &reason[1..]));
+        page.paragraph(&sentence(reason));
     }
     if advice.rivals.len() > 1 {
         let names: Vec<String> =
             advice.rivals.iter().map(|r| format!("{} ({})", r.name, probability(r.probability))).collect();
         page.paragraph(&format!("Still possible: {}; {:.2} bits are open.", names.join(", "), advice.entropy_bits));
     }
-    if let Some(best) = advice.best() {
+    let worth = |m: &&Manoeuvre| m.expected_bits > 0.0 || m.narrows.is_some();
+    if let Some(best) = advice.best().filter(worth) {
         page.paragraph(&format!("Drive next: {}. {}", best.name, best.why));
         page.charts(&profile(best));
     }
-    let row = |m: &Manoeuvre| -> Vec<Cell> {
+    // Where nothing is to be told apart, what is left is how well the size would be known.
+    let open = advice.entropy_bits > LEAST_ENTROPY;
+    let row = |m: &Manoeuvre| -> Option<Vec<Cell>> {
         let name = if m.joins { m.name.clone() } else { format!("{} (the robot is changed for it)", m.name) };
-        let splits = m.splits.as_ref().map_or_else(|| "-".to_owned(), |[a, b]| format!("{a} from {b}"));
-        vec![name.into(), format!("{:.2}", m.expected_bits).into(), splits.into()]
+        if open {
+            let splits = m.splits.as_ref().map_or_else(|| "-".to_owned(), |[a, b]| format!("{a} from {b}"));
+            return Some(vec![name.into(), format!("{:.2}", m.expected_bits).into(), splits.into()]);
+        }
+        Some(vec![name.into(), format!("{:.0} %", 100.0 * m.narrows?).into()])
     };
-    let rows: Vec<Vec<Cell>> = advice.manoeuvres.iter().take(SHOWN).map(row).collect();
-    if !rows.is_empty() {
+    let rows: Vec<Vec<Cell>> = advice.manoeuvres.iter().take(SHOWN).filter_map(row).collect();
+    if rows.is_empty() {
+        return;
+    }
+    if open {
         page.table(&["drive", "expected bits", "tells apart best"], &rows);
+    } else {
+        page.table(&["drive", "uncertainty of the size after it, of today's"], &rows);
     }
     for limit in &advice.limits {
-        page.note(limit);
+        page.note(&sentence(limit));
     }
-    if !advice.manoeuvres.is_empty() {
-        page.note("`lacuna next --profile drive.csv` writes the speeds of a drive.");
-    }
+    page.note("The command lacuna next, with --profile drive.csv, writes the speeds of a drive.");
+}
+
+/// A reason as a sentence.
+fn sentence(reason: &str) -> String {
+    let mut letters = reason.chars();
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
 }
 
 /// Wanted speed and yaw rate over time.
