@@ -237,7 +237,9 @@ fn nothing_to_split(advice: &Advice) -> Option<String> {
     let most = advice.manoeuvres.iter().map(|m| m.expected_bits).fold(0.0, f64::max);
     match advice.rivals.as_slice() {
         [] => Some("no hypothesis could be fitted".to_owned()),
-        [one] if one.effects.is_empty() => Some("nothing is missing and no effect rivals that".to_owned()),
+        [one] if one.effects.is_empty() => {
+            Some("nothing is missing in the motion, and no effect rivals that".to_owned())
+        }
         [one] => Some(format!(
             "nothing is left to tell apart: only {} is probable; the drives are in the order in which they narrow its size",
             one.name
