@@ -185,7 +185,7 @@ impl Looking<'_> {
             return;
         }
         if self.next == self.fields.len() {
-            self.fields.push(Field { path: path.to_owned(), lengths: length.map(|n| (n, n)), names: names.to_vec() });
+            self.fields.push(Field { path: path.to_owned(), lengths: length.map(|n| (n, n)), names: Vec::new() });
         }
         add(&mut self.fields[self.next], length, names);
         self.next += 1;
