@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use diagnosis::EffectAt;
 use diagnosis::response::ResponseModel;
+use diagnosis::{DiagnosisError, EffectAt};
 use recordings::{Spot, suggest};
-use robot_model::Robot;
+use robot_model::{Active, Robot};
 use serde::{Deserialize, Serialize};
 
 use crate::RobotFileError;
@@ -80,6 +80,14 @@ pub const BUILT_IN: &[(&str, &str)] = &[
 ];
 
 impl RobotSpec {
+    /// Its effects for the plant of a drive.
+    ///
+    /// # Errors
+    /// As [`EffectAt::active`].
+    pub fn active(&self, drive: &str) -> Result<Vec<Active<f64>>, DiagnosisError> {
+        self.effects.iter().map(|e| e.active(drive)).collect()
+    }
+
     /// A built-in robot.
     ///
     /// # Errors

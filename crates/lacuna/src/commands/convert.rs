@@ -6,13 +6,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
-use lacuna::case_folder::file_names;
 use lacuna::envelope::Program;
-use lacuna::{inputs, which_mapping};
 use recordings::{Recording, lost_in_csv, write_csv, write_mcap, write_parquet};
 use serde_json::json;
 
-use super::{Outcome, Reading, Usage, listed, sources};
+use super::{Outcome, Reader, Usage, listed, only, sources};
 use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -39,19 +37,14 @@ pub(crate) struct Args {
     /// Files or the folder of one recording.
     #[arg(required = true, num_args = 1..)]
     recording: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
-    /// for bags the built-in one that fits].
-    #[arg(long, value_name = "NAME|FILE")]
-    mapping: Option<String>,
+    #[command(flatten)]
+    reader: Reader,
     /// File to write: .mcap, .parquet or .csv.
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
     /// Write over a file that is there.
     #[arg(long)]
     force: bool,
-    /// What to do with bad rows and cells of recordings.
-    #[arg(long, value_enum, default_value_t)]
-    reading: Reading,
     /// Write what was written as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
@@ -112,12 +105,8 @@ fn write(recording: &Recording, format: Format, clock: usize, path: &Path) -> Re
 /// Converts a recording.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let format = format(&args.out)?;
-    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
-    let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
-    let [read] = loaded.reads.as_slice() else {
-        let names: Vec<String> = loaded.reads.iter().map(file_names).collect();
-        bail!("give one recording at a time, not {}: {}", names.len(), names.join(", "));
-    };
+    let (loaded, mapping) = args.reader.load(&args.recording)?;
+    let read = only(&loaded)?;
     let recording = &read.recording;
     let targets = targets(recording, &args.out, format);
     for (path, _) in &targets {

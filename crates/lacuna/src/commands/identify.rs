@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use clap::Args as ClapArgs;
-use lacuna::case_folder::{self, file_names};
-use lacuna::{inputs, which_mapping};
+use lacuna::case_folder;
 
-use super::{Outcome, Reading};
+use super::{Outcome, Reader, only};
 use crate::console::{emit, emit_json};
 
 mod as_json;
@@ -43,19 +42,14 @@ pub(crate) struct Args {
     /// File of the recording; of a run in several files, any one, or all.
     #[arg(required = true, num_args = 1..)]
     recording: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
-    /// for bags the built-in one that fits].
-    #[arg(long, value_name = "NAME|FILE")]
-    mapping: Option<String>,
+    #[command(flatten)]
+    reader: Reader,
     /// Resample to this period: states by linear interpolation, inputs held. Without it, the recording's own samples.
     #[arg(long, value_name = "SECONDS", value_parser = period)]
     step: Option<f64>,
     /// Seed of the first layers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// What to do with bad rows and cells of recordings.
-    #[arg(long, value_enum, default_value_t)]
-    reading: Reading,
     /// Write everything as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
@@ -81,12 +75,8 @@ struct Identification {
 /// Runs the identifier over a recording.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot(&args.robot)?;
-    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
-    let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
-    let [read] = loaded.reads.as_slice() else {
-        let names: Vec<String> = loaded.reads.iter().map(file_names).collect();
-        bail!("give one recording at a time, not {}: {}", names.len(), names.join(", "));
-    };
+    let (loaded, _) = args.reader.load(&args.recording)?;
+    let read = only(&loaded)?;
     let samples = samples::sample(read, &robot, args.step)?;
     let followed = follow::follow(&samples, &robot.robot, args.seed)?;
     let done = Identification {

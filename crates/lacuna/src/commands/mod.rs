@@ -1,8 +1,14 @@
 //! The commands, one file each.
 
-use clap::ValueEnum;
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use clap::{Args as ClapArgs, ValueEnum};
+use lacuna::case_folder::file_names;
 use lacuna::envelope::SourceFile;
-use recordings::{Policy, ReadOptions, Source};
+use lacuna::inputs::Loaded;
+use lacuna::{inputs, which_mapping};
+use recordings::{Mapping, Policy, Read, ReadOptions, Source};
 
 pub(crate) mod check;
 pub(crate) mod completions;
@@ -79,6 +85,35 @@ impl Reading {
             Self::Tolerant => "tolerant",
         }
     }
+}
+
+/// How recordings are read.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Reader {
+    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
+    /// for bags the built-in one that fits].
+    #[arg(long, value_name = "NAME|FILE")]
+    mapping: Option<String>,
+    /// What to do with bad rows and cells of recordings.
+    #[arg(long, value_enum, default_value_t)]
+    reading: Reading,
+}
+
+impl Reader {
+    /// Reads files or folders; beside them the mapping that did.
+    pub(crate) fn load(&self, paths: &[PathBuf]) -> Result<(Loaded, Mapping)> {
+        let mapping = which_mapping::named_or_built_in(self.mapping.as_deref(), paths)?;
+        Ok((inputs::load(&mapping, paths, &self.reading.options())?, mapping))
+    }
+}
+
+/// The recording, when it is the only one.
+pub(crate) fn only(loaded: &Loaded) -> Result<&Read> {
+    let [read] = loaded.reads.as_slice() else {
+        let names: Vec<String> = loaded.reads.iter().map(file_names).collect();
+        bail!("give one recording at a time, not {}: {}", names.len(), names.join(", "));
+    };
+    Ok(read)
 }
 
 /// Files with their SHA-256.

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use diagnosis::response::{ResponseRun, response_errors};
-use diagnosis::{Correction, HeldOut, Options, Prediction};
+use diagnosis::{HeldOut, Options, Prediction};
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
-use lacuna::{Causality, RobotSpec, inputs, predictions, which_mapping};
+use lacuna::{Causality, RobotSpec, predictions};
 use recordings::{Read, Recording, Signal};
 use serde_json::{Value, json};
 
-use super::{Outcome, Reading, Usage, sources};
+use super::{Outcome, Reader, Usage, sources};
 use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -40,16 +40,11 @@ pub(crate) struct Args {
     /// Files or folders of drives.
     #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
     drives: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
-    /// for bags the built-in one that fits].
-    #[arg(long, value_name = "NAME|FILE")]
-    mapping: Option<String>,
+    #[command(flatten)]
+    reader: Reader,
     /// Least time between two restarts from the recorded state, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = seconds)]
     restart: f64,
-    /// What to do with bad rows and cells of recordings.
-    #[arg(long, value_enum, default_value_t)]
-    reading: Reading,
     /// Write the predicted responses as CSV into this folder; of several robots, into a folder for each.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -100,8 +95,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
             robots[0].name
         ),
     }
-    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.drives)?;
-    let loaded = inputs::load(&mapping, &args.drives, &args.reading.options())?;
+    let (loaded, _) = args.reader.load(&args.drives)?;
     let mut errors = Vec::new();
     for read in &loaded.reads {
         let of = match causality {
@@ -124,8 +118,7 @@ fn by_torque(args: &Args, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>>
     let held = HeldOut::new(&read.recording)?.restarting_every(args.restart);
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
-        let effects = Correction { effects: robot.effects.clone(), ..Correction::default() };
-        let prediction = diagnosis::forecast(&robot.robot, &effects.active(&held.name)?, &held, &Options::default());
+        let prediction = diagnosis::forecast(&robot.robot, &robot.active(&held.name)?, &held, &Options::default());
         let [wheel, yaw] = compare(&prediction, &read.recording, &held);
         out.push(vec![("wheel speed, rad/s".to_owned(), wheel), ("yaw rate, rad/s".to_owned(), yaw)]);
         if let Some(dir) = &args.out {

@@ -2,17 +2,17 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::Args as ClapArgs;
+use diagnosis::Options;
 use diagnosis::response::simulate_response;
-use diagnosis::{Correction, Options};
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
-use lacuna::{Causality, RobotSpec, inputs, which_mapping};
+use lacuna::{Causality, RobotSpec};
 use recordings::{Recording, write_csv};
 use serde_json::json;
 
-use super::{Outcome, Reading, sources};
+use super::{Outcome, Reader, only, sources};
 use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -40,13 +40,8 @@ pub(crate) struct Args {
     /// Recording with the inputs; of a run in several files, any one, or all.
     #[arg(required = true, num_args = 1..)]
     recording: Vec<PathBuf>,
-    /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping [default: skid-steer-columns for tables;
-    /// for bags the built-in one that fits].
-    #[arg(long, value_name = "NAME|FILE")]
-    mapping: Option<String>,
-    /// What to do with bad rows and cells of recordings.
-    #[arg(long, value_enum, default_value_t)]
-    reading: Reading,
+    #[command(flatten)]
+    reader: Reader,
     /// Write the simulated drive as CSV to a file; `-` is standard output.
     #[arg(short, long, value_name = "FILE|-", default_value = "-")]
     out: String,
@@ -58,12 +53,8 @@ pub(crate) struct Args {
 /// Simulates a drive.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot(&args.robot)?;
-    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &args.recording)?;
-    let loaded = inputs::load(&mapping, &args.recording, &args.reading.options())?;
-    let [read] = loaded.reads.as_slice() else {
-        let names: Vec<String> = loaded.reads.iter().map(file_names).collect();
-        bail!("give one recording at a time, not {}: {}", names.len(), names.join(", "));
-    };
+    let (loaded, _) = args.reader.load(&args.recording)?;
+    let read = only(&loaded)?;
     let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;
     if let Some(target) = &args.json {
         let columns = simulated.channels().iter().map(|c| (c.signal().column_name(), json!(c.values())));
@@ -91,7 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
-    let effects = Correction { effects: robot.effects.clone(), ..Correction::default() }.active(inputs.name())?;
+    let effects = robot.active(inputs.name())?;
     match robot.causality {
         Causality::TorqueDriven => Ok(diagnosis::simulate(&robot.robot, &effects, inputs, &Options::default())?),
         Causality::SpeedDriven => Ok(diagnosis::simulate_at_speed(&robot.robot, &effects, inputs)?),
