@@ -50,7 +50,7 @@ mod words;
 
 pub use case::{Case, HeldOut, Restart};
 pub use correction::{Correction, EffectAt, Side};
-pub use diagnose::diagnose;
+pub use diagnose::{Calibrated, diagnose};
 pub use error::DiagnosisError;
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use locate::{Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use diagnosis::{Advice, Diagnosis, Options};
 use recordings::{Mapping, Read, ReadOptions};
 
 use crate::inputs::load;
 pub use crate::inputs::{Loaded, mapping, robot};
-use crate::robot_file::RobotSpec;
+use crate::robot_file::{Causality, RobotSpec};
 
 /// Folders of a case with what belongs into them.
 const FOLDERS: [(&str, &str); 3] = [
@@ -16,6 +17,10 @@ const FOLDERS: [(&str, &str); 3] = [
     ("recordings", "drives in which it was not"),
     ("heldout", "inputs whose response is to be predicted"),
 ];
+
+/// Why there is no advice on the next drive for command-driven robots.
+const NO_ADVICE: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
+    steps, and which steps would tell more of them is not computed yet";
 
 /// The folders that a case may have.
 pub fn folders(case: &Path) -> [PathBuf; 3] {
@@ -192,6 +197,24 @@ impl CaseFolder {
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
             held_out: runs(&self.held_out)?,
+        })
+    }
+}
+
+impl CaseFolder {
+    /// Diagnoses the case by what drives its robot; `stage` is told what begins.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed, or that do not determine an answer.
+    pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
+        Ok(match self.robot.causality {
+            Causality::TorqueDriven => diagnosis::diagnose(&self.torque_driven()?, options, stage)?,
+            Causality::SpeedDriven => diagnosis::diagnose_steady(&self.speed_driven()?, options, stage)?,
+            Causality::CommandDriven => {
+                let mut out = diagnosis::diagnose_response(&self.command_driven()?, stage)?;
+                out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
+                out
+            }
         })
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::{Args as ClapArgs, ValueEnum};
-use diagnosis::{Advice, Diagnosis, Options, Verdict};
+use diagnosis::{Options, Verdict};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::{Causality, mcap_out, predictions, which_mapping};
@@ -46,8 +46,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost,
 /// Where each stage begins, as a share of the time of a torque-driven case; measured on drawn cases.
 const STAGES: Stages = &[
     ("reading the recordings", 0.0),
-    ("checking the sensors against each other", 0.005),
-    ("calibrating on the references", 0.015),
+    ("calibrating on the references", 0.005),
     ("screening every effect", 0.15),
     ("re-tuning without any effect", 0.23),
     ("fitting the finalists", 0.32),
@@ -57,10 +56,6 @@ const STAGES: Stages = &[
 
 /// Length of the drives that are advised, s.
 pub(crate) const NEXT_LENGTH: f64 = 12.0;
-/// Why there is no advice for these robots.
-const COMMAND_DRIVEN: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
-    steps, and which steps would tell more of them is not computed yet";
-
 const USAGE: &str = "\
 lacuna diagnose [OPTIONS] <CASE>
        lacuna diagnose [OPTIONS] --robot <NAME|FILE>
@@ -146,7 +141,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     progress.stage("reading the recordings");
     let options = Options { next: (args.next || args.report.is_some()).then_some(NEXT_LENGTH), ..Options::default() };
     let (case, mapping) = read(&args.input)?;
-    let diagnosis = diagnosed(&case, &options, &progress)?;
+    let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
 
     let name = args.input.mapping.as_deref().unwrap_or(&mapping);
@@ -214,20 +209,6 @@ pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
     let case = CaseFolder::from_paths(robot, paths, &mapping, &options)?;
     Ok((case, mapping.name))
-}
-
-/// Diagnoses a case by what drives its robot.
-pub(crate) fn diagnosed(case: &CaseFolder, options: &Options, progress: &Progress) -> Result<Diagnosis> {
-    let stage = |what: &str| progress.stage(what);
-    Ok(match case.robot.causality {
-        Causality::TorqueDriven => diagnosis::diagnose(&case.torque_driven()?, options, &stage)?,
-        Causality::SpeedDriven => diagnosis::diagnose_steady(&case.speed_driven()?, options, &stage)?,
-        Causality::CommandDriven => {
-            let mut out = diagnosis::diagnose_response(&case.command_driven()?, &stage)?;
-            out.next = options.next.map(|_| Advice::withheld(COMMAND_DRIVEN));
-            out
-        }
-    })
 }
 
 #[cfg(test)]

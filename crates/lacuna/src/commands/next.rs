@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     progress.stage("reading the recordings");
     let (case, _) = diagnose::read(&args.input)?;
     let options = Options { next: Some(args.seconds), ..Options::default() };
-    let diagnosis = diagnose::diagnosed(&case, &options, &progress)?;
+    let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
     let Some(advice) = &diagnosis.next else {
         bail!("this diagnosis came without advice");
