@@ -35,8 +35,7 @@ pub(crate) fn number(cell: &[u8]) -> Result<Option<f64>, CellError> {
     if cell.is_empty() {
         return Ok(None);
     }
-    let text = str::from_utf8(cell).map_err(|_| CellError::NotANumber)?;
-    let value: f64 = text.parse().map_err(|_| CellError::NotANumber)?;
+    let value: f64 = fast_float2::parse(cell).map_err(|_| CellError::NotANumber)?;
     if value.is_finite() { Ok(Some(value)) } else { Err(CellError::NotFinite) }
 }
 
@@ -64,21 +63,56 @@ pub(crate) fn rounded_ns(ns: f64) -> Option<i64> {
 fn decimal_ns(cell: &[u8], ns_per_unit: i64) -> Option<i128> {
     let negative = cell.first() == Some(&b'-');
     let digits = cell.strip_prefix(b"-").or_else(|| cell.strip_prefix(b"+")).unwrap_or(cell);
-    let (mut mantissa, mut divisor, mut after_point) = (0_i128, 1_i128, false);
+    // Few digits, as stamps mostly have, need no long arithmetic.
+    let ns = if digits.len() <= 19 {
+        let (mantissa, divisor) = decimal::<u64>(digits)?;
+        let unit = ns_per_unit.unsigned_abs();
+        if unit % divisor == 0 {
+            i128::from(mantissa) * i128::from(unit / divisor)
+        } else {
+            (i128::from(mantissa) * i128::from(unit) + i128::from(divisor / 2)) / i128::from(divisor)
+        }
+    } else {
+        let (mantissa, divisor) = decimal::<i128>(digits)?;
+        mantissa.checked_mul(i128::from(ns_per_unit))?.checked_add(divisor / 2)? / divisor
+    };
+    Some(if negative { -ns } else { ns })
+}
+
+/// `digits [. digits]` as a mantissa and the power of ten that divides it.
+fn decimal<T: From<u8> + CheckedMulAdd>(digits: &[u8]) -> Option<(T, T)> {
+    let (mut mantissa, mut divisor, mut after_point) = (T::from(0), T::from(1), false);
     for &byte in digits {
         match byte {
             b'0'..=b'9' => {
-                mantissa = mantissa.checked_mul(10)?.checked_add(i128::from(byte - b'0'))?;
+                mantissa = mantissa.ten_times_plus(byte - b'0')?;
                 if after_point {
-                    divisor = divisor.checked_mul(10)?;
+                    divisor = divisor.ten_times_plus(0)?;
                 }
             }
             b'.' if !after_point => after_point = true,
             _ => return None,
         }
     }
-    let ns = mantissa.checked_mul(i128::from(ns_per_unit))?.checked_add(divisor / 2)? / divisor;
-    Some(if negative { -ns } else { ns })
+    Some((mantissa, divisor))
+}
+
+/// The one operation that reading decimals needs.
+trait CheckedMulAdd: Sized {
+    /// `10 self + digit`, when it fits.
+    fn ten_times_plus(self, digit: u8) -> Option<Self>;
+}
+
+impl CheckedMulAdd for u64 {
+    fn ten_times_plus(self, digit: u8) -> Option<Self> {
+        self.checked_mul(10)?.checked_add(digit.into())
+    }
+}
+
+impl CheckedMulAdd for i128 {
+    fn ten_times_plus(self, digit: u8) -> Option<Self> {
+        self.checked_mul(10)?.checked_add(digit.into())
+    }
 }
 
 #[cfg(test)]

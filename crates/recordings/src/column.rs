@@ -2,16 +2,25 @@
 
 use crate::channel::{Attributes, Channel};
 use crate::error::RecordingError;
+use crate::mapping::ColumnMapping;
 use crate::signal::Signal;
 
 /// How far (ns) a stamp may lie before the latest one and still be sorted into its place: messages overtake each other
 /// on a network, by less than a second; what goes further back is a clock that was set anew.
 pub(crate) const SORTED_WITHIN_NS: i64 = 1_000_000_000;
 
-/// Takes the samples of columns. A clone of one that was given none serves each column.
+/// Takes the samples of columns: one that was given none makes another for each column.
 pub(crate) trait Keep: Clone {
     /// What there is of a column at the end.
     type Kept;
+
+    /// Whether all samples stay in memory, so that files have to be small enough.
+    const HOLDS_ALL: bool;
+
+    /// One for the samples of a column.
+    fn of(&self, _column: &ColumnMapping) -> Self {
+        self.clone()
+    }
 
     /// Takes a sample, at most [`SORTED_WITHIN_NS`] before the latest one; false when there is one at this instant,
     /// which stays.

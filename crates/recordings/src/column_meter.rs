@@ -90,6 +90,7 @@ impl ColumnMeter {
 
 impl Keep for ColumnMeter {
     type Kept = Measured;
+    const HOLDS_ALL: bool = false;
 
     fn add(&mut self, now_ns: i64, value: f64) -> bool {
         let new = self.waiting.add(now_ns, value);

@@ -33,7 +33,23 @@ impl ColumnSamples {
         } else {
             before_ns
         };
-        let later = self.late.split_off(&before_ns);
+        self.take(count, before_ns)
+    }
+
+    /// The earliest stamp.
+    pub(crate) fn first_ns(&self) -> Option<i64> {
+        let late = self.late.first_key_value().map(|(&t_ns, _)| t_ns);
+        self.t_ns.first().copied().into_iter().chain(late).min()
+    }
+
+    /// Takes out, in order, what lies before an instant.
+    pub(crate) fn take_until(&mut self, before_ns: i64) -> Series {
+        self.take(self.t_ns.partition_point(|&t_ns| t_ns < before_ns), before_ns)
+    }
+
+    /// Takes out, in order, the first `count` of those that came in order, and the late ones before an instant.
+    fn take(&mut self, count: usize, late_before_ns: i64) -> Series {
+        let later = self.late.split_off(&late_before_ns);
         let late = std::mem::replace(&mut self.late, later);
         let early =
             Self { t_ns: self.t_ns.drain(..count).collect(), values: self.values.drain(..count).collect(), late };
@@ -66,6 +82,7 @@ impl ColumnSamples {
 
 impl Keep for ColumnSamples {
     type Kept = Series;
+    const HOLDS_ALL: bool = true;
 
     fn add(&mut self, now_ns: i64, value: f64) -> bool {
         if self.t_ns.last().is_none_or(|&last_ns| last_ns < now_ns) {

@@ -3,7 +3,6 @@
 use crate::cell::bare;
 use crate::error::RecordingError;
 use crate::mapping::FileMapping;
-use crate::read::Input;
 use crate::samples::Found;
 use crate::suggest;
 use crate::units::{Unit, parse_unit};
@@ -12,8 +11,8 @@ use crate::units::{Unit, parse_unit};
 pub(crate) struct Header<'a> {
     /// Line of the header, from 1.
     pub(crate) line: u64,
-    /// Everything below the header line.
-    pub(crate) body: &'a [u8],
+    /// Byte at which the rows begin.
+    pub(crate) below: usize,
     /// Number of columns.
     pub(crate) width: usize,
     /// Where the time is, when there is a time column.
@@ -26,9 +25,14 @@ pub(crate) struct Header<'a> {
 
 impl<'a> Header<'a> {
     /// Finds the mapped columns in the first line that is not blank.
-    pub(crate) fn find(input: &Input<'a>, file: &'a FileMapping, mapping: &str) -> Result<Self, RecordingError> {
-        let name = || input.name.to_owned();
-        let HeadLine { line, text, body } = head_line(input.name, input.bytes)?;
+    pub(crate) fn find(
+        file_name: &str,
+        bytes: &[u8],
+        file: &'a FileMapping,
+        mapping: &str,
+    ) -> Result<Self, RecordingError> {
+        let name = || file_name.to_owned();
+        let HeadLine { line, text, body } = head_line(file_name, bytes)?;
         let names = split(text, file.delimiter);
 
         let hint = |column: &str| {
@@ -94,14 +98,7 @@ impl<'a> Header<'a> {
         }
         let used = |index: &usize| time == Some(*index) || columns.iter().any(|found| found.position == *index);
         let unused = (0..names.len()).filter(|index| !used(index)).map(|index| names[index].clone()).collect();
-        Ok(Self { line, body, width: names.len(), time, columns, unused })
-    }
-
-    /// The line (from 1) of the row at this byte of the body, blank lines before it skipped.
-    pub(crate) fn line_at(&self, offset: u64) -> u64 {
-        let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.body.len());
-        let blank = self.body[offset..].iter().take_while(|byte| b"\r\n".contains(byte)).count();
-        self.line + 1 + line_ends(&self.body[..offset + blank])
+        Ok(Self { line, below: bytes.len() - body.len(), width: names.len(), time, columns, unused })
     }
 }
 
@@ -131,7 +128,7 @@ pub(crate) fn head_line<'a>(name: &str, bytes: &'a [u8]) -> Result<HeadLine<'a>,
 }
 
 /// Ends of lines: `\n`, `\r\n` or a lone `\r`.
-fn line_ends(bytes: &[u8]) -> u64 {
+pub(crate) fn line_ends(bytes: &[u8]) -> u64 {
     let is_end = |index: usize| match bytes[index] {
         b'\n' => true,
         b'\r' => bytes.get(index + 1) != Some(&b'\n'),

@@ -12,6 +12,7 @@
 //!   so from anything that can be read and searched, so that bags need not fit into memory.
 //! * [`survey_from`] measures instead: quality and content of each channel, and what is inside bags, in one pass and in
 //!   memory that does not grow.
+//! * [`pieces_from`] gives a run of any length piece by piece.
 //! * [`contents`] tells what a bag holds and [`table_contents`] what a table does, [`messages`] gives each message, [`FieldReader`] the fields of each.
 //! * [`Quality`] is what can be measured of a channel without knowing what it means: rate, gaps, jumps, saturation ...
 //! * [`Fingerprint`] tells the same data in another file.
@@ -51,6 +52,7 @@ mod mapping_raw;
 mod mapping_text;
 mod mapping_toml;
 mod parquet;
+mod pieces;
 mod place;
 mod quality;
 mod read;
@@ -80,6 +82,7 @@ pub use group::{Group, GroupFile, Grouping};
 pub use header_stamps::{Delay, Drift, HeaderStamps};
 pub use loss::{Loss, LossKind};
 pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
+pub use pieces::{Passage, pieces_from};
 pub use place::Place;
 pub use quality::{
     At, Extreme, Finding, FindingKind, Gaps, Grid, Quality, QualityMeter, Severity, Stretch, Tally, Timing, Values,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
-use crate::bag::{Format, ReadSeek, read_whole};
+use crate::bag::{Format, ReadSeek, head, read_whole, refuse_large};
 use crate::column::{Column, Keep};
 use crate::column_samples::ColumnSamples;
 use crate::contents::Contents;
@@ -11,13 +11,12 @@ use crate::described::settle;
 use crate::error::RecordingError;
 use crate::fields::LOG_TIME;
 use crate::group::parts;
-use crate::header::Header;
 use crate::loss::{Loss, LossKind};
 use crate::mapping::{FileMapping, Mapping, base_name};
 use crate::parquet;
 use crate::place::Place;
 use crate::recording::{Clock, Recording};
-use crate::table::read_rows;
+use crate::table;
 use crate::topics::read_bags;
 
 /// A file as the caller gives it: its name and its bytes.
@@ -208,29 +207,45 @@ impl<K: Keep> Gathering<'_, K> {
     fn table(&mut self, entry: usize, input: &mut Opened<'_>) -> Result<(), RecordingError> {
         let so_far = &mut self.so_far;
         let (name, file, clock) = (input.name, &self.mapping.files[entry], so_far.clocks.len());
-        let whole = read_whole(name, &mut *input.source)?;
-        if whole.broken_at.is_some() {
+        let (keep, mapping) = ((self.keep, self.policy), &self.mapping.name);
+        let own_clock = Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz };
+        let format = Format::of(name, &head(name, &mut *input.source)?);
+        let mut whole = match format {
+            Format::Parquet | Format::Zstd => Some(read_whole(name, &mut *input.source)?),
+            _ => None,
+        };
+        if whole.as_ref().is_some_and(|whole| whole.broken_at.is_some()) {
             let message = "the compressed file is damaged or cut off".to_owned();
             return Err(RecordingError::NotReadable { file: name.to_owned(), format: "zstd", message });
         }
-        let (bytes, sha256) = (whole.file_bytes, whole.sha256);
-        let (keep, mapping) = ((self.keep, self.policy), &self.mapping.name);
-        let own_clock = Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz };
-        let unused = if Format::of(name, &whole.bytes) == Format::Parquet {
-            let table = parquet::read_rows(keep, name, whole.bytes, file, mapping, clock, &mut so_far.losses)?;
-            if file.self_describing {
-                let described = parquet::described(table.columns, &table.about);
-                so_far.columns.extend(settle(name, described, &mut so_far.clocks));
-            } else {
+        let (unused, bytes, sha256) = match whole.take() {
+            Some(whole) if Format::of(name, &whole.bytes) == Format::Parquet => {
+                let table = parquet::read_rows(keep, name, whole.bytes, file, mapping, clock, &mut so_far.losses)?;
+                if file.self_describing {
+                    let described = parquet::described(table.columns, &table.about);
+                    so_far.columns.extend(settle(name, described, &mut so_far.clocks));
+                } else {
+                    so_far.columns.extend(table.columns);
+                    so_far.clocks.push(own_clock);
+                }
+                (table.unused, whole.file_bytes, whole.sha256)
+            }
+            packed => {
+                if K::HOLDS_ALL && packed.is_none() {
+                    refuse_large(name, &mut *input.source)?;
+                }
+                let mut unpacked = packed.map(|whole| (Cursor::new(whole.bytes), whole.file_bytes, whole.sha256));
+                let source: &mut dyn ReadSeek = match &mut unpacked {
+                    Some((bytes, ..)) => bytes,
+                    None => &mut *input.source,
+                };
+                let table = table::read_rows(keep, (name, source), (file, mapping), clock, &mut so_far.losses)?;
                 so_far.columns.extend(table.columns);
                 so_far.clocks.push(own_clock);
+                let (bytes, sha256) =
+                    unpacked.map_or((table.bytes, table.sha256), |(_, bytes, sha256)| (bytes, sha256));
+                (table.unused, bytes, sha256)
             }
-            table.unused
-        } else {
-            let header = Header::find(&Input { name, bytes: &whole.bytes }, file, mapping)?;
-            so_far.columns.extend(read_rows(keep, name, file, &header, clock, &mut so_far.losses)?);
-            so_far.clocks.push(own_clock);
-            header.unused
         };
         so_far.unused.extend(unused.into_iter().map(|column| UnusedColumn { file: name.to_owned(), column }));
         so_far.sources.push(Source { name: name.to_owned(), bytes: bytes as usize, sha256 });

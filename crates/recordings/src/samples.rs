@@ -57,7 +57,7 @@ impl<'a, K: Keep> Samples<'a, K> {
         time: (&'a TimeMapping, Option<usize>),
         columns: Vec<Found<'a>>,
     ) -> Self {
-        let kept = columns.iter().map(|_| keep.clone()).collect();
+        let kept = columns.iter().map(|found| keep.of(found.mapped)).collect();
         let ledger = Ledger::new(file, place);
         let (time, time_at) = time;
         let (prefix, zero_is_unset) = (String::new(), false);

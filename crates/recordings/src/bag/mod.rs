@@ -19,7 +19,7 @@ use crate::loss::{Ledger, Loss};
 use crate::place::Place;
 
 use unpack::Whole;
-pub(crate) use unpack::{cannot_read, head, hexadecimal, payload, read_whole};
+pub(crate) use unpack::{cannot_read, head, hexadecimal, payload, read_whole, refuse_large};
 
 /// The largest record, chunk (packed or not) or message that is held in memory, in bytes. What is larger is skipped and
 /// counted: a length field is never believed.

@@ -33,6 +33,17 @@ pub(crate) fn head(name: &str, source: &mut dyn ReadSeek) -> Result<Vec<u8>, Rec
     Ok(head)
 }
 
+/// Refuses a file that is too large for memory; the source is at its start afterwards.
+pub(crate) fn refuse_large(name: &str, source: &mut dyn ReadSeek) -> Result<(), RecordingError> {
+    let failed = |error| cannot_read(name, 0, &error);
+    let bytes = source.seek(SeekFrom::End(0)).map_err(failed)?;
+    source.seek(SeekFrom::Start(0)).map_err(failed)?;
+    if bytes > LARGEST_IN_MEMORY {
+        return Err(RecordingError::TooLarge { file: name.to_owned(), bytes, limit: LARGEST_IN_MEMORY });
+    }
+    Ok(())
+}
+
 /// Reads a file whole, unpacks it if it is zstd, and refuses what is too large for memory.
 pub(crate) fn read_whole(name: &str, source: &mut dyn ReadSeek) -> Result<Whole, RecordingError> {
     let too_large = |bytes| {
