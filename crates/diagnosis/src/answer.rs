@@ -197,7 +197,7 @@ impl Answer<'_> {
                         })
                         .count();
                     if inside >= 2 {
-                        let from = (w as f64 + i as f64 / FINE as f64) * window;
+                        let from = cut.from + (w as f64 + i as f64 / FINE as f64) * window;
                         let until = from + window / FINE as f64;
                         match list.last_mut() {
                             Some(last) if from - last[1] < 1e-6 => last[1] = until,
@@ -216,7 +216,7 @@ impl Answer<'_> {
             .cuts
             .iter()
             .zip(onsets)
-            .map(|(c, t)| (c.name.clone(), t.map(|t| vec![[t, c.torque.len() as f64 * c.period]]).unwrap_or_default()))
+            .map(|(c, t)| (c.name.clone(), t.map(|t| vec![[t, c.end()]]).unwrap_or_default()))
             .collect()
     }
 
@@ -302,6 +302,7 @@ impl Answer<'_> {
             steady: None,
             response: None,
             next: None,
+            coverage: BTreeMap::new(),
             predictions,
         };
         out.sentences = words::sentences(&out);

@@ -160,7 +160,7 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
                 let cut = &problem.cuts[r];
                 let segment = &cut.segments[s];
                 let rows = (segment.windows * cut.rows_per_window) as f64;
-                (segment.row as f64 + rows * q as f64 / PARTS as f64) * cut.period
+                cut.time(segment.row as f64 + rows * q as f64 / PARTS as f64)
             })
         })
         .collect();

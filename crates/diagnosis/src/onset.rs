@@ -16,13 +16,12 @@ pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
         }
         for run in 0..problem.cuts.len() {
             let cut = &problem.cuts[run];
-            let end = cut.torque.len() as f64 * cut.period;
             for step in STEPS {
                 let Some(now) = trial.hypothesis.parts[part].1[run] else { continue };
                 let mut least = problem.misfit_of_run(run, &trial.fitted.response[run]);
                 for k in (-REACH..=REACH).filter(|&k| k != 0) {
                     let mut h = trial.hypothesis.clone();
-                    h.parts[part].1[run] = Some((now + step * f64::from(k)).clamp(0.0, end));
+                    h.parts[part].1[run] = Some((now + step * f64::from(k)).clamp(cut.from, cut.end()));
                     let response = problem.run_response(run, &trial.fitted.point, &h);
                     let cost = problem.misfit_of_run(run, &response);
                     if cost < least {

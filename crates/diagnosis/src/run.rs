@@ -11,6 +11,8 @@ use crate::DiagnosisError;
 pub struct Run {
     /// Name of the recording.
     pub name: String,
+    /// Time of the first row, s: zero unless the run is a later stretch of a longer recording. Time counts from its start.
+    pub from: f64,
     /// Time between rows, s.
     pub period: f64,
     /// Torque command of each side, held for the row that follows, N m.
@@ -102,6 +104,7 @@ impl Run {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
         Ok(Self {
+            from: 0.0,
             period,
             torque,
             angle,

@@ -91,7 +91,7 @@ struct Stretch<'a> {
 
 impl Stretch<'_> {
     fn start_time(&self) -> f64 {
-        self.segment.row as f64 * self.cut.period
+        self.cut.time(self.segment.row as f64)
     }
 
     /// When a dose is present: as it says, and only during `part`.

@@ -63,6 +63,7 @@ pub(crate) fn blank(rows: usize) -> Run {
     let nothing = || vec![None; rows];
     Run {
         name: "synthetic".to_owned(),
+        from: 0.0,
         period: PERIOD,
         torque: vec![[0.0; 2]; rows],
         angle: [nothing(), nothing()],

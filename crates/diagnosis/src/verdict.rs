@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::correction::Correction;
 use crate::diagnose::FORMAT;
 use crate::locate::Located;
+use crate::long::Coverage;
 use crate::predict::Prediction;
 use crate::trace::Trace;
 
@@ -205,6 +206,9 @@ pub struct Diagnosis {
     /// Which drive would tell the rivals apart, if that was asked.
     #[serde(default)]
     pub next: Option<crate::next::Advice>,
+    /// Of long recordings and references, the stretches that this rests on, by the part that they play.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub coverage: BTreeMap<String, Coverage>,
     /// Predicted responses of the held-out drives: corrected, then without the effect.
     #[serde(skip)]
     pub predictions: Vec<(Prediction, Prediction)>,
@@ -235,7 +239,17 @@ impl Diagnosis {
             steady: None,
             response: None,
             next: None,
+            coverage: BTreeMap::new(),
             predictions: Vec::new(),
         }
+    }
+
+    /// Says what it rests on where recordings were too long to be used whole.
+    pub fn rest_on(&mut self, coverage: &BTreeMap<String, Coverage>) {
+        for (part, coverage) in coverage {
+            self.sentences.push(coverage.sentence(part));
+            self.limits.push(coverage.limit(part));
+        }
+        self.coverage.clone_from(coverage);
     }
 }

@@ -66,12 +66,26 @@ pub(crate) struct Segment {
 #[derive(Debug, Clone)]
 pub(crate) struct Cut {
     pub(crate) name: String,
+    /// Time of the first row, s.
+    pub(crate) from: f64,
     pub(crate) period: f64,
     pub(crate) rows_per_window: usize,
     pub(crate) torque: Vec<[f64; 2]>,
     pub(crate) segments: Vec<Segment>,
     /// Smoothed path (x, y) and yaw at each window border, for pictures and places.
     pub(crate) path: Vec<[f64; 3]>,
+}
+
+impl Cut {
+    /// Time of a row, or between rows, s.
+    pub(crate) fn time(&self, row: f64) -> f64 {
+        self.from + row * self.period
+    }
+
+    /// When it ends, s.
+    pub(crate) fn end(&self) -> f64 {
+        self.time(self.torque.len() as f64)
+    }
 }
 
 /// What cutting needs to know.
@@ -110,6 +124,7 @@ pub(crate) fn cut(run: &Run, o: &CutOptions) -> Cut {
         .collect();
     Cut {
         name: run.name.clone(),
+        from: run.from,
         period: run.period,
         rows_per_window: per_window,
         torque: run.torque.clone(),

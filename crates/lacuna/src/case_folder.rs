@@ -1,14 +1,14 @@
 //! Cases: a robot, references, recordings, and perhaps held-out drives.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use diagnosis::{Advice, Diagnosis, Options};
+use diagnosis::{Advice, Coverage, Diagnosis, Options};
 use recordings::{Mapping, Read, ReadOptions};
 
-use crate::inputs::load;
 pub use crate::inputs::{Loaded, mapping, robot};
+use crate::long::Budget;
 use crate::robot_file::{Causality, RobotSpec};
 
 /// Folders of a case with what belongs into them.
@@ -38,6 +38,8 @@ pub struct CaseFolder {
     pub recordings: Loaded,
     /// Inputs whose response is to be predicted.
     pub held_out: Loaded,
+    /// Of long recordings and references, what they stand for, by the name of their folder.
+    pub coverage: BTreeMap<String, Coverage>,
 }
 
 impl CaseFolder {
@@ -47,6 +49,20 @@ impl CaseFolder {
     /// # Errors
     /// What is missing or cannot be read.
     pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
+        Self::open_within(Budget::default(), folder, robot_name, mapping, options)
+    }
+
+    /// The same on a budget of recorded time.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_within(
+        budget: Budget,
+        folder: &Path,
+        robot_name: Option<&str>,
+        mapping: &Mapping,
+        options: &ReadOptions,
+    ) -> Result<Self> {
         let shown = folder.display();
         ensure!(
             folder.is_dir(),
@@ -64,7 +80,7 @@ impl CaseFolder {
         let held_out = if held_out.is_dir() { vec![held_out] } else { vec![] };
         let [mut reference, recordings] = [0, 1].map(|i| vec![folder.join(FOLDERS[i].0)]);
         reference.retain(|f| f.is_dir());
-        Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
+        Self::within(budget, robot, [&reference, &recordings, &held_out], mapping, options)
     }
 
     /// A case from files and folders: references, recordings, held-out drives.
@@ -73,19 +89,38 @@ impl CaseFolder {
     /// What cannot be read, and a recording that is given twice.
     pub fn from_paths(
         robot: RobotSpec,
+        paths: [&[PathBuf]; 3],
+        mapping: &Mapping,
+        options: &ReadOptions,
+    ) -> Result<Self> {
+        Self::within(Budget::default(), robot, paths, mapping, options)
+    }
+
+    /// The same on a budget of recorded time.
+    ///
+    /// # Errors
+    /// As [`Self::from_paths`].
+    pub fn within(
+        budget: Budget,
+        robot: RobotSpec,
         [reference, recordings, held_out]: [&[PathBuf]; 3],
         mapping: &Mapping,
         options: &ReadOptions,
     ) -> Result<Self> {
-        let perhaps = |paths: &[PathBuf]| -> Result<Loaded> {
-            if paths.is_empty() { Ok(Loaded::default()) } else { load(mapping, paths, options) }
+        let driven = robot.causality;
+        let perhaps = |paths: &[PathBuf], budget: Budget| -> Result<(Loaded, Option<Coverage>)> {
+            if paths.is_empty() {
+                Ok((Loaded::default(), None))
+            } else {
+                budget.load(mapping, paths, options, (driven, &[]))
+            }
         };
-        let case = Self {
-            reference: perhaps(reference)?,
-            recordings: load(mapping, recordings, options)?,
-            held_out: perhaps(held_out)?,
-            robot,
-        };
+        let (reference, of_reference) = perhaps(reference, budget)?;
+        let (recordings, of_recordings) = budget.load(mapping, recordings, options, (driven, &reference.reads))?;
+        let (held_out, _) = perhaps(held_out, Budget::of_minutes(0.0))?;
+        let named = FOLDERS.iter().zip([of_reference, of_recordings]);
+        let coverage = named.filter_map(|((name, _), coverage)| Some(((*name).to_owned(), coverage?))).collect();
+        let case = Self { robot, reference, recordings, held_out, coverage };
         case.refuse_twins()?;
         Ok(case)
     }
@@ -123,13 +158,25 @@ impl CaseFolder {
         Ok(())
     }
 
+    /// When a recording begins, s: later than zero for a stretch of a long one.
+    fn start_of(&self, name: &str) -> f64 {
+        let chosen = self.coverage.values().flat_map(|c| &c.chosen);
+        chosen.filter(|c| c.name == name).map(|c| c.interval[0]).next().unwrap_or_default()
+    }
+
     /// The case as the diagnosis takes it, for a torque-driven robot.
     ///
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn torque_driven(&self) -> Result<diagnosis::Case> {
         let runs = |l: &Loaded| -> Result<Vec<diagnosis::Run>> {
-            l.reads.iter().map(|r| diagnosis::Run::new(&r.recording).with_context(|| file_names(r))).collect()
+            l.reads
+                .iter()
+                .map(|r| {
+                    let run = diagnosis::Run::new(&r.recording).with_context(|| file_names(r))?;
+                    Ok(diagnosis::Run { from: self.start_of(r.recording.name()), ..run })
+                })
+                .collect()
         };
         let held_out = self
             .held_out
@@ -207,7 +254,7 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed, or that do not determine an answer.
     pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
-        Ok(match self.robot.causality {
+        let mut out = match self.robot.causality {
             Causality::TorqueDriven => diagnosis::diagnose(&self.torque_driven()?, options, stage)?,
             Causality::SpeedDriven => diagnosis::diagnose_steady(&self.speed_driven()?, options, stage)?,
             Causality::CommandDriven => {
@@ -215,7 +262,9 @@ impl CaseFolder {
                 out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
                 out
             }
-        })
+        };
+        out.rest_on(&self.coverage);
+        Ok(out)
     }
 }
 

@@ -224,15 +224,20 @@ pub fn survey(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions, watch
     Ok(Surveyed { surveys: runs.found, unmatched: runs.unmatched })
 }
 
+/// Bytes of all files that are meant to be read.
+pub(crate) fn total_bytes(mapping: &Mapping, paths: &[PathBuf]) -> Result<u64> {
+    Ok(files(mapping, paths)?.meant.iter().filter_map(|name| Some(fs::metadata(name).ok()?.len())).sum())
+}
+
 /// What was found of each run, and what is none.
-struct Runs<T> {
-    found: Vec<T>,
-    unmatched: Vec<String>,
-    ignored: Vec<String>,
+pub(crate) struct Runs<T> {
+    pub(crate) found: Vec<T>,
+    pub(crate) unmatched: Vec<String>,
+    pub(crate) ignored: Vec<String>,
 }
 
 /// Opens the files of every run in files and folders, and gives them with the run's name to `read`.
-fn runs<T>(
+pub(crate) fn runs<T>(
     mapping: &Mapping,
     paths: &[PathBuf],
     watch: Watch<'_>,

@@ -9,6 +9,7 @@ pub mod case_folder;
 pub mod envelope;
 mod flat_robot;
 pub mod inputs;
+pub mod long;
 pub mod mcap_out;
 pub mod predictions;
 pub mod propose;

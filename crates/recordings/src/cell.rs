@@ -67,7 +67,7 @@ fn decimal_ns(cell: &[u8], ns_per_unit: i64) -> Option<i128> {
     let ns = if digits.len() <= 19 {
         let (mantissa, divisor) = decimal::<u64>(digits)?;
         let unit = ns_per_unit.unsigned_abs();
-        if unit % divisor == 0 {
+        if unit.is_multiple_of(divisor) {
             i128::from(mantissa) * i128::from(unit / divisor)
         } else {
             (i128::from(mantissa) * i128::from(unit) + i128::from(divisor / 2)) / i128::from(divisor)

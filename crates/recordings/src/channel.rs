@@ -120,6 +120,14 @@ impl Channel {
         self.t_ns.iter().copied().zip(self.values.iter().copied())
     }
 
+    /// The samples from index `at` on that lie before an instant, as a channel, when there are any; `at` moves behind them.
+    pub(crate) fn until(&self, at: &mut usize, end_ns: i64) -> Option<Self> {
+        let end = *at + self.t_ns[*at..].partition_point(|&t_ns| t_ns < end_ns);
+        let range = std::mem::replace(at, end)..end;
+        let (t_ns, values) = (self.t_ns[range.clone()].to_vec(), self.values[range].to_vec());
+        (!t_ns.is_empty()).then(|| Self { t_ns, values, column: self.column.clone(), ..*self })
+    }
+
     /// First and last instant in ns; `None` without samples.
     pub fn span_ns(&self) -> Option<(i64, i64)> {
         Some((*self.t_ns.first()?, *self.t_ns.last()?))

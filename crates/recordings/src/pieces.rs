@@ -197,7 +197,7 @@ mod tests {
                     pieces.iter().filter_map(|p| p.get(channel.signal())).flat_map(of).collect::<Vec<_>>()
                 };
                 assert_eq!(joined(|c| c.t_ns().to_vec()), channel.t_ns());
-                let bits = |c: &Channel| c.values().iter().map(|v| v.to_bits() as i64).collect();
+                let bits = |c: &Channel| c.values().iter().map(|v| v.to_bits().cast_signed()).collect();
                 assert_eq!(joined(bits), bits(channel));
             }
             for piece in &pieces {

@@ -82,6 +82,39 @@ impl Recording {
         })
     }
 
+    /// The same recording under another name.
+    #[must_use]
+    pub fn renamed(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
+    /// The recording in pieces of `length_ns`, counted from its first stamp, each under the same name; those without a
+    /// sample are left out.
+    pub fn pieces(&self, length_ns: i64) -> Vec<Self> {
+        let spans = self.channels.iter().filter_map(Channel::span_ns);
+        let Some((mut from_ns, last_ns)) = spans.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+            return Vec::new();
+        };
+        let length_ns = length_ns.max(1);
+        let mut out = Vec::new();
+        let mut rest: Vec<usize> = vec![0; self.channels.len()];
+        loop {
+            let end_ns = from_ns.saturating_add(length_ns);
+            let channels: Vec<Channel> =
+                self.channels.iter().zip(&mut rest).filter_map(|(c, at)| c.until(at, end_ns)).collect();
+            if !channels.is_empty() {
+                out.push(Self { name: self.name.clone(), clocks: self.clocks.clone(), channels });
+            }
+            if end_ns > last_ns {
+                return out;
+            }
+            // Nothing may have been recorded for hours.
+            let next_ns = self.channels.iter().zip(&rest).filter_map(|(c, &at)| c.t_ns().get(at)).min();
+            let ahead = next_ns.map_or(0, |next_ns| next_ns.saturating_sub(end_ns).div_euclid(length_ns));
+            from_ns = end_ns.saturating_add(ahead.saturating_mul(length_ns));
+        }
+    }
+
     /// First and last instant over all channels of one clock, in ns.
     pub fn span_ns(&self, clock: usize) -> Option<(i64, i64)> {
         let spans = self.channels.iter().filter(|channel| channel.clock() == clock).filter_map(Channel::span_ns);
@@ -122,6 +155,20 @@ mod tests {
             "recording r: two channels are called gyro_z; give each signal once"
         );
         assert!(matches!(Recording::new("r", vec![], vec![good]), Err(RecordingError::NoSuchClock { .. })));
+    }
+
+    #[test]
+    fn pieces_follow_each_other_without_a_gap() {
+        let gyro = Channel::new(Signal::GyroZ, 0, vec![5, 9, 10, 24, 9000], vec![1.0, 2.0, 3.0, 4.0, 5.0]).unwrap();
+        let speed = Channel::new(Signal::CommandSpeedLeft, 0, vec![8, 15], vec![1.0, 2.0]).unwrap();
+        let whole = Recording::new("r", clocks(), vec![gyro, speed]).unwrap();
+        let stamps = |signal: Signal| {
+            let of = |piece: &Recording| piece.get(signal).map(|c| c.t_ns().to_vec()).unwrap_or_default();
+            whole.pieces(10).iter().map(of).collect::<Vec<_>>()
+        };
+        assert_eq!(stamps(Signal::GyroZ), [vec![5, 9, 10], vec![24], vec![9000]]);
+        assert_eq!(stamps(Signal::CommandSpeedLeft), [vec![8], vec![15], vec![]]);
+        assert_eq!(whole.pieces(i64::MAX), [whole]);
     }
 
     #[test]

@@ -191,7 +191,7 @@ fn finding(problem: &Problem<'_>, energy: &Energy, c: usize, p: Option<f64>) -> 
     }
     let cut = &problem.cuts[worst.1];
     let segment = &cut.segments[worst.2];
-    let from = segment.row as f64 * cut.period;
+    let from = cut.time(segment.row as f64);
     let length = (segment.windows * cut.rows_per_window) as f64 * cut.period;
     Some(Finding {
         signal: CHANNEL_NAMES[c].to_owned(),

@@ -33,13 +33,13 @@ pub(crate) fn span(cut: &Cut, signal: &str, side: Option<usize>, change: &Change
     let around = |k: usize, ends: [usize; 2]| {
         let limits = [(ends[0] as f64 - 1.0) * bin, (ends[1] as f64 + 0.5) * bin];
         // The first and the last bin tell little: a robot at rest mismatches nothing.
-        (k > 1 && k + 1 < bins).then(|| limits.map(|t| t.clamp(0.0, end)))
+        (k > 1 && k + 1 < bins).then(|| limits.map(|t| cut.from + t.clamp(0.0, end)))
     };
     Span {
         recording: cut.name.clone(),
         signal: signal.to_owned(),
         side: side.map(|s| words::side(s).into()),
-        interval: [change.from as f64 * bin, change.until as f64 * bin],
+        interval: [change.from, change.until].map(|k| cut.from + k as f64 * bin),
         onset: around(change.from, change.onset),
         end: around(change.until, change.end),
         gain: change.gain,

@@ -81,7 +81,7 @@ fn surplus(run: &Run, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], speed: &[[f
                 s.position = start.position;
                 s.heading = [start.yaw.cos(), start.yaw.sin()];
                 s.wheel_angle = start.wheel_angle;
-                s.time = k as f64 * run.period;
+                s.time = cut.time(k as f64);
             }
             let mut sum = [0.0; 2];
             for i in 0..substeps {

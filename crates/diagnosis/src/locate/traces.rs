@@ -42,7 +42,7 @@ fn trace(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, [before, after]: [Ve
     Trace {
         recording: cut.name.clone(),
         left_out: simulated.left_out,
-        time: places().map(|w| instant((w as f64 + 0.5) * window)).collect(),
+        time: places().map(|w| instant(cut.from + (w as f64 + 0.5) * window)).collect(),
         restarts,
         channels: (0..CHANNELS).filter_map(|c| compared(p, cut, simulated, c)).collect(),
         path: if has_pose { places().map(middle).map(|xy| xy.map(rounded)).collect() } else { Vec::new() },

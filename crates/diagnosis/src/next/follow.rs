@@ -71,6 +71,7 @@ impl Follower {
         let length = course.points.last().map_or(0.0, |p| p[0]);
         let rows = (length / self.period).round() as usize;
         let mut cut = Cut {
+            from: 0.0,
             name: "next".to_owned(),
             period: self.period,
             rows_per_window: self.rows_per_window,

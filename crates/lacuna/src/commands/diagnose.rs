@@ -7,6 +7,7 @@ use clap::{Args as ClapArgs, ValueEnum};
 use diagnosis::{Options, Verdict};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
+use lacuna::long::Budget;
 use lacuna::{Causality, mcap_out, predictions, which_mapping};
 
 use super::{Outcome, Reading, Usage, report};
@@ -87,6 +88,17 @@ pub(crate) struct Input {
     /// What to do with bad rows and cells of recordings.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) reading: Reading,
+    /// Recorded time that the diagnosis rests on at most, of the recordings and of the references. Longer ones are screened
+    /// whole, and their most telling minutes are taken; 0 takes everything [default: 10 for torque-driven robots, 120 for
+    /// others].
+    #[arg(long, value_name = "MINUTES", value_parser = minutes)]
+    pub(crate) budget: Option<f64>,
+}
+
+/// A number of minutes.
+fn minutes(text: &str) -> Result<f64, String> {
+    let minutes = text.parse::<f64>().ok().filter(|m| m.is_finite() && (*m == 0.0 || *m >= 3.0));
+    minutes.ok_or_else(|| "give 3 minutes or more, or 0 for everything".to_owned())
 }
 
 /// Arguments of `lacuna diagnose`.
@@ -187,11 +199,11 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 
 /// The case that the arguments name, and the name of the mapping that read it.
 pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
-    let options = args.reading.options();
+    let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
     if let Some(folder) = &args.case {
         let parts: Vec<PathBuf> = case_folder::folders(folder).into_iter().filter(|part| part.is_dir()).collect();
         let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &parts)?;
-        let case = CaseFolder::open(folder, args.robot.as_deref(), &mapping, &options)?;
+        let case = CaseFolder::open_within(budget, folder, args.robot.as_deref(), &mapping, &options)?;
         return Ok((case, mapping.name));
     }
     let Some(robot) = &args.robot else {
@@ -207,7 +219,7 @@ pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
     }
     let paths: [&[PathBuf]; 3] = [&args.reference, &args.recordings, &args.heldout];
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
-    let case = CaseFolder::from_paths(robot, paths, &mapping, &options)?;
+    let case = CaseFolder::within(budget, robot, paths, &mapping, &options)?;
     Ok((case, mapping.name))
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn read_rows<K: Keep>(
     let (mut number, mut first_line) = (0_u64, header.line + 1);
     let mut take = |block: &Block, parsed: Parsed| {
         for (index, at) in parsed.lines.iter().enumerate() {
-            let line = Line { layout: &layout, block, parsed: &parsed, index, first_line };
+            let line = Line { layout: &layout, block, parsed: &parsed, index, begins: first_line };
             if at.fields == layout.width {
                 samples.take(&line, number)?;
             } else {

@@ -131,8 +131,8 @@ pub(super) struct Line<'a> {
     pub(super) parsed: &'a Parsed,
     /// Which of the block's lines.
     pub(super) index: usize,
-    /// Number, in the file, of the block's first line.
-    pub(super) first_line: u64,
+    /// Number, in the file, of the line with which the block begins.
+    pub(super) begins: u64,
 }
 
 impl<'a> Line<'a> {
@@ -175,6 +175,6 @@ impl Row for Line<'_> {
 
     fn place(&self) -> u64 {
         let before = &self.block.bytes[self.block.from..][..self.parsed.lines[self.index].bytes.0];
-        self.first_line + crate::header::line_ends(before)
+        self.begins + crate::header::line_ends(before)
     }
 }

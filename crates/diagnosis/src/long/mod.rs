@@ -1,0 +1,251 @@
+//! Long recordings: all of them screened once by weak form, and the most telling minutes chosen for a diagnosis.
+//!
+//! Every minute is compared with the law among signals that the references follow (`law`), in memory that does not grow
+//! with the length. A diagnosis then rests on a fixed budget of minutes (`pool`): some spread evenly, some whose driving
+//! tells most, and those least like the references. What was left out is part of the answer ([`Coverage`]).
+
+mod law;
+mod pool;
+mod rows;
+mod thin;
+mod words;
+
+use rayon::prelude::*;
+use recordings::{Recording, RecordingError};
+use serde::{Deserialize, Serialize};
+
+use law::{Law, Windows};
+pub use pool::Why;
+use pool::{Member, Pool};
+use rows::Grid;
+
+/// Length of a piece, s.
+pub const PIECE: f64 = 60.0;
+/// Recorded time on which a diagnosis rests at most unless told otherwise, s.
+pub const BUDGET: f64 = 600.0;
+/// Shortest piece that is worth choosing, s.
+const SHORTEST: f64 = 10.0;
+/// Pieces at the beginning that stand for the references where there are none.
+const BEGINNING: usize = 10;
+/// Pieces of references for the law: shorter than a minute, so that short references leave something to compare with.
+const REFERENCE_PIECE_NS: i64 = 12_000_000_000;
+
+/// What pieces were compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ComparedWith {
+    /// The law among signals that the references follow.
+    References,
+    /// That of the first minutes of the recordings themselves: there were no references, or too little of them.
+    Beginning,
+    /// Nothing: the recordings lack the signals for a law.
+    Nothing,
+}
+
+/// A piece on which the diagnosis rests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Chosen {
+    /// Its name in the rest of the diagnosis.
+    pub name: String,
+    /// Recording that it is of.
+    pub recording: String,
+    /// When it begins and ends, s since the recording's start.
+    pub interval: [f64; 2],
+    /// Why it was chosen.
+    pub why: Why,
+    /// Mean squared residual of the law over what is usual; the worst of its targets.
+    pub unlike: f64,
+}
+
+/// What a diagnosis of long recordings rests on, and what it leaves out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Coverage {
+    /// Recorded time that was screened, s.
+    pub screened: f64,
+    /// Recorded time that the diagnosis rests on, s.
+    pub diagnosed: f64,
+    /// What pieces were compared with.
+    pub compared_with: ComparedWith,
+    /// The pieces that the diagnosis rests on.
+    pub chosen: Vec<Chosen>,
+    /// Pieces that were left out.
+    pub left_out: usize,
+    /// How far pieces are from the law: least, lower quartile, median, upper quartile, largest.
+    pub unlike: [f64; 5],
+    /// The same of those that were left out: median and largest.
+    pub unlike_left_out: [f64; 2],
+}
+
+/// A piece for the diagnosis.
+#[derive(Debug, Clone)]
+pub struct Stretch {
+    /// Its samples, at most one in 10 ms; its name says where it is from.
+    pub recording: Recording,
+    /// The recording that it is of.
+    pub of: String,
+    /// When it begins, s since that recording's start.
+    pub from: f64,
+}
+
+/// One pass over recordings of any length.
+pub struct Screening {
+    compared_with: ComparedWith,
+    grid: Option<Grid>,
+    law: Option<Law>,
+    /// Pieces that wait for a law.
+    waiting: Vec<Piece>,
+    pool: Pool<Stretch>,
+    seen: Vec<Seen>,
+    /// The recording at hand and its first stamp, ns.
+    at: Option<(String, i64)>,
+}
+
+/// What stays of every piece.
+struct Seen {
+    unlike: f64,
+    length: f64,
+}
+
+/// A piece that was looked at.
+struct Piece {
+    stretch: Stretch,
+    length: f64,
+    windows: Option<Windows>,
+}
+
+impl Screening {
+    /// A screening that compares with references and keeps pieces of `budget` seconds together, three at least.
+    pub fn new(references: &[&Recording], budget: f64) -> Self {
+        let grid = references.iter().find_map(|r| Grid::new(r));
+        let windows = grid.iter().flat_map(|grid| {
+            let pieces = references.iter().flat_map(|r| r.pieces(REFERENCE_PIECE_NS));
+            pieces.filter_map(|piece| Windows::new(grid, &thin::thinned(&piece).ok()?)).collect::<Vec<_>>()
+        });
+        let law = grid.and_then(|grid| Law::new(&grid, &windows.collect::<Vec<_>>()));
+        Self {
+            compared_with: if law.is_some() { ComparedWith::References } else { ComparedWith::Beginning },
+            grid: grid.filter(|_| law.is_some()),
+            law,
+            waiting: Vec::new(),
+            pool: Pool::new(((budget / PIECE).round() as usize).max(3)),
+            seen: Vec::new(),
+            at: None,
+        }
+    }
+
+    /// Takes pieces of a recording, in order; the first one of another recording begins that.
+    ///
+    /// # Errors
+    /// A piece that cannot be thinned, which no reader gives.
+    pub fn take(&mut self, pieces: &[Recording]) -> Result<(), RecordingError> {
+        let mut placed = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            let Some((first_ns, last_ns)) = span_ns(piece) else { continue };
+            if self.at.as_ref().is_none_or(|(name, _)| name != piece.name()) {
+                self.at = Some((piece.name().to_owned(), first_ns));
+            }
+            let start_ns = self.at.as_ref().map_or(first_ns, |at| at.1);
+            placed.push((piece, (first_ns - start_ns) as f64 * 1e-9, (last_ns - first_ns) as f64 * 1e-9));
+        }
+        if self.grid.is_none() {
+            self.grid = pieces.iter().find_map(Grid::new);
+        }
+        let grid = self.grid;
+        let looked: Vec<Piece> = placed
+            .into_par_iter()
+            .map(|(piece, from, length)| {
+                let thin = thin::thinned(piece)?;
+                let windows = grid.and_then(|grid| Windows::new(&grid, &thin));
+                let name = format!("{} {:.0}-{:.0} s", piece.name(), from, from + length);
+                let recording = thin.renamed(name);
+                Ok(Piece { stretch: Stretch { recording, of: piece.name().to_owned(), from }, length, windows })
+            })
+            .collect::<Result<_, RecordingError>>()?;
+        for piece in looked {
+            self.waiting.push(piece);
+            if self.law.is_some() || self.waiting.len() >= BEGINNING {
+                self.judge();
+            }
+        }
+        Ok(())
+    }
+
+    /// Offers all pieces that wait.
+    fn judge(&mut self) {
+        if self.law.is_none()
+            && let Some(grid) = &self.grid
+        {
+            let windows: Vec<Windows> = self.waiting.iter().filter_map(|p| p.windows.clone()).collect();
+            self.law = Law::new(grid, &windows);
+        }
+        for piece in self.waiting.drain(..) {
+            let unlike = match (&self.law, &piece.windows) {
+                (Some(law), Some(windows)) => law.unlike(windows),
+                _ => f64::NAN,
+            };
+            let scale = self.law.as_ref().map(|law| law.scale);
+            let windows = piece.windows.as_ref();
+            let information = windows.map(|w| w.information(&scale.unwrap_or_else(|| w.scale()))).unwrap_or_default();
+            let number = self.seen.len();
+            self.seen.push(Seen { unlike, length: piece.length });
+            // The rest at the end of a recording may be too short for anything.
+            if piece.length >= SHORTEST || number == 0 {
+                self.pool.offer(&Member {
+                    number,
+                    unlike: if unlike.is_nan() { 0.0 } else { unlike },
+                    information,
+                    piece: piece.stretch,
+                });
+            }
+        }
+    }
+
+    /// The chosen pieces in order, and what was left out.
+    pub fn finish(mut self) -> (Vec<Stretch>, Coverage) {
+        self.judge();
+        let seen = self.seen;
+        let (mut stretches, mut chosen, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
+        for (member, why) in self.pool.chosen() {
+            let Seen { unlike, length } = seen[member.number];
+            let Stretch { recording, of, from } = &member.piece;
+            chosen.push(Chosen {
+                name: recording.name().to_owned(),
+                recording: of.clone(),
+                interval: [*from, from + length],
+                why,
+                unlike,
+            });
+            stretches.push(member.piece);
+            numbers.push(member.number);
+        }
+        let all = |left_out: bool| -> Vec<f64> {
+            let pieces = seen.iter().enumerate().filter(|(i, _)| !(left_out && numbers.contains(i)));
+            let mut out: Vec<f64> = pieces.map(|(_, s)| s.unlike).filter(|u| u.is_finite()).collect();
+            out.sort_by(f64::total_cmp);
+            out
+        };
+        let quantile = |sorted: &[f64], share: f64| {
+            sorted.get(((sorted.len() as f64 - 1.0) * share).round().max(0.0) as usize).copied().unwrap_or(0.0)
+        };
+        let (every, rest) = (all(false), all(true));
+        let coverage = Coverage {
+            screened: seen.iter().map(|s| s.length).sum(),
+            diagnosed: chosen.iter().map(|c| c.interval[1] - c.interval[0]).sum(),
+            compared_with: if self.law.is_none() { ComparedWith::Nothing } else { self.compared_with },
+            left_out: seen.len() - chosen.len(),
+            chosen,
+            unlike: [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| quantile(&every, share)),
+            unlike_left_out: [0.5, 1.0].map(|share| quantile(&rest, share)),
+        };
+        (stretches, coverage)
+    }
+}
+
+/// First and last stamp over all channels, ns.
+fn span_ns(piece: &Recording) -> Option<(i64, i64)> {
+    let spans = piece.channels().iter().filter_map(recordings::Channel::span_ns);
+    spans.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+//! A piece of a recording as rows of signals on a common grid.
+
+use std::array::from_fn;
+
+use recordings::{Channel, Recording, Signal};
+
+/// Signals of a row: what drives each side, wheel speeds, wheel accelerations, directions, yaw rate, specific force, one.
+pub(super) const SIGNALS: usize = 12;
+/// Places of a row's signals.
+pub(super) const DRIVE: [usize; 2] = [0, 1];
+pub(super) const SPEED: [usize; 2] = [2, 3];
+pub(super) const RATE: [usize; 2] = [4, 5];
+pub(super) const DIRECTION: [usize; 2] = [6, 7];
+pub(super) const GYRO: usize = 8;
+pub(super) const ACCEL: [usize; 2] = [9, 10];
+pub(super) const ONE: usize = 11;
+
+/// Finest and coarsest grid, s.
+const FINEST: f64 = 0.01;
+const COARSEST: f64 = 0.1;
+/// Longest gap that is bridged, in rows.
+const BRIDGED: usize = 10;
+/// Wheel speed over which a direction changes its sign, rad/s.
+const AT_REST: f64 = 0.3;
+
+/// What drives the wheels: the first pair that a recording has.
+const DRIVES: [[Signal; 2]; 3] = [
+    [Signal::TorqueLeft, Signal::TorqueRight],
+    [Signal::CurrentLeft, Signal::CurrentRight],
+    [Signal::CommandSpeedLeft, Signal::CommandSpeedRight],
+];
+
+/// Which signals a recording has, and how fine they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    drive: [Signal; 2],
+    /// Wheel speeds come from angles.
+    by_angle: bool,
+    pub(super) gyro: bool,
+    pub(super) accel: bool,
+    /// Time between rows, s.
+    pub(super) period: f64,
+}
+
+impl Grid {
+    /// The grid for a recording; `None` when it has neither a drive nor wheels.
+    pub(super) fn new(recording: &Recording) -> Option<Self> {
+        let has = |signal: Signal| recording.get(signal).is_some_and(|c| c.len() > 1);
+        let drive = DRIVES.into_iter().find(|pair| pair.iter().all(|&s| has(s)))?;
+        let by_angle = has(Signal::WheelAngleLeft) && has(Signal::WheelAngleRight);
+        if !(by_angle || has(Signal::WheelSpeedLeft) && has(Signal::WheelSpeedRight)) {
+            return None;
+        }
+        let mut grid = Self { drive, by_angle, gyro: has(Signal::GyroZ), accel: false, period: FINEST };
+        grid.accel = has(Signal::AccelX) && has(Signal::AccelY);
+        let spacing = grid.signals().filter_map(|s| recording.get(s)).map(spacing).fold(FINEST, f64::max);
+        grid.period = spacing.min(COARSEST);
+        Some(grid)
+    }
+
+    fn wheels(&self) -> [Signal; 2] {
+        if self.by_angle {
+            [Signal::WheelAngleLeft, Signal::WheelAngleRight]
+        } else {
+            [Signal::WheelSpeedLeft, Signal::WheelSpeedRight]
+        }
+    }
+
+    fn signals(&self) -> impl Iterator<Item = Signal> {
+        let gyro = self.gyro.then_some(Signal::GyroZ);
+        let accel = [Signal::AccelX, Signal::AccelY].into_iter().filter(|_| self.accel);
+        self.drive.into_iter().chain(self.wheels()).chain(gyro).chain(accel)
+    }
+
+    /// Rows of a piece; NaN where a signal is missing for long.
+    pub(super) fn rows(&self, piece: &Recording) -> Vec<f64> {
+        let spans = self.signals().filter_map(|s| piece.get(s)?.span_ns());
+        let Some((from_ns, until_ns)) = spans.reduce(|a, b| (a.0.max(b.0), a.1.min(b.1))) else { return Vec::new() };
+        let step_ns = self.period * 1e9;
+        let count = ((until_ns - from_ns) as f64 / step_ns).max(0.0) as usize;
+        let column = |signal: Signal| {
+            piece.get(signal).map_or_else(|| vec![f64::NAN; count], |c| binned(c, from_ns, step_ns, count))
+        };
+        let drive = self.drive.map(column);
+        let wheels = self.wheels().map(column);
+        let speed = if self.by_angle { wheels.map(|a| slope(&a, self.period)) } else { wheels };
+        let rate: [Vec<f64>; 2] = from_fn(|j| slope(&speed[j], self.period));
+        let gyro = if self.gyro { column(Signal::GyroZ) } else { vec![0.0; count] };
+        let accel = [Signal::AccelX, Signal::AccelY].map(|s| if self.accel { column(s) } else { vec![0.0; count] });
+        let mut rows = vec![0.0; count * SIGNALS];
+        for (k, row) in rows.chunks_exact_mut(SIGNALS).enumerate() {
+            for j in 0..2 {
+                row[DRIVE[j]] = drive[j][k];
+                row[SPEED[j]] = speed[j][k];
+                row[RATE[j]] = rate[j][k];
+                row[DIRECTION[j]] = (speed[j][k] / AT_REST).tanh();
+                row[ACCEL[j]] = accel[j][k];
+            }
+            row[GYRO] = gyro[k];
+            row[ONE] = 1.0;
+        }
+        rows
+    }
+}
+
+/// Usual time between samples, s.
+fn spacing(channel: &Channel) -> f64 {
+    let mut gaps: Vec<i64> = channel.t_ns().windows(2).take(2000).map(|w| w[1] - w[0]).collect();
+    let middle = gaps.len() / 2;
+    if gaps.is_empty() { COARSEST } else { *gaps.select_nth_unstable(middle).1 as f64 * 1e-9 }
+}
+
+/// Mean of the samples in each step; short gaps are bridged by straight lines.
+fn binned(channel: &Channel, from_ns: i64, step_ns: f64, count: usize) -> Vec<f64> {
+    let (mut sum, mut number) = (vec![0.0; count], vec![0_u32; count]);
+    for (t_ns, value) in channel.samples() {
+        let k = ((t_ns - from_ns) as f64 / step_ns).floor();
+        if k >= 0.0 && (k as usize) < count {
+            sum[k as usize] += value;
+            number[k as usize] += 1;
+        }
+    }
+    let mut out: Vec<f64> =
+        sum.iter().zip(&number).map(|(s, &n)| if n > 0 { s / f64::from(n) } else { f64::NAN }).collect();
+    let mut last: Option<usize> = None;
+    for k in 0..count {
+        if out[k].is_nan() {
+            continue;
+        }
+        if let Some(before) = last.filter(|&before| k - before > 1 && k - before <= BRIDGED) {
+            let (a, b) = (out[before], out[k]);
+            for i in before + 1..k {
+                out[i] = a + (b - a) * (i - before) as f64 / (k - before) as f64;
+            }
+        }
+        last = Some(k);
+    }
+    out
+}
+
+/// Slope over two steps; NaN at the ends.
+fn slope(values: &[f64], period: f64) -> Vec<f64> {
+    let mut out = vec![f64::NAN; values.len()];
+    for k in 1..values.len().saturating_sub(1) {
+        out[k] = (values[k + 1] - values[k - 1]) / (2.0 * period);
+    }
+    out
+}
