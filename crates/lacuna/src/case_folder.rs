@@ -49,38 +49,8 @@ impl CaseFolder {
     /// # Errors
     /// What is missing or cannot be read.
     pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
-        Self::open_within(Budget::default(), folder, robot_name, mapping, options)
-    }
-
-    /// The same on a budget of recorded time.
-    ///
-    /// # Errors
-    /// As [`Self::open`].
-    pub fn open_within(
-        budget: Budget,
-        folder: &Path,
-        robot_name: Option<&str>,
-        mapping: &Mapping,
-        options: &ReadOptions,
-    ) -> Result<Self> {
-        let shown = folder.display();
-        ensure!(
-            folder.is_dir(),
-            "there is no case folder '{shown}'; \
-             make one with robot.toml, reference/ and recordings/, or give files with --reference and --recordings"
-        );
-        let robot = match robot_name {
-            Some(name) => robot(name)?,
-            None => robot(&robot_of(folder)?.display().to_string())?,
-        };
-        for (name, what) in &FOLDERS[usize::from(!robot.causality.needs_references())..2] {
-            ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
-        }
-        let held_out = folder.join(FOLDERS[2].0);
-        let held_out = if held_out.is_dir() { vec![held_out] } else { vec![] };
-        let [mut reference, recordings] = [0, 1].map(|i| vec![folder.join(FOLDERS[i].0)]);
-        reference.retain(|f| f.is_dir());
-        Self::within(budget, robot, [&reference, &recordings, &held_out], mapping, options)
+        let (robot, [reference, recordings, held_out]) = located(folder, robot_name)?;
+        Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
     }
 
     /// A case from files and folders: references, recordings, held-out drives.
@@ -266,6 +236,28 @@ impl CaseFolder {
         out.rest_on(&self.coverage);
         Ok(out)
     }
+}
+
+/// The robot of a case folder (`robot.json` or `robot.toml`, or the one that is named) and its three parts, of which only
+/// the recordings must be there, and the references where the robot needs them.
+///
+/// # Errors
+/// What is missing.
+pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [Vec<PathBuf>; 3])> {
+    let shown = folder.display();
+    ensure!(
+        folder.is_dir(),
+        "there is no case folder '{shown}'; \
+         make one with robot.toml, reference/ and recordings/, or give files with --reference and --recordings"
+    );
+    let robot = match robot_name {
+        Some(name) => robot(name)?,
+        None => robot(&robot_of(folder)?.display().to_string())?,
+    };
+    for (name, what) in &FOLDERS[usize::from(!robot.causality.needs_references())..2] {
+        ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
+    }
+    Ok((robot, folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() })))
 }
 
 /// The files of a recording, for messages.

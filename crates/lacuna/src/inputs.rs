@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use recordings::{
-    Group, GroupFile, Loss, Mapping, Opened, Read, ReadOptions, RecordingError, Source, Survey, read_from, survey_from,
+    Group, GroupFile, Grouping, Loss, Mapping, Opened, Read, ReadOptions, RecordingError, Source, Survey, read_from,
+    survey_from,
 };
 
 use crate::robot_file::RobotSpec;
@@ -224,58 +225,88 @@ pub fn survey(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions, watch
     Ok(Surveyed { surveys: runs.found, unmatched: runs.unmatched })
 }
 
-/// Bytes of all files that are meant to be read.
-pub(crate) fn total_bytes(mapping: &Mapping, paths: &[PathBuf]) -> Result<u64> {
-    Ok(files(mapping, paths)?.meant.iter().filter_map(|name| Some(fs::metadata(name).ok()?.len())).sum())
+/// What was found of each run, and what is none.
+struct Runs<T> {
+    found: Vec<T>,
+    unmatched: Vec<String>,
+    ignored: Vec<String>,
 }
 
-/// What was found of each run, and what is none.
-pub(crate) struct Runs<T> {
-    pub(crate) found: Vec<T>,
+/// The runs in files and folders, none of them opened yet.
+pub(crate) struct Plan {
+    groups: Vec<Group>,
+    names: Vec<String>,
     pub(crate) unmatched: Vec<String>,
     pub(crate) ignored: Vec<String>,
 }
 
+impl Plan {
+    /// Looks which files make which runs.
+    ///
+    /// # Errors
+    /// A path that is not there, and when no file fits the mapping.
+    pub(crate) fn new(mapping: &Mapping, paths: &[PathBuf]) -> Result<Self> {
+        let files = files(mapping, paths)?;
+        let Grouping { mut groups, unmatched } = mapping.group(&files.meant);
+        for group in &mut groups {
+            complete(group, mapping);
+        }
+        if groups.is_empty() {
+            let quoted: Vec<String> = paths.iter().map(|p| format!("'{}'", p.display())).collect();
+            let patterns: Vec<&str> = mapping.files.iter().map(|f| f.pattern.as_str()).collect();
+            bail!(
+                "no file in {} fits the mapping '{}' ({}); put recordings there, or name another mapping with --mapping",
+                quoted.join(", "),
+                mapping.name,
+                patterns.join(", ")
+            );
+        }
+        let names = run_names(&groups);
+        Ok(Self { groups, names, unmatched, ignored: files.ignored })
+    }
+
+    /// How many runs there are.
+    pub(crate) fn len(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Bytes of the files of a run, as far as they can be told.
+    pub(crate) fn bytes(&self, run: usize) -> u64 {
+        self.groups[run].files.iter().filter_map(|f| Some(fs::metadata(&f.name).ok()?.len())).sum()
+    }
+
+    /// Opens the files of a run, and gives them with its name to `read`; `pass` is told what is read of them.
+    pub(crate) fn open<T>(
+        &self,
+        run: usize,
+        pass: &Pass<'_>,
+        read: impl FnOnce(&str, &mut [Opened<'_>]) -> Result<T, RecordingError>,
+    ) -> Result<T> {
+        let files = &self.groups[run].files;
+        let mut sources = files
+            .iter()
+            .map(|f| {
+                let file = fs::File::open(&f.name).with_context(|| format!("cannot read '{}'", f.name))?;
+                Ok(Watched::new(file, pass))
+            })
+            .collect::<Result<Vec<_>>>()?;
+        let mut opened: Vec<Opened<'_>> =
+            files.iter().zip(&mut sources).map(|(f, source)| Opened { name: &f.name, source }).collect();
+        Ok(read(&self.names[run], &mut opened)?)
+    }
+}
+
 /// Opens the files of every run in files and folders, and gives them with the run's name to `read`.
-pub(crate) fn runs<T>(
+fn runs<T>(
     mapping: &Mapping,
     paths: &[PathBuf],
     watch: Watch<'_>,
     mut read: impl FnMut(&str, &mut [Opened<'_>]) -> Result<T, RecordingError>,
 ) -> Result<Runs<T>> {
-    let files = files(mapping, paths)?;
-    let mut grouping = mapping.group(&files.meant);
-    let mut out = Runs { found: Vec::new(), unmatched: grouping.unmatched, ignored: files.ignored };
-    for group in &mut grouping.groups {
-        complete(group, mapping);
-    }
-    let names = run_names(&grouping.groups);
-    let all = grouping.groups.iter().flat_map(|group| &group.files);
-    let pass = Pass::new(all.filter_map(|f| Some(fs::metadata(&f.name).ok()?.len())).sum(), watch);
-    for (group, run) in grouping.groups.iter().zip(&names) {
-        let mut files = group
-            .files
-            .iter()
-            .map(|f| {
-                let file = fs::File::open(&f.name).with_context(|| format!("cannot read '{}'", f.name))?;
-                Ok(Watched::new(file, &pass))
-            })
-            .collect::<Result<Vec<_>>>()?;
-        let mut opened: Vec<Opened<'_>> =
-            group.files.iter().zip(&mut files).map(|(f, source)| Opened { name: &f.name, source }).collect();
-        out.found.push(read(run, &mut opened)?);
-    }
-    if out.found.is_empty() {
-        let quoted: Vec<String> = paths.iter().map(|p| format!("'{}'", p.display())).collect();
-        let patterns: Vec<&str> = mapping.files.iter().map(|f| f.pattern.as_str()).collect();
-        bail!(
-            "no file in {} fits the mapping '{}' ({}); put recordings there, or name another mapping with --mapping",
-            quoted.join(", "),
-            mapping.name,
-            patterns.join(", ")
-        );
-    }
-    Ok(out)
+    let plan = Plan::new(mapping, paths)?;
+    let pass = Pass::new((0..plan.len()).map(|run| plan.bytes(run)).sum(), watch);
+    let found = (0..plan.len()).map(|run| plan.open(run, &pass, &mut read)).collect::<Result<_>>()?;
+    Ok(Runs { found, unmatched: plan.unmatched, ignored: plan.ignored })
 }
 
 #[cfg(test)]

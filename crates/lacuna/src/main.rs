@@ -14,7 +14,7 @@ mod console;
 
 use commands::{
     Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, next, predict,
-    report, simulate,
+    report, screen, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -52,6 +52,8 @@ enum Command {
     Check(check::Args),
     /// Write a recording in another format.
     Convert(convert::Args),
+    /// Pass once over recordings of any length and tell which are unlike the references.
+    Screen(Box<screen::Args>),
     /// Compare recordings with a simulation and name what it lacks.
     Diagnose(Box<diagnose::Args>),
     /// Simulate a robot file on the inputs of a recording.
@@ -88,6 +90,7 @@ fn run() -> ExitCode {
     let outcome = match &cli.command {
         Command::Check(args) => check::run(args, cli.verbose),
         Command::Convert(args) => convert::run(args),
+        Command::Screen(args) => screen::run(args, cli.verbose),
         Command::Diagnose(args) => diagnose::run(args, cli.verbose),
         Command::Identify(args) => identify::run(args),
         Command::Simulate(args) => simulate::run(args),

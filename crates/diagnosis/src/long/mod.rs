@@ -53,8 +53,8 @@ pub struct Chosen {
     pub interval: [f64; 2],
     /// Why it was chosen.
     pub why: Why,
-    /// Mean squared residual of the law over what is usual; the worst of its targets.
-    pub unlike: f64,
+    /// Mean squared residual of the law over what is usual; the worst of its targets. `None` without a law.
+    pub unlike: Option<f64>,
 }
 
 /// What a diagnosis of long recordings rests on, and what it leaves out.
@@ -71,9 +71,9 @@ pub struct Coverage {
     /// Pieces that were left out.
     pub left_out: usize,
     /// How far pieces are from the law: least, lower quartile, median, upper quartile, largest.
-    pub unlike: [f64; 5],
+    pub unlike: [Option<f64>; 5],
     /// The same of those that were left out: median and largest.
-    pub unlike_left_out: [f64; 2],
+    pub unlike_left_out: [Option<f64>; 2],
 }
 
 /// A piece for the diagnosis.
@@ -95,15 +95,20 @@ pub struct Screening {
     /// Pieces that wait for a law.
     waiting: Vec<Piece>,
     pool: Pool<Stretch>,
-    seen: Vec<Seen>,
+    seen: Vec<Screen>,
     /// The recording at hand and its first stamp, ns.
     at: Option<(String, i64)>,
 }
 
-/// What stays of every piece.
-struct Seen {
-    unlike: f64,
-    length: f64,
+/// What screening tells of a piece.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Screen {
+    /// Recording that it is of.
+    pub recording: String,
+    /// When it begins and ends, s since the recording's start.
+    pub interval: [f64; 2],
+    /// Mean squared residual of the law over what is usual; the worst of its targets. `None` without a law.
+    pub unlike: Option<f64>,
 }
 
 /// A piece that was looked at.
@@ -187,7 +192,9 @@ impl Screening {
             let windows = piece.windows.as_ref();
             let information = windows.map(|w| w.information(&scale.unwrap_or_else(|| w.scale()))).unwrap_or_default();
             let number = self.seen.len();
-            self.seen.push(Seen { unlike, length: piece.length });
+            let interval = [piece.stretch.from, piece.stretch.from + piece.length];
+            let told = Some(unlike).filter(|u| u.is_finite());
+            self.seen.push(Screen { recording: piece.stretch.of.clone(), interval, unlike: told });
             // The rest at the end of a recording may be too short for anything.
             if piece.length >= SHORTEST || number == 0 {
                 self.pool.offer(&Member {
@@ -200,45 +207,44 @@ impl Screening {
         }
     }
 
-    /// The chosen pieces in order, and what was left out.
-    pub fn finish(mut self) -> (Vec<Stretch>, Coverage) {
+    /// The chosen pieces in order, what was left out, and what was told of every piece.
+    pub fn finish(mut self) -> (Vec<Stretch>, Coverage, Vec<Screen>) {
         self.judge();
         let seen = self.seen;
-        let (mut stretches, mut chosen, mut numbers) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut stretches, mut chosen) = (Vec::new(), Vec::new());
+        let mut rest = vec![true; seen.len()];
         for (member, why) in self.pool.chosen() {
-            let Seen { unlike, length } = seen[member.number];
-            let Stretch { recording, of, from } = &member.piece;
-            chosen.push(Chosen {
-                name: recording.name().to_owned(),
-                recording: of.clone(),
-                interval: [*from, from + length],
-                why,
-                unlike,
-            });
+            rest[member.number] = false;
+            let Screen { recording, interval, unlike } = seen[member.number].clone();
+            let name = member.piece.recording.name().to_owned();
+            chosen.push(Chosen { name, recording, interval, why, unlike });
             stretches.push(member.piece);
-            numbers.push(member.number);
         }
-        let all = |left_out: bool| -> Vec<f64> {
-            let pieces = seen.iter().enumerate().filter(|(i, _)| !(left_out && numbers.contains(i)));
-            let mut out: Vec<f64> = pieces.map(|(_, s)| s.unlike).filter(|u| u.is_finite()).collect();
-            out.sort_by(f64::total_cmp);
-            out
-        };
-        let quantile = |sorted: &[f64], share: f64| {
-            sorted.get(((sorted.len() as f64 - 1.0) * share).round().max(0.0) as usize).copied().unwrap_or(0.0)
-        };
-        let (every, rest) = (all(false), all(true));
+        let length = |interval: [f64; 2]| interval[1] - interval[0];
+        let every = sorted(seen.iter());
+        let left_out = sorted(seen.iter().zip(&rest).filter(|(_, rest)| **rest).map(|(s, _)| s));
         let coverage = Coverage {
-            screened: seen.iter().map(|s| s.length).sum(),
-            diagnosed: chosen.iter().map(|c| c.interval[1] - c.interval[0]).sum(),
+            screened: seen.iter().map(|s| length(s.interval)).sum(),
+            diagnosed: chosen.iter().map(|c| length(c.interval)).sum(),
             compared_with: if self.law.is_none() { ComparedWith::Nothing } else { self.compared_with },
             left_out: seen.len() - chosen.len(),
             chosen,
             unlike: [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| quantile(&every, share)),
-            unlike_left_out: [0.5, 1.0].map(|share| quantile(&rest, share)),
+            unlike_left_out: [0.5, 1.0].map(|share| quantile(&left_out, share)),
         };
-        (stretches, coverage)
+        (stretches, coverage, seen)
     }
+}
+
+/// How far pieces are from the law, from the least to the largest.
+fn sorted<'a>(pieces: impl Iterator<Item = &'a Screen>) -> Vec<f64> {
+    let mut out: Vec<f64> = pieces.filter_map(|s| s.unlike).collect();
+    out.sort_by(f64::total_cmp);
+    out
+}
+
+fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    sorted.get(((sorted.len() as f64 - 1.0) * share).round().max(0.0) as usize).copied()
 }
 
 /// First and last stamp over all channels, ns.

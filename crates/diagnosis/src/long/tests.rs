@@ -48,16 +48,17 @@ fn minutes_unlike_the_references_are_chosen_and_the_rest_is_told() {
     for pieces in joined(&extra).chunks(5) {
         screening.take(pieces).expect("takes");
     }
-    let (stretches, coverage) = screening.finish();
+    let (stretches, coverage, seen) = screening.finish();
     assert_eq!(coverage.compared_with, ComparedWith::References);
     assert_eq!((stretches.len(), coverage.chosen.len(), coverage.left_out), (6, 6, 18));
     for minute in [13.0, 14.0] {
         let found = coverage.chosen.iter().find(|c| (c.interval[0] - 60.0 * minute).abs() < 1e-6);
-        assert!(found.is_some_and(|c| c.unlike > 10.0), "{coverage:?}");
+        assert!(found.is_some_and(|c| c.unlike > Some(10.0)), "{coverage:?}");
     }
     let [median, largest] = coverage.unlike_left_out;
-    assert!(median <= largest && largest < 10.0, "{coverage:?}");
+    assert!(median <= largest && largest < Some(10.0), "{coverage:?}");
     assert_eq!(stretches[0].recording.name(), coverage.chosen[0].name);
+    assert_eq!((seen.len(), seen[13].interval[0].round()), (24, 13.0 * 60.0));
     assert!((coverage.screened - 24.0 * 60.0).abs() < 1.0 && (coverage.diagnosed - 6.0 * 60.0).abs() < 1.0);
 }
 
@@ -67,7 +68,7 @@ fn without_references_the_beginning_says_what_is_usual() {
     extra[17] = 0.8;
     let mut screening = Screening::new(&[], 3.0 * PIECE);
     screening.take(&joined(&extra)).expect("takes");
-    let (_, coverage) = screening.finish();
+    let (_, coverage, _) = screening.finish();
     assert_eq!(coverage.compared_with, ComparedWith::Beginning);
     assert!(coverage.chosen.iter().any(|c| (c.interval[0] - 17.0 * 60.0).abs() < 1e-6), "{coverage:?}");
 }
@@ -77,6 +78,6 @@ fn recordings_without_a_drive_are_spread_only() {
     let bare = recording(&[(Signal::GyroZ, (0..6000).map(|k| (f64::from(k) * 0.1, 0.0)).collect())]);
     let mut screening = Screening::new(&[], 3.0 * PIECE);
     screening.take(&bare.pieces(60_000_000_000)).expect("takes");
-    let (stretches, coverage) = screening.finish();
+    let (stretches, coverage, _) = screening.finish();
     assert_eq!((coverage.compared_with, stretches.len()), (ComparedWith::Nothing, 3));
 }

@@ -8,7 +8,8 @@ use diagnosis::{Options, Verdict};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::long::Budget;
-use lacuna::{Causality, mcap_out, predictions, which_mapping};
+use lacuna::{Causality, RobotSpec, mcap_out, predictions, which_mapping};
+use recordings::Mapping;
 
 use super::{Outcome, Reading, Usage, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
@@ -197,29 +198,39 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     Ok(outcome(diagnosis.verdict, args.fail_on, lost))
 }
 
-/// The case that the arguments name, and the name of the mapping that read it.
-pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
-    let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
-    if let Some(folder) = &args.case {
-        let parts: Vec<PathBuf> = case_folder::folders(folder).into_iter().filter(|part| part.is_dir()).collect();
-        let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &parts)?;
-        let case = CaseFolder::open_within(budget, folder, args.robot.as_deref(), &mapping, &options)?;
-        return Ok((case, mapping.name));
-    }
-    let Some(robot) = &args.robot else {
-        bail!("no robot was named; do so with --robot");
+/// Where the parts of a case are.
+pub(crate) struct Located {
+    pub(crate) robot: RobotSpec,
+    /// References, recordings, held-out drives.
+    pub(crate) paths: [Vec<PathBuf>; 3],
+    pub(crate) mapping: Mapping,
+}
+
+/// What the arguments name.
+pub(crate) fn located(args: &Input) -> Result<Located> {
+    let (robot, paths) = match (&args.case, &args.robot) {
+        (Some(folder), robot) => case_folder::located(folder, robot.as_deref())?,
+        (None, Some(robot)) => {
+            (case_folder::robot(robot)?, [&args.reference, &args.recordings, &args.heldout].map(Clone::clone))
+        }
+        (None, None) => bail!("no robot was named; do so with --robot"),
     };
-    let robot = case_folder::robot(robot)?;
-    if args.reference.is_empty() && robot.causality.needs_references() {
+    if paths[0].is_empty() && robot.causality.needs_references() {
         bail!(Usage(format!(
             "robot '{}' is {}: give drives in which its simulation was right with --reference",
             robot.name,
             robot.causality.name()
         )));
     }
-    let paths: [&[PathBuf]; 3] = [&args.reference, &args.recordings, &args.heldout];
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
-    let case = CaseFolder::within(budget, robot, paths, &mapping, &options)?;
+    Ok(Located { robot, paths, mapping })
+}
+
+/// The case that the arguments name, and the name of the mapping that read it.
+pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
+    let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
+    let Located { robot, paths: [reference, recordings, heldout], mapping } = located(args)?;
+    let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?;
     Ok((case, mapping.name))
 }
 

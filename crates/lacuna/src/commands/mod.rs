@@ -22,6 +22,7 @@ pub(crate) mod man;
 pub(crate) mod next;
 pub(crate) mod predict;
 pub(crate) mod report;
+pub(crate) mod screen;
 pub(crate) mod simulate;
 
 /// How a command that did not fail ended.
