@@ -22,12 +22,12 @@ const READ_WHOLE: u64 = 16 << 20;
 const SMALL: u64 = 4 << 20;
 const MANY: usize = 32;
 /// Pieces of a long run that are looked at side by side.
-const SIDE_BY_SIDE: usize = 4;
+const SIDE_BY_SIDE: usize = 2;
 /// Most seconds that screening alone would take.
-const MOST_TAKEN: f64 = 12.0 * BUDGET;
+const MOST_TAKEN: f64 = 6.0 * BUDGET;
 
 /// How much recorded time a diagnosis may rest on at most, of the recordings and of the references. By default ten minutes
-/// of a torque-driven robot, which is simulated again and again, and two hours of others, whose loads are measured once.
+/// of a torque-driven robot, which is simulated again and again, and an hour of others, whose loads are measured once.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Budget(Option<f64>);
 
@@ -39,7 +39,7 @@ impl Budget {
 
     /// Seconds for a robot.
     fn seconds(self, causality: Causality) -> f64 {
-        self.0.unwrap_or(if causality == Causality::TorqueDriven { BUDGET } else { 12.0 * BUDGET })
+        self.0.unwrap_or(if causality == Causality::TorqueDriven { BUDGET } else { 6.0 * BUDGET })
     }
 
     /// Reads recordings; of those that are longer together, the most telling pieces, compared with `references`.

@@ -31,12 +31,41 @@ pub(crate) fn with_point(cell: &[u8], comma: bool) -> Result<Cow<'_, [u8]>, Cell
 
 /// The number in a cell; `None` for an empty one.
 pub(crate) fn number(cell: &[u8]) -> Result<Option<f64>, CellError> {
+    if let Some(value) = plain(cell) {
+        return Ok(Some(value));
+    }
     let cell = bare(cell);
     if cell.is_empty() {
         return Ok(None);
     }
     let value: f64 = fast_float2::parse(cell).map_err(|_| CellError::NotANumber)?;
     if value.is_finite() { Ok(Some(value)) } else { Err(CellError::NotFinite) }
+}
+
+/// The number in a cell that holds nothing but `[-] digits [. digits]`, few enough for one exact division, which is nearly
+/// every cell: a mantissa below 2^53 and a power of ten below 10^23 are exact, so that their quotient is rounded once.
+#[inline]
+fn plain(cell: &[u8]) -> Option<f64> {
+    /// Digits that always fit.
+    const DIGITS: usize = 15;
+    const POWERS: [f64; DIGITS + 1] =
+        [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+    let digits = cell.strip_prefix(b"-").unwrap_or(cell);
+    if digits.len() > DIGITS + 1 || !digits.last()?.is_ascii_digit() {
+        return None;
+    }
+    let (mut mantissa, mut point) = (0_u64, digits.len());
+    for (at, &byte) in digits.iter().enumerate() {
+        match byte.wrapping_sub(b'0') {
+            digit @ 0..=9 => mantissa = 10 * mantissa + u64::from(digit),
+            _ if byte == b'.' && point == digits.len() && at > 0 => point = at,
+            _ => return None,
+        }
+    }
+    let behind = (digits.len() - point).saturating_sub(1);
+    // Sixteen digits without a point may be too many.
+    let value = (mantissa < 1 << 53).then(|| mantissa as f64 / POWERS[behind])?;
+    Some(if digits.len() < cell.len() { -value } else { value })
 }
 
 /// The instant in a cell whose unit is `ns_per_unit` nanoseconds, rounded to the nearest nanosecond; `None` for an
@@ -131,6 +160,32 @@ mod tests {
         assert_eq!(number(b"\xff"), Err(CellError::NotANumber));
         for bad in ["nan", "NaN", "inf", "-infinity", "1e999"] {
             assert_eq!(number(bad.as_bytes()), Err(CellError::NotFinite), "{bad}");
+        }
+    }
+
+    #[test]
+    fn plain_decimals_are_rounded_as_the_standard_library_does() {
+        let mut state = 1_u64;
+        let mut next = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % below
+        };
+        let mut short = 0;
+        for _ in 0..200_000 {
+            let length = 1 + next(17) as usize;
+            let mut text: String = (0..length).map(|_| char::from(b'0' + next(10) as u8)).collect();
+            let point = next(length as u64 + 3) as usize;
+            if point < length {
+                text.insert(point, '.');
+            }
+            let text = if next(2) == 0 { format!("-{text}") } else { text };
+            let expected: f64 = text.parse().unwrap();
+            assert_eq!(number(text.as_bytes()).unwrap().unwrap().to_bits(), expected.to_bits(), "{text}");
+            short += usize::from(plain(text.as_bytes()).is_some());
+        }
+        assert!(short > 100_000, "{short} were plain");
+        for odd in ["-", "", ".", ".5", "5.", "1..2", "1.2.3", "+1", "1e3", " 1", "--1"] {
+            assert_eq!(plain(odd.as_bytes()), None, "{odd}");
         }
     }
 

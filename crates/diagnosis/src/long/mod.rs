@@ -10,6 +10,8 @@ mod rows;
 mod thin;
 mod words;
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use recordings::{Recording, RecordingError};
 use serde::{Deserialize, Serialize};
@@ -94,7 +96,7 @@ pub struct Screening {
     law: Option<Law>,
     /// Pieces that wait for a law.
     waiting: Vec<Piece>,
-    pool: Pool<Stretch>,
+    pool: Pool<Arc<Stretch>>,
     seen: Vec<Screen>,
     /// The recording at hand and its first stamp, ns.
     at: Option<(String, i64)>,
@@ -201,7 +203,7 @@ impl Screening {
                     number,
                     unlike: if unlike.is_nan() { 0.0 } else { unlike },
                     information,
-                    piece: piece.stretch,
+                    piece: Arc::new(piece.stretch),
                 });
             }
         }
@@ -218,7 +220,7 @@ impl Screening {
             let Screen { recording, interval, unlike } = seen[member.number].clone();
             let name = member.piece.recording.name().to_owned();
             chosen.push(Chosen { name, recording, interval, why, unlike });
-            stretches.push(member.piece);
+            stretches.push(Arc::unwrap_or_clone(member.piece));
         }
         let length = |interval: [f64; 2]| interval[1] - interval[0];
         let every = sorted(seen.iter());

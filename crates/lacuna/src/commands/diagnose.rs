@@ -90,7 +90,7 @@ pub(crate) struct Input {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) reading: Reading,
     /// Recorded time that the diagnosis rests on at most, of the recordings and of the references. Longer ones are screened
-    /// whole, and their most telling minutes are taken; 0 takes everything [default: 10 for torque-driven robots, 120 for
+    /// whole, and their most telling minutes are taken; 0 takes everything [default: 10 for torque-driven robots, 60 for
     /// others].
     #[arg(long, value_name = "MINUTES", value_parser = minutes)]
     pub(crate) budget: Option<f64>,

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use clap::Args as ClapArgs;
 use diagnosis::long::{ComparedWith, Screen};
+use lacuna::envelope::Program;
 use lacuna::long::{Budget, Screened};
 use lacuna::text_table::TextTable;
 use serde_json::json;
@@ -48,7 +49,13 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let screened = budget.screen(&robot, [&reference, &recordings], &mapping, &args.input.reading.options())?;
     drop(progress);
     if let Some(target) = &args.json {
-        let told = json!({ "format": 1, "robot": robot.name, "mapping": mapping.name, "screened": &screened });
+        let told = json!({
+            "format": 1,
+            "program": Program::default(),
+            "robot": robot.name,
+            "mapping": mapping.name,
+            "screened": &screened,
+        });
         emit_json(target, &told)?;
     }
     if args.json.as_deref() != Some("-") {
