@@ -90,7 +90,15 @@ impl CaseFolder {
         let (held_out, _) = perhaps(held_out, Budget::of_minutes(0.0))?;
         let named = FOLDERS.iter().zip([of_reference, of_recordings]);
         let coverage = named.filter_map(|((name, _), coverage)| Some(((*name).to_owned(), coverage?))).collect();
-        let case = Self { robot, reference, recordings, held_out, coverage };
+        Ok(Self { coverage, ..Self::new(robot, [reference, recordings, held_out])? })
+    }
+
+    /// A case of what was read already: references, recordings, held-out drives.
+    ///
+    /// # Errors
+    /// A recording that is given twice.
+    pub fn new(robot: RobotSpec, [reference, recordings, held_out]: [Loaded; 3]) -> Result<Self> {
+        let case = Self { robot, reference, recordings, held_out, coverage: BTreeMap::new() };
         case.refuse_twins()?;
         Ok(case)
     }
@@ -104,6 +112,24 @@ impl CaseFolder {
     /// What was lost, in sentences.
     pub fn lost(&self) -> Vec<String> {
         self.parts().iter().flat_map(|(_, l)| l.lost()).collect()
+    }
+
+    /// Files and columns that were there and that nobody asked for, in sentences.
+    pub fn not_used(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        for (part, loaded) in self.parts() {
+            if !loaded.ignored.is_empty() {
+                out.push(format!("{part}: {}", loaded.ignored.join(", ")));
+            }
+            let unused = loaded.reads.iter().flat_map(|r| &r.unused);
+            let mut columns: Vec<&str> = unused.map(|u| u.column.as_str()).collect();
+            columns.sort_unstable();
+            columns.dedup();
+            if !columns.is_empty() {
+                out.push(format!("{part}: columns {}", columns.join(", ")));
+            }
+        }
+        out
     }
 
     /// Refuses a file whose bytes are those of another: it cannot be both right and wrong, and counts once.

@@ -11,15 +11,8 @@ use serde_json::Value;
 mod excerpt;
 mod progress;
 
+pub(crate) use lacuna::sections::heading;
 pub(crate) use progress::{Progress, Stages};
-
-/// Bold, for headings; left out where colours are not wanted (`NO_COLOR`, no terminal).
-pub(crate) const HEADING: anstyle::Style = anstyle::Style::new().bold();
-
-/// A heading.
-pub(crate) fn heading(text: &str) -> String {
-    format!("{HEADING}{text}{HEADING:#}\n")
-}
 
 /// Writes a result to standard output. A reader that has seen enough (`| head`) is no failure.
 pub(crate) fn emit(text: &str) -> Result<()> {

@@ -180,11 +180,19 @@ impl Envelope {
         let shown = file.display();
         let text = std::fs::read_to_string(file)
             .with_context(|| format!("cannot read '{shown}'; `lacuna diagnose ... --json FILE` writes such a file"))?;
+        Self::parse(&shown.to_string(), &text)
+    }
+
+    /// Reads the text that `lacuna diagnose --json` writes; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// When it is no such text, or that of another version.
+    pub fn parse(name: &str, text: &str) -> Result<Self> {
         let refused = |e: &serde_json::Error| {
             let message = e.to_string();
             let end = message.rfind(" at line ").unwrap_or(message.len());
             TextError {
-                spot: Spot { file: shown.to_string(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
+                spot: Spot { file: name.to_owned(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
                 message: format!(
                     "this is not what `lacuna diagnose --json` of version {} writes ({}); write it again",
                     Program::default().version,
@@ -192,17 +200,17 @@ impl Envelope {
                 ),
             }
         };
-        if let Ok(version) = serde_json::from_str::<Version>(&text)
+        if let Ok(version) = serde_json::from_str::<Version>(text)
             && version.format != FORMAT
         {
             bail!(
-                "'{shown}' was written by {} {} in format {}; this version reads format {FORMAT}: diagnose again",
+                "'{name}' was written by {} {} in format {}; this version reads format {FORMAT}: diagnose again",
                 version.program.name,
                 version.program.version,
                 version.format
             );
         }
-        Ok(serde_json::from_str(&text).map_err(|e| refused(&e))?)
+        Ok(serde_json::from_str(text).map_err(|e| refused(&e))?)
     }
 
     /// The robot that was diagnosed, as its file had it.

@@ -5,7 +5,10 @@
 //! ```
 
 pub mod answers;
+pub mod cards;
 pub mod case_folder;
+pub mod check;
+pub mod diagnosis_text;
 pub mod envelope;
 mod flat_robot;
 pub mod inputs;
@@ -19,6 +22,8 @@ pub mod robot_file;
 mod robot_parameters;
 mod robot_text;
 mod robot_write;
+pub mod sections;
+pub mod simulated;
 pub mod skeleton;
 mod text_error;
 pub mod text_table;

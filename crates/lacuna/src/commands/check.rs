@@ -4,18 +4,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
+use lacuna::check::{Listener, Proposed, Request, check};
 use lacuna::{propose, skeleton};
-use recordings::{Contents, Fingerprint, Quality, Survey, SurveyedChannel, TableContents, group_by_content};
-
-use find::Found;
+use recordings::{Contents, TableContents};
 
 use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json};
 
-mod as_json;
 mod as_text;
-mod find;
-mod permits;
 mod stamps;
 mod tables;
 
@@ -63,86 +59,17 @@ pub(crate) struct Args {
     json: Option<String>,
 }
 
-/// A channel and what was measured of it.
-struct Measured {
-    name: String,
-    column: String,
-    unit: &'static str,
-    quality: Quality,
-}
-
-/// A recording as a mapping reads it.
-struct Mapped {
-    name: String,
-    channels: Vec<Measured>,
-    /// Which diagnoses the signals permit, in sentences.
-    permits: Vec<String>,
-}
-
-/// The mapping that was used.
-enum Used {
-    /// By the user.
-    Named(String),
-    /// Found to fit.
-    BuiltIn(String),
-    /// Proposed for this bag, with what was inferred.
-    Proposed { bag: String, inferred: Vec<String> },
-    /// None; why a proposed one does not read the recordings, if one was.
-    Nothing(Option<String>),
-}
-
-/// All that was found.
-struct Checked {
-    /// Bags and what is inside, before anybody has said what it means.
-    bags: Vec<(String, Contents)>,
-    /// Tables that no mapping fits.
-    tables: Vec<(String, TableContents)>,
-    mapping: Used,
-    recordings: Vec<Mapped>,
-    /// Recordings of the same data.
-    same: Vec<Vec<String>>,
-    /// Where a proposed mapping was written, and what was inferred for it.
-    proposed: Option<Proposed>,
-    lost: Vec<String>,
-}
-
-/// A mapping that was written.
-struct Proposed {
-    file: String,
-    inferred: Vec<String>,
-    /// Which column is which signal is still to be said.
-    is_skeleton: bool,
-}
-
 /// Checks recordings.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
-    for path in &args.paths {
-        ensure!(path.exists(), "there is no file or folder '{}'", path.display());
-    }
-    let (bags, Found { mapping, surveyed, tables }) = find::find(args, &progress)?;
-    let prints: Vec<Fingerprint> = surveyed.surveys.iter().map(Survey::fingerprint).collect();
-    let names: Vec<String> = surveyed.surveys.iter().map(file_names).collect();
-    let same = group_by_content(&prints).into_iter().filter(|group| group.len() > 1);
-    let same = same.map(|group| group.into_iter().map(|i| names[i].clone()).collect()).collect();
-    let recordings = surveyed.surveys.iter().zip(&names).map(|(survey, name)| Mapped {
-        name: name.clone(),
-        permits: permits::permits(&survey.channels.iter().map(|channel| channel.signal).collect::<Vec<_>>()),
-        channels: survey.channels.iter().map(measured).collect(),
-    });
-    // What a mapping reads of a bag is lost there as well: told once.
-    let mut lost: Vec<String> = surveyed.lost().collect();
-    for loss in bags.iter().flat_map(|(_, contents)| &contents.losses).map(ToString::to_string) {
-        if !lost.contains(&loss) {
-            lost.push(loss);
-        }
-    }
-    lost.extend(tables.iter().filter_map(tables::lost));
-    let proposed = args.write_mapping.as_deref().map(|target| propose_to(target, &bags, &tables)).transpose()?;
-    let checked = Checked { bags, tables, mapping, recordings: recordings.collect(), same, proposed, lost };
+    let request = Request { paths: &args.paths, mapping: args.mapping.as_deref(), options: args.reading.options() };
+    let (stage, bytes) = (|what: &str| progress.stage(what), |done, of| progress.bytes(done, of));
+    let mut checked = check(&request, &Listener { stage: &stage, bytes: &bytes })?;
+    let target = args.write_mapping.as_deref();
+    checked.proposed = target.map(|target| propose_to(target, &checked.bags, &checked.tables)).transpose()?;
     drop(progress);
     if let Some(target) = &args.json {
-        emit_json(target, &as_json::render(&checked))?;
+        emit_json(target, &checked.to_json())?;
     }
     if args.json.as_deref() != Some("-") {
         emit(&as_text::render(&checked, args.fields))?;
@@ -168,18 +95,4 @@ fn propose_to(target: &Path, bags: &[(String, Contents)], tables: &[(String, Tab
     ensure!(!target.exists(), "'{file}' is there already; name another file for the mapping");
     std::fs::write(target, toml).with_context(|| format!("cannot write '{file}'"))?;
     Ok(Proposed { file, inferred, is_skeleton })
-}
-
-fn measured(channel: &SurveyedChannel) -> Measured {
-    Measured {
-        name: channel.signal.name().to_owned(),
-        column: channel.column.clone(),
-        unit: channel.signal.unit().symbol(),
-        quality: channel.quality.clone(),
-    }
-}
-
-/// The files of a recording.
-fn file_names(survey: &Survey) -> String {
-    survey.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>().join(" + ")
 }

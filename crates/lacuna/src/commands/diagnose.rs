@@ -8,14 +8,11 @@ use diagnosis::{Options, Verdict};
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::long::Budget;
-use lacuna::{Causality, RobotSpec, mcap_out, predictions, which_mapping};
+use lacuna::{Causality, RobotSpec, diagnosis_text, mcap_out, predictions, which_mapping};
 use recordings::Mapping;
 
 use super::{Outcome, Reading, Usage, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
-
-mod as_text;
-mod where_and_when;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -193,7 +190,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         // Tables say themselves which column is which signal.
         let found =
             (args.input.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
-        emit(&as_text::render(diagnosis, &case, lost, found))?;
+        emit(&diagnosis_text::render(diagnosis, lost, &case.not_used(), found))?;
     }
     Ok(outcome(diagnosis.verdict, args.fail_on, lost))
 }

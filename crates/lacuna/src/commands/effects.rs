@@ -2,12 +2,11 @@
 
 use anyhow::Result;
 use clap::Args as ClapArgs;
-use robot_model::Card;
-use robot_model::effects::catalogue;
 use serde_json::{Value, json};
 
-use super::{Outcome, explain};
+use super::Outcome;
 use crate::console::{emit, emit_json};
+use lacuna::cards::{FORMAT, as_json, cards};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
@@ -18,9 +17,6 @@ Examples:
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
-/// Version of the JSON of cards.
-pub(crate) const FORMAT: u32 = 1;
-
 /// Arguments of `lacuna effects`.
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES)]
@@ -30,15 +26,10 @@ pub(crate) struct Args {
     json: Option<String>,
 }
 
-/// The cards of all effects.
-pub(crate) fn cards() -> Vec<&'static Card> {
-    catalogue::<f64>().iter().map(|e| e.card()).collect()
-}
-
 /// Lists the effects.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     if let Some(target) = &args.json {
-        let all: Vec<Value> = cards().into_iter().map(explain::as_json).collect();
+        let all: Vec<Value> = cards().into_iter().map(as_json).collect();
         emit_json(target, &json!({ "format": FORMAT, "program": Program::default(), "effects": all }))?;
     }
     if args.json.as_deref() != Some("-") {

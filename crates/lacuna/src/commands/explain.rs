@@ -4,11 +4,11 @@ use anyhow::Result;
 use clap::Args as ClapArgs;
 use lacuna::suggest;
 use robot_model::Card;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::effects::{self, FORMAT};
 use super::{Outcome, Usage};
 use crate::console::{emit, emit_json, heading};
+use lacuna::cards::{FORMAT, as_json, cards, wears};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
@@ -32,7 +32,7 @@ pub(crate) struct Args {
 
 /// Explains an effect.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let cards = effects::cards();
+    let cards = cards();
     let id = args.effect.to_lowercase().replace(['-', ' '], "_");
     let Some(card) = cards.iter().find(|c| c.id == id) else {
         let ids: Vec<&str> = cards.iter().map(|c| c.id).collect();
@@ -46,11 +46,6 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         emit(&render(card))?;
     }
     Ok(Outcome::Done)
-}
-
-/// The forms in which the diagnosis looks for it.
-fn wears(card: &Card) -> Vec<&'static str> {
-    card.wears.forms().collect()
 }
 
 fn render(card: &Card) -> String {
@@ -88,24 +83,4 @@ fn render(card: &Card) -> String {
         ]);
     }
     out + "\n" + &table.render()
-}
-
-/// The card as JSON.
-pub(crate) fn as_json(card: &Card) -> Value {
-    let parameters: Vec<Value> = card
-        .parameters
-        .iter()
-        .map(|p| {
-            json!({
-                "name": p.name, "unit": p.unit, "role": p.role.name(), "bounds": p.bounds, "neutral": p.neutral,
-                "probes": p.probes, "bounds_in": p.counted_in(),
-            })
-        })
-        .collect();
-    json!({
-        "id": card.id, "name": card.name, "kind": card.kind.name(), "law": card.law, "seen": card.seen,
-        "parameters": parameters, "signed": card.signed, "axes": card.axes, "looked_for": wears(card),
-        "redundancy": card.redundancy.shows_in(), "interest": card.interest, "revealed_by": card.revealed_by,
-        "resembles": card.resembles, "source": card.source,
-    })
 }

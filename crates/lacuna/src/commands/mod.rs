@@ -7,6 +7,7 @@ use clap::{Args as ClapArgs, ValueEnum};
 use lacuna::case_folder::file_names;
 use lacuna::envelope::SourceFile;
 use lacuna::inputs::Loaded;
+pub(crate) use lacuna::sections::listed;
 use lacuna::{inputs, which_mapping};
 use recordings::{Mapping, Policy, Read, ReadOptions, Source};
 
@@ -120,12 +121,4 @@ pub(crate) fn only(loaded: &Loaded) -> Result<&Read> {
 /// Files with their SHA-256.
 pub(crate) fn sources(sources: &[Source]) -> Vec<SourceFile> {
     sources.iter().map(SourceFile::from).collect()
-}
-
-/// A list of sentences under a heading; nothing when there are none.
-pub(crate) fn listed(heading: &str, sentences: &[String]) -> String {
-    if sentences.is_empty() {
-        return String::new();
-    }
-    format!("\n{}  - {}\n", crate::console::heading(heading), sentences.join("\n  - "))
 }

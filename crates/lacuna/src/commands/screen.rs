@@ -5,12 +5,13 @@ use clap::Args as ClapArgs;
 use diagnosis::long::{ComparedWith, Screen};
 use lacuna::envelope::Program;
 use lacuna::long::{Budget, Screened};
+use lacuna::sections::{heading, listed};
 use lacuna::text_table::TextTable;
 use serde_json::json;
 
+use super::Outcome;
 use super::diagnose::{Input, Located, located};
-use super::{Outcome, listed};
-use crate::console::{Progress, emit, emit_json, heading};
+use crate::console::{Progress, emit, emit_json};
 
 const EXAMPLES: &str = "\
 Examples:

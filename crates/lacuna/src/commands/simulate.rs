@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args as ClapArgs;
-use diagnosis::Options;
-use diagnosis::response::simulate_response;
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
-use lacuna::{Causality, RobotSpec};
-use recordings::{Recording, write_csv};
+use lacuna::simulated::simulated;
+use recordings::write_csv;
 use serde_json::json;
 
 use super::{Outcome, Reader, only, sources};
@@ -79,16 +77,4 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     }
     let lost: Vec<String> = loaded.lost().collect();
     Ok(Outcome::of(&lost))
-}
-
-fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
-    let effects = robot.active(inputs.name())?;
-    match robot.causality {
-        Causality::TorqueDriven => Ok(diagnosis::simulate(&robot.robot, &effects, inputs, &Options::default())?),
-        Causality::SpeedDriven => Ok(diagnosis::simulate_at_speed(&robot.robot, &effects, inputs)?),
-        Causality::CommandDriven => {
-            let response = robot.response.clone().unwrap_or_default();
-            Ok(simulate_response(&robot.robot, &response, inputs)?)
-        }
-    }
 }

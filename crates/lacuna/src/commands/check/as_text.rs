@@ -1,9 +1,10 @@
 //! What was found, for people.
 
+use lacuna::check::{Checked, Mapped, Proposed, Used};
 use lacuna::text_table::{TextTable, number};
 use recordings::{Contents, Field, Severity};
 
-use super::{Checked, Mapped, Proposed, Used, stamps, tables};
+use super::{stamps, tables};
 use crate::commands::listed;
 use crate::console::heading;
 

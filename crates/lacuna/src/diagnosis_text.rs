@@ -1,21 +1,26 @@
 //! A diagnosis for people: the verdict first.
 
-use diagnosis::{Advice, Cause, Diagnosis};
-use lacuna::case_folder::CaseFolder;
+#![allow(
+    clippy::format_push_string,
+    reason = "text for people: short, and `write!` to a string would ask for a result"
+)]
 
-use super::where_and_when;
-use crate::commands::listed;
-use crate::console::heading;
-use lacuna::text_table::{TextTable, number};
+use diagnosis::{Advice, Cause, Diagnosis};
 use report::words::{free_runs as title_of_free_runs, is_no_cause, probability, size, where_and_when as place};
+
+use crate::sections::{heading, listed};
+use crate::text_table::{TextTable, number};
+
+mod where_and_when;
 
 /// Rows of each table at most; everything is in the JSON.
 const ROWS: usize = 6;
 /// Causes less probable than this are not shown.
 const SHOWN: f64 = 0.005;
 
-/// The whole answer; `mapping` is one that was found to fit, not named.
-pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping: Option<&str>) -> String {
+/// The whole answer, its headings with the codes of a terminal. `lost` and `not_used` are sentences on the input; `mapping`
+/// is one that was found to fit, not named.
+pub fn render(d: &Diagnosis, lost: &[String], not_used: &[String], mapping: Option<&str>) -> String {
     let mut out = String::new();
     for (i, sentence) in d.sentences.iter().enumerate() {
         out += &if i == 0 { heading(sentence) } else { format!("{sentence}\n") };
@@ -30,7 +35,7 @@ pub(super) fn render(d: &Diagnosis, case: &CaseFolder, lost: &[String], mapping:
     out += &listed("The next drive", &d.next.iter().map(next).collect::<Vec<_>>());
     out += &listed("What limits this answer", &d.limits);
     out += &listed("Lost input", lost);
-    out += &listed("Not used", &not_used(case));
+    out += &listed("Not used", not_used);
     let found = |name: &str| format!("{name}, which is built in and fits these bags; --mapping names another");
     out += &listed("Mapping", &mapping.map(found).into_iter().collect::<Vec<_>>());
     out
@@ -117,21 +122,4 @@ fn free_runs(d: &Diagnosis) -> String {
         table.row([r.recording.clone(), r.quantity.clone()].into_iter().chain(cells));
     }
     format!("\n{}{}", heading(title_of_free_runs(d)), table.render())
-}
-
-/// Files and columns that were there and that nobody asked for.
-fn not_used(case: &CaseFolder) -> Vec<String> {
-    let mut out = Vec::new();
-    for (part, loaded) in case.parts() {
-        if !loaded.ignored.is_empty() {
-            out.push(format!("{part}: {}", loaded.ignored.join(", ")));
-        }
-        let mut columns: Vec<&str> = loaded.reads.iter().flat_map(|r| &r.unused).map(|u| u.column.as_str()).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        if !columns.is_empty() {
-            out.push(format!("{part}: columns {}", columns.join(", ")));
-        }
-    }
-    out
 }

@@ -6,14 +6,13 @@
 use std::path::Path;
 
 use anyhow::{Result, ensure};
-use lacuna::case_folder;
-use lacuna::inputs::{self, Surveyed};
-use lacuna::propose::{self, Proposal};
-use lacuna::which_mapping::{self, Glance};
 use recordings::{BUILT_IN_MAPPINGS, Contents, Mapping, TableContents};
 
-use super::{Args, Used, tables};
-use crate::console::Progress;
+use super::{Listener, Request, Used, tables};
+use crate::case_folder;
+use crate::inputs::{self, Surveyed};
+use crate::propose::{self, Proposal};
+use crate::which_mapping::{self, Glance};
 
 /// All that was found in the recordings.
 pub(super) struct Found {
@@ -27,23 +26,23 @@ pub(super) struct Found {
 pub(super) type Bags = Vec<(String, Contents)>;
 
 /// Looks into bags and measures what a mapping reads of all recordings.
-pub(super) fn find(args: &Args, progress: &Progress) -> Result<(Bags, Found)> {
+pub(super) fn find(request: &Request<'_>, listener: &Listener<'_>) -> Result<(Bags, Found)> {
     let mut glances = Vec::new();
-    for path in which_mapping::bags(&args.paths)? {
-        progress.stage(&path.display().to_string());
+    for path in which_mapping::bags(request.paths)? {
+        (listener.stage)(&path.display().to_string());
         glances.push(which_mapping::glance(&path)?);
     }
-    progress.stage("channels");
-    let first = Candidates::of(args, glances.iter().map(|glance| (glance.bag.as_str(), &glance.contents)))?;
-    let mut found = first.try_all(args, progress)?;
+    (listener.stage)("channels");
+    let first = Candidates::of(request, glances.iter().map(|glance| (glance.bag.as_str(), &glance.contents)))?;
+    let mut found = first.try_all(request, listener)?;
     let passed = found.surveyed.surveys.iter_mut().flat_map(|survey| std::mem::take(&mut survey.contents));
     let bags = whole(glances, passed.collect())?;
-    let right = Candidates::of(args, bags.iter().map(|(bag, contents)| (bag.as_str(), contents)))?;
+    let right = Candidates::of(request, bags.iter().map(|(bag, contents)| (bag.as_str(), contents)))?;
     if right.are_same(&first) {
         found.mapping = right.told_of(found.mapping);
     } else {
-        progress.stage("channels, by another mapping");
-        found = right.try_all(args, progress)?;
+        (listener.stage)("channels, by another mapping");
+        found = right.try_all(request, listener)?;
     }
     Ok((bags, found))
 }
@@ -73,10 +72,10 @@ struct Candidates {
 }
 
 impl Candidates {
-    fn of<'c>(args: &Args, bags: impl Iterator<Item = (&'c str, &'c Contents)> + Clone) -> Result<Self> {
+    fn of<'c>(request: &Request<'_>, bags: impl Iterator<Item = (&'c str, &'c Contents)> + Clone) -> Result<Self> {
         let tables_only = bags.clone().next().is_none();
-        if let Some(name) = &args.mapping {
-            let named = Some((name.clone(), case_folder::mapping(name)?));
+        if let Some(name) = request.mapping {
+            let named = Some((name.to_owned(), case_folder::mapping(name)?));
             return Ok(Self { named, built_in: Vec::new(), proposed: None, tables_only });
         }
         let mut built_in = Vec::new();
@@ -119,10 +118,8 @@ impl Candidates {
 
     /// The recordings by the mapping that was named, else by the first built-in one that fits all, else by the one that
     /// is proposed.
-    fn try_all(&self, args: &Args, progress: &Progress) -> Result<Found> {
-        let options = args.reading.options();
-        let watch = |done, of| progress.bytes(done, of);
-        let survey = |mapping: &Mapping| inputs::survey(mapping, &args.paths, &options, &watch);
+    fn try_all(&self, request: &Request<'_>, listener: &Listener<'_>) -> Result<Found> {
+        let survey = |mapping: &Mapping| inputs::survey(mapping, request.paths, &request.options, listener.bytes);
         let found = |mapping, surveyed| Ok(Found { mapping, surveyed, tables: Vec::new() });
         if let Some((name, mapping)) = &self.named {
             return found(Used::Named(name.clone()), survey(mapping)?);
@@ -142,7 +139,7 @@ impl Candidates {
         }
         if self.tables_only {
             // A table that has the right columns and is broken is no unknown table.
-            let tables = if broken { Vec::new() } else { tables::look(&args.paths)? };
+            let tables = if broken { Vec::new() } else { tables::look(request.paths)? };
             ensure!(
                 !tables.is_empty(),
                 "no built-in mapping fits; name one with --mapping\n  {}",

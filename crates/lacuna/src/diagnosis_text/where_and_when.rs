@@ -1,10 +1,10 @@
 //! Where and when a mismatch shows, and the torque that the model lacks, for people.
 
 use diagnosis::{Cell, Diagnosis, ResidualTorque, Span};
-
-use crate::console::heading;
-use lacuna::text_table::{TextTable, number};
 use report::words::{borders, range};
+
+use crate::sections::heading;
+use crate::text_table::{TextTable, number};
 
 /// What cells are ranges of, in the order of the table.
 const AXES: [&str; 5] = ["speed", "turning", "slip", "heading", "place"];

@@ -1,10 +1,10 @@
 //! What was found, for programs.
 
-use lacuna::envelope::Program;
 use recordings::{Contents, HeaderStamps};
 use serde_json::{Value, json};
 
 use super::{Checked, Measured, Used, tables};
+use crate::envelope::Program;
 
 /// Version of this form.
 const FORMAT: u32 = 1;
