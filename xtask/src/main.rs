@@ -9,8 +9,11 @@ mod binary;
 mod blind;
 mod book;
 mod child;
+mod compare;
 mod document;
 mod evidence;
+mod examples;
+mod instructions;
 mod learn;
 mod mujoco;
 mod next;
@@ -44,6 +47,10 @@ enum Command {
     Next(next::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
+    /// Measure our kernels beside C, SciPy, numba, PySINDy and MuJoCo.
+    Compare(compare::Args),
+    /// Count instructions of the hot kernels and compare them with those on record.
+    Instructions(instructions::Args),
 }
 
 fn main() -> ExitCode {
@@ -56,6 +63,8 @@ fn main() -> ExitCode {
         Command::Book(args) => book::run(&args),
         Command::Next(args) => next::run(&args),
         Command::Bag(args) => bag::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Instructions(args) => instructions::run(&args),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,

@@ -70,6 +70,22 @@ pub(crate) fn docs(name: &str) -> PathBuf {
     root().join("docs").join(name)
 }
 
+/// Writes text into a page of the documentation, between two marks, and leaves the rest of the page as it is.
+pub(crate) fn into_docs(name: &str, marks: [&str; 2], text: &str) -> anyhow::Result<()> {
+    let path = docs(name);
+    let page = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
+    let page = between(&page, marks, text)
+        .with_context(|| format!("'{}' has no place for the table: '{}'", path.display(), marks[0].trim()))?;
+    std::fs::write(&path, page).with_context(|| format!("cannot write '{}'", path.display()))
+}
+
+/// A page with text between two marks instead of what is there; `None` where a mark is missing.
+fn between(page: &str, marks: [&str; 2], text: &str) -> Option<String> {
+    let (before, rest) = page.split_once(marks[0])?;
+    let (_, after) = rest.split_once(marks[1])?;
+    Some([before, marks[0], "\n", text, "\n", marks[1], after].concat())
+}
+
 /// The folder `target/COMMAND` of the workspace, created if needed.
 pub(crate) fn folder(command: &str) -> anyhow::Result<PathBuf> {
     let folder = root().join("target").join(command);
@@ -81,4 +97,18 @@ pub(crate) fn folder(command: &str) -> anyhow::Result<PathBuf> {
 pub(crate) fn write(folder: &Path, name: &str, text: &str) -> anyhow::Result<()> {
     let path = folder.join(name);
     std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::between;
+
+    #[test]
+    fn what_stands_around_the_marks_stays() {
+        let marks = ["<a>\n", "<b>\n"];
+        let once = between("before\n<a>\nold\n<b>\nafter\n", marks, "new\n").expect("both marks");
+        assert_eq!(once, "before\n<a>\n\nnew\n\n<b>\nafter\n");
+        assert_eq!(between(&once, marks, "new\n").as_deref(), Some(once.as_str()));
+        assert_eq!(between("<b>\n<a>\n", marks, "new"), None);
+    }
 }

@@ -32,6 +32,7 @@ pub mod next;
 mod normal;
 mod onset;
 mod options;
+pub mod output_error;
 mod predict;
 mod redundancy;
 pub mod response;

@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     if args.docs {
         // The page has a title of its own.
         let (_, below) = page.split_once("\n\n").context("a page without a title")?;
-        into_docs(below)?;
+        output::into_docs("export.md", MARKS, below)?;
     }
     Ok(figures.iter().all(|f| f.pass != Some(false)))
 }
@@ -92,14 +92,4 @@ fn draw(args: &Args, set: &Path) -> Result<()> {
     let ended = child::run(command.stdin(Stdio::null()).stdout(Stdio::null()))?;
     ensure!(ended.status.success(), "the cases could not be drawn ({}); see above", ended.status);
     Ok(())
-}
-
-fn into_docs(table: &str) -> Result<()> {
-    let path = output::docs("export.md");
-    let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
-    let parts = text.split_once(MARKS[0]).and_then(|(before, rest)| Some((before, rest.split_once(MARKS[1])?.1)));
-    let (before, after) =
-        parts.with_context(|| format!("'{}' has no place for the table: '{}'", path.display(), MARKS[0].trim()))?;
-    let text = [before, MARKS[0], "\n", table, "\n", MARKS[1], after].concat();
-    std::fs::write(&path, text).with_context(|| format!("cannot write '{}'", path.display()))
 }
