@@ -41,7 +41,7 @@ pub struct Kinematic<T> {
 
 impl<T: Scalar> Kinematic<T> {
     /// The command for a pose and a reference.
-    #[inline]
+    #[inline(always)]
     pub fn command(&self, pose: &Pose<T>, reference: &Reference<T>) -> Command<T> {
         let (dx, dy) = (reference.x - pose.x, reference.y - pose.y);
         let (sin, cos) = pose.yaw.sin_cos();

@@ -136,33 +136,33 @@ impl<T: Scalar> LoopPath<T> {
     }
 
     /// Desired speed `v_d(t) = v [ρ(t / T_acc) − ρ((t − t_brake) / T_br)]`, m/s, ρ the ramp of the [`Profile`].
-    #[inline]
+    #[inline(always)]
     pub fn speed(&self, t: T) -> T {
-        let shaped = |s| shape(self.profile, s);
-        self.speed * (shaped(ramp(t, self.accelerate)) - shaped(ramp(t - self.brake_at, self.brake)))
+        let (up, down) = (ramp(t, self.accelerate), ramp(t - self.brake_at, self.brake));
+        self.speed * (shape(self.profile, up) - shape(self.profile, down))
     }
 
     /// Desired yaw rate ω_d, rad/s.
-    #[inline]
+    #[inline(always)]
     pub fn yaw_rate(&self, t: T) -> T {
         self.yaw_rate * (ramp(t - self.entry_at, self.blend) - ramp(t - self.exit_at, self.blend))
     }
 
     /// Desired heading φ_d, the integral of the yaw rate, rad.
-    #[inline]
+    #[inline(always)]
     pub fn yaw(&self, t: T) -> T {
         self.yaw_rate * (ramp_area(t - self.entry_at, self.blend) - ramp_area(t - self.exit_at, self.blend))
     }
 }
 
 /// 0 before zero, 1 after `duration`, linear between.
-#[inline]
+#[inline(always)]
 fn ramp<T: Scalar>(t: T, duration: T) -> T {
     (t / duration).max(T::zero()).min(T::one())
 }
 
 /// The profile's ρ over a linear ramp `s` from 0 to 1.
-#[inline]
+#[inline(always)]
 fn shape<T: Scalar>(profile: Profile, s: T) -> T {
     match profile {
         Profile::Trapezoid => s,
@@ -171,16 +171,11 @@ fn shape<T: Scalar>(profile: Profile, s: T) -> T {
 }
 
 /// Area under [`ramp`] up to `t`.
-#[inline]
+#[inline(always)]
 fn ramp_area<T: Scalar>(t: T, duration: T) -> T {
     let half = real::<T>(0.5);
-    if t <= T::zero() {
-        T::zero()
-    } else if t < duration {
-        half * t * t / duration
-    } else {
-        t - half * duration
-    }
+    let risen = t.if_less(duration, half * t * t / duration, t - half * duration);
+    T::zero().if_less(t, risen, T::zero())
 }
 
 /// The desired pose and velocity, Eq. 6 and 7 of the paper.
@@ -198,19 +193,30 @@ pub struct Reference<T> {
     pub yaw_rate: T,
 }
 
+/// The velocity in the plane, m/s.
+#[inline(always)]
+fn along<T: Scalar>(yaw: T, speed: T) -> [T; 2] {
+    let (sin, cos) = yaw.sin_cos();
+    [speed * cos, speed * sin]
+}
+
 /// A point that moves along the path in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathReference<T> {
     path: LoopPath<T>,
     time: T,
-    x: T,
-    y: T,
+    now: Reference<T>,
+    /// Where it moves to, m/s.
+    velocity: [T; 2],
 }
 
 impl<T: Scalar> PathReference<T> {
     /// A reference at the start of the path, in the origin with heading zero.
     pub fn new(path: LoopPath<T>) -> Self {
-        Self { path, time: T::zero(), x: T::zero(), y: T::zero() }
+        let start = T::zero();
+        let (yaw, speed) = (path.yaw(start), path.speed(start));
+        let now = Reference { x: start, y: start, yaw, speed, yaw_rate: path.yaw_rate(start) };
+        Self { path, time: start, now, velocity: along(yaw, speed) }
     }
 
     /// The path.
@@ -219,24 +225,23 @@ impl<T: Scalar> PathReference<T> {
     }
 
     /// Where the reference is now.
-    #[inline]
+    #[inline(always)]
     pub fn now(&self) -> Reference<T> {
-        let (path, t) = (&self.path, self.time);
-        Reference { x: self.x, y: self.y, yaw: path.yaw(t), speed: path.speed(t), yaw_rate: path.yaw_rate(t) }
+        self.now
     }
 
     /// Moves on by `h` seconds; the position is integrated by Simpson's rule from the closed-form heading and speed.
-    #[inline]
+    #[inline(always)]
     pub fn advance(&mut self, h: T) {
-        let velocity = |t: T| {
-            let (sin, cos) = self.path.yaw(t).sin_cos();
-            let v = self.path.speed(t);
-            [v * cos, v * sin]
-        };
-        let (a, b, c) = (velocity(self.time), velocity(self.time + real::<T>(0.5) * h), velocity(self.time + h));
+        let path = &self.path;
+        let (middle, end) = (self.time + real::<T>(0.5) * h, self.time + h);
+        let (yaw, speed) = (path.yaw(end), path.speed(end));
+        let (a, b, c) = (self.velocity, along(path.yaw(middle), path.speed(middle)), along(yaw, speed));
         let (four, sixth) = (real::<T>(4.0), h / real::<T>(6.0));
-        self.x += sixth * (a[0] + four * b[0] + c[0]);
-        self.y += sixth * (a[1] + four * b[1] + c[1]);
-        self.time += h;
+        let x = self.now.x + sixth * (a[0] + four * b[0] + c[0]);
+        let y = self.now.y + sixth * (a[1] + four * b[1] + c[1]);
+        self.now = Reference { x, y, yaw, speed, yaw_rate: path.yaw_rate(end) };
+        self.velocity = c;
+        self.time = end;
     }
 }

@@ -1,6 +1,6 @@
 //! The path closes, the kinematic loop dissipates, bad gains are refused.
 
-use nn_basis::Constant;
+use nn_basis::{Activation, Constant, Lanes, SigmoidLayer};
 use robot_model::paper::Parameters;
 
 use crate::{
@@ -168,4 +168,36 @@ fn the_smooth_profile_starts_and_ends_without_a_jump_of_acceleration() {
     }
     assert_eq!((smooth.speed(10.0), smooth.yaw_rate(4.1)), (sharp.speed(10.0), sharp.yaw_rate(4.1)));
     assert_eq!((smooth.speed(-1.0), smooth.speed(40.0)), (0.0, 0.0));
+}
+
+#[test]
+fn every_lane_of_the_controller_has_the_bits_of_its_own() {
+    let gains = Gains::for_robot(&Parameters::SET_B, 100.0);
+    let layers: [SigmoidLayer<f64, 4, 8>; 2] = core::array::from_fn(|l| {
+        let weight = core::array::from_fn(|j| core::array::from_fn(|i| 0.3 - 0.1 * (i + j + l) as f64));
+        SigmoidLayer::new([0.1; 8], weight, [5.0; 4], Activation::Logistic).expect("finite")
+    });
+    let wide = SigmoidLayer::side_by_side(&layers).expect("of one kind");
+    let path = LoopPath::<Lanes<2>>::new(&Loop::default()).expect("valid");
+    let mut together = Tracking::<Lanes<2>, _, 8>::new(&gains, wide, PathReference::new(path)).expect("valid");
+    let mut each = layers
+        .map(|l| Tracking::<f64, _, 8>::new(&gains, l, PathReference::new(self::path(Turn::Left))).expect("valid"));
+    for k in 0..6000 {
+        let yaw = |i: usize| 1e-3 * (k * (i + 1)) as f64;
+        let state = WheelState { x: 0.1, y: 0.0, yaw: 0.0, angle: [1.0; 2], speed: [4.0, 6.0] };
+        let seen = WheelState {
+            x: Lanes([0.1; 2]),
+            y: Lanes([0.0; 2]),
+            yaw: Lanes([yaw(0), yaw(1)]),
+            angle: [Lanes([1.0; 2]); 2],
+            speed: [Lanes([4.0; 2]), Lanes([6.0; 2])],
+        };
+        let all = together.step(&seen, Lanes([1e-3; 2]));
+        for i in 0..2 {
+            let one = each[i].step(&WheelState { yaw: yaw(i), ..state }, 1e-3);
+            let lane = |x: [Lanes<2>; 2]| x.map(|x| x.0[i].to_bits());
+            assert_eq!(lane(all.torque), one.torque.map(f64::to_bits), "step {k}");
+            assert_eq!(all.reference.y.0[i].to_bits(), one.reference.y.to_bits(), "step {k}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The inner loop: a sliding variable per side and a network that learns the load.
 
-use nn_basis::{Basis, LinearNet, Scalar, real};
+use nn_basis::{Basis, LinearNet, Scalar, dot, real};
 use robot_model::paper::Parameters;
 
 use crate::error::{not_negative, positive};
@@ -148,7 +148,7 @@ impl<T: Scalar, B: Basis<T, 4, N>, const N: usize> Tracking<T, B, N> {
     /// The torques to hold for the next `h` seconds.
     ///
     /// Never panics; a state that is not finite gives torques that are not finite.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, state: &WheelState<T>, h: T) -> Action<T> {
         let reference = self.reference.now();
         let pose = Pose { x: state.x, y: state.y, yaw: state.yaw };
@@ -164,7 +164,7 @@ impl<T: Scalar, B: Basis<T, 4, N>, const N: usize> Tracking<T, B, N> {
             let error = self.desired_angle[i] - state.angle[i];
             let s = desired_speed[i] - state.speed[i] + self.slope * error;
             let saturated = (s / self.boundary).max(-T::one()).min(T::one());
-            torque[i] = self.damping * s + self.net.output(&phi)[i] + self.robust * saturated;
+            torque[i] = self.damping * s + dot(&self.net.weight[i], &phi) + self.robust * saturated;
             let rate = h * self.adaptation;
             self.net.adapt(i, &phi, rate * s, rate * self.leak * s.abs());
             self.desired_angle[i] += h * desired_speed[i];

@@ -27,7 +27,7 @@ impl<T: Scalar> AngleRow<T> {
     /// Advances over `h` seconds in which the angle went from `start` to `end` (rad) at the mean rate `speed` (rad/s).
     ///
     /// Returns the error `x̃ = end − x̂` at the end.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, start: T, end: T, speed: T, h: T) -> T {
         let half = real::<T>(0.5);
         let drive = speed + self.pole * half * (start + end);

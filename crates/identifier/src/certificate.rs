@@ -1,6 +1,6 @@
 //! What is proved about a step, and about a run.
 
-use nn_basis::{Scalar, dot, real};
+use nn_basis::{Lanes, Scalar, dot, real};
 
 use crate::{Sample, Step};
 
@@ -34,12 +34,13 @@ pub struct Certificate<T> {
 }
 
 impl<T: Scalar> Certificate<T> {
-    /// Whether L falls for certain: the predicted change is negative.
+    /// Whether L falls for certain: the predicted change is negative; in every lane.
     pub fn falls(&self) -> bool {
-        self.predicted < T::zero()
+        self.predicted.is_less(T::zero())
     }
 
     /// What the law adds by itself, `s = ΔL + c e² − b ε e`: never positive for laws that keep L.
+    #[inline(always)]
     pub fn surplus(&self) -> T {
         self.predicted + self.dissipation * self.error * self.error - self.coupling * self.epsilon * self.error
     }
@@ -62,12 +63,13 @@ pub(crate) struct Balance<T> {
     pub(crate) dissipation: T,
     pub(crate) coupling: T,
     pub(crate) surplus: T,
-    /// Whether the balance is an equality.
-    pub(crate) exact: bool,
+    /// Zero where the balance is an equality, above zero where it is an upper bound.
+    pub(crate) slack: T,
 }
 
 impl<T: Scalar> Balance<T> {
     /// Measures the change of L over the step and compares.
+    #[inline(always)]
     pub(crate) fn certificate<const N: usize>(self, step: &Step<T, N>, comparison: &[T; N], gain: T) -> Certificate<T> {
         let half = real::<T>(0.5);
         let [from, to] = self.output;
@@ -82,20 +84,22 @@ impl<T: Scalar> Balance<T> {
         let rounded = (self.coupling * self.scale * self.error).abs();
         let size = before + after + dissipated + rounded + self.surplus.abs();
         let gap = change - predicted;
-        let gap = if self.exact { gap.abs() } else { positive_part(gap) };
-        // Not `size > 0`: a size that is not a number must give a residual that is not a number.
-        let residual = if size == T::zero() { T::zero() } else { gap / size };
+        let gap = T::zero().if_less(self.slack, positive_part(gap), gap.abs());
+        // The size itself where it is zero, or not a number: then the residual is not one either.
+        let residual = T::zero().if_less(size, gap / size, size);
         let Self { error, epsilon, dissipation, coupling, .. } = self;
         Certificate { before, after, change, predicted, residual, epsilon, error, dissipation, coupling }
     }
 }
 
 /// `max(x, 0)`, but not a number stays not a number.
+#[inline(always)]
 pub(crate) fn positive_part<T: Scalar>(x: T) -> T {
-    if x < T::zero() { T::zero() } else { x }
+    x.if_less(T::zero(), T::zero(), x)
 }
 
 /// `‖W* − Ŵ‖²`.
+#[inline(always)]
 fn distance<T: Scalar, const N: usize>(weight: &[T; N], comparison: &[T; N]) -> T {
     let mut sum = T::zero();
     for (w, c) in weight.iter().zip(comparison) {
@@ -105,6 +109,7 @@ fn distance<T: Scalar, const N: usize>(weight: &[T; N], comparison: &[T; N]) -> 
 }
 
 /// `‖W* − Ŵ_new‖² − ‖W* − Ŵ_old‖²` without cancellation.
+#[inline(always)]
 pub(crate) fn difference<T: Scalar, const N: usize>(old: &[T; N], new: &[T; N], comparison: &[T; N]) -> T {
     let mut sum = T::zero();
     for i in 0..N {
@@ -114,6 +119,7 @@ pub(crate) fn difference<T: Scalar, const N: usize>(old: &[T; N], new: &[T; N], 
 }
 
 /// What the comparison weights leave of the right-hand side `shown` by a sample, and the size of what it is a difference of.
+#[inline(always)]
 pub(crate) fn approximation_error<T: Scalar, const N: usize>(
     shown: T,
     sample: &Sample<T, N>,
@@ -121,6 +127,13 @@ pub(crate) fn approximation_error<T: Scalar, const N: usize>(
 ) -> (T, T) {
     let known = sample.known + dot(comparison, &sample.regressor);
     (shown - known, shown.abs() + known.abs())
+}
+
+/// The larger residual; one that is not finite is kept for ever, not lost.
+#[inline(always)]
+pub(crate) fn worse<T: Scalar>(so_far: T, residual: T) -> T {
+    // Zero times a finite number is zero, times any other it is not a number.
+    so_far.if_less(residual, residual, so_far) + T::zero() * (residual + so_far)
 }
 
 /// Certificates added up over a run: the mean-square bound.
@@ -135,7 +148,7 @@ pub struct Ledger<T> {
     epsilon_energy: T,
     surplus: T,
     worst_residual: T,
-    rises: u32,
+    rises: T,
 }
 
 impl<T: Scalar> Ledger<T> {
@@ -149,12 +162,12 @@ impl<T: Scalar> Ledger<T> {
             epsilon_energy: zero,
             surplus: zero,
             worst_residual: zero,
-            rises: 0,
+            rises: zero,
         }
     }
 
     /// Adds the certificate of the next step. All must be against the same W*.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, certificate: &Certificate<T>) {
         let c = certificate;
         self.start.get_or_insert(c.before);
@@ -164,12 +177,8 @@ impl<T: Scalar> Ledger<T> {
         // What a law gives away besides is not needed for the bound, only what it adds.
         self.surplus += positive_part(c.surplus());
         // A residual that is not a number is kept, not lost.
-        if self.worst_residual.is_finite() && (c.residual > self.worst_residual || !c.residual.is_finite()) {
-            self.worst_residual = c.residual;
-        }
-        if c.change > T::zero() {
-            self.rises = self.rises.saturating_add(1);
-        }
+        self.worst_residual = worse(self.worst_residual, c.residual);
+        self.rises += T::zero().if_less(c.change, T::one(), T::zero());
     }
 
     /// `Σ h e²`, unit of the output squared times s.
@@ -183,9 +192,9 @@ impl<T: Scalar> Ledger<T> {
         real::<T>(2.0) * start / self.pole + self.epsilon_energy / (self.pole * self.pole)
     }
 
-    /// Whether the bound holds, rounding aside.
+    /// Whether the bound holds, rounding aside; in every lane.
     pub fn holds(&self) -> bool {
-        self.error_energy <= self.bound() * (T::one() + real::<T>(1e-6))
+        self.error_energy.is_at_most(self.bound() * (T::one() + real::<T>(1e-6)))
     }
 
     /// Largest relative residual of the balance so far.
@@ -193,8 +202,23 @@ impl<T: Scalar> Ledger<T> {
         self.worst_residual
     }
 
-    /// How many steps raised L. With approximation error some do; without, none.
-    pub fn rises(&self) -> u32 {
+    /// How many steps raised L, in single precision up to 2²⁴. With approximation error some do; without, none.
+    pub fn rises(&self) -> T {
         self.rises
+    }
+}
+
+impl<const N: usize> Ledger<Lanes<N>> {
+    /// The ledger of each lane.
+    pub fn apart(&self) -> [Ledger<f64>; N] {
+        core::array::from_fn(|i| Ledger {
+            pole: self.pole.0[i],
+            start: self.start.map(|s| s.0[i]),
+            error_energy: self.error_energy.0[i],
+            epsilon_energy: self.epsilon_energy.0[i],
+            surplus: self.surplus.0[i],
+            worst_residual: self.worst_residual.0[i],
+            rises: self.rises.0[i],
+        })
     }
 }

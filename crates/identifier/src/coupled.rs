@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 use nn_basis::{Scalar, real};
 
-use crate::HurwitzMatrix;
 use crate::error::{IdentifierError, finite, positive};
+use crate::{Field, HurwitzMatrix};
 
 /// One interval of M measured outputs, with the regressor φ and the known part of G over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +50,7 @@ pub struct CoupledIdentifier<T, const M: usize, const N: usize> {
     weight: SMatrix<T, N, M>,
 }
 
-impl<T: Scalar, const M: usize, const N: usize> CoupledIdentifier<T, M, N> {
+impl<T: Field, const M: usize, const N: usize> CoupledIdentifier<T, M, N> {
     /// An identifier with zero weights that starts at `output`, with gain γ.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl<T: Scalar, const M: usize, const N: usize> CoupledIdentifier<T, M, N> {
         let mismatch = mid - self.output - (a * mid + self.weight.transpose() * phi + known) * (half * h);
         let system = p - p * a * (half * h) + p * p * q;
         // Invertible for every h and φ; a solution that is missing takes input that is not finite.
-        let error = system.try_inverse().map_or(mismatch / T::zero(), |inverse| inverse * (p * mismatch));
+        let error = system.try_inverse().map_or(mismatch / real::<T>(0.0), |inverse| inverse * (p * mismatch));
         self.output = (mid - error) * two - self.output;
         self.weight += phi * (p * error).transpose() * (h * self.gain);
         (end - self.output).into()
@@ -101,8 +101,8 @@ impl<T: Scalar, const M: usize, const N: usize> CoupledIdentifier<T, M, N> {
         // Differences times sums, as in the scalar balance.
         let change = half * ((x1 - x0).dot(&(p * (x1 + x0))) + (w1 - w0).dot(&(w1 + w0)) / self.gain);
         let (predicted, before, after) = (injected - dissipated, energy(&x0, &w0), energy(&x1, &w1));
-        let size = before + after + dissipated + injected.abs();
-        let residual = if size == T::zero() { T::zero() } else { (change - predicted).abs() / size };
+        let size = before + after + dissipated + Scalar::abs(injected);
+        let residual = if size == real(0.0) { real(0.0) } else { Scalar::abs(change - predicted) / size };
         CoupledCertificate { before, after, change, predicted, residual }
     }
 

@@ -31,7 +31,7 @@ pub enum IdentifierError {
 }
 
 pub(crate) fn positive<T: nn_basis::Scalar>(name: &'static str, value: T) -> Result<T, IdentifierError> {
-    if value.is_finite() && value > T::zero() { Ok(value) } else { Err(IdentifierError::NotPositive { name }) }
+    if value.is_finite() && T::zero().is_less(value) { Ok(value) } else { Err(IdentifierError::NotPositive { name }) }
 }
 
 pub(crate) fn finite<T: nn_basis::Scalar>(name: &'static str, value: T) -> Result<T, IdentifierError> {

@@ -37,7 +37,7 @@ impl<T: Scalar> Euler<T> {
 }
 
 impl<T: Scalar, const N: usize> Law<T, N> for Euler<T> {
-    #[inline]
+    #[inline(always)]
     fn advance(&self, pole: T, model: &Model<T, N>, sample: &Sample<T, N>) -> Step<T, N> {
         let (h, phi) = (sample.h, &sample.regressor);
         let error = sample.start - model.output;
@@ -46,7 +46,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Euler<T> {
         Step::new(sample, model, Model { output, weight }, error)
     }
 
-    #[inline]
+    #[inline(always)]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
         let Sample { start, end, regressor: phi, h, .. } = &step.sample;
         let (epsilon, scale) = approximation_error((*end - *start) / *h + pole * *start, &step.sample, comparison);
@@ -62,7 +62,7 @@ impl<T: Scalar, const N: usize> Law<T, N> for Euler<T> {
             dissipation: pole * *h,
             coupling: *h,
             surplus,
-            exact: true,
+            slack: T::zero(),
         }
         .certificate(step, comparison, self.gain)
     }

@@ -1,9 +1,9 @@
 //! A Hurwitz matrix with its proof of stability.
 
 use nalgebra::SMatrix;
-use nn_basis::{Scalar, real};
+use nn_basis::real;
 
-use crate::IdentifierError;
+use crate::{Field, IdentifierError};
 
 /// A matrix A with a P that proves it Hurwitz: `AᵀP + PA = −Q` with P and Q symmetric and positive definite.
 ///
@@ -16,7 +16,7 @@ pub struct HurwitzMatrix<T, const M: usize> {
     q: SMatrix<T, M, M>,
 }
 
-impl<T: Scalar, const M: usize> HurwitzMatrix<T, M> {
+impl<T: Field, const M: usize> HurwitzMatrix<T, M> {
     /// Checks a matrix and its P, both in row order: `a` in 1/s, `p` dimensionless.
     ///
     /// # Errors

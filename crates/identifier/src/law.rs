@@ -22,13 +22,13 @@ pub struct Sample<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> Sample<T, N> {
     /// The mean output `x_m = ½(x_k + x_{k+1})`.
-    #[inline]
+    #[inline(always)]
     pub fn middle(&self) -> T {
         nn_basis::real::<T>(0.5) * (self.start + self.end)
     }
 
     /// The right-hand side that the interval shows by the midpoint rule, `(x_{k+1} − x_k)/h + a x_m`.
-    #[inline]
+    #[inline(always)]
     pub fn right_hand_side(&self, pole: T) -> T {
         (self.end - self.start) / self.h + pole * self.middle()
     }
@@ -62,7 +62,7 @@ pub struct Step<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> Step<T, N> {
     /// The step from a model to the next.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(sample: &Sample<T, N>, before: &Model<T, N>, after: Model<T, N>, error: T) -> Self {
         let (error_before, error_after) = (sample.start - before.output, sample.end - after.output);
         Self { sample: *sample, before: *before, after, error_before, error, error_after }
@@ -84,7 +84,7 @@ pub trait Law<T: Scalar, const N: usize> {
 }
 
 /// `Ŵ + rate φ`.
-#[inline]
+#[inline(always)]
 pub(crate) fn moved<T: Scalar, const N: usize>(weight: &[T; N], rate: T, phi: &[T; N]) -> [T; N] {
     let mut weight = *weight;
     for (w, p) in weight.iter_mut().zip(phi) {
@@ -119,13 +119,13 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Identifier<T, N, L> {
     /// Advances over one interval of the measured output, from `x_k` to `x_k1` in `h` seconds with regressor `phi`.
     ///
     /// Never panics; input that is not finite gives a step that is not finite.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, x_k: T, x_k1: T, phi: &[T; N], h: T) -> Step<T, N> {
         self.follow(&Sample { start: x_k, end: x_k1, regressor: *phi, known: T::zero(), h })
     }
 
     /// The same for a sample of whose right-hand side a part is known.
-    #[inline]
+    #[inline(always)]
     pub fn follow(&mut self, sample: &Sample<T, N>) -> Step<T, N> {
         let step = self.law.advance(self.pole, &self.model, sample);
         self.model = step.after;
@@ -133,7 +133,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Identifier<T, N, L> {
     }
 
     /// The certificate of a step against the comparison weights `w_star`; see [`Certificate`].
-    #[inline]
+    #[inline(always)]
     pub fn certificate(&self, step: &Step<T, N>, w_star: &[T; N]) -> Certificate<T> {
         self.law.certify(self.pole, step, w_star)
     }

@@ -2,7 +2,7 @@
 
 use nn_basis::{Scalar, dot, real};
 
-use crate::certificate::difference;
+use crate::certificate::{difference, worse};
 use crate::error::{IdentifierError, positive};
 use crate::{Certificate, Law, Midpoint, Model, Sample, Step};
 
@@ -41,6 +41,7 @@ impl<T: Scalar, L> Leaky<T, L> {
         Ok(Self { law, rate })
     }
 
+    #[inline(always)]
     fn strength(&self, error: T) -> T {
         match self.rate {
             Rate::Sigma(sigma) => sigma,
@@ -50,14 +51,18 @@ impl<T: Scalar, L> Leaky<T, L> {
 }
 
 impl<T: Scalar, L: Law<T, N>, const N: usize> Law<T, N> for Leaky<T, L> {
-    #[inline]
+    #[inline(always)]
     fn advance(&self, pole: T, model: &Model<T, N>, sample: &Sample<T, N>) -> Step<T, N> {
         let free = self.law.advance(pole, model, sample);
         let kept = T::one() / (T::one() + self.law.gain() * sample.h * self.strength(free.error));
-        Step { after: Model { weight: free.after.weight.map(|w| w * kept), ..free.after }, ..free }
+        let mut weight = free.after.weight;
+        for w in &mut weight {
+            *w *= kept;
+        }
+        Step { after: Model { weight, ..free.after }, ..free }
     }
 
-    #[inline]
+    #[inline(always)]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
         let (half, gain) = (real::<T>(0.5), self.law.gain());
         let free = self.law.advance(pole, &step.before, &step.sample);
@@ -69,12 +74,12 @@ impl<T: Scalar, L: Law<T, N>, const N: usize> Law<T, N> for Leaky<T, L> {
         let added =
             leak * (dot(weight, comparison) - dot(weight, weight)) - half * gain * leak * leak * dot(weight, weight);
         let size = c.before + c.after + leak * (dot(weight, weight) + dot(comparison, comparison));
-        let gap = if size == T::zero() { T::zero() } else { (moved - added).abs() / size };
+        let gap = T::zero().if_less(size, (moved - added).abs() / size, size);
         Certificate {
             after: c.after + moved,
             change: c.change + moved,
             predicted: c.predicted + added,
-            residual: if gap > c.residual || !gap.is_finite() { gap } else { c.residual },
+            residual: worse(c.residual, gap),
             ..c
         }
     }

@@ -1,8 +1,9 @@
 //! Recursive least squares over a span of the past.
 
 use nalgebra::{SMatrix, SVector};
-use nn_basis::{Scalar, real};
+use nn_basis::real;
 
+use crate::Field;
 use crate::error::{IdentifierError, finite, positive};
 
 /// How far back least squares reach, what they listen to and how they are held back.
@@ -19,7 +20,7 @@ pub struct LeastSquaresSettings<T> {
     pub ridge: T,
 }
 
-impl<T: Scalar> LeastSquaresSettings<T> {
+impl<T: Field> LeastSquaresSettings<T> {
     fn check(self) -> Result<Self, IdentifierError> {
         positive("bandwidth of the least squares", self.bandwidth)?;
         positive("ridge of the least squares", self.ridge)?;
@@ -29,8 +30,8 @@ impl<T: Scalar> LeastSquaresSettings<T> {
     }
 }
 
-pub(crate) fn not_negative<T: Scalar>(name: &'static str, value: T) -> Result<T, IdentifierError> {
-    if finite(name, value)? < T::zero() { Err(IdentifierError::Negative { name }) } else { Ok(value) }
+pub(crate) fn not_negative<T: Field>(name: &'static str, value: T) -> Result<T, IdentifierError> {
+    if finite(name, value)? < real(0.0) { Err(IdentifierError::Negative { name }) } else { Ok(value) }
 }
 
 /// Recursive least squares with forgetting and a prior: the W that minimises
@@ -40,7 +41,7 @@ pub(crate) fn not_negative<T: Scalar>(name: &'static str, value: T) -> Result<T,
 /// factorisation. In this form the matrix stays positive definite, in single precision and without excitation too, and
 /// `‖W − W_prior‖ ≤ √(Σ h λ (y_f − W_priorᵀφ_f)²)/(2√δ)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeastSquares<T: Scalar, const N: usize> {
+pub struct LeastSquares<T: Field, const N: usize> {
     settings: LeastSquaresSettings<T>,
     /// Both stages of the filter, of the target and of the regressor.
     target: [T; 2],
@@ -49,7 +50,7 @@ pub struct LeastSquares<T: Scalar, const N: usize> {
     cross: SVector<T, N>,
 }
 
-impl<T: Scalar, const N: usize> LeastSquares<T, N> {
+impl<T: Field, const N: usize> LeastSquares<T, N> {
     /// Least squares that have seen nothing.
     ///
     /// # Errors
@@ -57,7 +58,7 @@ impl<T: Scalar, const N: usize> LeastSquares<T, N> {
     pub fn new(settings: LeastSquaresSettings<T>) -> Result<Self, IdentifierError> {
         Ok(Self {
             settings: settings.check()?,
-            target: [T::zero(); 2],
+            target: [real(0.0); 2],
             regressor: [SVector::zeros(); 2],
             information: SMatrix::zeros(),
             cross: SVector::zeros(),
@@ -79,7 +80,7 @@ impl<T: Scalar, const N: usize> LeastSquares<T, N> {
         let lead = s.lead * s.bandwidth;
         let y = self.target[1] + (self.target[0] - self.target[1]) * lead;
         let phi = self.regressor[1] + (self.regressor[0] - self.regressor[1]) * lead;
-        let kept = T::one() - relaxed(s.forgetting, h);
+        let kept = real::<T>(1.0) - relaxed(s.forgetting, h);
         let weighted = phi * h;
         self.information = (self.information + weighted * phi.transpose()) * kept;
         self.cross = (self.cross + weighted * y) * kept;
@@ -89,7 +90,7 @@ impl<T: Scalar, const N: usize> LeastSquares<T, N> {
 }
 
 /// Share of the way that a first-order lag of `rate` (1/s) goes in `h` seconds, by an implicit step.
-pub(crate) fn relaxed<T: Scalar>(rate: T, h: T) -> T {
+pub(crate) fn relaxed<T: Field>(rate: T, h: T) -> T {
     let product = rate * h;
     product / (real::<T>(1.0) + product)
 }

@@ -21,6 +21,9 @@
 //! chosen W* cannot represent counts as approximation error ε. [`Ledger`] adds certificates up to the mean-square
 //! bound. What is *not* certified: convergence of the weights, or a bound on max |x̃| without a dead zone or projection.
 //!
+//! All laws take any [`Scalar`]: several identifiers run side by side in [`Lanes`], each with the bits it has alone. What
+//! factorises a matrix ([`Memory`], [`Retaining`], [`CoupledIdentifier`]) takes a [`Field`] and runs alone.
+//!
 //! No standard library, no allocation; steps never panic. The feature `std` adds `HurwitzMatrix::solve`, which solves the
 //! Lyapunov equation on a host.
 //!
@@ -50,6 +53,7 @@ mod coupled;
 mod error;
 mod euler;
 mod exponential;
+mod field;
 mod hurwitz;
 mod law;
 mod leak;
@@ -69,6 +73,7 @@ pub use coupled::{CoupledCertificate, CoupledIdentifier, CoupledSample};
 pub use error::IdentifierError;
 pub use euler::Euler;
 pub use exponential::Exponential;
+pub use field::Field;
 pub use hurwitz::HurwitzMatrix;
 pub use law::{Identifier, Law, Model, Sample, Step};
 pub use leak::{Leaky, Rate};
@@ -77,6 +82,6 @@ pub use least_squares::{LeastSquares, LeastSquaresSettings};
 pub use lyapunov::LyapunovError;
 pub use memory::{Memory, MemorySettings};
 pub use midpoint::Midpoint;
-pub use nn_basis::Scalar;
+pub use nn_basis::{Lanes, Scalar};
 pub use projection::Projection;
 pub use retaining::Retaining;

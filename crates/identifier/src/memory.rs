@@ -1,7 +1,8 @@
 //! What an identifier keeps.
 
-use nn_basis::{Scalar, real};
+use nn_basis::real;
 
+use crate::Field;
 use crate::error::{IdentifierError, finite, positive};
 use crate::least_squares::{LeastSquares, LeastSquaresSettings, relaxed};
 
@@ -17,7 +18,7 @@ pub struct MemorySettings<T> {
     pub consolidation: T,
 }
 
-impl<T: Scalar> Default for MemorySettings<T> {
+impl<T: Field> Default for MemorySettings<T> {
     /// Settings for wheel speeds sampled at 1 kHz with noise of about 0.01 rad/s; where they come from is told in
     /// `docs/paper/learning.md`.
     fn default() -> Self {
@@ -39,7 +40,7 @@ impl<T: Scalar> Default for MemorySettings<T> {
 ///
 /// Regressor entries should be of the order of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Memory<T: Scalar, const N: usize> {
+pub struct Memory<T: Field, const N: usize> {
     long: LeastSquares<T, N>,
     short: LeastSquares<T, N>,
     consolidation: T,
@@ -49,13 +50,13 @@ pub struct Memory<T: Scalar, const N: usize> {
     acting: [T; N],
 }
 
-impl<T: Scalar, const N: usize> Memory<T, N> {
+impl<T: Field, const N: usize> Memory<T, N> {
     /// A memory of nothing.
     ///
     /// # Errors
     /// [`IdentifierError`] names the setting that cannot be used.
     pub fn new(settings: MemorySettings<T>) -> Result<Self, IdentifierError> {
-        Self::recalling(settings, [T::zero(); N])
+        Self::recalling(settings, [real(0.0); N])
     }
 
     /// A memory that begins with the weights that another one had kept, as after a restart.

@@ -31,26 +31,27 @@ impl<T: Scalar, L> Projection<T, L> {
     }
 
     /// The nearest weights in the ball.
-    fn project<const N: usize>(&self, weight: [T; N]) -> [T; N] {
+    #[inline(always)]
+    fn project<const N: usize>(&self, mut weight: [T; N]) -> [T; N] {
         let square = dot(&weight, &weight);
-        if square > self.radius * self.radius {
-            let share = self.radius / square.sqrt();
-            weight.map(|w| w * share)
-        } else {
-            weight
+        let outside = self.radius / square.sqrt();
+        let share = (self.radius * self.radius).if_less(square, outside, T::one());
+        for w in &mut weight {
+            *w *= share;
         }
+        weight
     }
 }
 
 impl<T: Scalar, L: Law<T, N>, const N: usize> Law<T, N> for Projection<T, L> {
-    #[inline]
+    #[inline(always)]
     fn advance(&self, pole: T, model: &Model<T, N>, sample: &Sample<T, N>) -> Step<T, N> {
         let free = self.law.advance(pole, model, sample);
         let after = Model { weight: self.project(free.after.weight), ..free.after };
         Step { after, ..free }
     }
 
-    #[inline]
+    #[inline(always)]
     fn certify(&self, pole: T, step: &Step<T, N>, comparison: &[T; N]) -> Certificate<T> {
         let free = self.law.advance(pole, &step.before, &step.sample);
         let c = self.law.certify(pole, &free, comparison);

@@ -1,9 +1,9 @@
 //! An identifier that keeps what it learned.
 
-use nn_basis::{Scalar, dot};
+use nn_basis::dot;
 
 use crate::error::IdentifierError;
-use crate::{Certificate, Identifier, Law, Memory, Midpoint, Sample, Step};
+use crate::{Certificate, Field, Identifier, Law, Memory, Midpoint, Sample, Step};
 
 /// The paper's identifier with a [`Memory`] beside it.
 ///
@@ -12,12 +12,12 @@ use crate::{Certificate, Identifier, Law, Memory, Midpoint, Sample, Step};
 /// the right-hand side, so every certificate of the law holds as it is, with `ε = G − W_mᵀφ − W*ᵀφ`: the memory enters as
 /// a bounded term, and the better it knows, the smaller ε is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Retaining<T: Scalar, const N: usize, L = Midpoint<T>> {
+pub struct Retaining<T: Field, const N: usize, L = Midpoint<T>> {
     identifier: Identifier<T, N, L>,
     memory: Memory<T, N>,
 }
 
-impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
+impl<T: Field, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
     /// An identifier with a memory; `pole`, `law` and `output` as for [`Identifier::new`].
     ///
     /// # Errors
@@ -27,7 +27,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
     }
 
     /// Follows a sample with what the memory knew before it, then takes it in.
-    #[inline]
+    #[inline(always)]
     pub fn follow(&mut self, sample: &Sample<T, N>) -> Step<T, N> {
         let remembered = dot(&self.memory.acting(), &sample.regressor);
         let step = self.identifier.follow(&Sample { known: sample.known + remembered, ..*sample });
@@ -36,7 +36,7 @@ impl<T: Scalar, const N: usize, L: Law<T, N>> Retaining<T, N, L> {
     }
 
     /// The certificate of a step against the comparison weights `w_star` of the gradient law.
-    #[inline]
+    #[inline(always)]
     pub fn certificate(&self, step: &Step<T, N>, w_star: &[T; N]) -> Certificate<T> {
         self.identifier.certificate(step, w_star)
     }

@@ -14,11 +14,10 @@ pub enum Activation {
 
 impl Activation {
     /// The unit's output for its net input z. Finite for every z that is not NaN.
-    #[inline]
+    #[inline(always)]
     pub fn apply<T: Scalar>(self, z: T) -> T {
         match self {
-            // e^(−z) may overflow to infinity, whose inverse is the right limit 0.
-            Self::Logistic => T::one() / (T::one() + (-z).exp()),
+            Self::Logistic => z.logistic(),
             Self::Tanh => z.tanh(),
         }
     }

@@ -24,7 +24,7 @@ impl<T: Scalar, const N: usize> Constant<T, N> {
 }
 
 impl<T: Scalar, const I: usize, const N: usize> Basis<T, I, N> for Constant<T, N> {
-    #[inline]
+    #[inline(always)]
     fn regressor(&self, _input: &[T; I]) -> [T; N] {
         self.phi
     }

@@ -9,7 +9,8 @@
 //! | [`SigmoidLayer`] | logistic or tanh units of scaled inputs |
 //! | [`Constant`] | the same vector at all times: what remains when the network is taken away |
 //!
-//! Sizes are part of the types: I inputs, N units, R outputs. No standard library, no allocation; steps never panic.
+//! Sizes are part of the types: I inputs, N units, R outputs. One body of code for `f32`, `f64`, dual numbers and lanes
+//! ([`Scalar`]). No standard library, no allocation; steps never panic.
 //!
 //! ```
 //! use nn_basis::{Activation, Basis, SigmoidLayer};
@@ -36,20 +37,10 @@ pub use error::BasisError;
 pub use layer::SigmoidLayer;
 pub use net::LinearNet;
 
-use nalgebra::RealField;
-
-/// A real number that a network can be evaluated with: `f32`, `f64`, or a dual number.
-pub trait Scalar: RealField + Copy {}
-impl<T: RealField + Copy> Scalar for T {}
-
-/// The constant `x` as a scalar.
-#[inline]
-pub fn real<T: Scalar>(x: f64) -> T {
-    nalgebra::convert(x)
-}
+pub use scalar::{Lanes, Scalar, real};
 
 /// `Σ a_i b_i`, summed from the first entry on so that the result is the same everywhere.
-#[inline]
+#[inline(always)]
 pub fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     let mut sum = T::zero();
     for i in 0..N {

@@ -18,7 +18,7 @@ impl<T: Scalar, const N: usize, const R: usize> Default for LinearNet<T, N, R> {
 
 impl<T: Scalar, const N: usize, const R: usize> LinearNet<T, N, R> {
     /// The outputs for a regressor.
-    #[inline]
+    #[inline(always)]
     pub fn output(&self, phi: &[T; N]) -> [T; R] {
         self.weight.map(|w| dot(&w, phi))
     }
@@ -27,7 +27,7 @@ impl<T: Scalar, const N: usize, const R: usize> LinearNet<T, N, R> {
     ///
     /// The explicit form of the gradient laws `Ẇ = Γ (φ s − κ |s| W)`, with rate = h Γ s and leak = h Γ κ |s|.
     /// An `output` that does not exist is ignored.
-    #[inline]
+    #[inline(always)]
     pub fn adapt(&mut self, output: usize, phi: &[T; N], rate: T, leak: T) {
         if let Some(weight) = self.weight.get_mut(output) {
             for (w, p) in weight.iter_mut().zip(phi) {

@@ -1,6 +1,6 @@
 //! Values, limits and checks of the bases.
 
-use crate::{Activation, Basis, BasisError, Constant, LinearNet, SigmoidLayer};
+use crate::{Activation, Basis, BasisError, Constant, Lanes, LinearNet, SigmoidLayer};
 
 #[test]
 fn logistic_and_tanh_have_their_known_values_and_limits() {
@@ -46,4 +46,18 @@ fn the_net_is_linear_and_adapts_one_output() {
     assert_eq!(net.output(&[1.0, 1.0]), [0.0, 1.5]);
     net.adapt(1, &[0.0, 0.0], 0.0, 0.5);
     assert_eq!(net.output(&[1.0, 1.0]), [0.0, 0.75]);
+}
+
+#[test]
+fn layers_side_by_side_give_what_each_gives_alone() {
+    let layer = |w: f64, a| SigmoidLayer::new([0.1, w], [[w, -1.0], [0.5, w]], [3.0, 0.7], a).expect("finite");
+    for activation in [Activation::Logistic, Activation::Tanh] {
+        let layers = [layer(0.3, activation), layer(-2.0, activation), layer(7.0, activation)];
+        let wide = SigmoidLayer::side_by_side(&layers).expect("of one kind");
+        let phi = wide.regressor(&[Lanes([0.4, 1.0, -3.0]), Lanes([1.0, 2.0, 0.1])]);
+        for (i, x) in [[0.4, 1.0], [1.0, 2.0], [-3.0, 0.1]].into_iter().enumerate() {
+            assert_eq!(phi.map(|p| p.0[i].to_bits()), layers[i].regressor(&x).map(f64::to_bits));
+        }
+    }
+    assert!(SigmoidLayer::side_by_side(&[layer(1.0, Activation::Tanh), layer(1.0, Activation::Logistic)]).is_none());
 }

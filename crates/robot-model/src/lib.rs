@@ -15,7 +15,6 @@ mod active;
 pub mod contact;
 pub mod effect;
 mod error;
-mod lanes;
 pub mod paper;
 pub mod plant;
 pub mod presence;
@@ -30,10 +29,10 @@ pub mod effects {
     include!(concat!(env!("OUT_DIR"), "/effects.rs"));
 }
 
+pub use ::scalar::Lanes;
 pub use active::Active;
 pub use effect::{Card, Effect, Kind, Parameter, Readings, Role, Situation, World};
 pub use error::ModelError;
-pub use lanes::Lanes;
 pub use plant::Plant;
 pub use presence::{Disc, Presence};
 pub use robot::Robot;

@@ -71,7 +71,7 @@ pub struct Robot<T> {
     pub gravity: T,
 }
 
-impl<T: RealField + Copy> Robot<T> {
+impl<T: Scalar + RealField> Robot<T> {
     /// Checks every constant.
     ///
     /// # Errors

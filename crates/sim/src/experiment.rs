@@ -4,6 +4,7 @@ use identifier::{AngleRow, Euler, Exponential, Law, Midpoint, Step};
 use nn_basis::{Basis, Constant};
 use rayon::prelude::*;
 
+use crate::group;
 use crate::identification::follow;
 use crate::network_recipe::SIGNALS;
 use crate::recipe::WIDE;
@@ -133,24 +134,39 @@ impl Experiment {
         comparison: &[[f64; N]; 2],
         watch: impl FnMut(usize, &[Step<f64, N>; 2]),
     ) -> Result<[OutputIndices; 2], SimError> {
-        follow(&self.trajectory, self.recipe.identifier.pole, law, bases, comparison, watch)
+        let tallies = follow(&self.trajectory, self.recipe.identifier.pole, law, bases, comparison, watch)?;
+        Ok(tallies.map(|t| t.close(self.trajectory.torques.len())))
     }
 
-    /// Runs the draws `0..draws` on all cores; `done` is called after each.
+    /// Runs the draws `0..draws` on all cores, several side by side on each; `done` is called after each.
     ///
-    /// The result is in the order of the draws and does not depend on the number of threads.
+    /// The result is in the order of the draws, does not depend on the number of threads and has the bits that
+    /// [`Experiment::identify`] gives each draw alone.
     ///
     /// # Errors
     /// The error of a draw that failed.
     pub fn ensemble(&self, seed: u64, draws: u64, done: impl Fn() + Sync) -> Result<Vec<Draw>, SimError> {
-        (0..draws)
+        let side_by_side = group::WIDTH as u64;
+        let groups: Vec<Vec<Draw>> = (0..draws.div_ceil(side_by_side))
             .into_par_iter()
-            .map(|number| {
-                let draw = self.identify(seed, number);
-                done();
-                draw
+            .map(|g| {
+                let numbers: Vec<u64> = (g * side_by_side..draws.min((g + 1) * side_by_side)).collect();
+                let found = match self.recipe.identifier.network.units {
+                    WIDE => group::identify::<WIDE>(&self.recipe, &self.trajectory, seed, &numbers),
+                    _ => group::identify::<UNITS>(&self.recipe, &self.trajectory, seed, &numbers),
+                };
+                // An estimate that stops being finite stops its own draw only: one by one it is found which.
+                let found = match found {
+                    Err(SimError::NotFinite { .. }) => numbers.iter().map(|n| self.identify(seed, *n)).collect(),
+                    other => other,
+                };
+                for _ in &numbers {
+                    done();
+                }
+                found
             })
-            .collect()
+            .collect::<Result<_, _>>()?;
+        Ok(groups.into_iter().flatten().collect())
     }
 
     /// Runs the identifier without a network: all regressor entries 0.5 at all times.

@@ -1,11 +1,11 @@
 //! Identifiers over a recorded trajectory.
 
-use identifier::{Identifier, Law, Ledger, Step};
-use nn_basis::Basis;
+use identifier::{Identifier, Law, Step};
+use nn_basis::{Basis, Scalar, real};
 
-use crate::experiment::OutputIndices;
-use crate::network_recipe::SIGNALS;
+use crate::network_recipe::{SIGNALS, Signals};
 use crate::random::{Purpose, Stream};
+use crate::tally::Tally;
 use crate::{SimError, Trajectory};
 
 /// Comparison weights are drawn between minus and plus this, rad/s²: the size that weights really take.
@@ -20,101 +20,57 @@ pub fn comparison<const N: usize>(seed: u64, draw: u64) -> [[f64; N]; 2] {
 /// Follows both wheel speeds with the given bases; `watch` sees every step of both outputs.
 ///
 /// The regressor of an interval is taken at its mean speeds and the torques held over it, as the midpoint rule asks.
-/// Each step is certified against `comparison` and against zero weights.
-pub(crate) fn follow<B: Basis<f64, SIGNALS, N>, L: Law<f64, N> + Copy, const N: usize>(
+/// Each step is certified against `comparison` and against zero weights. In lanes, every lane is a draw of its own.
+#[inline(always)]
+pub(crate) fn follow<T: Scalar, B: Basis<T, SIGNALS, N>, L: Law<T, N> + Copy, const N: usize>(
     trajectory: &Trajectory,
     pole: f64,
     law: L,
     bases: &[B; 2],
-    comparison: &[[f64; N]; 2],
-    mut watch: impl FnMut(usize, &[Step<f64, N>; 2]),
-) -> Result<[OutputIndices; 2], SimError> {
-    let h = trajectory.step;
-    let mut identifiers = [Identifier::new(pole, law, 0.0)?, Identifier::new(pole, law, 0.0)?];
-    let mut tallies = [Tally::new(pole), Tally::new(pole)];
+    comparison: &[[T; N]; 2],
+    mut watch: impl FnMut(usize, &[Step<T, N>; 2]),
+) -> Result<[Tally<T>; 2], SimError> {
+    let new = || Ok::<_, SimError>((Identifier::new(real(pole), law, T::zero())?, Tally::new(real(pole))));
+    let mut outputs = [new()?, new()?];
     for k in 0..trajectory.torques.len() {
         let (now, next) = (&trajectory.states[k].speed, &trajectory.states[k + 1].speed);
         let signals = trajectory.signals(k);
-        let steps: [Step<f64, N>; 2] = std::array::from_fn(|i| {
-            let step = identifiers[i].step(now[i], next[i], &bases[i].regressor(&signals[i]), h);
-            tallies[i].chosen.add(&identifiers[i].certificate(&step, &comparison[i]));
-            tallies[i].zero.add(&identifiers[i].certificate(&step, &[0.0; N]));
-            step
-        });
+        let [left, right] = &mut outputs;
+        let h = trajectory.step;
+        let steps = [
+            advance(left, [now[0], next[0]], &signals[0], h, &bases[0], &comparison[0]),
+            advance(right, [now[1], next[1]], &signals[1], h, &bases[1], &comparison[1]),
+        ];
         let time = (k + 1) as f64 * h;
         for (i, step) in steps.iter().enumerate() {
             if !step.error_after.is_finite() {
                 return Err(SimError::NotFinite { quantity: ["estimate of x3", "estimate of x4"][i], time });
             }
-            tallies[i].add(trajectory, time, step);
+            outputs[i].1.add(trajectory, time, step);
         }
         watch(k, &steps);
     }
-    Ok(tallies.map(|t| t.close(trajectory.torques.len())))
+    Ok(outputs.map(|(_, tally)| tally))
 }
 
-/// Running sums of one output.
-struct Tally {
-    chosen: Ledger<f64>,
-    zero: Ledger<f64>,
-    max: f64,
-    squares: f64,
-    phi2: f64,
-    peak: [f64; 5],
-    peak_at: [f64; 5],
-    window: [f64; 5],
-    quiet: f64,
-    quiet_count: usize,
-}
-
-impl Tally {
-    fn new(pole: f64) -> Self {
-        Self {
-            chosen: Ledger::new(pole),
-            zero: Ledger::new(pole),
-            max: 0.0,
-            squares: 0.0,
-            phi2: 0.0,
-            peak: [0.0; 5],
-            peak_at: [0.0; 5],
-            window: [0.0; 5],
-            quiet: 0.0,
-            quiet_count: 0,
-        }
+/// One certified step of one output, whose speed goes from one value to the next, rad/s.
+#[inline(always)]
+fn advance<T: Scalar, B: Basis<T, SIGNALS, N>, L: Law<T, N>, const N: usize>(
+    (identifier, tally): &mut (Identifier<T, N, L>, Tally<T>),
+    [from, to]: [f64; 2],
+    signals: &Signals,
+    h: f64,
+    basis: &B,
+    comparison: &[T; N],
+) -> Step<T, N> {
+    let mut seen = [T::zero(); SIGNALS];
+    for (seen, signal) in seen.iter_mut().zip(signals) {
+        *seen = real(*signal);
     }
-
-    fn add<const N: usize>(&mut self, trajectory: &Trajectory, time: f64, step: &Step<f64, N>) {
-        let error = step.error_after.abs();
-        self.max = self.max.max(error);
-        self.squares += error * error;
-        self.phi2 += step.sample.regressor.iter().map(|p| p * p).sum::<f64>();
-        let windows = &trajectory.windows;
-        if let Some(i) = windows.end.iter().position(|end| time <= *end) {
-            self.window[i] += error * error;
-            if time > windows.quiet[i] {
-                self.quiet += error * error;
-                self.quiet_count += 1;
-            } else if error > self.peak[i] {
-                self.peak[i] = error;
-                self.peak_at[i] = time;
-            }
-        }
-    }
-
-    fn close(self, samples: usize) -> OutputIndices {
-        let n = samples as f64;
-        OutputIndices {
-            max: self.max,
-            rmse: (self.squares / n).sqrt(),
-            peak: self.peak,
-            peak_at: self.peak_at,
-            share: self.window.map(|w| w / self.squares),
-            quiet_rms: (self.quiet / self.quiet_count.max(1) as f64).sqrt(),
-            mean_regressor_square: self.phi2 / n,
-            identity_residual: self.chosen.worst_residual().max(self.zero.worst_residual()),
-            mean_square_bound_holds: self.chosen.holds() && self.zero.holds(),
-        }
-    }
+    let step = identifier.step(real(from), real(to), &basis.regressor(&seen), real(h));
+    tally.chosen.add(&identifier.certificate(&step, comparison));
+    tally.zero.add(&identifier.certificate(&step, &[T::zero(); N]));
+    step
 }
 
 #[cfg(test)]

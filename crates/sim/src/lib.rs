@@ -24,6 +24,7 @@
 
 mod error;
 mod experiment;
+mod group;
 mod identification;
 pub mod learning;
 mod network_recipe;
@@ -32,6 +33,7 @@ mod recipe;
 mod rk4;
 pub mod statistics;
 pub mod table1;
+mod tally;
 mod trajectory;
 
 pub use error::SimError;
@@ -40,7 +42,8 @@ pub use identification::comparison;
 pub use network_recipe::{Input, NetworkRecipe, SIGNALS, Scaling, Signals};
 pub use random::{Purpose, Stream};
 pub use recipe::{
-    ControllerRecipe, IdentifierRecipe, PathRecipe, Recipe, RobotSet, Scenario, Scenarios, Scheme, SpeedProfile, UNITS,
+    ControllerRecipe, IdentifierRecipe, Integrator, PathRecipe, Recipe, RobotSet, Scenario, Scenarios, Scheme,
+    SpeedProfile, UNITS,
 };
 pub use rk4::rk4;
 pub use trajectory::{EVENTS, Trajectory, Windows};

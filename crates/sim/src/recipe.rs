@@ -132,6 +132,17 @@ pub struct ControllerRecipe {
     pub seed: u64,
 }
 
+/// The scheme by which the plant advances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// [`robot_model::paper::PaperRobot::step_rk4`]: fourth order, explicit.
+    #[default]
+    Rk4,
+    /// [`robot_model::paper::PaperRobot::step_implicit`]: second order, for steps longer than the slip takes to decay.
+    Implicit,
+}
+
 /// The scheme by which the identifier advances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -171,8 +182,11 @@ pub struct Recipe {
     pub step: f64,
     /// Number of samples n.
     pub samples: usize,
-    /// Runge-Kutta steps per sample.
+    /// Steps of the plant per sample.
     pub substeps: usize,
+    /// How the plant advances.
+    #[serde(default)]
+    pub integrator: Integrator,
     /// Time at which the rolling resistance rises, s.
     pub disturbance_at: f64,
     /// How much it rises, Δf_r.
@@ -199,6 +213,7 @@ impl Default for Recipe {
             step: 1e-3,
             samples: 32_000,
             substeps: 20,
+            integrator: Integrator::Rk4,
             disturbance_at: 12.0,
             disturbance: 0.3,
             plant: Variant::default(),

@@ -7,7 +7,8 @@ use robot_model::paper::{PaperRobot, Parameters, State};
 use crate::network_recipe::Signals;
 use crate::random::{Purpose, Stream};
 use crate::recipe::CONTROLLER_UNITS;
-use crate::{Recipe, RobotSet, SimError, rk4};
+use crate::recipe::Integrator;
+use crate::{Recipe, RobotSet, SimError};
 
 /// The five disturbances of the paper's Fig. 6d, in order.
 pub const EVENTS: [&str; 5] = ["start", "loop entry", "rolling resistance", "loop exit", "braking"];
@@ -96,16 +97,15 @@ impl Trajectory {
                 WheelState { x: state.x, y: state.y, yaw: state.yaw, angle: state.angle, speed: state.speed };
             let action = controller.step(&measured, recipe.step);
             let torque = action.torque;
-            let mut numbers = state.to_array();
-            for _ in 0..recipe.substeps {
-                numbers = rk4(&numbers, h, |s| robot.rate(&State::from_array(*s), torque).to_array());
+            match recipe.integrator {
+                Integrator::Rk4 => robot.steps_rk4(&mut state, torque, h, recipe.substeps),
+                Integrator::Implicit => (0..recipe.substeps).for_each(|_| robot.step_implicit(&mut state, torque, h)),
             }
             let time = (k + 1) as f64 * recipe.step;
-            if let Some(i) = numbers.iter().position(|v| !v.is_finite()) {
+            if let Some(i) = state.to_array().iter().position(|v| !v.is_finite()) {
                 return Err(SimError::NotFinite { quantity: State::<f64>::NAMES[i], time });
             }
-            state = State::from_array(numbers);
-            let load = robot.evaluate(&state, torque).1.load;
+            let load = robot.loads(&state);
             if let Some(wheel) = load.iter().position(|n| *n <= 0.0) {
                 return Err(SimError::Lifted { wheel: wheel + 1, time });
             }

@@ -14,7 +14,7 @@ use identifier::{
 };
 use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
 use robot_model::paper::{self, PaperRobot, Parameters};
-use robot_model::{Active, Plant, Presence, Robot, State, effects};
+use robot_model::{Active, Lanes, Plant, Presence, Robot, Scalar, State, effects};
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
@@ -23,7 +23,7 @@ fn panic(_: &PanicInfo) -> ! {
 
 /// Kept by the linker, so that nothing below is thrown away.
 #[used]
-static KEPT: [extern "C" fn(f32) -> f32; 7] = [plant, paper_plant, identify, every_law, remember, coupled, control];
+static KEPT: [extern "C" fn(f32) -> f32; 8] = [plant, paper_plant, side_by_side, identify, every_law, remember, coupled, control];
 
 /// One step of the plant with every effect of the catalogue at its neutral value.
 extern "C" fn plant(torque: f32) -> f32 {
@@ -38,10 +38,23 @@ extern "C" fn plant(torque: f32) -> f32 {
     readings.velocity[0] + readings.torque[0]
 }
 
-/// The rate of the paper's robot.
+/// The rate of the paper's robot, and a step by each scheme.
 extern "C" fn paper_plant(torque: f32) -> f32 {
     let Ok(robot) = PaperRobot::<f32>::new(&Parameters::SET_B) else { return f32::NAN };
-    robot.rate(&paper::State::default(), [torque; 2]).speed[0]
+    let mut state = paper::State::default();
+    robot.step_rk4(&mut state, [torque; 2], 1e-4);
+    robot.step_implicit(&mut state, [torque; 2], 1e-3);
+    robot.rate(&state, [torque; 2]).speed[0]
+}
+
+/// Two robots in double precision side by side.
+extern "C" fn side_by_side(torque: f32) -> f32 {
+    let Ok(robot) = PaperRobot::<Lanes<2>>::new(&Parameters::SET_B) else { return f32::NAN };
+    let mut state = paper::State::default();
+    let torque = Lanes([f64::from(torque), 1.0]);
+    robot.step_rk4(&mut state, [torque; 2], Lanes([1e-4; 2]));
+    robot.step_implicit(&mut state, [torque; 2], Lanes([1e-3; 2]));
+    state.x.exp_m1().exp().logistic().0[1] as f32
 }
 
 /// One step of the identifier on a sigmoid basis, with its certificate.

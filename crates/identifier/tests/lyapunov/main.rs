@@ -19,7 +19,7 @@ type Weights = [f64; UNITS];
 type Interval = (Weights, f64);
 
 fn real<T: Scalar>(x: f64) -> T {
-    nalgebra::convert(x)
+    T::real(x)
 }
 
 fn cast<T: Scalar>(v: &Weights) -> [T; UNITS] {

@@ -1,5 +1,6 @@
 //! The plane body that Eq. 8 leaves open: slip, loads, forces, motion.
 
+use super::rates::Rates;
 use super::{Belt, Constants, Parameters, Tyre, Variant};
 use crate::ModelError;
 use crate::contact::{Balance, Stance, kiencke};
@@ -38,14 +39,14 @@ impl<T: Scalar> State<T> {
         ["x", "y", "yaw", "vx", "vy", "yaw rate", "wheel angle 3", "wheel angle 4", "wheel speed 3", "wheel speed 4"];
 
     /// The state as numbers, in the order of [`State::NAMES`].
-    #[inline]
+    #[inline(always)]
     pub fn to_array(&self) -> [T; 10] {
         let ([a3, a4], [s3, s4]) = (self.angle, self.speed);
         [self.x, self.y, self.yaw, self.vx, self.vy, self.yaw_rate, a3, a4, s3, s4]
     }
 
     /// The state from numbers in the order of [`State::NAMES`].
-    #[inline]
+    #[inline(always)]
     pub fn from_array(v: [T; 10]) -> Self {
         let [x, y, yaw, vx, vy, yaw_rate, a3, a4, s3, s4] = v;
         Self { x, y, yaw, vx, vy, yaw_rate, angle: [a3, a4], speed: [s3, s4] }
@@ -74,7 +75,7 @@ pub struct Outputs<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperRobot<T> {
     parameters: Parameters,
-    variant: Variant,
+    pub(super) variant: Variant,
     constants: Constants<T>,
     stance: Stance<T>,
     mass: T,
@@ -83,6 +84,7 @@ pub struct PaperRobot<T> {
     adhesion: T,
     rolling_resistance: T,
     floor2: T,
+    pub(super) rates: Rates<T>,
 }
 
 impl<T: Scalar> PaperRobot<T> {
@@ -102,17 +104,20 @@ impl<T: Scalar> PaperRobot<T> {
         parameters.check()?;
         let p = parameters;
         let com_x = 0.5 * p.wheelbase - p.com_to_front_axle;
+        let constants = Constants::new(p);
+        let stance = Stance::new(
+            real(p.mass),
+            real(p.gravity),
+            real(0.5 * p.wheelbase),
+            real(0.5 * p.track),
+            [real(com_x), T::zero(), real(p.com_height)],
+        );
         Ok(Self {
             parameters: *p,
             variant,
-            constants: Constants::new(p),
-            stance: Stance::new(
-                real(p.mass),
-                real(p.gravity),
-                real(0.5 * p.wheelbase),
-                real(0.5 * p.track),
-                [real(com_x), T::zero(), real(p.com_height)],
-            ),
+            rates: Rates::new(p, &constants, &stance),
+            constants,
+            stance,
             mass: real(p.mass),
             yaw_inertia: real(p.yaw_inertia),
             radius: real(p.wheel_radius),
@@ -152,7 +157,7 @@ impl<T: Scalar> PaperRobot<T> {
     /// With the velocity of the wheel's centre `v_i = (v_x − ω y_i, v_y + ω x_i)`:
     /// `λ_ix = (r θ̇_i − v_ix)/d_i`, `λ_iy = −v_iy/d_i`, `d_i = √(max(|r θ̇_i|, |v_i|)² + v_0²)`.
     /// Below v_0 the slip fades to zero instead of becoming 0/0.
-    #[inline]
+    #[inline(always)]
     pub fn slip(&self, state: &State<T>) -> [[T; 2]; 4] {
         core::array::from_fn(|i| {
             let [px, py] = self.stance.wheel[i];
@@ -164,7 +169,7 @@ impl<T: Scalar> PaperRobot<T> {
     }
 
     /// The share K of the peak adhesion in both directions.
-    #[inline]
+    #[inline(always)]
     fn share(&self, slip: [T; 2]) -> [T; 2] {
         let peak = self.constants.slip_at_peak;
         match self.variant.tyre {
@@ -178,7 +183,7 @@ impl<T: Scalar> PaperRobot<T> {
     }
 
     /// What the torques of the two sides must overcome besides inertia, N m.
-    #[inline]
+    #[inline(always)]
     fn resisting_torque(
         &self,
         speed: [T; 2],
@@ -199,15 +204,26 @@ impl<T: Scalar> PaperRobot<T> {
         }
     }
 
-    /// Rate of the state and what was computed on the way.
+    #[inline(always)]
+    fn balance(&self, share: &[[T; 2]; 4]) -> Balance<T> {
+        self.stance.settle(&share.map(|s| s.map(|s| self.adhesion * s)))
+    }
+
+    /// Load of each wheel, N: [`Outputs::load`] alone. It does not depend on the torques.
+    #[inline(always)]
+    pub fn loads(&self, state: &State<T>) -> [T; 4] {
+        self.balance(&self.slip(state).map(|s| self.share(s))).load
+    }
+
+    /// Rate of the state and what was computed on the way; [`PaperRobot::accelerations`] is the same arranged for speed.
     ///
     /// `torque`: τ3 (left), τ4 (right) of the sides at the wheels, N m.
     /// Neither fails nor panics; a state that is not finite gives a rate that is not finite.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate(&self, state: &State<T>, torque: [T; 2]) -> (State<T>, Outputs<T>) {
         let slip = self.slip(state);
         let share = slip.map(|s| self.share(s));
-        let balance = self.stance.settle(&share.map(|s| s.map(|s| self.adhesion * s)));
+        let balance = self.balance(&share);
         let acceleration = balance.total.map(|f| f / self.mass);
         let [ax, ay] = acceleration;
         let resisting = self.resisting_torque(state.speed, &share, &balance, acceleration);
@@ -226,7 +242,7 @@ impl<T: Scalar> PaperRobot<T> {
     }
 
     /// Rate of the state under the torques τ3, τ4 in N m.
-    #[inline]
+    #[inline(always)]
     pub fn rate(&self, state: &State<T>, torque: [T; 2]) -> State<T> {
         self.evaluate(state, torque).0
     }

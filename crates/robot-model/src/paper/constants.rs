@@ -67,13 +67,13 @@ impl<T: Scalar> Constants<T> {
     /// − for the left side (wheel 3), + for the right (wheel 4), and sgn → tanh(θ̇ / width).
     ///
     /// `speed`: θ̇3, θ̇4 in rad/s; `slip`: λ3, λ4; `acceleration`: a_Rx, a_Ry in body axes, m/s².
-    #[inline]
+    #[inline(always)]
     pub fn resisting_torque(&self, speed: [T; 2], slip: [T; 2], acceleration: [T; 2]) -> [T; 2] {
         self.resisting_torque_at(speed, slip.map(|s| kiencke(s, self.slip_at_peak)), acceleration)
     }
 
     /// The vector C for shares K of the peak adhesion that any tyre law may have given.
-    #[inline]
+    #[inline(always)]
     pub(super) fn resisting_torque_at(&self, speed: [T; 2], share: [T; 2], acceleration: [T; 2]) -> [T; 2] {
         let two = real::<T>(2.0);
         let [ax, ay] = acceleration;
@@ -89,20 +89,20 @@ impl<T: Scalar> Constants<T> {
     /// Wheel accelerations by Eq. 8, `θ̈ = (τ − C) / (2 a1)`, rad/s².
     ///
     /// `torque`: τ3, τ4 in N m; the rest as in [`Constants::resisting_torque`].
-    #[inline]
+    #[inline(always)]
     pub fn wheel_acceleration(&self, torque: [T; 2], speed: [T; 2], slip: [T; 2], acceleration: [T; 2]) -> [T; 2] {
         self.accelerated(torque, self.resisting_torque(speed, slip, acceleration))
     }
 
     /// `θ̈ = (τ − C) / (2 a1)`, rad/s².
-    #[inline]
+    #[inline(always)]
     pub(super) fn accelerated(&self, torque: [T; 2], c: [T; 2]) -> [T; 2] {
         let inertia = real::<T>(2.0) * self.a1;
         [(torque[0] - c[0]) / inertia, (torque[1] - c[1]) / inertia]
     }
 
     /// The smooth sign of a wheel speed, `tanh(θ̇ / width)`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn sign(&self, speed: T) -> T {
         (speed / self.sign_width).tanh()
     }

@@ -5,7 +5,8 @@
 //!
 //! * [`Parameters`]: what a robot is made of, sets A, B and C, and the checks;
 //! * [`Constants`]: the paper's a1..a8 and Eq. 8 taken literally;
-//! * [`PaperRobot`]: the closed plant, [`State`] and torques in, rate and [`Outputs`] out;
+//! * [`PaperRobot`]: the closed plant, [`State`] and torques in, rate and [`Outputs`] out, and steps in time: explicit
+//!   ([`PaperRobot::step_rk4`]) and linearly implicit ([`PaperRobot::step_implicit`]);
 //! * [`Structured`] and [`terms`]: Eq. 8 as a regressor whose weights are the constants;
 //! * [`Variant`]: two flagged departures, the sum over the belt and combined slip.
 //!
@@ -24,7 +25,10 @@
 
 mod body;
 mod constants;
+mod implicit;
 mod parameters;
+mod rates;
+mod step;
 mod structured;
 #[cfg(test)]
 mod tests;

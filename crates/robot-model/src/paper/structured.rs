@@ -25,7 +25,7 @@ pub struct SideSignals<T> {
 ///
 /// `w = (τ₀/(2 a1), −a3/a1, −a4/a1, −a5/a1, −(a2 + a6)/a1, −a7/a1, −a8/a1)`; see [`Structured::weights`]. λp and the width of the sign
 /// are taken as known. `torque_scale`: τ₀ in N m, to keep the terms of the order of one; accelerations count in m/s².
-#[inline]
+#[inline(always)]
 pub fn terms<T: Scalar>(side: usize, s: &SideSignals<T>, constants: &Constants<T>, torque_scale: T) -> [T; TERMS] {
     let share = kiencke(s.slip, constants.slip_at_peak);
     let sign = constants.sign(s.speed);
@@ -39,7 +39,7 @@ pub fn terms<T: Scalar>(side: usize, s: &SideSignals<T>, constants: &Constants<T
 ///
 /// Least squares on this form finds the constants where `θ̈ = wᵀψ` fails: torque and traction nearly cancel there, so that a
 /// little noise of the slip outweighs the inertia.
-#[inline]
+#[inline(always)]
 pub fn balance<T: Scalar>(terms: &[T; TERMS], acceleration: T) -> [T; TERMS] {
     let two = real::<T>(2.0);
     let mut chi = terms.map(|t| two * t);

@@ -182,7 +182,7 @@ impl Bound {
         let worst = ledger.worst_residual();
         // A residual that is not a number is kept, not lost.
         self.residual = if worst.is_nan() { worst } else { self.residual.max(worst) };
-        self.rises += u64::from(ledger.rises());
+        self.rises += ledger.rises() as u64;
     }
 }
 

@@ -3,10 +3,11 @@
 use core::array::from_fn;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::scalar::Scalar;
+use crate::Scalar;
+use crate::elementary::{self, Double, LARGEST_ANGLE};
 
 /// `N` numbers side by side: every operation acts on each by itself, in the same order as on one number alone, so that
-/// a lane has the same bits as a plant of its own would give.
+/// a lane has the same bits as the number alone would have.
 ///
 /// Plain arrays, which the compiler turns into vector instructions where the caller's target has them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,16 +72,25 @@ impl<const N: usize> Scalar for Lanes<N> {
     }
     #[inline(always)]
     fn exp(self) -> Self {
-        self.map(Scalar::exp)
+        elementary::exp(self)
+    }
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        elementary::exp_m1(self)
     }
     #[inline(always)]
     fn tanh(self) -> Self {
-        self.map(Scalar::tanh)
+        elementary::tanh(self)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let both: [(f64, f64); N] = from_fn(|i| Scalar::sin_cos(self.0[i]));
-        (Self(both.map(|b| b.0)), Self(both.map(|b| b.1)))
+        let (mut sin, mut cos) = elementary::sin_cos(self);
+        if !self.abs().is_at_most(Self::real(LARGEST_ANGLE)) {
+            for i in 0..N {
+                (sin.0[i], cos.0[i]) = Scalar::sin_cos(self.0[i]);
+            }
+        }
+        (sin, cos)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -101,6 +111,48 @@ impl<const N: usize> Scalar for Lanes<N> {
         Self(from_fn(
             #[inline(always)]
             |i| if self.0[i] < than.0[i] { then.0[i] } else { otherwise.0[i] },
+        ))
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        // Counted: a short cut would be a branch per lane.
+        self.0.iter().filter(|x| x.is_finite()).count() == N
+    }
+    #[inline(always)]
+    fn is_less(self, than: Self) -> bool {
+        self.0.iter().zip(&than.0).filter(|(x, t)| x < t).count() == N
+    }
+    #[inline(always)]
+    fn is_at_most(self, bound: Self) -> bool {
+        self.0.iter().zip(&bound.0).filter(|(x, b)| x <= b).count() == N
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+    #[inline(always)]
+    fn logistic(self) -> Self {
+        elementary::logistic(self)
+    }
+    #[inline(always)]
+    fn tanh_of_both(both: [Self; 2]) -> [Self; 2] {
+        elementary::tanh_of_both(both)
+    }
+}
+
+impl<const N: usize> Double for Lanes<N> {
+    #[inline(always)]
+    fn bits(self, f: impl Fn(u64) -> u64) -> Self {
+        self.map(
+            #[inline(always)]
+            |x| f64::from_bits(f(x.to_bits())),
+        )
+    }
+    #[inline(always)]
+    fn bits_with(self, other: Self, f: impl Fn(u64, u64) -> u64) -> Self {
+        Self(from_fn(
+            #[inline(always)]
+            |i| f64::from_bits(f(self.0[i].to_bits(), other.0[i].to_bits())),
         ))
     }
 }
