@@ -54,6 +54,19 @@ fn names_from_files_stay_text() {
 }
 
 #[test]
+fn the_page_of_a_fleet_keeps_names_as_text_and_draws_sizes_with_intervals() {
+    let Some(chrome) = Chrome::find() else { return };
+    let shown = chrome.open("fleet", &pages::fleet(), SCREEN, false);
+    assert_eq!(shown.json("document.querySelectorAll('img, script[src], iframe').length"), 0);
+    assert_eq!(shown.json("window.harm === undefined"), true);
+    let lines = "plots.filter(p => specOf(p).kind === 'lines')";
+    assert_eq!(shown.json(&format!("{lines}.length")), 2, "one chart for each robot with sizes");
+    let sized = "(l => l[0].intervals.length === l[0].y.length && l.length === 2)(specOf(p).lines)";
+    assert_eq!(shown.json(&format!("{lines}.every(p => {sized})")), true, "sizes with intervals, and a line");
+    assert_eq!(shown.complaints(), Vec::<String>::new());
+}
+
+#[test]
 fn the_cursor_shows_all_signals_in_all_plots_of_a_recording() {
     let Some(chrome) = Chrome::find() else { return };
     let shown = chrome.open("cursor", &pages::long(), SCREEN, false);

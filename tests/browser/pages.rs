@@ -12,6 +12,7 @@ use lacuna::envelope::Envelope;
 use lacuna::report_page;
 use recordings::ReadOptions;
 use report::diagnosis_page::{Provenance, render};
+use report::fleet::{Named, Seen, Told};
 use report::page::Page;
 use report::reproduction::{Signals, figures};
 
@@ -29,6 +30,7 @@ pub(crate) fn all() -> Vec<(String, String)> {
         ("command".to_owned(), command()),
         ("hour".to_owned(), long()),
         ("reproduction".to_owned(), reproduction()),
+        ("fleet".to_owned(), fleet()),
     ];
     out.extend(speed().map(|page| ("speed".to_owned(), page)));
     out
@@ -171,6 +173,31 @@ fn advice() -> Advice {
         torque_free: Vec::new(),
     };
     Advice { entropy_bits: 1.0, manoeuvres: vec![drive], ..Advice::default() }
+}
+
+/// A fleet of which one robot wears, with names that would like to be markup.
+pub(crate) fn fleet() -> String {
+    let sized = |magnitude: f64| Named {
+        effect: "coulomb_side".to_owned(),
+        name: format!("dragging brake {HOSTILE}"),
+        side: Some("left".to_owned()),
+        probability: 0.97,
+        magnitude: Some(magnitude),
+        interval: Some([magnitude - 0.1, magnitude + 0.1]),
+        unit: "N m".to_owned(),
+    };
+    let seen = (0..60_i32).map(|number| Seen {
+        id: format!("run_{number} {HOSTILE}"),
+        robot: format!("unit-{} {HOSTILE}", number % 3),
+        date: Some(1_767_225_600_000 + 86_400_000 * i64::from(number)),
+        told: match number % 3 {
+            0 if number > 20 => Told::Explained(vec![sized(1.0 + 0.02 * f64::from(number))]),
+            1 if number > 3 => Told::Explained(vec![sized(0.7)]),
+            2 if number < 9 => Told::Failed(HOSTILE.to_owned()),
+            _ => Told::NoMismatch,
+        },
+    });
+    report::fleet::render(&seen.collect::<Vec<_>>(), HOSTILE)
 }
 
 /// The figures of the page of the reproduction.

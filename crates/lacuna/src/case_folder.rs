@@ -133,7 +133,7 @@ impl CaseFolder {
     }
 
     /// Refuses a file whose bytes are those of another: it cannot be both right and wrong, and counts once.
-    fn refuse_twins(&self) -> Result<()> {
+    pub(crate) fn refuse_twins(&self) -> Result<()> {
         let mut seen: HashMap<&str, (&str, &str)> = HashMap::new();
         for (role, loaded) in self.parts() {
             for source in &loaded.sources {
@@ -293,7 +293,7 @@ pub fn file_names(read: &Read) -> String {
 }
 
 /// The robot file of a case folder.
-fn robot_of(folder: &Path) -> Result<PathBuf> {
+pub(crate) fn robot_of(folder: &Path) -> Result<PathBuf> {
     let found: Vec<PathBuf> =
         ["robot.json", "robot.toml"].iter().map(|f| folder.join(f)).filter(|f| f.exists()).collect();
     match found.as_slice() {

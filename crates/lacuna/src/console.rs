@@ -8,9 +8,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use anyhow::{Context, Result};
 use serde_json::Value;
 
+mod counted;
 mod excerpt;
 mod progress;
 
+pub(crate) use counted::Counted;
 pub(crate) use lacuna::sections::heading;
 pub(crate) use progress::{Progress, Stages};
 

@@ -85,7 +85,7 @@ pub fn robot(name: &str) -> Result<RobotSpec> {
 }
 
 /// Whether a name can only be meant as a file: no built-in name has a slash or ends so.
-fn is_path(name: &str) -> bool {
+pub(crate) fn is_path(name: &str) -> bool {
     let ends = [".toml", ".json"].iter().any(|e| name.ends_with(e));
     ends || name.contains(['/', '\\'])
 }
@@ -100,7 +100,7 @@ struct Files {
 }
 
 /// Endings of files that a mapping reads: `csv` of `imu_*.csv`, both of `*.{mcap,db3}`.
-fn endings(mapping: &Mapping) -> BTreeSet<&str> {
+pub(crate) fn endings(mapping: &Mapping) -> BTreeSet<&str> {
     let ending = |pattern: &'_ str| pattern.rsplit_once('*').map_or(pattern.len(), |(start, _)| start.len() + 1);
     let all = mapping.files.iter().flat_map(|f| f.pattern[ending(&f.pattern)..].split(['{', ',', '}']));
     all.filter_map(|end| end.rsplit('.').next()).filter(|end| !end.is_empty()).collect()
@@ -164,7 +164,7 @@ fn folder(mapping: &Mapping, endings: &BTreeSet<&str>, path: &Path, descend: boo
 }
 
 /// Adds the files of a run that were not named but lie where they should: naming one of a pair is enough.
-fn complete(group: &mut Group, mapping: &Mapping) {
+pub(crate) fn complete(group: &mut Group, mapping: &Mapping) {
     for name in std::mem::take(&mut group.missing) {
         let entry = mapping.files.iter().position(|f| f.run_id(&name).is_some());
         match entry.filter(|_| Path::new(&name).is_file()) {
@@ -263,6 +263,11 @@ impl Plan {
         }
         let names = run_names(&groups);
         Ok(Self { groups, names, unmatched, ignored: files.ignored })
+    }
+
+    /// Names of the runs.
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// How many runs there are.

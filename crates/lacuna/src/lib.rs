@@ -5,6 +5,7 @@
 //! ```
 
 pub mod answers;
+pub mod batch;
 pub mod cards;
 pub mod case_folder;
 pub mod check;

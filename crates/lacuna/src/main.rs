@@ -13,8 +13,8 @@ mod commands;
 mod console;
 
 use commands::{
-    Outcome, Usage, check, completions, convert, diagnose, effects, explain, export, identify, man, next, predict,
-    report, screen, simulate,
+    Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, man, merge, next,
+    predict, report, screen, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -23,6 +23,7 @@ Examples:
   lacuna diagnose case/            robot.toml, reference/ and recordings/
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
+  lacuna batch cases/ -o fleet/    every recording of a fleet, by itself
   lacuna next case/                which drive tells rivals apart
   lacuna export verdict.json --to mjcf
   lacuna explain payload           one effect in full
@@ -60,6 +61,10 @@ enum Command {
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
     Predict(predict::Args),
+    /// Diagnose every recording of a fleet, each by itself.
+    Batch(batch::Args),
+    /// Join what `batch` wrote, and make a page of the fleet.
+    Merge(merge::Args),
     /// Make a page of what `diagnose --json` wrote.
     Report(report::Args),
     /// Say which drive would tell the remaining causes apart best.
@@ -88,6 +93,8 @@ fn main() -> ExitCode {
 fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome = match &cli.command {
+        Command::Batch(args) => batch::run(args, cli.verbose),
+        Command::Merge(args) => merge::run(args),
         Command::Check(args) => check::run(args, cli.verbose),
         Command::Convert(args) => convert::run(args),
         Command::Screen(args) => screen::run(args, cli.verbose),

@@ -4,6 +4,7 @@ pub mod chart;
 pub mod diagnosis_page;
 mod drawing;
 pub mod figure;
+pub mod fleet;
 pub mod manoeuvre;
 pub mod page;
 pub mod picture;

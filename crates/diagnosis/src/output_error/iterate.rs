@@ -63,18 +63,14 @@ impl OutputError<'_> {
             let moved: Vec<f64> = delta.iter().zip(&step).map(|(d, s)| d + s).collect();
             let next = self.linearised(&moved).ok();
             jacobians += 1;
-            match next.filter(|next| next.cost < at.cost) {
-                Some(next) => {
-                    let still = step.iter().zip(&self.constants).all(|(s, c)| s.abs() < LEAST_MOVE * c.scale());
-                    converged = still || at.cost - next.cost < LEAST_FALL * at.cost;
-                    damping = (damping / DAMPING_FACTOR).max(LEAST_DAMPING);
-                    (delta, at) = (moved, next);
-                }
-                None => {
-                    // At the minimum rounding decides which way is down.
-                    converged = step.iter().zip(&self.constants).all(|(s, c)| s.abs() < LEAST_MOVE * c.scale());
-                    damping *= DAMPING_FACTOR;
-                }
+            // At the minimum rounding decides which way is down.
+            converged = step.iter().zip(&self.constants).all(|(s, c)| s.abs() < LEAST_MOVE * c.scale());
+            if let Some(next) = next.filter(|next| next.cost < at.cost) {
+                converged |= at.cost - next.cost < LEAST_FALL * at.cost;
+                damping = (damping / DAMPING_FACTOR).max(LEAST_DAMPING);
+                (delta, at) = (moved, next);
+            } else {
+                damping *= DAMPING_FACTOR;
             }
         }
         let sigma = self.determined(&at)?;

@@ -94,7 +94,7 @@ pub(crate) struct Input {
 }
 
 /// A number of minutes.
-fn minutes(text: &str) -> Result<f64, String> {
+pub(crate) fn minutes(text: &str) -> Result<f64, String> {
     let minutes = text.parse::<f64>().ok().filter(|m| m.is_finite() && (*m == 0.0 || *m >= 3.0));
     minutes.ok_or_else(|| "give 3 minutes or more, or 0 for everything".to_owned())
 }

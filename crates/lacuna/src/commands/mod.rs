@@ -11,6 +11,7 @@ pub(crate) use lacuna::sections::listed;
 use lacuna::{inputs, which_mapping};
 use recordings::{Mapping, Policy, Read, ReadOptions, Source};
 
+pub(crate) mod batch;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod convert;
@@ -18,8 +19,10 @@ pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;
 pub(crate) mod export;
+mod fleet;
 pub(crate) mod identify;
 pub(crate) mod man;
+pub(crate) mod merge;
 pub(crate) mod next;
 pub(crate) mod predict;
 pub(crate) mod report;

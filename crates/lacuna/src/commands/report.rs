@@ -40,7 +40,11 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 
 /// Writes the page of a diagnosis to a file, or to standard output for `-`.
 pub(crate) fn write(target: &str, envelope: &Envelope) -> Result<()> {
-    let page = page(envelope);
+    write_page(target, &page(envelope))
+}
+
+/// Writes a page to a file, or to standard output for `-`.
+pub(crate) fn write_page(target: &str, page: &str) -> Result<()> {
     if target == "-" {
         // Byte for byte: what strips colours from text would take parts of the scripts for colours.
         return std::io::stdout().write_all(page.as_bytes()).context("cannot write to standard output");

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// How often the spinner turns.
-const TICK: Duration = Duration::from_millis(100);
+pub(super) const TICK: Duration = Duration::from_millis(100);
 
 /// Where a stage of long work begins, as a share of the whole work of its kind.
 pub(crate) type Stages = &'static [(&'static str, f64)];
@@ -78,7 +78,7 @@ impl Drop for Progress {
 }
 
 /// A style that the program itself wrote; the usual one, if it were wrong.
-fn style(template: &str) -> ProgressStyle {
+pub(super) fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 

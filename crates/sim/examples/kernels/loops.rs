@@ -15,7 +15,7 @@ use crate::clock::{Clock, median};
 use crate::fixture::{self, LANES, Scheme, TORQUES, advance, layer, robot, torques, tracking};
 
 type Wide = Lanes<LANES>;
-type Figure = Option<(f64, &'static str)>;
+type Figure = (f64, &'static str);
 
 /// Times `run`, which makes so many steps of so many robots.
 fn timed(length: Length, steps: usize, loops: usize, robots: usize, mut run: impl FnMut(usize)) -> Figure {
@@ -25,7 +25,7 @@ fn timed(length: Length, steps: usize, loops: usize, robots: usize, mut run: imp
         run(steps);
         clock.seconds() / (steps * robots) as f64 * 1e9
     };
-    Some((median((0..loops).map(one).collect()), "ns/step"))
+    (median((0..loops).map(one).collect()), "ns/step")
 }
 
 /// A loop that is compiled for every vector unit that the machine may have.
@@ -189,7 +189,7 @@ pub(crate) fn controller_lanes(length: Length) -> Figure {
 }
 
 /// Path, controller, plant and identifier, one after the other in each step.
-pub(crate) fn seedloop(length: Length, substeps: usize) -> Figure {
+pub(crate) fn seedloop(length: Length, substeps: usize) -> Option<Figure> {
     if substeps == 0 {
         return None;
     }
@@ -225,7 +225,7 @@ fn seed(steps: usize, substeps: usize) -> [f64; 4] {
 }
 
 /// The reproduction's draws over one trajectory.
-pub(crate) fn ensemble(length: Length, draws: u64) -> Figure {
+pub(crate) fn ensemble(length: Length, draws: u64) -> Option<Figure> {
     let draws = length.steps.map_or(draws, |n| n as u64);
     let experiment = Experiment::new(&Recipe::default(), RobotSet::B).ok()?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;

@@ -58,14 +58,14 @@ fn main() -> ExitCode {
     }
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let found = match words[..] {
-        ["ident", "scalar"] => loops::ident_scalar(length),
-        ["ident", "lanes"] => loops::ident_lanes(length),
-        ["plant", "scalar"] => loops::plant_scalar(length, fixture::Scheme::Explicit),
-        ["plant", "lanes"] => loops::plant_lanes(length, fixture::Scheme::Explicit),
-        ["implicit", "scalar"] => loops::plant_scalar(length, fixture::Scheme::Implicit),
-        ["implicit", "lanes"] => loops::plant_lanes(length, fixture::Scheme::Implicit),
-        ["controller", "scalar"] => loops::controller_scalar(length),
-        ["controller", "lanes"] => loops::controller_lanes(length),
+        ["ident", "scalar"] => Some(loops::ident_scalar(length)),
+        ["ident", "lanes"] => Some(loops::ident_lanes(length)),
+        ["plant", "scalar"] => Some(loops::plant_scalar(length, fixture::Scheme::Explicit)),
+        ["plant", "lanes"] => Some(loops::plant_lanes(length, fixture::Scheme::Explicit)),
+        ["implicit", "scalar"] => Some(loops::plant_scalar(length, fixture::Scheme::Implicit)),
+        ["implicit", "lanes"] => Some(loops::plant_lanes(length, fixture::Scheme::Implicit)),
+        ["controller", "scalar"] => Some(loops::controller_scalar(length)),
+        ["controller", "lanes"] => Some(loops::controller_lanes(length)),
         ["seedloop", substeps] => substeps.parse().ok().and_then(|n| loops::seedloop(length, n)),
         ["ensemble", draws] => draws.parse().ok().and_then(|n| loops::ensemble(length, n)),
         _ => None,
