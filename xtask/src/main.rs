@@ -13,6 +13,7 @@ mod compare;
 mod document;
 mod evidence;
 mod examples;
+mod growth;
 mod instructions;
 mod learn;
 mod mujoco;
@@ -49,6 +50,8 @@ enum Command {
     Bag(bag::Args),
     /// Measure our kernels beside C, SciPy, numba, PySINDy and MuJoCo.
     Compare(compare::Args),
+    /// Measure what `lacuna` costs as recordings become longer and more, and with how many cores.
+    Growth(growth::Args),
     /// Count instructions of the hot kernels and compare them with those on record.
     Instructions(instructions::Args),
 }
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Command::Next(args) => next::run(&args),
         Command::Bag(args) => bag::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Growth(args) => growth::run(&args),
         Command::Instructions(args) => instructions::run(&args),
     };
     match outcome {
