@@ -10,7 +10,7 @@
 //! use diagnosis::output_error::{Constant, OutputError, Recorded};
 //! use robot_model::{Robot, State, paper};
 //!
-//! let robot = Robot::from(&paper::Parameters::<f64>::hendzel_trojnacki_2014());
+//! let robot = Robot::<f64>::from(&paper::Parameters::SET_B);
 //! # let mut observed = Vec::new();
 //! let torque: Vec<[f64; 2]> = (0..400).map(|k| [3.0, 3.0 + (0.02 * f64::from(k)).sin()]).collect();
 //! # let plant = robot_model::Plant::new(&robot, &[], 1e-3);
