@@ -72,18 +72,21 @@ impl Problem<'_> {
         for (s, segment) in self.cuts[r].segments.iter().enumerate() {
             let weight = self.weight(r, s, self.q(r, s, &base[r][s])).sqrt();
             let rows: Vec<usize> = (0..segment.observed.len()).filter(|&i| segment.valid[i]).collect();
-            let a = Mat::from_fn(rows.len(), all, |i, c| {
-                let k = rows[i];
-                let channel = k % CHANNELS;
-                let v = if c < n {
-                    columns[c][r][s][k]
-                } else if c < n + OFFSETS {
-                    if OFFSET_CHANNEL[c - n] == channel { OFFSET_SIGMA[c - n] } else { 0.0 }
-                } else {
-                    segment.observed[k] - base[r][s][k]
-                };
-                v * root[channel] * weight
-            });
+            let mut a = Mat::zeros(rows.len(), all);
+            let mut fill = |c: usize, value: &dyn Fn(usize) -> f64| {
+                for (v, &k) in a.col_as_slice_mut(c).iter_mut().zip(&rows) {
+                    *v = value(k) * root[k % CHANNELS] * weight;
+                }
+            };
+            for (c, column) in columns.iter().enumerate() {
+                let column = &column[r][s];
+                fill(c, &|k| column[k]);
+            }
+            for o in 0..OFFSETS {
+                fill(n + o, &|k| if OFFSET_CHANNEL[o] == k % CHANNELS { OFFSET_SIGMA[o] } else { 0.0 });
+            }
+            let base = &base[r][s];
+            fill(n + OFFSETS, &|k| segment.observed[k] - base[k]);
             gram += a.transpose() * &a;
         }
         // A run's own numbers: deviations move like θ, scaled; offsets are columns of their own.

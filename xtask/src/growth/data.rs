@@ -90,8 +90,8 @@ impl Fleet {
         let mut file = BufWriter::with_capacity(1 << 20, fs::File::create(&path).with_context(failed)?);
         let header = self.drives[0].lines().next().context("a drive without a header")?;
         let names = header.split(',').count();
-        let more = (names..=COLUMNS).map(|i| format!(",more_{i}")).collect::<String>();
-        writeln!(file, "{header}{more}").with_context(failed)?;
+        let more: Vec<String> = (names..=COLUMNS).map(|i| format!("more_{i}")).collect();
+        writeln!(file, "{header},{}", more.join(",")).with_context(failed)?;
         let rows: Vec<String> = self.drives.iter().take(2).flat_map(|drive| filled(drive, names)).collect();
         for k in 0..minutes * 60 * RATE {
             let (row, t) = (&rows[k / 10 % rows.len()], k as f64 / RATE as f64);
