@@ -119,9 +119,9 @@ fn write(comparison: &Comparison, out: &std::path::Path, docs: bool) -> Result<(
     output::write(out, "compare.json", &serde_json::to_string_pretty(comparison)?)?;
     output::write(out, "summary.json", &serde_json::to_string_pretty(&tables::figures(&comparison.rows))?)?;
     if docs {
-        // The page has a title of its own.
+        // The page has a title of its own, and tables stand below one of its headings.
         let (_, below) = page.split_once("\n\n").context("a page without a title")?;
-        output::into_docs("performance.md", MARKS, below)?;
+        output::into_docs("performance.md", MARKS, &below.replace("\n## ", "\n### "))?;
     }
     Ok(())
 }

@@ -22,9 +22,9 @@ fn plural(count: usize, word: &str) -> String {
 pub(super) fn heading(all: &Fleet<'_>) -> String {
     let ill = all.robots.iter().filter(|r| r.seen.iter().any(|s| s.told.is_mismatch())).count();
     format!(
-        "{} of {} differ from their simulation in {}.",
-        ill,
+        "{ill} of {} {} simulation in {}.",
         plural(all.robots.len(), "robot"),
+        if ill == 1 { "differs from its" } else { "differ from their" },
         plural(all.seen.len(), "recording")
     )
 }
