@@ -47,7 +47,6 @@ pub fn pieces_from(
         length_ns: length_ns.max(1),
         columns: Vec::new(),
         start_ns: None,
-        end_ns: i64::MAX,
         due_ns: i64::MAX,
         each,
         stopped: Ok(()),
@@ -55,8 +54,7 @@ pub fn pieces_from(
     let keep = ColumnPieces { cutter: Rc::new(RefCell::new(cutter)), column: 0 };
     let gathered = gather(mapping, run, inputs, options.policy, (&keep, false));
     let mut cutter = keep.cutter.borrow_mut();
-    cutter.due_ns = i64::MAX;
-    while cutter.stopped.is_ok() && cutter.cut() {}
+    while cutter.stopped.is_ok() && cutter.cut().is_some() {}
     std::mem::replace(&mut cutter.stopped, Ok(()))?;
     let Gathered { clocks, losses, sources, unused, .. } = gathered?;
     Ok(Passage { clocks, losses, sources, unused })
@@ -77,8 +75,6 @@ struct Cutter<'e> {
     columns: Vec<Waiting>,
     /// The first stamp.
     start_ns: Option<i64>,
-    /// Where the present piece ends.
-    end_ns: i64,
     /// From which stamp on nothing of the present piece can come any more.
     due_ns: i64,
     each: &'e mut dyn FnMut(Recording) -> Result<(), RecordingError>,
@@ -86,35 +82,35 @@ struct Cutter<'e> {
 }
 
 impl Cutter<'_> {
-    /// Gives the present piece away; false when nothing waits.
-    fn cut(&mut self) -> bool {
+    /// Gives the present piece away; where the next one ends, ns, or `None` when nothing waits.
+    fn cut(&mut self) -> Option<i64> {
         let first_ns = self.columns.iter().filter_map(|column| column.samples.first_ns()).min();
-        let Some((first_ns, start_ns)) = first_ns.zip(self.start_ns) else { return false };
+        let (first_ns, start_ns) = first_ns.zip(self.start_ns)?;
         // Nothing may have been recorded for hours.
         let before = first_ns.saturating_sub(start_ns).div_euclid(self.length_ns);
-        self.end_ns = start_ns.saturating_add(before.saturating_add(1).saturating_mul(self.length_ns));
+        let end_ns = start_ns.saturating_add(before.saturating_add(1).saturating_mul(self.length_ns));
         let channels = self.columns.iter_mut().filter_map(|column| {
-            let (t_ns, values) = column.samples.take_until(self.end_ns);
+            let (t_ns, values) = column.samples.take_until(end_ns);
             let channel = (!t_ns.is_empty()).then(|| Channel::new(column.signal, 0, t_ns, values))?;
             Some(channel.map(|c| c.with_attributes(column.attributes).with_column(column.source.clone())))
         });
         let clock = Clock { name: self.run.to_owned(), nominal_rate_hz: None };
         let piece = channels.collect::<Result<Vec<_>, _>>().and_then(|c| Recording::new(self.run, vec![clock], c));
         self.stopped = piece.and_then(&mut *self.each);
-        self.end_ns = self.end_ns.saturating_add(self.length_ns);
-        true
+        Some(end_ns.saturating_add(self.length_ns))
     }
 
     fn add(&mut self, column: usize, now_ns: i64, value: f64) -> bool {
         let new = self.columns[column].samples.add(now_ns, value);
         if self.start_ns.is_none() {
             self.start_ns = Some(now_ns);
-            self.end_ns = now_ns.saturating_add(self.length_ns);
-            self.due_ns = self.end_ns.saturating_add(SORTED_WITHIN_NS);
+            self.due_ns = now_ns.saturating_add(self.length_ns).saturating_add(SORTED_WITHIN_NS);
         }
-        if now_ns >= self.due_ns && self.stopped.is_ok() {
-            self.cut();
-            self.due_ns = self.end_ns.saturating_add(SORTED_WITHIN_NS);
+        if now_ns >= self.due_ns
+            && self.stopped.is_ok()
+            && let Some(end_ns) = self.cut()
+        {
+            self.due_ns = end_ns.saturating_add(SORTED_WITHIN_NS);
         }
         new
     }
