@@ -5,8 +5,10 @@ mod common;
 use std::path::Path;
 
 use common::{answer, case_of, draw, settings, told};
-use diagnosis::{Diagnosis, Options, Prediction, Verdict, diagnose};
+use diagnosis::diagnose;
 use examiner::{Content, DrawnCase, EffectId, Outsider};
+use inference::Options;
+use verdict::{Diagnosis, Prediction, Verdict};
 
 /// A case and its diagnosis.
 fn of(content: Content, seed: u64) -> (DrawnCase, Diagnosis) {

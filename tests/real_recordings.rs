@@ -5,10 +5,13 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use diagnosis::steady::{Quantity, Ratio};
-use diagnosis::{Diagnosis, Options, Verdict, diagnose, diagnose_steady};
+use diagnosis::diagnose;
+use inference::Options;
 use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
+use speed_driven::diagnose_steady;
+use verdict::{Diagnosis, Verdict};
+use verdict::{Quantity, Ratio};
 
 /// What lies beside the repository, or `None` after saying so.
 fn beside(what: &str) -> Option<PathBuf> {

@@ -53,8 +53,8 @@ impl Cause {
     }
 }
 
-impl From<&diagnosis::Cause> for Cause {
-    fn from(c: &diagnosis::Cause) -> Self {
+impl From<&verdict::Cause> for Cause {
+    fn from(c: &verdict::Cause) -> Self {
         let half = c.sigma.map(|s| NINETY * s).filter(|half| *half > 0.0 && half.is_finite());
         let when = |all: &BTreeMap<String, Vec<[f64; 2]>>| {
             all.iter().map(|(run, spans)| (run.clone(), spans.iter().map(|[a, b]| (*a, *b)).collect())).collect()

@@ -70,7 +70,7 @@ pub(crate) fn diagnose(
         return Err(LacunaError::new_err("no robot was named; give a case folder, or robot = with drives"));
     }
     let (mapping, read) = (case::mapping(mapping)?, case::reading(reading)?);
-    let options = diagnosis::Options { next: next.then_some(NEXT_LENGTH), ..diagnosis::Options::default() };
+    let options = inference::Options { next: next.then_some(NEXT_LENGTH), ..inference::Options::default() };
     let (envelope, found) = work::run(py, || {
         let listener = Listener::new(progress);
         listener.stage("reading the recordings");

@@ -32,7 +32,7 @@ impl Diagnosis {
         Self { envelope, found }
     }
 
-    fn answer(&self) -> &diagnosis::Diagnosis {
+    fn answer(&self) -> &verdict::Diagnosis {
         &self.envelope.diagnosis
     }
 }
@@ -43,10 +43,10 @@ impl Diagnosis {
     #[getter]
     fn verdict(&self) -> &'static str {
         match self.answer().verdict {
-            diagnosis::Verdict::Explained => "explained",
-            diagnosis::Verdict::Unknown => "unknown",
-            diagnosis::Verdict::NoMismatch => "no_mismatch",
-            diagnosis::Verdict::Withheld => "withheld",
+            verdict::Verdict::Explained => "explained",
+            verdict::Verdict::Unknown => "unknown",
+            verdict::Verdict::NoMismatch => "no_mismatch",
+            verdict::Verdict::Withheld => "withheld",
         }
     }
 
@@ -112,13 +112,13 @@ impl Diagnosis {
     /// that was read or pickled has none.
     #[getter]
     fn predictions<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let one = |p: &diagnosis::Prediction| {
+        let one = |p: &verdict::Prediction| {
             let out = PyDict::new(py);
             out.set_item("wheel_speed", rows(py, &p.wheel_speed)?)?;
             out.set_item("yaw_rate", p.yaw_rate.clone().into_pyarray(py))?;
             PyResult::Ok(out)
         };
-        let both = |(corrected, nominal): &(diagnosis::Prediction, diagnosis::Prediction)| {
+        let both = |(corrected, nominal): &(verdict::Prediction, verdict::Prediction)| {
             let out = PyDict::new(py);
             out.set_item("name", &corrected.name)?;
             out.set_item("t", corrected.time.clone().into_pyarray(py))?;
@@ -182,7 +182,7 @@ impl Diagnosis {
     /// The verdict and the first causes, for notebooks.
     fn _repr_html_(&self) -> String {
         let sentence = self.answer().sentences.first().map_or("", String::as_str);
-        let row = |c: &diagnosis::Cause| {
+        let row = |c: &verdict::Cause| {
             let [value, interval] = size(c);
             let cells = [c.name.clone(), probability(c.probability), value, interval, where_and_when(c)];
             format!("<tr><td>{}</td></tr>", cells.map(|cell| escaped(&cell)).join("</td><td>"))

@@ -69,8 +69,8 @@ pub(crate) fn rows<const N: usize>(py: Python<'_>, rows: &[[f64; N]]) -> PyResul
 }
 
 impl Trace {
-    pub(crate) fn of(py: Python<'_>, trace: &diagnosis::Trace) -> PyResult<Self> {
-        let signal = |c: &diagnosis::Compared| {
+    pub(crate) fn of(py: Python<'_>, trace: &verdict::Trace) -> PyResult<Self> {
+        let signal = |c: &verdict::Compared| {
             Py::new(
                 py,
                 TracedSignal {

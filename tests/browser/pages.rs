@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use diagnosis::next::Manoeuvre;
-use diagnosis::{Advice, Compared, Diagnosis, Options, Trace, Verdict, diagnose, diagnose_response, diagnose_steady};
+use command_driven::diagnose_response;
+use diagnosis::diagnose;
 use examiner::{Content, EffectId, Setting, Settings, Severity, TyreLaw};
+use inference::Options;
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::report_page;
@@ -15,6 +16,9 @@ use report::diagnosis_page::{Provenance, render};
 use report::fleet::{Named, Seen, Told};
 use report::page::Page;
 use report::reproduction::{Signals, figures};
+use speed_driven::diagnose_steady;
+use verdict::Manoeuvre;
+use verdict::{Advice, Compared, Diagnosis, Trace, Verdict};
 
 /// A name that would do harm if it became markup.
 pub(crate) const HOSTILE: &str = "</script><img src=x onerror=\"window.harm=1\">&\u{2028}";

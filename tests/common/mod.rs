@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
-use diagnosis::{Case, Diagnosis, HeldOut, Options, Run, diagnose};
+use diagnosis::diagnose;
 use examiner::{Content, DrawnCase, Setting, Settings, Severity, TyreLaw};
+use inference::Options;
 use lacuna::RobotSpec;
 use recordings::{Input, Mapping, Policy, Read, ReadOptions, Recording, RecordingError};
+use torque_driven::{Case, HeldOut, Run};
+use verdict::Diagnosis;
 
 /// A clear case of three references and three recordings.
 pub(crate) fn settings(content: Content, duration_s: f64, heldout: usize) -> Settings {

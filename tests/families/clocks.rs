@@ -1,7 +1,8 @@
 //! Clocks that differ between channels: family 6. No physics may be named for them.
 
-use diagnosis::{Case, Diagnosis, Run};
 use examiner::EffectId;
+use torque_driven::{Case, Run};
+use verdict::Diagnosis;
 
 use crate::common::{case_of, draw};
 use crate::damage::{drifting, late, on_gyro, on_pose};

@@ -1,7 +1,7 @@
 //! What befalls recordings on the way: late and drifting clocks, heavy tails, coarse steps, lost rows, an early end.
 
-use diagnosis::Run;
 use examiner::DrawnCase;
+use torque_driven::Run;
 
 /// A channel of which each sample comes late by some rows.
 pub(crate) fn late(channel: &[Option<f64>], rows: usize) -> Vec<Option<f64>> {

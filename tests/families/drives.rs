@@ -1,7 +1,7 @@
 //! What the drives show and do not show: families 8 and 17.
 
-use diagnosis::{Diagnosis, Trial};
 use examiner::{EffectId, Manoeuvre, Settings, Severity};
+use verdict::{Diagnosis, Trial};
 
 use crate::common::told;
 use crate::rules::{diagnosed, is_named, nothing_is_claimed_but, nothing_is_missing, strong};

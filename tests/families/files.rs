@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use diagnosis::{DiagnosisError, Run};
 use examiner::{DrawnCase, EffectId};
+use inference::DiagnosisError;
 use recordings::{LossKind, Policy};
+use torque_driven::Run;
 
 use crate::common::{case_of, draw, read};
 use crate::rules::{answer, is_named, strong};

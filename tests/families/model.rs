@@ -7,7 +7,7 @@ use crate::common::{case_of, draw};
 use crate::rules::{answer, diagnosed, is_named, nothing_is_claimed_but, nothing_is_missing, strong};
 
 /// A case whose robot file is wrong in a constant, in references and recordings alike.
-fn off(seed: u64, effects: &[EffectId], change: impl Fn(&mut Robot<f64>)) -> diagnosis::Diagnosis {
+fn off(seed: u64, effects: &[EffectId], change: impl Fn(&mut Robot<f64>)) -> verdict::Diagnosis {
     let mut case = case_of(&draw(&strong(effects), seed));
     change(&mut case.robot);
     answer(&format!("seed {seed}, {effects:?}, constant off"), &case)

@@ -1,7 +1,8 @@
 //! A place that is visited once, or twice: family 10.
 
-use diagnosis::{Case, Diagnosis};
 use examiner::{EffectId, Manoeuvre, Place, Settings};
+use torque_driven::Case;
+use verdict::Diagnosis;
 
 use crate::common::{case_of, draw, told};
 use crate::damage::between;

@@ -1,8 +1,9 @@
 //! What a family starts from, and the rules that answers are held to.
 
-use diagnosis::{Case, Diagnosis, Verdict};
 use examiner::{Content, DrawnCase, EffectId, Settings};
 use robot_model::{Kind, effects};
+use torque_driven::Case;
+use verdict::{Diagnosis, Verdict};
 
 use crate::common::{self, told};
 

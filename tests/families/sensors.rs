@@ -1,7 +1,8 @@
 //! Sensors that imitate physics, physics that imitates sensors, and noise of another law: families 5 and 12.
 
-use diagnosis::{Diagnosis, Run};
 use examiner::{EffectId, Settings};
+use torque_driven::Run;
+use verdict::Diagnosis;
 
 use crate::common::{case_of, draw, told};
 use crate::damage::{coarse_steps, heavy_tails, lost_rows};

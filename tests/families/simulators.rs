@@ -1,7 +1,7 @@
 //! The simulator itself as the cause, and as its own examiner: families 13 and 18.
 
-use diagnosis::Verdict;
 use examiner::{Content, EffectId, Outsider};
+use verdict::Verdict;
 
 use crate::common::{settings, told};
 use crate::rules::{diagnosed, no_physics_is_claimed_but};

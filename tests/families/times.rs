@@ -1,7 +1,7 @@
 //! When it sets in: families 9 and 15.
 
-use diagnosis::Verdict;
 use examiner::{EffectId, Place, Settings};
+use verdict::Verdict;
 
 use crate::common::told;
 use crate::rules::{diagnosed, is_named, nothing_is_claimed_but, strong};

@@ -1,7 +1,7 @@
 //! More than one thing at a time, or something else: families 2, 3 and 14.
 
-use diagnosis::Verdict;
 use examiner::{Content, EffectId, Outsider};
+use verdict::Verdict;
 
 use crate::common::{settings, told};
 use crate::rules::{are_in_the_first_three, diagnosed, nothing_is_claimed_but, strong};

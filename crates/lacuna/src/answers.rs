@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use diagnosis::{Diagnosis, Verdict};
 use serde::Deserialize;
 use serde_json::{Value, json};
+use verdict::{Diagnosis, Verdict};
 
 use crate::predictions::save;
 
@@ -143,7 +143,7 @@ impl Told {
 
 #[cfg(test)]
 mod tests {
-    use diagnosis::Verdict;
+    use verdict::Verdict;
 
     use super::Told;
 

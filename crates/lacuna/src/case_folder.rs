@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use diagnosis::{Advice, Coverage, Diagnosis, Options};
+use inference::Options;
 use recordings::{Mapping, Read, ReadOptions};
+use verdict::{Advice, Coverage, Diagnosis};
 
 pub use crate::inputs::{Loaded, mapping, robot};
 use crate::long::Budget;
@@ -164,13 +165,13 @@ impl CaseFolder {
     ///
     /// # Errors
     /// Recordings without the signals that are needed.
-    pub fn torque_driven(&self) -> Result<diagnosis::Case> {
-        let runs = |l: &Loaded| -> Result<Vec<diagnosis::Run>> {
+    pub fn torque_driven(&self) -> Result<torque_driven::Case> {
+        let runs = |l: &Loaded| -> Result<Vec<torque_driven::Run>> {
             l.reads
                 .iter()
                 .map(|r| {
-                    let run = diagnosis::Run::new(&r.recording).with_context(|| file_names(r))?;
-                    Ok(diagnosis::Run { from: self.start_of(r.recording.name()), ..run })
+                    let run = torque_driven::Run::new(&r.recording).with_context(|| file_names(r))?;
+                    Ok(torque_driven::Run { from: self.start_of(r.recording.name()), ..run })
                 })
                 .collect()
         };
@@ -178,9 +179,9 @@ impl CaseFolder {
             .held_out
             .reads
             .iter()
-            .map(|r| diagnosis::HeldOut::new(&r.recording).with_context(|| file_names(r)))
+            .map(|r| torque_driven::HeldOut::new(&r.recording).with_context(|| file_names(r)))
             .collect::<Result<Vec<_>>>()?;
-        Ok(diagnosis::Case {
+        Ok(torque_driven::Case {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
             pose_sigma: self.robot.pose_sigma,
@@ -196,7 +197,7 @@ impl CaseFolder {
     ///
     /// # Errors
     /// Recordings without the signals that are needed, or a robot file without torque per current.
-    pub fn speed_driven(&self) -> Result<diagnosis::SteadyCase> {
+    pub fn speed_driven(&self) -> Result<speed_driven::SteadyCase> {
         let [torque_per_current, torque_sigma] = self.robot.torque_per_current.with_context(|| {
             format!(
                 "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
@@ -204,16 +205,15 @@ impl CaseFolder {
             )
         })?;
         let radius = self.robot.robot.wheel_radius;
-        let runs = |l: &Loaded| -> Result<Vec<diagnosis::steady::SpeedRun>> {
+        let runs = |l: &Loaded| -> Result<Vec<speed_driven::SpeedRun>> {
             l.reads
                 .iter()
                 .map(|r| {
-                    diagnosis::steady::SpeedRun::new(&r.recording, radius, torque_per_current)
-                        .with_context(|| file_names(r))
+                    speed_driven::SpeedRun::new(&r.recording, radius, torque_per_current).with_context(|| file_names(r))
                 })
                 .collect()
         };
-        Ok(diagnosis::SteadyCase {
+        Ok(speed_driven::SteadyCase {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
             torque_sigma: torque_sigma / torque_per_current,
@@ -228,14 +228,14 @@ impl CaseFolder {
     ///
     /// # Errors
     /// Recordings without the signals that are needed.
-    pub fn command_driven(&self) -> Result<diagnosis::ResponseCase> {
-        let runs = |l: &Loaded| -> Result<Vec<diagnosis::response::ResponseRun>> {
+    pub fn command_driven(&self) -> Result<command_driven::ResponseCase> {
+        let runs = |l: &Loaded| -> Result<Vec<command_driven::ResponseRun>> {
             l.reads
                 .iter()
-                .map(|r| diagnosis::response::ResponseRun::new(&r.recording).with_context(|| file_names(r)))
+                .map(|r| command_driven::ResponseRun::new(&r.recording).with_context(|| file_names(r)))
                 .collect()
         };
-        Ok(diagnosis::ResponseCase {
+        Ok(command_driven::ResponseCase {
             robot: self.robot.robot,
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
@@ -252,9 +252,9 @@ impl CaseFolder {
     pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
         let mut out = match self.robot.causality {
             Causality::TorqueDriven => diagnosis::diagnose(&self.torque_driven()?, options, stage)?,
-            Causality::SpeedDriven => diagnosis::diagnose_steady(&self.speed_driven()?, options, stage)?,
+            Causality::SpeedDriven => speed_driven::diagnose_steady(&self.speed_driven()?, options, stage)?,
             Causality::CommandDriven => {
-                let mut out = diagnosis::diagnose_response(&self.command_driven()?, stage)?;
+                let mut out = command_driven::diagnose_response(&self.command_driven()?, stage)?;
                 out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
                 out
             }

@@ -5,8 +5,8 @@
     reason = "text for people: short, and `write!` to a string would ask for a result"
 )]
 
-use diagnosis::{Advice, Cause, Diagnosis};
 use report::words::{free_runs as title_of_free_runs, is_no_cause, probability, size, where_and_when as place};
+use verdict::{Advice, Cause, Diagnosis};
 
 use crate::sections::{heading, listed};
 use crate::text_table::{TextTable, number};

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use diagnosis::{Diagnosis, Options};
+use inference::Options;
 use recordings::Spot;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use verdict::Diagnosis;
 
 use crate::case_folder::CaseFolder;
 use crate::{RobotSpec, TextError};

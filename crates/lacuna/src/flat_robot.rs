@@ -193,7 +193,7 @@ impl FlatRobot {
             "com_height" => u.com_height_m,
             _ => None,
         };
-        let mut sigma = diagnosis::case::usual_sigma();
+        let mut sigma = robot_model::tunable::usual_sigma();
         for (s, t) in sigma.iter_mut().zip(robot_model::tunable::tunables::<f64>()) {
             *s = given(t.id).map_or(*s, |g| g.max(*s));
         }

@@ -1,7 +1,7 @@
 //! The parts of the command line that other programs use too: robot files, case folders, answers, tables of text.
 //!
 //! ```text
-//! paths --inputs::load--> Loaded --CaseFolder--> diagnosis::Case --diagnosis::diagnose--> Diagnosis
+//! paths --inputs::load--> Loaded --CaseFolder--> torque_driven::Case --diagnosis::diagnose--> Diagnosis
 //! ```
 
 pub mod answers;

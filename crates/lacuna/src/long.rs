@@ -4,13 +4,13 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
-use diagnosis::Coverage;
 use diagnosis::long::{BUDGET, PIECE, Screen, Screening, Stretch};
 use rayon::prelude::*;
 use recordings::{
     Mapping, Opened, Passage, Read, ReadOptions, Recording, RecordingError, is_bag, pieces_from, read_from,
 };
 use serde::Serialize;
+use verdict::Coverage;
 
 use crate::inputs::{Loaded, Plan, load};
 use crate::robot_file::{Causality, RobotSpec};

@@ -15,10 +15,10 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use diagnosis::Diagnosis;
 use mcap::records::MessageHeader;
 use mcap::{Compression, WriteOptions};
 use serde_json::Value;
+use verdict::Diagnosis;
 
 use schema::Schema;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use diagnosis::{Diagnosis, Prediction};
+use verdict::{Diagnosis, Prediction};
 
 /// Writes `DIR/<drive>.csv` (corrected) and `DIR/<drive>.nominal.csv` (calibrated, without the effect).
 ///

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use diagnosis::response::ResponseModel;
-use diagnosis::{DiagnosisError, EffectAt};
+use inference::DiagnosisError;
 use recordings::{Spot, suggest};
 use robot_model::{Active, Robot};
 use serde::{Deserialize, Serialize};
+use verdict::EffectAt;
+use verdict::ResponseModel;
 
 use crate::RobotFileError;
 use crate::flat_robot::FlatRobot;
@@ -83,9 +84,9 @@ impl RobotSpec {
     /// Its effects for the plant of a drive.
     ///
     /// # Errors
-    /// As [`EffectAt::active`].
+    /// As [`inference::active`].
     pub fn active(&self, drive: &str) -> Result<Vec<Active<f64>>, DiagnosisError> {
-        self.effects.iter().map(|e| e.active(drive)).collect()
+        self.effects.iter().map(|e| inference::active(e, drive)).collect()
     }
 
     /// A built-in robot.

@@ -1,12 +1,14 @@
 //! The form of a robot file with value, unit, one sigma and source for each parameter.
 
-use diagnosis::response::ResponseModel;
-use diagnosis::{DiagnosisError, EffectAt};
+use inference::DiagnosisError;
 use recordings::{Spot, parse_unit};
 use robot_model::robot::{Drive, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use robot_model::tunable::{Tuning, tunables};
 use robot_model::{ModelError, Robot};
 use serde::{Deserialize, Serialize};
+use verdict::EffectAt;
+use verdict::ResponseError;
+use verdict::ResponseModel;
 
 use crate::robot_file::USUAL_POSE_SIGMA;
 use crate::robot_text::RobotText;
@@ -224,14 +226,14 @@ impl File {
             RobotFileError::Model { place: source.at(key), key: key.to_owned(), source: error }
         })?;
         for (n, effect) in self.effects.iter().enumerate() {
-            effect
-                .active("")
+            inference::active(effect, "")
                 .map_err(|error| RobotFileError::Effect { place: source.at_effect(n), message: nearest(&error) })?;
         }
         if let Some(response) = &self.response {
-            response
-                .checked()
-                .map_err(|error| RobotFileError::Effect { place: source.at("response"), message: nearest(&error) })?;
+            response.checked().map_err(|error| RobotFileError::Effect {
+                place: source.at("response"),
+                message: nearest(&error.into()),
+            })?;
         }
         let told = |(key, _, q): &(&'static str, _, Option<&Quantity>)| q.map(|q| (*key, q.source.clone()));
         Ok(RobotSpec {
@@ -264,6 +266,10 @@ fn nearest(error: &DiagnosisError) -> String {
         DiagnosisError::NoSuchParameter { effect, name, known } => {
             let known: Vec<&str> = known.split(", ").collect();
             format!("effect `{effect}` takes no number `{name}`, or not this one; {}", suggest::hint(name, &known))
+        }
+        DiagnosisError::Response(ResponseError::NoSuchConstant { name, known }) => {
+            let known: Vec<&str> = known.split(", ").collect();
+            format!("the response takes no number `{name}`, or not this one; {}", suggest::hint(name, &known))
         }
         other => other.to_string(),
     }
@@ -320,7 +326,7 @@ fn sides(p: &Lookup<'_>, both: &str, each: [&str; 2]) -> Result<[f64; 2], RobotF
 
 /// One sigma of every tunable: the file's, or the usual one.
 fn sigma(p: &Lookup<'_>) -> Result<[f64; robot_model::tunable::COUNT], RobotFileError> {
-    let mut sigma = diagnosis::case::usual_sigma();
+    let mut sigma = robot_model::tunable::usual_sigma();
     for (slot, t) in sigma.iter_mut().zip(tunables::<f64>()) {
         let mut given = None;
         for key in keys(t.id) {

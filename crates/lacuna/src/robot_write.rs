@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
-use diagnosis::Correction;
+use inference::Corrected as _;
 use robot_model::Robot;
 use robot_model::tunable::{Tuning, tunables};
+use verdict::Correction;
 
 use crate::RobotSpec;
 use crate::robot_file::USUAL_POSE_SIGMA;
@@ -127,8 +128,8 @@ fn constants(spec: &RobotSpec) -> BTreeMap<&'static str, f64> {
 
 #[cfg(test)]
 mod tests {
-    use diagnosis::response::{ResponseModel, Scaling};
-    use diagnosis::{Correction, EffectAt, Side};
+    use verdict::{Correction, EffectAt, Side};
+    use verdict::{ResponseModel, Scaling};
 
     use crate::RobotSpec;
     use crate::robot_file::BUILT_IN;

@@ -1,8 +1,8 @@
 //! A robot file on the inputs of a recording.
 
 use anyhow::Result;
-use diagnosis::Options;
-use diagnosis::response::simulate_response;
+use command_driven::simulate_response;
+use inference::Options;
 use recordings::Recording;
 
 use crate::{Causality, RobotSpec};
@@ -15,8 +15,8 @@ use crate::{Causality, RobotSpec};
 pub fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
     let effects = robot.active(inputs.name())?;
     match robot.causality {
-        Causality::TorqueDriven => Ok(diagnosis::simulate(&robot.robot, &effects, inputs, &Options::default())?),
-        Causality::SpeedDriven => Ok(diagnosis::simulate_at_speed(&robot.robot, &effects, inputs)?),
+        Causality::TorqueDriven => Ok(torque_driven::simulate(&robot.robot, &effects, inputs, &Options::default())?),
+        Causality::SpeedDriven => Ok(torque_driven::simulate_at_speed(&robot.robot, &effects, inputs)?),
         Causality::CommandDriven => {
             let response = robot.response.clone().unwrap_or_default();
             Ok(simulate_response(&robot.robot, &response, inputs)?)

@@ -1,8 +1,9 @@
 //! An effect at values, as the translations read it.
 
-use diagnosis::{DiagnosisError, EffectAt, Side};
+use inference::DiagnosisError;
 use robot_model::Effect;
 use robot_model::effect::{Card, MAX_PARAMETERS, Values};
+use verdict::{EffectAt, Side};
 
 use crate::number::number;
 
@@ -17,8 +18,8 @@ impl<'a> At<'a> {
     /// Looks the effect up.
     pub(crate) fn new(of: &'a EffectAt) -> Result<Self, DiagnosisError> {
         // Refuses what the catalogue does not have.
-        of.active("")?;
-        let effect = of.in_catalogue()?;
+        inference::active(of, "")?;
+        let effect = inference::in_catalogue(of)?;
         let mut values = [0.0; MAX_PARAMETERS];
         for (value, p) in values.iter_mut().zip(effect.card().parameters) {
             *value = of.values.get(p.name).copied().unwrap_or(p.neutral);

@@ -1,7 +1,8 @@
 //! What is exported, and what comes out.
 
-use diagnosis::{Cause, DiagnosisError, EffectAt};
+use inference::DiagnosisError;
 use robot_model::Robot;
+use verdict::{Cause, EffectAt};
 
 use crate::engine::Engine;
 use crate::residual::Residual;

@@ -1,8 +1,8 @@
 //! Where the values of a model come from, as comments.
 
-use diagnosis::Cause;
 use robot_model::Robot;
 use robot_model::effect::{Card, Parameter};
+use verdict::Cause;
 
 use crate::at::At;
 use crate::engine::Way;

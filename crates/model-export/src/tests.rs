@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use diagnosis::{EffectAt, Side};
 use robot_model::effects::catalogue;
 use robot_model::{Card, Robot, paper};
+use verdict::{EffectAt, Side};
 
 use crate::at::At;
 use crate::inertia::Parts;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use diagnosis::{EffectAt, Side};
 use model_export::{Engine, Model};
 use robot_model::effects::catalogue;
 use robot_model::{Plant, Robot, State, paper};
+use verdict::{EffectAt, Side};
 
 /// A Python with MuJoCo: the one that is named, or that of `cargo xtask mujoco`.
 fn python() -> Option<PathBuf> {

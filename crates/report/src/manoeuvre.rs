@@ -1,9 +1,9 @@
 //! A picture of the next drive, as SVG: its speeds over time, and the bits that each drive of the menu is expected to gain.
 
-use diagnosis::Advice;
-use diagnosis::next::Manoeuvre;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
+use verdict::Advice;
+use verdict::Manoeuvre;
 
 use crate::drawing::{Area, CORRECTED, FRAME, INK, PAPER, PictureError, SOFT, bold, failed, rectangle, text};
 

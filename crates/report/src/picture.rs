@@ -1,8 +1,8 @@
 //! One picture of a diagnosis, as SVG: how probable the causes are, and how much better the corrected model forecasts.
 
-use diagnosis::{Cause, Diagnosis, FreeRun};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
+use verdict::{Cause, Diagnosis, FreeRun};
 
 pub use crate::drawing::PictureError;
 use crate::drawing::{Area, BEFORE, CORRECTED, FRAME, INK, PAPER, RETUNED, SOFT, bold, failed, rectangle, text};
@@ -199,7 +199,7 @@ fn clip(s: &str, most: usize) -> String {
 mod tests {
     use std::collections::BTreeMap;
 
-    use diagnosis::Verdict;
+    use verdict::Verdict;
 
     use super::*;
     use crate::drawing::well_formed;

@@ -1,6 +1,6 @@
 //! How probabilities, sizes, places and times are written for people: on pages and on the terminal.
 
-use diagnosis::{Cause, Cell, Diagnosis, FreeRun, Span};
+use verdict::{Cause, Cell, Diagnosis, FreeRun, Span};
 
 /// Half the width of a 90 % interval in sigmas of a normal distribution.
 pub const NINETY: f64 = 1.645;

@@ -76,3 +76,17 @@ pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
         offset("sliding_share", "-", 0.1, |r, d| r.sliding_share = (r.sliding_share + d).max(T::zero()).min(real(1.3))),
     ]
 }
+
+/// One sigma of every tunable constant when nothing better is known.
+pub fn usual_sigma() -> [f64; COUNT] {
+    tunables::<f64>().map(|t| t.sigma)
+}
+
+/// The robot with its constants tuned by `theta`, in sigmas.
+pub fn tuned(robot: &Robot<f64>, sigma: &[f64; COUNT], theta: &[f64; COUNT]) -> Robot<f64> {
+    let mut out = *robot;
+    for ((t, s), x) in tunables::<f64>().iter().zip(sigma).zip(theta) {
+        (t.apply)(&mut out, s * x);
+    }
+    out
+}

@@ -29,10 +29,10 @@ pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool>
             continue;
         }
         let start = Instant::now();
-        let outcome = (|| -> Result<diagnosis::Diagnosis> {
+        let outcome = (|| -> Result<verdict::Diagnosis> {
             let case =
                 case_folder::CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
-            Ok(diagnosis::diagnose(&case, &diagnosis::Options::default(), &|_| ())?)
+            Ok(diagnosis::diagnose(&case, &inference::Options::default(), &|_| ())?)
         })();
         let seconds = start.elapsed().as_secs_f64();
         times.push(seconds);

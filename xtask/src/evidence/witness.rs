@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use diagnosis::steady::{align, box_mean, interpolate};
+use speed_driven::{align, box_mean, interpolate};
 
 use super::hide::Table;
 

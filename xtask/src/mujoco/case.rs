@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
-use diagnosis::HeldOut;
 use lacuna::case_folder::CaseFolder;
 use lacuna::envelope::Envelope;
 use model_export::{Engine, Way, way};
 use recordings::{Mapping, ReadOptions};
 use serde_json::{Value, json};
+use torque_driven::HeldOut;
 
 use crate::blind::layout::Layout;
 use crate::blind::seal::Seals;

@@ -1,8 +1,8 @@
 //! The drives of the proof: a calm one to begin with, the advised one, and two by lot.
 
-use diagnosis::next::Manoeuvre;
 use examiner::Course;
 use sim::{Purpose, Stream};
+use verdict::Manoeuvre;
 
 /// Speed and yaw rate of calm drives, m/s and rad/s.
 const CALM: [[f64; 2]; 2] = [[0.12, 0.3], [0.15, 0.4]];

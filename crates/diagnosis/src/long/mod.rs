@@ -8,16 +8,15 @@ mod law;
 mod pool;
 mod rows;
 mod thin;
-mod words;
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 use recordings::{Recording, RecordingError};
 use serde::{Deserialize, Serialize};
+use verdict::{Chosen, ComparedWith, Coverage};
 
 use law::{Law, Windows};
-pub use pool::Why;
 use pool::{Member, Pool};
 use rows::Grid;
 
@@ -31,52 +30,6 @@ const SHORTEST: f64 = 10.0;
 const BEGINNING: usize = 10;
 /// Pieces of references for the law: shorter than a minute, so that short references leave something to compare with.
 const REFERENCE_PIECE_NS: i64 = 12_000_000_000;
-
-/// What pieces were compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ComparedWith {
-    /// The law among signals that the references follow.
-    References,
-    /// That of the first minutes of the recordings themselves: there were no references, or too little of them.
-    Beginning,
-    /// Nothing: the recordings lack the signals for a law.
-    Nothing,
-}
-
-/// A piece on which the diagnosis rests.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Chosen {
-    /// Its name in the rest of the diagnosis.
-    pub name: String,
-    /// Recording that it is of.
-    pub recording: String,
-    /// When it begins and ends, s since the recording's start.
-    pub interval: [f64; 2],
-    /// Why it was chosen.
-    pub why: Why,
-    /// Mean squared residual of the law over what is usual; the worst of its targets. `None` without a law.
-    pub unlike: Option<f64>,
-}
-
-/// What a diagnosis of long recordings rests on, and what it leaves out.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Coverage {
-    /// Recorded time that was screened, s.
-    pub screened: f64,
-    /// Recorded time that the diagnosis rests on, s.
-    pub diagnosed: f64,
-    /// What pieces were compared with.
-    pub compared_with: ComparedWith,
-    /// The pieces that the diagnosis rests on.
-    pub chosen: Vec<Chosen>,
-    /// Pieces that were left out.
-    pub left_out: usize,
-    /// How far pieces are from the law: least, lower quartile, median, upper quartile, largest.
-    pub unlike: [Option<f64>; 5],
-    /// The same of those that were left out: median and largest.
-    pub unlike_left_out: [Option<f64>; 2],
-}
 
 /// A piece for the diagnosis.
 #[derive(Debug, Clone)]

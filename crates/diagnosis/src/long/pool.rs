@@ -1,21 +1,10 @@
 //! Which pieces of a stream are kept: never more than three times as many as are wanted.
 
 use faer::Mat;
+use verdict::Why;
 
 use super::rows::SIGNALS;
-use crate::linalg::solve_spd;
-
-/// Why a piece was chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Why {
-    /// One of those spread evenly over the recording.
-    Spread,
-    /// Its driving tells most about the robot's constants (D-optimal with the others).
-    Telling,
-    /// It is least like the law of the references.
-    Unlike,
-}
+use inference::linalg::solve_spd;
 
 type Information = [[f64; SIGNALS]; SIGNALS];
 

@@ -1,7 +1,7 @@
 //! Rows as the page of a fleet.
 
-use diagnosis::Verdict;
 use report::fleet::{Named, Seen, Told, render};
+use verdict::Verdict;
 
 use super::row::{Row, RowCause};
 use crate::envelope::Program;

@@ -133,7 +133,7 @@ mod tests {
 
     fn settings() -> Settings {
         Settings {
-            options: diagnosis::Options::default(),
+            options: inference::Options::default(),
             reading: recordings::ReadOptions::default(),
             reading_name: "normal".to_owned(),
             budget: Budget::default(),

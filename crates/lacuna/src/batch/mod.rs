@@ -26,7 +26,7 @@ mod shard;
 mod store;
 mod unit;
 
-use diagnosis::Options;
+use inference::Options;
 use recordings::ReadOptions;
 
 use crate::long::Budget;

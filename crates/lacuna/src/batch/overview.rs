@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use diagnosis::Verdict;
+use verdict::Verdict;
 
 use super::row::{Outcome, Row};
 

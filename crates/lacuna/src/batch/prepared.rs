@@ -1,10 +1,13 @@
 //! A robot with its references, read and calibrated once for all of its recordings.
 
 use anyhow::{Context, Result, ensure};
-use diagnosis::response::ResponseRun;
-use diagnosis::steady::SpeedRun;
-use diagnosis::{Calibrated, Coverage, Diagnosis, Run, diagnose_response, diagnose_steady};
+use command_driven::ResponseRun;
+use command_driven::diagnose_response;
 use recordings::{Mapping, Read, Recording};
+use speed_driven::SpeedRun;
+use speed_driven::diagnose_steady;
+use torque_driven::{Calibrated, Run};
+use verdict::{Coverage, Diagnosis};
 
 use super::Settings;
 use super::key;
@@ -103,15 +106,15 @@ impl Prepared {
         let mut diagnosis = match &self.ready {
             Ready::Torque(ready) => {
                 let (references, calibrated) = &**ready;
-                let given = diagnosis::Case { references: references.clone(), ..case.torque_driven()? };
+                let given = torque_driven::Case { references: references.clone(), ..case.torque_driven()? };
                 calibrated.diagnose(&given, options, silent)?
             }
             Ready::Speed(references) => {
-                let given = diagnosis::SteadyCase { references: references.clone(), ..case.speed_driven()? };
+                let given = speed_driven::SteadyCase { references: references.clone(), ..case.speed_driven()? };
                 diagnose_steady(&given, options, silent)?
             }
             Ready::Command(references) => {
-                let given = diagnosis::ResponseCase { references: references.clone(), ..case.command_driven()? };
+                let given = command_driven::ResponseCase { references: references.clone(), ..case.command_driven()? };
                 diagnose_response(&given, silent)?
             }
         };

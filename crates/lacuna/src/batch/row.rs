@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use diagnosis::{Cause, Coverage, Diagnosis, Verdict};
 use recordings::Recording;
 use report::words::{NINETY, is_no_cause};
 use serde::{Deserialize, Serialize};
+use verdict::{Cause, Coverage, Diagnosis, Verdict};
 
 use super::FORMAT;
 use super::date::Date;

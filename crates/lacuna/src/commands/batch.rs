@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let units: Vec<_> = units.into_iter().filter(|unit| args.shard.holds(&unit.id)).collect();
     let mine = units.len();
     let settings = Settings {
-        options: diagnosis::Options::default(),
+        options: inference::Options::default(),
         reading: args.reading.options(),
         reading_name: args.reading.name().to_owned(),
         budget: args.budget.map(Budget::of_minutes).unwrap_or_default(),

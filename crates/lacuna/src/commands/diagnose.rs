@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::{Args as ClapArgs, ValueEnum};
-use diagnosis::{Options, Verdict};
+use inference::Options;
 use lacuna::case_folder::{self, CaseFolder};
 use lacuna::envelope::Envelope;
 use lacuna::long::Budget;
 use lacuna::{Causality, RobotSpec, diagnosis_text, mcap_out, predictions, which_mapping};
 use recordings::Mapping;
+use verdict::Verdict;
 
 use super::{Outcome, Reading, Usage, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
-use diagnosis::{Cause, Diagnosis, EffectAt, Verdict};
 use lacuna::envelope::Envelope;
 use lacuna::{Causality, RobotSpec, case_folder};
 use model_export::{Engine, Model};
+use verdict::{Cause, Diagnosis, EffectAt, Verdict};
 
 use super::{Outcome, Usage};
 use crate::console::{emit, warning};

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::Args as ClapArgs;
-use diagnosis::next::{Manoeuvre, wheel_speeds};
-use diagnosis::{Advice, Options};
+use inference::Options;
 use lacuna::envelope::Program;
 use lacuna::suggest::nearest;
 use lacuna::text_table::{TextTable, number};
 use robot_model::Robot;
 use serde_json::json;
+use verdict::Advice;
+use verdict::{Manoeuvre, wheel_speeds};
 
 use super::diagnose::{self, Input, NEXT_LENGTH};
 use super::{Outcome, Usage, listed};
@@ -121,7 +122,7 @@ fn profile(m: &Manoeuvre, robot: &Robot<f64>) -> String {
     for k in 0..=(m.length() * RATE).round() as usize {
         let t = k as f64 / RATE;
         let wanted = m.wanted(t);
-        let [left, right] = wheel_speeds(wanted, robot);
+        let [left, right] = wheel_speeds(wanted, robot.wheel_radius, robot.half_track);
         let free = u8::from(m.is_torque_free(t));
         out += &format!("{t:.2},{:.4},{:.4},{left:.4},{right:.4},{free}\n", wanted[0], wanted[1]);
     }

@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
-use diagnosis::response::{ResponseRun, response_errors};
-use diagnosis::{HeldOut, Options, Prediction};
+use command_driven::{ResponseRun, response_errors};
+use inference::Options;
 use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 use lacuna::{Causality, RobotSpec, predictions};
 use recordings::{Read, Recording, Signal};
 use serde_json::{Value, json};
+use torque_driven::HeldOut;
+use verdict::Prediction;
 
 use super::{Outcome, Reader, Usage, sources};
 use crate::console::{emit, emit_json};
@@ -118,7 +120,7 @@ fn by_torque(args: &Args, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>>
     let held = HeldOut::new(&read.recording)?.restarting_every(args.restart);
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
-        let prediction = diagnosis::forecast(&robot.robot, &robot.active(&held.name)?, &held, &Options::default());
+        let prediction = torque_driven::forecast(&robot.robot, &robot.active(&held.name)?, &held, &Options::default());
         let [wheel, yaw] = compare(&prediction, &read.recording, &held);
         out.push(vec![("wheel speed, rad/s".to_owned(), wheel), ("yaw rate, rad/s".to_owned(), yaw)]);
         if let Some(dir) = &args.out {

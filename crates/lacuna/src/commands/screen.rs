@@ -2,12 +2,13 @@
 
 use anyhow::Result;
 use clap::Args as ClapArgs;
-use diagnosis::long::{ComparedWith, Screen};
+use diagnosis::long::Screen;
 use lacuna::envelope::Program;
 use lacuna::long::{Budget, Screened};
 use lacuna::sections::{heading, listed};
 use lacuna::text_table::TextTable;
 use serde_json::json;
+use verdict::ComparedWith;
 
 use super::Outcome;
 use super::diagnose::{Input, Located, located};

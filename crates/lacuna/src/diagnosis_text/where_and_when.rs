@@ -1,7 +1,7 @@
 //! Where and when a mismatch shows, and the torque that the model lacks, for people.
 
-use diagnosis::{Cell, Diagnosis, ResidualTorque, Span};
 use report::words::{borders, range};
+use verdict::{Cell, Diagnosis, ResidualTorque, Span};
 
 use crate::sections::heading;
 use crate::text_table::{TextTable, number};

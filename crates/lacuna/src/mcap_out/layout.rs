@@ -3,8 +3,8 @@
 //! The form is that of a layout which Foxglove exports: `configById` holds panels by `Type!id`, `layout` is a tree of
 //! rows and columns with panels as leaves. Paths are message paths: `/topic.field`.
 
-use diagnosis::{Compared, Diagnosis, Trace};
 use serde_json::{Map, Value, json};
+use verdict::{Compared, Diagnosis, Trace};
 
 use super::messages::FRAME;
 use super::names::{VERDICT, named, of_recording, of_run, of_signal, of_state, plain, with_side};

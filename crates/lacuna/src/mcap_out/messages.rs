@@ -1,7 +1,7 @@
 //! What a diagnosis says, message by message.
 
-use diagnosis::{Compared, Diagnosis, Trace, Verdict};
 use serde_json::{Map, Value, json};
+use verdict::{Compared, Diagnosis, Trace, Verdict};
 
 use super::Message;
 use super::names::{VERDICT, named, of_run, of_signal, of_state, with_side};

@@ -1,6 +1,6 @@
 //! Topics: names that stand in a message path of Foxglove without quotes.
 
-use diagnosis::{Cause, Compared, Diagnosis, Trace, Verdict};
+use verdict::{Cause, Compared, Diagnosis, Trace, Verdict};
 
 /// The topic of all sentences.
 pub(super) const VERDICT: &str = "/verdict";

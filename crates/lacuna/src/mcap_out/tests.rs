@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 
-use diagnosis::{Cause, Compared, Correction, Diagnosis, EffectAt, Estimate, Span, Trace, Verdict};
 use serde_json::Value;
+use verdict::{Cause, Compared, Correction, Diagnosis, EffectAt, Estimate, Span, Trace, Verdict};
 
 use super::*;
 

@@ -1,6 +1,6 @@
 //! In which driving and where on the ground the mismatch shows.
 
-use diagnosis::{Diagnosis, Trace};
+use verdict::{Diagnosis, Trace};
 
 use crate::figure::{Drawing, Figure, Map, PathOf, Paths};
 use crate::thin;

@@ -1,6 +1,6 @@
 //! What is left unexplained, and what limits the answer.
 
-use diagnosis::Diagnosis;
+use verdict::Diagnosis;
 
 use crate::page::{Cell, Page};
 use crate::words::number;

@@ -1,8 +1,8 @@
 //! Loads of a speed-driven robot, constants of a command-driven one.
 
-use diagnosis::Diagnosis;
-use diagnosis::response::Response;
-use diagnosis::steady::{Loads, Quantity, Ratio};
+use verdict::Diagnosis;
+use verdict::Response;
+use verdict::{Loads, Quantity, Ratio};
 
 use crate::figure::{Drawing, Figure, Interval, Intervals};
 use crate::page::{Cell, Page};

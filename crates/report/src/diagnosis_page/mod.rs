@@ -12,7 +12,7 @@ mod timeline;
 mod top;
 mod worth;
 
-use diagnosis::Diagnosis;
+use verdict::Diagnosis;
 
 pub use provenance::{Input, Provenance};
 
@@ -40,7 +40,7 @@ pub fn render(d: &Diagnosis, from: &Provenance) -> String {
 
 #[cfg(test)]
 mod tests {
-    use diagnosis::{Diagnosis, Verdict};
+    use verdict::{Diagnosis, Verdict};
 
     use super::{Provenance, render};
 

@@ -1,7 +1,7 @@
 //! What to record next.
 
-use diagnosis::next::Manoeuvre;
-use diagnosis::{Advice, Diagnosis};
+use verdict::Manoeuvre;
+use verdict::{Advice, Diagnosis};
 
 use crate::chart::{Chart, Line};
 use crate::page::{Cell, Page};

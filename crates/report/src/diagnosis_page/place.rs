@@ -1,6 +1,6 @@
 //! Where the mismatch shows: in time, in kinds of driving, on the ground.
 
-use diagnosis::{Cell as Place, Diagnosis, ResidualTorque};
+use verdict::{Cell as Place, Diagnosis, ResidualTorque};
 
 use super::ground::{map, paths};
 use super::timeline::timeline;
@@ -38,7 +38,7 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
 fn tables(page: &mut Page, d: &Diagnosis) {
     let tone = |stands_out: bool| if stands_out { Tone::Bad } else { Tone::Plain };
     if !d.findings.is_empty() {
-        let row = |f: &diagnosis::Finding| {
+        let row = |f: &verdict::Finding| {
             let when = format!("{}, {:.1} to {:.1} s", f.recording, f.interval[0], f.interval[1]);
             let ratio = Cell { text: format!("{:.1}", f.ratio), tone: tone(f.significant) };
             vec![f.signal.as_str().into(), ratio, when.into()]

@@ -1,6 +1,6 @@
 //! Every recording beside its simulations, over time.
 
-use diagnosis::{Compared, Diagnosis, Trace};
+use verdict::{Compared, Diagnosis, Trace};
 
 use crate::figure::{Drawing, Figure, Role, Row, RowLine, TimePlot};
 use crate::page::{Cell, Page};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use diagnosis::{Cause, Diagnosis};
+use verdict::{Cause, Diagnosis};
 
 use crate::page::{Page, escape};
 use crate::words::{is_no_cause, probability, size_in_words as size, where_and_when};

@@ -1,7 +1,7 @@
 //! When the mismatch shows, signal by signal.
 
-use diagnosis::Diagnosis;
-use diagnosis::steady::Loads;
+use verdict::Diagnosis;
+use verdict::Loads;
 
 use crate::figure::{Drawing, Figure, Lane, Marked, Role, Timeline};
 use crate::page::Cell;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use diagnosis::{Compared, Diagnosis, FreeRun, Trace};
+use verdict::{Compared, Diagnosis, FreeRun, Trace};
 
 use super::recordings::{plot, rms};
 use crate::figure::{Drawing, Figure};

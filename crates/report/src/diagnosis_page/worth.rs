@@ -1,6 +1,6 @@
 //! What the correction is worth on recordings that no fit has seen.
 
-use diagnosis::{Diagnosis, FreeRun};
+use verdict::{Diagnosis, FreeRun};
 
 use crate::figure::{Bar, Bars, Drawing, Figure, Role};
 use crate::page::{Cell, Page};

@@ -1,9 +1,9 @@
 //! Whether the right thing is named.
 
-use diagnosis::Verdict;
 use robot_model::Kind as Place;
 use robot_model::effects::catalogue;
 use serde::Serialize;
+use verdict::Verdict;
 
 use super::{Answer, FIRST, Kind};
 
@@ -73,7 +73,7 @@ fn is_sensor(effect: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use diagnosis::Verdict;
+    use verdict::Verdict;
 
     use super::super::testing::cause;
     use super::*;

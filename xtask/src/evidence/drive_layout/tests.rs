@@ -1,6 +1,7 @@
-use diagnosis::{Diagnosis, Verdict, diagnose_response};
+use command_driven::diagnose_response;
 use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
+use verdict::{Diagnosis, Verdict};
 
 use super::*;
 

@@ -1,0 +1,143 @@
+//! The fit of wheel speeds to commands.
+
+use crate::controller::{
+    DAMPING, DEAD_TIME, FORWARD_LIMIT, FREQUENCY, GAIN, LAG, Law, POWER, RAMP, SHAPE, SIDE_GAIN, SIDE_RAMP, TURN_LIMIT,
+    WHEEL_LIMIT, body, simulate,
+};
+use crate::run::{STEP, WINDOW};
+use crate::search::Part;
+use crate::windows::Windows;
+use verdict::{DRIVE_CONSTANTS, Element, ResponseConstant};
+
+/// Errors beyond this share of the rms wheel speed count linearly only. Chosen after a look at the open data.
+const OUTLIER: f64 = 0.2;
+
+/// The fit of wheel speeds to commands.
+pub(crate) struct DrivePart<'a> {
+    pub(crate) windows: &'a Windows,
+    /// Powers of each side's own command (placebo).
+    powers: usize,
+    constants: Vec<ResponseConstant>,
+    /// Unit of the residuals, rad/s.
+    pub(crate) unit: f64,
+    /// Largest command, rad/s.
+    pub(crate) largest: f64,
+}
+
+impl<'a> DrivePart<'a> {
+    pub(crate) fn new(windows: &'a Windows, powers: usize) -> Self {
+        let commands = windows.pieces.iter().flat_map(|p| p.command.iter().flatten());
+        let largest = commands.fold(0.0_f64, |m, c| m.max(c.abs())).max(1e-6);
+        let constants = DRIVE_CONSTANTS.into_iter().chain(std::iter::repeat_n(POWER, powers)).collect();
+        Self { windows, powers, constants, unit: (OUTLIER * windows.speed()).max(1e-6), largest }
+    }
+
+    /// "The wheels do what is commanded."
+    pub(crate) fn neutral(&self) -> Vec<f64> {
+        let mut x: Vec<f64> = self.constants.iter().map(|c| c.neutral).collect();
+        if self.powers > 0 {
+            x[SHAPE] = 1.0;
+        }
+        x
+    }
+
+    /// Every piece's wheel speeds.
+    pub(crate) fn wheels(&self, law: Law, x: &[f64]) -> Vec<Vec<[f64; 2]>> {
+        self.windows.pieces.iter().map(|p| simulate(law, x, self.largest, p)).collect()
+    }
+}
+
+impl Part for DrivePart<'_> {
+    type Law = Law;
+
+    fn constants(&self) -> &[ResponseConstant] {
+        &self.constants
+    }
+
+    fn windows(&self) -> &Windows {
+        self.windows
+    }
+
+    fn residuals(&self, law: Law, x: &[f64]) -> Vec<f64> {
+        let wheels = self.wheels(law, x);
+        let mut out = Vec::with_capacity(self.windows.list.len() * WINDOW * 2);
+        for w in &self.windows.list {
+            for i in w.start..w.start + WINDOW {
+                let measured = self.windows.pieces[w.piece].wheel[i];
+                out.extend([0, 1].map(|s| (wheels[w.piece][i][s] - measured[s]) / self.unit));
+            }
+        }
+        out
+    }
+
+    fn free(&self, law: Law, element: Element) -> Vec<usize> {
+        match element {
+            Element::DeadTime => vec![DEAD_TIME],
+            Element::Gain if self.powers > 0 => (SHAPE..SHAPE + self.powers).collect(),
+            Element::Gain => GAIN.to_vec(),
+            Element::TurnLimit => vec![TURN_LIMIT],
+            Element::ForwardLimit => vec![FORWARD_LIMIT],
+            Element::WheelLimit => vec![WHEEL_LIMIT],
+            Element::Ramp if law.side_ramps => vec![SIDE_RAMP],
+            Element::Ramp => RAMP.to_vec(),
+            Element::Lag if law.second_order => vec![FREQUENCY, DAMPING],
+            Element::Lag => vec![LAG],
+            Element::SideGain => vec![SIDE_GAIN],
+            _ => vec![],
+        }
+    }
+
+    /// A law with the parts of `base` where an element is not fitted.
+    fn restrict(&self, law: Law, base: Law, elements: &[Element]) -> Law {
+        let has = |e| elements.contains(&e);
+        let mut out = base;
+        if has(Element::WheelLimit) {
+            (out.scaling, out.after_ramp) = (law.scaling, law.after_ramp);
+        }
+        if has(Element::Ramp) {
+            out.side_ramps = law.side_ramps;
+        }
+        if has(Element::Lag) {
+            out.second_order = law.second_order;
+        }
+        out
+    }
+
+    /// Limits from what the wheels reach, ramps from how fast they change in 0.25 s, usual lags.
+    fn guess(&self, constant: usize) -> f64 {
+        /// Rows in which a change is measured: longer than a sample-hold.
+        const SPAN: usize = 5;
+        let quantile = |mut all: Vec<f64>, q: f64| {
+            all.sort_by(f64::total_cmp);
+            all.get(((all.len() as f64 * q) as usize).min(all.len().saturating_sub(1))).copied().unwrap_or(1.0)
+        };
+        let of = |f: &dyn Fn([f64; 2]) -> f64| -> Vec<f64> {
+            self.windows.pieces.iter().flat_map(|p| p.wheel.iter().map(|w| f(*w).abs())).collect()
+        };
+        let change = |k: usize| -> Vec<f64> {
+            let pieces = self.windows.pieces.iter();
+            pieces
+                .flat_map(|p| {
+                    (SPAN..p.wheel.len()).map(move |i| (body(p.wheel[i])[k] - body(p.wheel[i - SPAN])[k]).abs())
+                })
+                .map(|c| c / (SPAN as f64 * STEP))
+                .collect()
+        };
+        let reached = match constant {
+            TURN_LIMIT => quantile(of(&|w| body(w)[1]), 0.95),
+            FORWARD_LIMIT => quantile(of(&|w| body(w)[0]), 0.98),
+            WHEEL_LIMIT => quantile(of(&|[l, r]| l.abs().max(r.abs())), 0.97),
+            c if c == RAMP[0] || c == SIDE_RAMP => quantile(change(0), 0.98),
+            c if c == RAMP[1] => quantile(change(1), 0.98),
+            DEAD_TIME | LAG => return 0.15,
+            FREQUENCY => return 10.0,
+            DAMPING => return 0.9,
+            _ => return self.neutral()[constant],
+        };
+        reached.max(0.1)
+    }
+
+    fn starts(&self) -> (usize, &'static [f64]) {
+        (DEAD_TIME, &[0.05, 0.15, 0.3])
+    }
+}

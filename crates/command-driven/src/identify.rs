@@ -1,0 +1,163 @@
+//! Chooses the structure of both parts by forecasts of windows that were left out.
+
+use rayon::prelude::*;
+use verdict::{Alternative, Element, Scaling};
+
+use crate::controller::Law;
+use crate::drive::DrivePart;
+use crate::ground::{self, GroundPart};
+use crate::search::{Evidence, Model, Trial, Weighed, attempt, evidence, prune};
+use crate::windows::Windows;
+
+/// What the simulation says: of the drive, of the ground.
+#[derive(Debug, Clone)]
+pub(crate) struct Simulated {
+    pub(crate) drive: Model<Law>,
+    pub(crate) ground: Model<()>,
+}
+
+/// What was found in the recordings.
+#[derive(Debug, Clone)]
+pub(crate) struct Identified {
+    pub(crate) drive: Trial<Law>,
+    pub(crate) ground: Trial<()>,
+    /// Evidence for every element that was tried.
+    pub(crate) evidence: Weighed,
+    pub(crate) alternatives: Vec<Alternative>,
+    /// Whether every other way to hold the sides at a wheel's limit forecasts worse.
+    pub(crate) scaling_is_told: bool,
+}
+
+/// "The wheels do what is commanded, the body rolls without slip on the nominal track."
+pub(crate) fn neutral(windows: &Windows) -> Simulated {
+    Simulated {
+        drive: Model { law: Law::default(), x: DrivePart::new(windows, 0).neutral() },
+        ground: Model { law: (), x: ground::neutral() },
+    }
+}
+
+/// Finds what the recordings show beyond the simulation.
+pub(crate) fn identify(windows: &Windows, base: &Simulated, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
+    progress("fitting wheel speeds to commands");
+    let of_drive = drive(windows, base);
+    progress("fitting the motion of the body to wheel speeds");
+    let (ground, of_ground) = motion(windows, base, nominal);
+    Identified {
+        drive: of_drive.trial,
+        ground,
+        evidence: of_drive.evidence.into_iter().chain(of_ground).collect(),
+        alternatives: of_drive.alternatives,
+        scaling_is_told: of_drive.scaling_is_told,
+    }
+}
+
+/// What was found between command and wheel.
+struct OfDrive {
+    trial: Trial<Law>,
+    evidence: Weighed,
+    alternatives: Vec<Alternative>,
+    scaling_is_told: bool,
+}
+
+fn drive(windows: &Windows, base: &Simulated) -> OfDrive {
+    use Element::{DeadTime, ForwardLimit, Gain, Lag, Ramp, SideGain, TurnLimit, WheelLimit};
+    let part = DrivePart::new(windows, 0);
+    let full = [DeadTime, Gain, TurnLimit, WheelLimit, Ramp, Lag];
+    let laws: Vec<Law> = Scaling::ALL
+        .into_iter()
+        .flat_map(|scaling| [true, false].map(|after_ramp| Law { scaling, after_ramp, ..Law::default() }))
+        .collect();
+    let mut tried: Vec<(String, Trial<Law>)> =
+        laws.par_iter().map(|law| (limit_words(*law), attempt(&part, &base.drive, *law, &full, None))).collect();
+    let lowest = tried.iter().map(|t| &t.1).min_by(|a, b| a.level().total_cmp(&b.level()));
+    let mut best = match lowest {
+        Some(t) => t.clone(),
+        None => attempt(&part, &base.drive, base.drive.law, &[], None),
+    };
+    let scaling_is_told = Scaling::ALL.into_iter().filter(|s| *s != best.model.law.scaling).all(|s| {
+        let same = tried.iter().map(|t| &t.1).filter(|t| t.model.law.scaling == s);
+        let rival = same.min_by(|a, b| a.level().total_cmp(&b.level()));
+        rival.is_none_or(|r| evidence(windows, &r.loss, &best.loss).score > 0.0)
+    });
+    let side_ramps = attempt(&part, &base.drive, Law { side_ramps: true, ..best.model.law }, &full, None);
+    tried.push(("acceleration limits on each side".to_owned(), side_ramps.clone()));
+    if side_ramps.level() < best.level() {
+        best = side_ramps;
+    }
+    let second = attempt(&part, &base.drive, Law { second_order: true, ..best.model.law }, &full, None);
+    tried.push(("second-order lag".to_owned(), second.clone()));
+    if evidence(windows, &best.loss, &second.loss).score > 0.0 {
+        best = second;
+    }
+    let mut found = Weighed::new();
+    for extra in [ForwardLimit, SideGain] {
+        let more: Vec<Element> = best.elements.iter().copied().chain([extra]).collect();
+        let t = attempt(&part, &base.drive, best.model.law, &more, Some(&best));
+        let e = evidence(windows, &best.loss, &t.loss);
+        if e.score > 0.0 {
+            best = t;
+        } else {
+            found.push((extra, e));
+        }
+    }
+    let (kept, each) = prune(&part, &base.drive, best);
+    let mut alternatives: Vec<Alternative> =
+        tried.iter().map(|(what, t)| alternative(windows, what.clone(), &t.loss, &kept.loss)).collect();
+    let without = |e: Element| format!("without {}", crate::words::element(e));
+    alternatives.extend(each.iter().filter(|(e, _)| kept.has(*e)).map(|(e, v)| Alternative {
+        what: without(*e),
+        rise: v.rise,
+        standard_error: v.standard_error,
+    }));
+    found.extend(each);
+    OfDrive { trial: kept, evidence: found, alternatives, scaling_is_told }
+}
+
+fn alternative(windows: &Windows, what: String, loss: &[f64], chosen: &[f64]) -> Alternative {
+    let e = evidence(windows, loss, chosen);
+    Alternative { what, rise: e.rise, standard_error: e.standard_error }
+}
+
+fn limit_words(law: Law) -> String {
+    format!(
+        "at a wheel's limit {}, {} the acceleration limits",
+        law.scaling.words(),
+        if law.after_ramp { "after" } else { "before" }
+    )
+}
+
+fn motion(windows: &Windows, base: &Simulated, nominal: [f64; 2]) -> (Trial<()>, Weighed) {
+    use Element::{BodyLag, Offset, Radius, SideRadius, Track, TurnSlip};
+    let part = GroundPart::measured(windows, nominal);
+    let has_position = windows.pieces.iter().any(|p| p.position.is_some());
+    // Without positions only turning is known.
+    let (first, extras): (&[Element], &[Element]) = if has_position {
+        (&[Radius, Track], &[Offset, TurnSlip, BodyLag, SideRadius])
+    } else {
+        (&[Track], &[BodyLag, SideRadius])
+    };
+    let mut best = attempt(&part, &base.ground, (), first, None);
+    let mut rejected: Weighed;
+    loop {
+        let mut tried: Vec<(Element, Evidence, Trial<()>)> = extras
+            .iter()
+            .filter(|e| !best.has(**e))
+            .map(|&e| {
+                let more: Vec<Element> = best.elements.iter().copied().chain([e]).collect();
+                let t = attempt(&part, &base.ground, (), &more, Some(&best));
+                (e, evidence(windows, &best.loss, &t.loss), t)
+            })
+            .collect();
+        tried.sort_by(|a, b| a.1.score.total_cmp(&b.1.score));
+        match tried.pop() {
+            Some((_, v, t)) if v.score > 0.0 => best = t,
+            last => {
+                rejected = tried.into_iter().chain(last).map(|(e, v, _)| (e, v)).collect();
+                break;
+            }
+        }
+    }
+    let (kept, each) = prune(&part, &base.ground, best);
+    rejected.extend(each);
+    (kept, rejected)
+}

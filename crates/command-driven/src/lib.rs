@@ -1,0 +1,179 @@
+//! Diagnosis of a command-driven robot: commanded and measured wheel speeds and the motion of the body, no torque.
+//!
+//! The simulation says that the wheels do what is commanded and that the body rolls without slip on the nominal track.
+//! Two parts are fitted one after the other, command to wheel (`drive`) and wheel to body (`ground`); an
+//! element stays when it improves forecasts of 2 s windows that were left out of the fit, judged over command steps.
+
+mod compare;
+mod controller;
+mod drive;
+mod ground;
+mod identify;
+mod model;
+mod name;
+mod run;
+mod search;
+#[cfg(test)]
+mod tests;
+mod traces;
+mod windows;
+mod words;
+
+use robot_model::Robot;
+
+use inference::DiagnosisError;
+use verdict::{Diagnosis, Element, Response, Verdict};
+
+use compare::{Errors, Four, free_runs, summary};
+use drive::DrivePart;
+use ground::GroundPart;
+use identify::{Identified, Simulated, identify, neutral};
+use windows::{FOLDS, Windows, mean};
+use words::Told;
+
+pub use model::{response_errors, simulate_response};
+pub use run::ResponseRun;
+
+/// A command-driven case.
+#[derive(Debug, Clone)]
+pub struct ResponseCase {
+    /// The user's robot model: wheel radius and track.
+    pub robot: Robot<f64>,
+    /// Recordings in which the simulation is right; without any, the simulation is "the wheels do what is commanded,
+    /// the body rolls without slip on the nominal track".
+    pub references: Vec<ResponseRun>,
+    /// Recordings in which it is not.
+    pub recordings: Vec<ResponseRun>,
+    /// Recordings that no fit may see: forecasts are compared with them.
+    pub held_out: Vec<ResponseRun>,
+}
+
+/// Steps without which nothing can be left out in folds.
+const LEAST_STEPS: usize = 2 * FOLDS;
+/// Wheel speeds that repeat for longer are worth telling, s.
+const TELLING_HOLD: f64 = 0.04;
+
+/// Diagnoses a command-driven case. `progress` is told the stage that begins.
+///
+/// # Errors
+/// When recordings are missing or hold too few command steps.
+pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+    if case.recordings.is_empty() {
+        return Err(DiagnosisError::Empty { what: "recording" });
+    }
+    let robot = case.robot.checked()?;
+    let nominal = [robot.wheel_radius, 2.0 * robot.half_track];
+    let windows = enough(&case.recordings, "recordings")?;
+    let base = if case.references.is_empty() {
+        neutral(&windows)
+    } else {
+        let references = enough(&case.references, "references")?;
+        let plain = neutral(&references);
+        let found = identify(&references, &plain, nominal, &|_| progress("fitting the references"));
+        Simulated { drive: found.drive.model, ground: found.ground.model }
+    };
+    let found = identify(&windows, &base, nominal, progress);
+    progress("forecasting windows that were left out");
+    let four = Four::new(&windows, &base, &found, nominal);
+    let unseen = Windows::new(&case.held_out);
+    let left_out = four.left_out(&windows);
+    let has_position = case.recordings.iter().any(ResponseRun::has_position);
+    let mut runs = free_runs("left out in folds", &left_out, has_position);
+    let mut told = told(&left_out, &four.drive_only(&windows, false), has_position);
+    if !unseen.list.is_empty() {
+        let errors = four.unseen(&unseen);
+        let position = case.held_out.iter().any(ResponseRun::has_position);
+        runs.extend(free_runs("held out", &errors, position));
+        told = self::told(&errors, &four.drive_only(&unseen, true), position);
+    }
+    let response = response(&windows, unseen.list.len(), &base, &found, &four, nominal);
+    let (_, off_error) = mean(&windows.by_block(|w| left_out[0][0][w]));
+    let mut out = Diagnosis::withheld();
+    let ranked = name::ranked(&found, &response.parameters, summary(&left_out[0][0])[0], off_error, nominal[1]);
+    out.ranked = ranked;
+    out.verdict = if response.parameters.is_empty() { Verdict::NoMismatch } else { Verdict::Explained };
+    out.free_runs = runs;
+    out.unexplained =
+        Some((told.wheel[2] / told.wheel[0].max(1e-12)).powi(2)).filter(|_| !response.parameters.is_empty());
+    out.tuning = name::tuning(&response.parameters);
+    out.limits = limits(case, has_position, &response);
+    out.sentences = words::sentences(&out, &response, &told, nominal[1], !case.references.is_empty());
+    out.traces = traces::traces(&case.recordings, &windows, &four);
+    let corrected = Simulated { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
+    out.correction.response = Some(model::model_of(&corrected));
+    out.response = Some(response);
+    Ok(out)
+}
+
+fn enough(runs: &[ResponseRun], what: &'static str) -> Result<Windows, DiagnosisError> {
+    let windows = Windows::new(runs);
+    if windows.blocks < LEAST_STEPS {
+        return Err(DiagnosisError::FewSteps { what, steps: windows.blocks, needed: LEAST_STEPS });
+    }
+    Ok(windows)
+}
+
+fn response(
+    windows: &Windows,
+    held_out_windows: usize,
+    base: &Simulated,
+    found: &Identified,
+    four: &Four,
+    nominal: [f64; 2],
+) -> Response {
+    let [of_drive, of_ground] = name::simulated(base);
+    let mut parameters = name::parameters(&DrivePart::new(windows, 0), &found.drive, of_drive);
+    parameters.extend(name::parameters(&GroundPart::measured(windows, nominal), &found.ground, of_ground));
+    let law = found.drive.model.law;
+    Response {
+        windows: windows.list.len(),
+        steps: windows.blocks,
+        held_out_windows,
+        scaling: found.drive.has(Element::WheelLimit).then(|| law.scaling.words().into()),
+        scaling_is_told: found.scaling_is_told,
+        scaled_after_ramps: law.after_ramp,
+        parameters,
+        elements: found.evidence.iter().map(name::earned).collect(),
+        alternatives: found.alternatives.clone(),
+        constants: four.constants,
+    }
+}
+
+/// The figures of the sentences: rms over windows.
+fn told(four: &[Errors; 4], drive_only: &Errors, has_position: bool) -> Told {
+    let of = |q: usize| {
+        let rms = |e: &Errors| summary(&e[q])[0];
+        [rms(&four[0]), rms(&four[1]), rms(&four[2]), rms(&four[3]), rms(drive_only)]
+    };
+    Told { wheel: of(0), position: has_position.then(|| of(1)), yaw: of(2) }
+}
+
+fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> {
+    let mut out = Vec::new();
+    let hold = case.recordings.iter().map(|r| r.hold).fold(0.0, f64::max);
+    if hold > TELLING_HOLD {
+        out.push(format!(
+            "wheel speeds hold one value for {hold:.2} s: dead time and lag together are up to {:.2} s too long",
+            0.5 * hold
+        ));
+    }
+    if !has_position {
+        out.push("no position beside a heading: rolling radius and forward slip cannot be told".to_owned());
+    }
+    if case.references.is_empty() {
+        out.push(
+            "no references: the simulation is \"wheels do what is commanded, no slip, nominal track\"; a command that was \
+             logged in other units than it was sent in shows as gains of the drive"
+                .to_owned(),
+        );
+    }
+    for p in r.parameters.iter().filter(|p| p.at_bound) {
+        out.push(format!("{} stopped at the end of what is sensible: {}", p.id, p.value));
+    }
+    out.push(
+        "no torque, no current: friction, mass and adhesion cannot be told; whether more is missing than was named is not \
+         judged, since the noise of wheels and pose is not known"
+            .to_owned(),
+    );
+    out
+}

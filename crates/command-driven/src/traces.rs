@@ -1,0 +1,112 @@
+//! Recordings beside their forecasts from the commands, row by row; every window by a fit that left it out.
+
+use crate::compare::Four;
+use crate::ground::{Poses, misses};
+use crate::run::{ResponseRun, STEP, WINDOW};
+use crate::windows::{Window, Windows};
+use verdict::{Compared, Trace, instant, rounded};
+
+/// Places of the simulation as it is, re-tuned and corrected among the four.
+const SHOWN: [usize; 3] = [0, 1, 2];
+
+/// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.
+const WHEEL: f64 = 0.3;
+const POSE: f64 = 0.1;
+
+/// What a simulation says: wheel speeds by piece, poses by window.
+type Simulated = (Vec<Vec<[f64; 2]>>, Vec<Poses>);
+
+/// Every recording with what was simulated for it.
+pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, four: &Four) -> Vec<Trace> {
+    let three = SHOWN.map(|k| four.simulated_left_out(windows, k));
+    let errors: Vec<Vec<f64>> = three.iter().map(|s| errors(windows, s)).collect();
+    let left = errors[2].iter().sum::<f64>() / errors[2].len().max(1) as f64;
+    let mut first = 0;
+    runs.iter()
+        .map(|run| {
+            let pieces = first..first + run.pieces.len();
+            first = pieces.end;
+            let own: Vec<(usize, &Window)> =
+                windows.list.iter().enumerate().filter(|(_, w)| pieces.contains(&w.piece)).collect();
+            let over_left = |k: usize| -> Vec<Option<f64>> {
+                let of_window = |(w, _): &(usize, &Window)| [Some(rounded(errors[k][*w] / left.max(1e-12))); WINDOW];
+                own.iter().flat_map(of_window).collect()
+            };
+            let rows = || own.iter().flat_map(|(_, w)| (w.start..w.start + WINDOW).map(|i| (w.piece, i)));
+            let position = |(piece, i): (usize, usize)| Some(windows.pieces[piece].position.as_ref()?[i].map(rounded));
+            Trace {
+                recording: run.name.clone(),
+                left_out: true,
+                time: rows().map(|(p, i)| instant(windows.pieces[p].start + i as f64 * STEP)).collect(),
+                restarts: (0..own.len()).map(|w| w * WINDOW).collect(),
+                channels: channels(windows, &three, &own),
+                path: rows().map(position).collect::<Option<_>>().unwrap_or_default(),
+                before: over_left(0),
+                after: over_left(2),
+            }
+        })
+        .collect()
+}
+
+fn channels(windows: &Windows, three: &[Simulated; 3], own: &[(usize, &Window)]) -> Vec<Compared> {
+    let wheel = |j: usize| {
+        let series = |of: &[Vec<[f64; 2]>]| -> Vec<Option<f64>> {
+            let rows = |(_, w): &(usize, &Window)| {
+                of[w.piece][w.start..w.start + WINDOW].iter().map(|v| known(v[j])).collect::<Vec<_>>()
+            };
+            own.iter().flat_map(rows).collect()
+        };
+        let measured: Vec<Vec<[f64; 2]>> = windows.pieces.iter().map(|p| p.wheel.clone()).collect();
+        Compared {
+            signal: format!("{} wheel speed", inference::words::side(j)).into(),
+            unit: "rad/s".into(),
+            side: Some(inference::words::side(j).into()),
+            recorded: series(&measured),
+            nominal: series(&three[0].0),
+            retuned: series(&three[1].0),
+            corrected: series(&three[2].0),
+            usual: None,
+        }
+    };
+    let mut out = vec![wheel(0), wheel(1)];
+    let heading =
+        |(_, w): &(usize, &Window)| windows.pieces[w.piece].heading.as_ref().map(|h| &h[w.start..w.start + WINDOW]);
+    if own.iter().all(|w| heading(w).is_some()) {
+        let recorded =
+            |w: &(usize, &Window)| heading(w).unwrap_or_default().iter().map(|h| known(*h)).collect::<Vec<_>>();
+        let forecast = |s: &Simulated| {
+            let of_window = |w: &(usize, &Window)| {
+                let start = heading(w).and_then(|h| h.first()).copied().unwrap_or_default();
+                s.1[w.0].iter().map(|pose| known(start + pose[2])).collect::<Vec<_>>()
+            };
+            own.iter().flat_map(of_window).collect()
+        };
+        out.push(Compared {
+            signal: "heading".into(),
+            unit: "rad".into(),
+            recorded: own.iter().flat_map(recorded).collect(),
+            nominal: forecast(&three[0]),
+            retuned: forecast(&three[1]),
+            corrected: forecast(&three[2]),
+            ..Compared::default()
+        });
+    }
+    out
+}
+
+fn known(v: f64) -> Option<f64> {
+    v.is_finite().then(|| rounded(v))
+}
+
+/// Mean squared error of each window, all quantities in units of a usual size.
+fn errors(windows: &Windows, (wheels, poses): &Simulated) -> Vec<f64> {
+    let of_window = |(w, p): (&Window, &Poses)| {
+        let measured = &windows.pieces[w.piece].wheel;
+        let wheel: f64 = (w.start..w.start + WINDOW)
+            .flat_map(|i| [0, 1].map(|j| (wheels[w.piece][i][j] - measured[i][j]).powi(2)))
+            .sum();
+        let pose: f64 = misses(windows, w, p).iter().flatten().map(|m| (m / POSE).powi(2)).sum();
+        (wheel / (2.0 * WHEEL * WHEEL) + pose / 3.0) / WINDOW as f64
+    };
+    windows.list.iter().zip(poses).map(of_window).collect()
+}

@@ -1,0 +1,147 @@
+//! The answer of a command-driven case in sentences.
+
+use verdict::{Diagnosis, Element, Parameter, Response, Verdict};
+
+/// An element for people.
+pub(crate) const fn element(e: Element) -> &'static str {
+    match e {
+        Element::DeadTime => "dead time",
+        Element::Gain => "gains of forward speed and turning",
+        Element::TurnLimit => "a limit of turning",
+        Element::ForwardLimit => "a limit of forward speed",
+        Element::WheelLimit => "a limit of the wheels",
+        Element::Ramp => "limits of acceleration",
+        Element::Lag => "lag",
+        Element::SideGain => "a difference of the sides",
+        Element::Radius => "another rolling radius",
+        Element::Track => "another effective track",
+        Element::Offset => "another centre of rotation",
+        Element::TurnSlip => "forward speed lost in turns",
+        Element::BodyLag => "a late body",
+        Element::SideRadius => "sides of different radius",
+    }
+}
+
+/// Errors that the sentences tell: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
+pub(crate) struct Told {
+    pub(crate) wheel: [f64; 5],
+    pub(crate) position: Option<[f64; 5]>,
+    pub(crate) yaw: [f64; 5],
+}
+
+/// A number with as many digits as its interval deserves.
+fn value(p: &Parameter) -> String {
+    let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
+    match p.half_width.filter(|h| *h > 0.0 && h.is_finite()) {
+        Some(h) => {
+            let digits = (1 - h.log10().floor() as i32).clamp(0, 4) as usize;
+            format!("{:.digits$} ± {h:.digits$}{unit}", p.value)
+        }
+        None => format!("{:.3}{unit}", p.value),
+    }
+}
+
+fn find<'a>(r: &'a Response, id: &str) -> Option<&'a Parameter> {
+    r.parameters.iter().find(|p| p.id == id)
+}
+
+fn list(r: &Response, items: &[(&str, &str)]) -> Vec<String> {
+    items.iter().filter_map(|(id, what)| find(r, id).map(|p| format!("{what} {}", value(p)))).collect()
+}
+
+pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, references: bool) -> Vec<String> {
+    if d.verdict == Verdict::NoMismatch {
+        return vec![
+            "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says."
+                .to_owned(),
+        ];
+    }
+    let drive = r.parameters.iter().any(|p| p.element.is_drive());
+    let ground = r.parameters.iter().any(|p| !p.element.is_drive());
+    let simulation = if references { "the references' response" } else { "the command" };
+    let mut out = Vec::new();
+    let w = &told.wheel;
+    if drive {
+        out.push(format!(
+            "The command is not what was driven, and that is neither slip nor friction: the wheels themselves leave \
+             {simulation} by {:.2} rad/s rms; the drive's controller, as fitted, explains all but {:.2} rad/s of left-out \
+             windows, and sides that only answer each for itself, as friction or slip would have it, leave {:.2} rad/s.",
+            w[0], w[2], w[3]
+        ));
+        out.push(controller(r));
+    } else {
+        out.push(format!(
+            "The command is what was driven ({:.2} rad/s rms): the mismatch sits between wheels and ground.",
+            w[0]
+        ));
+    }
+    if ground {
+        out.push(on_ground(r, track));
+    } else {
+        out.push("From wheel to body nothing is missing: no slip is left to name.".to_owned());
+    }
+    let mut shares = Vec::new();
+    for (what, unit, e) in told.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &told.yaw)]) {
+        shares.push(format!(
+            "{what} {:.2} {unit} as simulated, {:.2} with track and radius re-tuned, {:.2} with the drive alone corrected, \
+             {:.2} with both",
+            e[0], e[1], e[4], e[2]
+        ));
+    }
+    out.push(format!("Error of left-out forecasts over 2 s from the commands alone (rms): {}.", shares.join("; ")));
+    out
+}
+
+fn controller(r: &Response) -> String {
+    let mut parts = list(
+        r,
+        &[
+            ("dead_time", "dead time"),
+            ("forward_gain", "gain of forward speed"),
+            ("turn_gain", "of turning"),
+            ("side_gain", "difference of the sides"),
+            ("turn_limit", "turning (half the difference of the sides) limited to"),
+            ("forward_limit", "forward speed (mean of the sides) limited to"),
+        ],
+    );
+    if let Some(p) = find(r, "wheel_limit") {
+        let how = r
+            .scaling
+            .as_deref()
+            .filter(|_| r.scaling_is_told)
+            .unwrap_or("both sides are held in a way that is not told");
+        parts.push(format!("at {} of a wheel {how}", value(p)));
+    }
+    parts.extend(list(
+        r,
+        &[
+            ("forward_ramp", "acceleration of forward speed limited to"),
+            ("turn_ramp", "of turning to"),
+            ("side_ramp", "acceleration of each side limited to"),
+            ("lag", "lag"),
+            ("natural_frequency", "second-order lag of"),
+            ("damping", "damping"),
+        ],
+    ));
+    format!("From command to wheel (90 %): {}.", parts.join(", "))
+}
+
+fn on_ground(r: &Response, track: f64) -> String {
+    let mut parts = Vec::new();
+    if let Some(p) = find(r, "track_factor") {
+        let half = p.half_width.map_or(String::new(), |h| format!(" ± {:.3}", h * track));
+        let times = p.value / p.simulated.unwrap_or(1.0);
+        parts.push(format!("effective track {:.3}{half} m, {times:.2} times the simulated", p.value * track));
+    }
+    parts.extend(list(
+        r,
+        &[
+            ("radius_factor", "rolling radius times"),
+            ("centre_offset", "pose sensor ahead of the centre of rotation by"),
+            ("turn_slip", "forward speed times exp(−c ψ̇²) in turns with c"),
+            ("body_lag", "body or pose late by"),
+            ("side_radius", "left radius larger and right smaller by"),
+        ],
+    ));
+    format!("From wheel to body, slip that is left beside (90 %): {}.", parts.join(", "))
+}

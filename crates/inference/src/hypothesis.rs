@@ -1,0 +1,206 @@
+//! What may be missing: every way in which an effect of the catalogue can be present.
+
+use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
+use robot_model::presence::{Disc, Presence};
+use robot_model::{Active, Card, Effect, effects};
+
+use verdict::{EffectAt, Side};
+
+/// An effect at values, present somewhere.
+#[derive(Clone)]
+pub struct Dose {
+    /// The effect.
+    pub effect: &'static dyn Effect<f64>,
+    /// One value for each parameter of its card, in the units there.
+    pub values: Vec<f64>,
+    /// When, where and on which side it is present.
+    pub presence: Presence<f64>,
+}
+
+impl Dose {
+    /// The effect for a plant.
+    pub fn active(&self) -> Active<f64> {
+        Active::new(self.effect, &self.values, self.presence)
+    }
+}
+
+/// Where an effect is present.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Everywhere, all the time.
+    Whole,
+    /// On one side: 0 left, 1 right.
+    Side(usize),
+    /// Under wheels in a disc on the ground.
+    Disc,
+    /// From an instant of each recording on.
+    Onset,
+}
+
+/// One effect in one of its forms.
+#[derive(Clone, Copy)]
+pub struct Variant {
+    /// The effect.
+    pub effect: &'static dyn Effect<f64>,
+    /// Which of the card's axes, where it has several.
+    pub axis: Option<usize>,
+    /// Where it is present.
+    pub place: Place,
+}
+
+/// A number that a fit may change.
+#[derive(Debug, Clone, Copy)]
+pub struct Free {
+    /// Index in the card's parameters; `None` for the disc's x, y and radius.
+    pub parameter: Option<usize>,
+    /// Size of one unit of it: a medium strength, a usual shape, 0.3 m.
+    pub unit: f64,
+    /// Least and largest value.
+    pub bounds: [f64; 2],
+    /// Value at which a fit starts when nothing better is known.
+    pub usual: f64,
+}
+
+/// Onsets of a hypothesis in each run, s; `None` where it does not set in.
+pub type Onsets = Vec<Option<f64>>;
+
+impl Variant {
+    /// The card of the effect.
+    pub fn card(&self) -> &'static Card {
+        self.effect.card()
+    }
+
+    /// Name for people and files: effect, side, axis, place.
+    pub fn label(&self) -> String {
+        let mut out = self.card().id.to_owned();
+        if let Some(a) = self.axis {
+            out = format!("{out} ({})", self.card().axes[a]);
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => out += [" (left)", " (right)"][s.min(1)],
+            Place::Disc => out += " (place)",
+            Place::Onset => out += " (from an instant)",
+        }
+        out
+    }
+
+    /// Indices of the strengths that are free here.
+    pub fn strengths(&self) -> Vec<usize> {
+        let all: Vec<usize> = self.card().strengths().collect();
+        self.axis.map_or(all.clone(), |a| vec![all[a]])
+    }
+
+    /// Everything a fit may change, strengths first, then shapes, then the disc.
+    pub fn free(&self, largest_torque: f64) -> Vec<Free> {
+        let card = self.card();
+        let mut out = Vec::new();
+        for role in [false, true] {
+            for (i, p) in card.parameters.iter().enumerate() {
+                if (p.role == Role::Shape) != role || (!role && !self.strengths().contains(&i)) {
+                    continue;
+                }
+                let scale = if p.scale == Scale::LargestTorque { largest_torque } else { 1.0 };
+                let probe = p.probes[p.probes.len() / 2] * scale;
+                out.push(Free { parameter: Some(i), unit: probe.abs(), bounds: p.bounds, usual: probe });
+            }
+        }
+        if self.place == Place::Disc {
+            let far = 1e3;
+            for (unit, bounds) in [(0.3, [-far, far]), (0.3, [-far, far]), (0.3, [0.3, 6.0])] {
+                out.push(Free { parameter: None, unit, bounds, usual: 1.2 });
+            }
+        }
+        out
+    }
+
+    /// The doses of run `run` at the free values `e`.
+    pub fn dose(&self, e: &[f64], onset: Option<f64>) -> Dose {
+        let card = self.card();
+        let mut values: Vec<f64> = card.parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+        let mut presence = Presence::default();
+        let mut disc = Vec::new();
+        // Bounds and scale do not matter here, only the order.
+        for (f, &v) in self.free(1.0).iter().zip(e) {
+            match f.parameter {
+                Some(i) => values[i] = v,
+                None => disc.push(v),
+            }
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => presence.side = Some(s),
+            Place::Disc => presence.disc = Some(Disc { centre: [disc[0], disc[1]], radius: disc[2] }),
+            Place::Onset => presence.from = onset.unwrap_or(f64::MAX),
+        }
+        Dose { effect: self.effect, values, presence }
+    }
+
+    /// The same for files: by name, with onsets by recording.
+    pub fn at(&self, e: &[f64], onsets: &Onsets, recordings: &[&str]) -> EffectAt {
+        let card = self.card();
+        let mut out = EffectAt { effect: card.id.to_owned(), ..EffectAt::default() };
+        let mut disc = Vec::new();
+        for (f, &v) in self.free(1.0).iter().zip(e) {
+            match f.parameter {
+                Some(i) => {
+                    out.values.insert(card.parameters[i].name.to_owned(), v);
+                }
+                None => disc.push(v),
+            }
+        }
+        match self.place {
+            Place::Whole => {}
+            Place::Side(s) => out.side = Some(Side::of(s)),
+            Place::Disc => out.place = Some([disc[0], disc[1], disc[2]]),
+            Place::Onset => {
+                for (name, onset) in recordings.iter().zip(onsets) {
+                    match onset {
+                        Some(t) => _ = out.from.insert((*name).to_owned(), *t),
+                        None => out.absent.push((*name).to_owned()),
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// Size of the effect in the unit of its card: the norm of its strengths, or the one that is free with its sign.
+    pub fn magnitude(&self, e: &[f64]) -> f64 {
+        match self.strengths().len() {
+            1 => e[0],
+            n => e[..n].iter().map(|x| x * x).sum::<f64>().sqrt(),
+        }
+    }
+}
+
+/// All forms of all effects that show in the motion, in the order of the catalogue.
+///
+/// Without a pose nothing but the motion can tell a fault of the gyro from turning: then it is one of them.
+pub fn variants(pose: bool) -> Vec<Variant> {
+    let mut out = Vec::new();
+    for effect in effects::catalogue::<f64>() {
+        let card = effect.card();
+        let of_gyro = matches!(card.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
+        if card.redundancy != Redundancy::None && (pose || !of_gyro) {
+            continue;
+        }
+        let axes: Vec<Option<usize>> =
+            if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
+        for axis in axes {
+            let wears = card.wears;
+            if wears.side {
+                out.extend((0..2).map(|s| Variant { effect, axis, place: Place::Side(s) }));
+            } else if wears.everywhere {
+                out.push(Variant { effect, axis, place: Place::Whole });
+            }
+            if wears.onset {
+                out.push(Variant { effect, axis, place: Place::Onset });
+            }
+            if wears.disc {
+                out.push(Variant { effect, axis, place: Place::Disc });
+            }
+        }
+    }
+    out
+}

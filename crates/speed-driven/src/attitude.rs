@@ -1,0 +1,151 @@
+//! The slope under the robot from the turning rates of its body and from the straight load.
+//!
+//! The upward direction in the body turns by `u̇ = −ω × u`, for small tilts `u̇x = −ω_y + ω_z u_y` and
+//! `u̇y = ω_x − ω_z u_x`; the straight load shows `S = S₀ (1 + c) + m g r u_x` in the direction of travel. A linear
+//! Kalman filter and Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets and the slow change `c` of the
+//! rolling load (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::clock::interpolate;
+use crate::median::median;
+use crate::run::SpeedRun;
+use crate::straight::Reading;
+
+type State = SVector<f64, 5>;
+type Square = SMatrix<f64, 5, 5>;
+
+const fn degrees(x: f64) -> f64 {
+    x * std::f64::consts::PI / 180.0
+}
+
+/// Tilt at the beginning, rad, and offsets of the gyro, rad/s: one sigma.
+const FIRST_TILT: f64 = degrees(6.0);
+const FIRST_OFFSET: f64 = degrees(0.05);
+/// Random walk of the tilt (vibration, aliasing), rad/√s, and of the offsets, rad/s/√s.
+const TILT_WALK: f64 = degrees(0.15);
+const OFFSET_WALK: f64 = degrees(0.001);
+/// Ground is level within this, rad, as if it were seen so once in so many seconds.
+const LEVEL: f64 = degrees(3.0);
+const LEVEL_EVERY: f64 = 20.0;
+/// The rolling load wanders by this share, over this time, s: drive trains warm up.
+const ROLLING: f64 = 0.3;
+const ROLLING_TIME: f64 = 60.0;
+/// Where the load is another from end to end the ground may be, too: this share of the excess counts as one sigma.
+const EXCESS: f64 = 0.7;
+/// Error of the slope from one second of straight driving, rad, and beyond which it counts less.
+const FROM_LOAD: f64 = degrees(2.0);
+const FAR_OFF: f64 = degrees(2.5);
+
+/// The slope along the heading at the rows of a recording, uphill positive.
+#[derive(Debug, Clone)]
+pub(crate) struct Attitude {
+    /// rad.
+    pub(crate) pitch: Vec<f64>,
+    /// One sigma, rad.
+    pub(crate) sigma: Vec<f64>,
+}
+
+/// A filter's estimate after a step, and what it had expected before.
+struct Step {
+    x: State,
+    p: Square,
+    expected_x: State,
+    expected_p: Square,
+    transition: Square,
+}
+
+/// One scalar measurement `z = h·x` of variance `r`.
+fn update(x: &mut State, p: &mut Square, h: &State, z: f64, r: f64) {
+    let ph = *p * h;
+    let gain = ph / (h.dot(&ph) + r);
+    *x += gain * (z - h.dot(x));
+    *p -= gain * ph.transpose();
+}
+
+/// Slope at the rows; `None` without all three turning rates. `usual` is the straight load on level ground, N m, and
+/// `weight` the torque of the robot's weight at a wheel's radius `m g r`, N m.
+pub(crate) fn attitude(
+    run: &SpeedRun,
+    readings: &[Option<Reading>],
+    usual: f64,
+    weight: f64,
+    period: f64,
+) -> Option<Attitude> {
+    let rates = run.body_rates.as_ref()?;
+    let lag = &run.alignment.as_ref()?.lag;
+    let (first, dt) = (*rates.time.first()?, rates.step);
+    let rows = rates.time.len();
+    // Readings by the step of the gyro's clock at which they were taken.
+    let mut seen: Vec<Vec<usize>> = vec![Vec::new(); rows];
+    for (i, _) in readings.iter().enumerate().filter(|(_, r)| r.is_some()) {
+        let step = ((run.time[i] + lag[i] - first) / dt).round();
+        // What was driven while the gyro was off says nothing of its attitude.
+        if step >= 0.0 && (step as usize) < rows {
+            seen[step as usize].push(i);
+        }
+    }
+    let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
+    let excess = median(exact).map_or(0.0, |middle| (middle / usual - 1.0).abs());
+    let rolling = ROLLING.max(EXCESS * excess) * usual / weight;
+    let keep = 1.0 - dt / ROLLING_TIME;
+    let mut walk = Square::zeros();
+    for (k, q) in [TILT_WALK, TILT_WALK, OFFSET_WALK, OFFSET_WALK].into_iter().enumerate() {
+        walk[(k, k)] = q * q * dt;
+    }
+    walk[(4, 4)] = rolling * rolling * (1.0 - keep * keep);
+    let mut x = State::zeros();
+    let mut p = Square::from_diagonal(&State::from([
+        FIRST_TILT * FIRST_TILT,
+        FIRST_TILT * FIRST_TILT,
+        FIRST_OFFSET * FIRST_OFFSET,
+        FIRST_OFFSET * FIRST_OFFSET,
+        rolling * rolling,
+    ]));
+    let mut steps: Vec<Step> = Vec::with_capacity(rows);
+    for (k, seen) in seen.iter().enumerate() {
+        let [wx, wy, wz] = [0, 1, 2].map(|axis| rates.rate[axis][k]);
+        let mut transition = Square::identity();
+        transition[(0, 1)] = wz * dt;
+        transition[(1, 0)] = -wz * dt;
+        transition[(0, 2)] = dt;
+        transition[(1, 3)] = -dt;
+        transition[(4, 4)] = keep;
+        x = transition * x + State::from([-wy * dt, wx * dt, 0.0, 0.0, 0.0]);
+        p = transition * p * transition.transpose() + walk;
+        let (expected_x, expected_p) = (x, p);
+        for axis in 0..2 {
+            update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, LEVEL * LEVEL * LEVEL_EVERY / dt);
+        }
+        for &i in seen {
+            let h = State::from([run.speed[0][i].signum(), 0.0, 0.0, 0.0, 1.0]);
+            let Some(reading) = readings[i] else { continue };
+            let z = (reading.value() - usual) / weight;
+            let miss = z - h.dot(&x);
+            let variance = FROM_LOAD * FROM_LOAD / period;
+            match reading {
+                Reading::Exact(_) => {
+                    update(&mut x, &mut p, &h, z, variance * (1.0 + (miss / FAR_OFF).powi(2)));
+                }
+                Reading::AtMost(_) if miss < 0.0 => update(&mut x, &mut p, &h, z, variance),
+                Reading::AtMost(_) => {}
+            }
+        }
+        steps.push(Step { x, p, expected_x, expected_p, transition });
+    }
+    for k in (0..rows.saturating_sub(1)).rev() {
+        let (before, after) = steps.split_at_mut(k + 1);
+        let (now, next) = (&mut before[k], &after[0]);
+        let gain = now.p * next.transition.transpose() * next.expected_p.try_inverse()?;
+        now.x += gain * (next.x - next.expected_x);
+        now.p += gain * (next.p - next.expected_p) * gain.transpose();
+    }
+    let pitch: Vec<f64> = steps.iter().map(|s| s.x[0]).collect();
+    let sigma: Vec<f64> = steps.iter().map(|s| s.p[(0, 0)].max(0.0).sqrt()).collect();
+    let last = first + dt * rows as f64;
+    let at_rows = |z: &[f64], unknown: f64| -> Vec<f64> {
+        let at = |t: f64| if t > first - dt && t < last { interpolate(&rates.time, z, t) } else { unknown };
+        run.time.iter().zip(lag).map(|(t, l)| at(t + l)).collect()
+    };
+    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma: at_rows(&sigma, f64::INFINITY) })
+}

@@ -1,0 +1,191 @@
+//! When inside a recording the straight load changes, and whether a slope or the ground does it.
+//!
+//! From currents alone: the straight load as a piecewise constant course ([`level`](super::level)). With all three
+//! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
+
+use crate::attitude::{Attitude, attitude};
+use crate::extract::CLASSES;
+use crate::jumps::jumps;
+use crate::level::levels;
+use crate::median::median;
+use crate::name::UNNAMED_STRAIGHT;
+use crate::run::SpeedRun;
+use crate::slopes::slopes;
+use crate::straight::{Reading, readings};
+use verdict::{Changes, Hidden, Word};
+
+pub(super) const GRADE: Word = Word::Borrowed("grade");
+pub(super) const ROLLING: Word = Word::Borrowed("rolling_resistance");
+
+/// Rows that show the same change are at most this far apart, s.
+pub(super) const APART: f64 = 8.0;
+/// The load of a level stretch is known after so many seconds.
+const KNOWN: f64 = 10.0;
+/// Driving at least, m/s.
+pub(super) const DRIVING: f64 = 0.05;
+
+/// Straight load known from elsewhere, N m, by speed class; `None` where no reference was driven at such a speed.
+pub(crate) type Usual = [Option<f64>; CLASSES.len() - 1];
+
+/// The class of a speed.
+pub(super) fn class(speed: f64) -> usize {
+    CLASSES.windows(2).position(|c| speed < c[1]).unwrap_or(CLASSES.len() - 2)
+}
+
+/// Consecutive indices at most `gap` seconds apart.
+pub(super) fn pieces(time: &[f64], rows: impl Iterator<Item = usize>, gap: f64) -> Vec<Vec<usize>> {
+    let mut out: Vec<Vec<usize>> = Vec::new();
+    for i in rows {
+        match out.last_mut() {
+            Some(piece) if piece.last().is_some_and(|&k| time[i] - time[k] <= gap) => piece.push(i),
+            _ => out.push(vec![i]),
+        }
+    }
+    out
+}
+
+/// The load of most of the run at each speed class: its own where that is plausible beside the references', theirs
+/// otherwise.
+fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> Usual {
+    let known = usual.iter().flatten().next().copied();
+    let plausible =
+        |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * UNNAMED_STRAIGHT && l > r / UNNAMED_STRAIGHT);
+    // Median of the class's levels, if there is enough of it.
+    let of_class = |c: usize, keep: &dyn Fn(f64) -> bool| {
+        let exact = |i: &usize| readings[*i].is_some_and(Reading::is_exact) && class(run.forward(*i).abs()) == c;
+        let all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
+        if all.len() as f64 * run.period() >= KNOWN { median(all) } else { None }
+    };
+    let references: Usual = usual.map(|own| own.or(known));
+    let like: Usual = std::array::from_fn(|c| of_class(c, &|l| plausible(l, references[c])));
+    // A run of which no part is like the references is compared with itself: the whole of it is told elsewhere.
+    let alike = like.iter().any(Option::is_some);
+    std::array::from_fn(|c| {
+        let own = like[c].or_else(|| if alike { references[c] } else { of_class(c, &|_| true) });
+        own.or(references[c])
+    })
+}
+
+/// Changes of the straight load in a recording. `usual` are the references' loads, `weight` is `m g r`, N m.
+pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
+    let readings = readings(run);
+    let Some(any) = usual.iter().flatten().next().copied() else { return Changes::default() };
+    let period = run.period();
+    let slope = attitude(run, &readings, any, weight, period);
+    // What the slope explains is no change of the ground.
+    let level_ground = |slope: &Attitude| -> Vec<Option<Reading>> {
+        let pull = |i: usize| weight * slope.pitch[i] * run.forward(i).signum();
+        let less = |i: usize, r: Reading| match r {
+            Reading::Exact(x) => Reading::Exact(x - pull(i)),
+            Reading::AtMost(x) => Reading::AtMost(x - pull(i)),
+        };
+        (0..readings.len()).map(|i| readings[i].map(|r| less(i, r))).collect()
+    };
+    let rest = slope.as_ref().map_or_else(|| readings.clone(), level_ground);
+    let level = levels(&rest, any, period);
+    let usual = usual_of(run, &rest, &level, usual);
+    let mut found = slope.as_ref().map_or_else(Vec::new, |s| slopes(run, s));
+    found.extend(jumps(run, &rest, &level, &usual, weight, slope.is_some()));
+    Changes { found, hidden: hidden(run, &readings) }
+}
+
+/// Driving that shows no straight load for a while.
+fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
+    let seen = |i: &usize| readings[*i].is_some();
+    let ends = [0, run.time.len() - 1];
+    let mut marks: Vec<usize> = (0..readings.len()).filter(seen).chain(ends).collect();
+    marks.sort_unstable();
+    let moves = |from: usize, until: usize| (from..until).any(|i| (0..2).any(|j| run.speed[j][i].abs() > DRIVING));
+    let gaps = marks.windows(2).filter(|w| run.time[w[1]] - run.time[w[0]] > APART && moves(w[0], w[1]));
+    gaps.map(|w| Hidden { recording: run.name.clone(), interval: [run.time[w[0]], run.time[w[1]]] }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, STRAIGHT, WEIGHT, drive};
+
+    const USUAL: Usual = [Some(STRAIGHT), None, None];
+
+    fn found(legs: &[Leg], gyro: bool) -> Vec<LoadChange> {
+        changes(&drive(legs, gyro), &USUAL, WEIGHT).found
+    }
+
+    fn near([a, b]: [f64; 2], moment: f64) -> bool {
+        b - a < 1.0 && a - 1.0 < moment && moment < b + 1.0
+    }
+
+    #[test]
+    fn a_climb_is_found_with_its_slope_and_both_causes() {
+        let all = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(3.0), Leg::straight(30.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let c = &all[0];
+        assert!(near(c.onset, 30.0) && near(c.end, 45.0), "{c:?}");
+        assert!(!c.bound && (c.slope - 3.0).abs() < 0.5 && c.slope_half > 0.5, "{c:?}");
+        assert_eq!(c.causes, [GRADE, ROLLING]);
+    }
+
+    #[test]
+    fn a_descent_into_the_dead_band_is_a_bound_and_no_friction() {
+        let all = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(-6.0), Leg::straight(30.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let c = &all[0];
+        assert!(near(c.onset, 30.0) && near(c.end, 45.0), "{c:?}");
+        assert!(c.bound && c.slope < -2.0 && c.slope > -6.0, "{c:?}");
+        assert_eq!(c.causes, [GRADE]);
+    }
+
+    #[test]
+    fn a_cold_drive_train_and_a_dearer_turn_are_no_change() {
+        let cold = |leg: Leg| Leg { straight: 1.35 * STRAIGHT, ..leg };
+        assert_eq!(found(&[cold(Leg::straight(40.0))], false), []);
+        let turns = [Leg::straight(20.0), Leg { scrub: 40.0, ..Leg::turn(10.0) }, Leg::straight(20.0)];
+        let out = changes(&drive(&turns, false), &USUAL, WEIGHT);
+        assert_eq!(out.found, []);
+        let hidden: Vec<[f64; 2]> = out.hidden.iter().map(|h| h.interval).collect();
+        assert_eq!(hidden.len(), 1);
+        assert!((hidden[0][0] - 20.0).abs() < 0.5 && (hidden[0][1] - 31.0).abs() < 0.6, "{hidden:?}");
+    }
+
+    #[test]
+    fn what_begins_in_a_turn_is_bracketed() {
+        let all =
+            found(&[Leg::straight(30.0), Leg::turn(10.0), Leg::straight(15.0).slope(4.0), Leg::straight(20.0)], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        let [a, b] = all[0].onset;
+        assert!(a < 30.1 && b > 40.0, "{all:?}");
+    }
+
+    #[test]
+    fn the_way_back_decides() {
+        let back = Leg { speed: [-0.24, -0.24], ..Leg::straight(15.0) };
+        let legs = [
+            Leg::straight(30.0),
+            Leg::straight(15.0).slope(2.6),
+            Leg::straight(20.0),
+            back.slope(2.6),
+            Leg::straight(20.0),
+        ];
+        let all = found(&legs, false);
+        assert_eq!(all.len(), 2, "{all:?}");
+        assert!(all[0].slope > 2.0 && all[1].slope < -1.0, "{all:?}");
+        assert_eq!(all[0].causes, [GRADE], "{all:?}");
+    }
+
+    #[test]
+    fn with_a_gyro_slope_and_ground_are_told_apart() {
+        let slope = found(&[Leg::straight(30.0), Leg::straight(15.0).slope(4.0), Leg::straight(30.0)], true);
+        assert_eq!(slope.len(), 1, "{slope:?}");
+        assert_eq!(slope[0].causes, [GRADE]);
+        assert!(
+            (slope[0].slope - 4.0).abs() < 0.6 && near(slope[0].onset, 30.0) && near(slope[0].end, 45.0),
+            "{slope:?}"
+        );
+        let soft = Leg { straight: 2.0 * STRAIGHT, ..Leg::straight(15.0) };
+        let ground = found(&[Leg::straight(30.0), soft, Leg::straight(30.0)], true);
+        assert_eq!(ground.len(), 1, "{ground:?}");
+        assert_eq!(ground[0].causes, [ROLLING]);
+        assert!(near(ground[0].onset, 30.0), "{ground:?}");
+        assert_eq!(found(&[Leg::straight(60.0)], true), []);
+    }
+}

@@ -1,0 +1,203 @@
+//! Loads of the recordings over those of the references, with honest intervals.
+
+use std::collections::BTreeMap;
+use verdict::{Load, Quantity, Ratio};
+
+use crate::extract::CLASSES;
+
+/// 90 % of a Gaussian lies within this many sigmas.
+pub(crate) const NINETY: f64 = 1.645;
+
+/// A reference value of a quantity: logarithm (or value), its standard error, its speeds.
+#[derive(Debug, Clone)]
+pub(crate) struct Reference {
+    pub(crate) quantity: Quantity,
+    pub(crate) class: usize,
+    /// Logarithm, or the value itself for a difference.
+    pub(crate) centre: f64,
+    pub(crate) error: f64,
+    pub(crate) speed: [f64; 2],
+}
+
+/// Seconds of steady driving that make an answer firm.
+const FIRM: f64 = 10.0;
+
+/// The scale on which a load is compared: its logarithm, or itself.
+pub(crate) fn scaled(l: &Load) -> (f64, f64) {
+    if l.quantity.is_difference() {
+        (l.value, l.error)
+    } else {
+        (l.value.abs().max(1e-9).ln(), l.error / l.value.abs().max(1e-9))
+    }
+}
+
+fn class(l: &Load) -> usize {
+    match l.quantity {
+        Quantity::StraightLoad | Quantity::Asymmetry => {
+            let v = 0.5 * (l.speed[0] + l.speed[1]).abs();
+            CLASSES.windows(2).position(|c| v >= c[0] && v < c[1]).unwrap_or(0)
+        }
+        _ => 0,
+    }
+}
+
+/// Pools the references' loads per quantity and speed class.
+pub(crate) fn references(loads: &[Load]) -> Vec<Reference> {
+    let mut groups: BTreeMap<(Quantity, usize), Vec<&Load>> = BTreeMap::new();
+    for l in loads {
+        groups.entry((l.quantity, class(l))).or_default().push(l);
+    }
+    groups
+        .into_iter()
+        .map(|((quantity, class), list)| {
+            let (mut w, mut sum, mut speed) = (0.0, 0.0, [0.0; 2]);
+            for l in list {
+                let (centre, error) = scaled(l);
+                let weight = 1.0 / (error.powi(2) + quantity.scatter().powi(2));
+                w += weight;
+                sum += weight * centre;
+                speed[0] += weight * l.speed[0];
+                speed[1] += weight * l.speed[1];
+            }
+            Reference { quantity, class, centre: sum / w, error: w.powf(-0.5), speed: speed.map(|s| s / w) }
+        })
+        .collect()
+}
+
+/// The reference a load is compared with: of its own speed class, else of the nearest.
+pub(crate) fn matching<'a>(l: &Load, references: &'a [Reference]) -> Option<(&'a Reference, bool)> {
+    references
+        .iter()
+        .filter(|r| r.quantity == l.quantity)
+        .min_by_key(|r| r.class.abs_diff(class(l)))
+        .map(|r| (r, r.class != class(l)))
+}
+
+/// Every load over its reference, and pooled where recordings agree.
+pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, Vec<Ratio>) {
+    let mut singles = Vec::new();
+    let mut groups: BTreeMap<Quantity, Vec<(&Load, &Reference, bool)>> = BTreeMap::new();
+    for l in loads {
+        // The sum of arcs is for recordings whose straight load is not known.
+        let parted = l.quantity == Quantity::ArcSum
+            && loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad);
+        let Some((r, other)) = matching(l, references).filter(|_| !parted) else { continue };
+        let (centre, error) = scaled(l);
+        let e = (error.powi(2) + l.quantity.scatter().powi(2) + r.error.powi(2)).sqrt();
+        singles.push(ratio(l.recording.clone(), l, centre - r.centre, e, other));
+        groups.entry(l.quantity).or_default().push((l, r, other));
+    }
+    let mut pooled = Vec::new();
+    for (quantity, list) in groups {
+        if list.len() < 2 {
+            continue;
+        }
+        let n = list.len() as f64;
+        let d: Vec<f64> = list.iter().map(|(l, r, _)| scaled(l).0 - r.centre).collect();
+        let w: Vec<f64> = list.iter().map(|(l, ..)| 1.0 / (scaled(l).1.powi(2) + quantity.scatter().powi(2))).collect();
+        let total: f64 = w.iter().sum();
+        let mean = d.iter().zip(&w).map(|(d, w)| d * w).sum::<f64>() / total;
+        let sd = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
+        // Recordings that differ by more than twice the usual scatter are not one load.
+        if sd > 2.0 * quantity.scatter() {
+            continue;
+        }
+        let sd = sd.max(quantity.scatter());
+        let inverse: f64 = list.iter().map(|(l, ..)| scaled(l).1.powi(-2)).sum();
+        let reference = list.iter().map(|(_, r, _)| r.error).fold(0.0, f64::max);
+        let e = (sd * sd / n + 1.0 / inverse + reference.powi(2)).sqrt();
+        let mut names: Vec<&str> = list.iter().map(|(l, ..)| l.recording.as_str()).collect();
+        names.dedup();
+        let mut sample = list[0].0.clone();
+        sample.seconds = list.iter().map(|(l, ..)| l.seconds).sum();
+        sample.speed = [0, 1].map(|j| list.iter().map(|(l, ..)| l.speed[j]).sum::<f64>() / n);
+        let own = list.iter().zip(&w).map(|((l, ..), w)| scaled(l).0 * w).sum::<f64>() / total;
+        sample.value = if quantity.is_difference() { own } else { own.exp() };
+        sample.error = (sd * sd / n + 1.0 / inverse).sqrt() * if quantity.is_difference() { 1.0 } else { sample.value };
+        let mut joint = ratio(names.join(", "), &sample, mean, e, list.iter().any(|l| l.2));
+        let outer = || list.iter().map(|(l, ..)| l.speed[1]);
+        joint.range = [outer().fold(f64::MAX, f64::min), outer().fold(0.0, f64::max)];
+        pooled.push(joint);
+    }
+    (singles, pooled)
+}
+
+fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Ratio {
+    let of = |x: f64| if l.quantity.is_difference() { x } else { x.exp() };
+    Ratio {
+        recording,
+        quantity: l.quantity,
+        speed: l.speed,
+        range: [l.speed[1]; 2],
+        value: l.value,
+        half: NINETY * l.error,
+        ratio: of(d),
+        interval: [of(d - NINETY * e), of(d + NINETY * e)],
+        seconds: l.seconds,
+        firm: l.seconds >= FIRM,
+        other_speed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn load(recording: &str, quantity: Quantity, value: f64, speed: f64) -> Load {
+        Load { recording: recording.to_owned(), quantity, value, error: 0.02 * value, seconds: 12.0, speed: [speed; 2] }
+    }
+
+    fn pooled(values: &[f64]) -> (Vec<Ratio>, Vec<Ratio>) {
+        let reference = references(&[load("ref", Quantity::StraightLoad, 20.0, 0.5)]);
+        let loads: Vec<Load> = values
+            .iter()
+            .enumerate()
+            .map(|(i, v)| load(&format!("run_{i}"), Quantity::StraightLoad, *v, 0.5))
+            .collect();
+        ratios(&loads, &reference)
+    }
+
+    #[test]
+    fn recordings_that_agree_are_pooled_and_narrow_the_interval() {
+        let (singles, pooled) = pooled(&[40.0, 41.0, 39.0]);
+        assert_eq!((singles.len(), pooled.len()), (3, 1));
+        let p = &pooled[0];
+        approx::assert_relative_eq!(p.ratio, 2.0, max_relative = 0.01);
+        assert_eq!((p.recording.as_str(), p.seconds), ("run_0, run_1, run_2", 36.0));
+        assert!(p.firm && !p.other_speed);
+        let width = |r: &Ratio| r.interval[1] - r.interval[0];
+        assert!(p.interval[0] < 2.0 && 2.0 < p.interval[1]);
+        assert!(width(p) < width(&singles[0]));
+    }
+
+    #[test]
+    fn recordings_that_differ_are_not_one_load() {
+        // Two on the same ground, one on another: nothing is pooled.
+        let (singles, pooled) = pooled(&[40.0, 41.0, 60.0]);
+        assert_eq!((singles.len(), pooled.len()), (3, 0));
+        let scatter = Quantity::StraightLoad.scatter();
+        let (_, pooled) = self::pooled(&[40.0, 40.0 * (2.7 * scatter).exp()]);
+        assert_eq!(pooled.len(), 1, "a spread below twice the scatter of runs is one load");
+    }
+
+    #[test]
+    fn one_recording_is_not_pooled() {
+        let (singles, pooled) = pooled(&[40.0]);
+        assert_eq!((singles.len(), pooled.len()), (1, 0));
+    }
+
+    #[test]
+    fn a_load_is_compared_within_its_speed_class_where_that_is_possible() {
+        let refs = references(&[
+            load("slow", Quantity::StraightLoad, 20.0, 0.2),
+            load("fast", Quantity::StraightLoad, 30.0, 0.7),
+        ]);
+        let (same, other) = matching(&load("r", Quantity::StraightLoad, 1.0, 0.8), &refs).expect("a reference");
+        assert!(!other);
+        approx::assert_relative_eq!(same.centre, 30.0_f64.ln(), epsilon = 1e-12);
+        let alone = &refs[..1];
+        let (_, other) = matching(&load("r", Quantity::StraightLoad, 1.0, 0.8), alone).expect("a reference");
+        assert!(other);
+        assert!(matching(&load("r", Quantity::SpinSum, 1.0, 0.8), &refs).is_none());
+    }
+}

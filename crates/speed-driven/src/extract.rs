@@ -1,0 +1,295 @@
+//! Loads of steady driving: straight, turning, effective track, each with its standard error.
+//!
+//! One law per side: `|torque| = sgn(v) S/2 ± T`. `S` is the drag of both sides against rolling, `T` the scrub
+//! couple, plus on the outer side of a turn. In a spin both sides drive and each reads `S/2 + T`.
+
+use crate::run::SpeedRun;
+use crate::straight::{STRAIGHT, is_straight};
+use verdict::{Load, Quantity, Withheld};
+
+/// Least steady driving for an answer, samples at least and seconds.
+const LEAST_SECONDS: f64 = 3.0;
+/// Samples further apart belong to different stretches, s; a stretch counts as one piece per so many seconds.
+const STRETCH_GAP: f64 = 1.0;
+const PIECE: f64 = 5.0;
+/// Scatter of such a piece on one floor, relative: guards recordings of few pieces.
+const PIECE_SCATTER: f64 = 0.06;
+/// Speed classes of straight driving, m/s: different speeds are never mixed.
+pub(crate) const CLASSES: [f64; 4] = [0.12, 0.30, 0.55, 5.0];
+/// Least difference of the sides in a turn, m/s.
+const TURN: f64 = 4.5 / 127.0;
+/// How long a drive must have been straight, s: loads wind up after a turn. How constant a turn must have been, m/s,
+/// and for how long, s.
+const STRAIGHT_HOLD: f64 = 1.5;
+pub(super) const TURN_HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
+/// For how long a turn must go on for its yaw rate to count, s.
+const TURN_AHEAD: f64 = 0.5;
+/// Difference over sum of the speeds above which scrub is fully developed.
+const PLATEAU: f64 = 0.15;
+/// Systematic errors of the track: a gyro offset of 0.002 rad/s, set-points that are no encoder, 1.5 %.
+const GYRO_OFFSET: f64 = 0.002;
+const SET_POINT_ERROR: f64 = 0.015;
+
+/// Whether the robot turns at a row, has done so for a while, and scrub is fully developed: a spin or an arc.
+pub(crate) fn is_steady_turn(run: &SpeedRun, i: usize) -> bool {
+    let (l, r) = (run.speed[0][i], run.speed[1][i]);
+    let tight = l * r < 0.0 || (r - l).abs() >= PLATEAU * (l + r).abs().max(1e-9);
+    tight && (r - l).abs() >= TURN && run.held(i, TURN_HOLD.0, TURN_HOLD.1 * run.patience())
+}
+
+/// Mean with a standard error over pieces of steady stretches.
+struct Clustered {
+    mean: f64,
+    error: f64,
+    seconds: f64,
+    speed: [f64; 2],
+}
+
+fn pieces(run: &SpeedRun, rows: &[usize]) -> Vec<Vec<usize>> {
+    let mut out: Vec<Vec<usize>> = Vec::new();
+    for &i in rows {
+        match out.last_mut() {
+            Some(piece)
+                if piece.last().is_some_and(|&k| run.time[i] - run.time[k] <= STRETCH_GAP)
+                    && run.time[i] - run.time[piece[0]] <= PIECE =>
+            {
+                piece.push(i);
+            }
+            _ => out.push(vec![i]),
+        }
+    }
+    out
+}
+
+/// Speeds of the inner and the outer side at a row, the outer one positive; their mean when the drive is straight.
+fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
+    let (l, r) = (run.speed[0][i], run.speed[1][i]);
+    if (r - l).abs() <= STRAIGHT {
+        return [0.5 * (l + r).abs(); 2];
+    }
+    let (inner, outer) = if l.abs() < r.abs() { (l, r) } else { (r, l) };
+    [inner * outer.signum(), outer.abs()]
+}
+
+fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Option<Clustered> {
+    let seconds = rows.len() as f64 * run.period();
+    if seconds < LEAST_SECONDS {
+        return None;
+    }
+    let pieces = pieces(run, rows);
+    let n = rows.len() as f64;
+    let mean = rows.iter().map(|&i| value(i)).sum::<f64>() / n;
+    let squares: f64 = pieces.iter().map(|p| (p.len() as f64).powi(2)).sum();
+    let effective = n * n / squares;
+    let scatter: f64 =
+        pieces.iter().map(|p| (p.iter().map(|&i| value(i)).sum::<f64>() - p.len() as f64 * mean).powi(2)).sum();
+    let small = if effective > 1.5 { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
+    let error = (scatter.sqrt() / n * small).max(PIECE_SCATTER * mean.abs() / effective.sqrt());
+    let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / n);
+    Some(Clustered { mean, error, seconds, speed })
+}
+
+/// All loads that a recording permits, and what it does not.
+pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
+    let mut loads = Vec::new();
+    let mut withheld = Vec::new();
+    let load = |quantity: Quantity, c: &Clustered, value: f64, error: f64| Load {
+        recording: run.name.clone(),
+        quantity,
+        value,
+        error,
+        seconds: c.seconds,
+        speed: c.speed,
+    };
+    let refuse = |quantity: Quantity, rows: usize, what: &str| Withheld {
+        recording: run.name.clone(),
+        quantity,
+        reason: format!("{:.1} s of {what}, {LEAST_SECONDS:.0} s are needed", rows as f64 * run.period()),
+    };
+    let all = || 0..run.time.len();
+    let straight: Vec<usize> =
+        all().filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, STRAIGHT_HOLD)).collect();
+    let speed = |i: usize| run.forward(i).abs();
+    for class in CLASSES.windows(2) {
+        let rows: Vec<usize> =
+            straight.iter().copied().filter(|&i| speed(i) >= class[0] && speed(i) < class[1]).collect();
+        if let Some(c) = clustered(run, &rows, |i| run.torque[0][i].abs() + run.torque[1][i].abs()) {
+            loads.push(load(Quantity::StraightLoad, &c, c.mean, c.error));
+            let signed = |i: usize| (run.torque[1][i].abs() - run.torque[0][i].abs()) / c.mean;
+            if let Some(d) = clustered(run, &rows, signed) {
+                loads.push(load(Quantity::Asymmetry, &d, d.mean, d.error));
+            }
+        }
+    }
+    if loads.is_empty() {
+        withheld.push(refuse(
+            Quantity::StraightLoad,
+            straight.len(),
+            "steady straight driving with both sides reading",
+        ));
+    }
+    let turning: Vec<usize> = all().filter(|&i| is_steady_turn(run, i)).collect();
+    let (spins, arcs): (Vec<usize>, Vec<usize>) =
+        turning.into_iter().partition(|&i| run.speed[0][i] * run.speed[1][i] < 0.0);
+    let outer = |i: usize| usize::from(run.speed[1][i].abs() > run.speed[0][i].abs());
+    if let Some(c) = clustered(run, &arcs, |i| run.torque[outer(i)][i].abs()) {
+        let forward = 0.5 * (c.speed[0] + c.speed[1]).abs();
+        let nearest = loads
+            .iter()
+            .filter(|l| l.quantity == Quantity::StraightLoad)
+            .min_by(|a, b| gap(a, forward).total_cmp(&gap(b, forward)))
+            .cloned();
+        if let Some(s) = nearest {
+            loads.push(load(Quantity::TurningLoad, &c, c.mean - 0.5 * s.value, c.error.hypot(0.5 * s.error)));
+        }
+        loads.push(load(Quantity::ArcSum, &c, c.mean, c.error));
+    }
+    if let Some(c) = clustered(run, &spins, |i| 0.5 * (run.torque[0][i].abs() + run.torque[1][i].abs())) {
+        loads.push(load(Quantity::SpinSum, &c, c.mean, c.error));
+    }
+    if !loads.iter().any(|l| matches!(l.quantity, Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum)) {
+        withheld.push(refuse(Quantity::TurningLoad, arcs.len().max(spins.len()), "steady turning"));
+    }
+    match track(run, arcs.iter().chain(&spins).copied()) {
+        Ok(l) => loads.push(l),
+        Err(w) => withheld.push(w),
+    }
+    (loads, withheld)
+}
+
+fn gap(l: &Load, speed: f64) -> f64 {
+    (0.5 * (l.speed[0] + l.speed[1]).abs() - speed).abs()
+}
+
+/// Effective track `Σd²/Σdω` over steady turning that goes on, `d` the difference of the tyre speeds.
+fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, Withheld> {
+    let quantity = Quantity::EffectiveTrack;
+    let refuse = |reason: String| Withheld { recording: run.name.clone(), quantity, reason };
+    let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro".to_owned())) };
+    let mut rows: Vec<usize> =
+        rows.filter(|&i| yaw[i].is_finite() && run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
+    rows.sort_unstable();
+    let seconds = rows.len() as f64 * run.period();
+    if seconds < LEAST_SECONDS {
+        return Err(refuse(format!("{seconds:.1} s of steady turning with a gyro, {LEAST_SECONDS:.0} s are needed")));
+    }
+    let (mut dd, mut dw, mut ww) = (0.0, 0.0, 0.0);
+    for &i in &rows {
+        let d = run.difference(i);
+        dd += d * d;
+        dw += d * yaw[i];
+        ww += yaw[i] * yaw[i];
+    }
+    if dw <= 0.0 {
+        return Err(refuse("the gyro does not turn with the wheels: check its sign and clock".to_owned()));
+    }
+    let b = dd / dw;
+    let pieces = pieces(run, &rows);
+    let weights: Vec<f64> = pieces.iter().map(|p| p.iter().map(|&i| run.difference(i).powi(2)).sum()).collect();
+    let effective = dd * dd / weights.iter().map(|w| w * w).sum::<f64>();
+    if effective <= 1.5 {
+        return Err(refuse("one short turn only: nothing tells how it scatters".to_owned()));
+    }
+    let scatter: f64 = pieces
+        .iter()
+        .map(|p| p.iter().map(|&i| run.difference(i) * (run.difference(i) - b * yaw[i])).sum::<f64>().powi(2))
+        .sum();
+    let random = scatter.sqrt() / dw * (effective / (effective - 1.0)).sqrt();
+    let systematic = b * (GYRO_OFFSET / (ww / rows.len() as f64).sqrt()).hypot(SET_POINT_ERROR);
+    let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
+    Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::tests::{CONSTANT, GROUND, Ground, RADIUS, recording};
+
+    fn loads(ground: Ground, legs: &[([f64; 2], f64)], broken: Option<usize>) -> (Vec<Load>, Vec<Withheld>) {
+        extract(&SpeedRun::new(&recording(ground, legs, broken), RADIUS, CONSTANT).expect("a run"))
+    }
+
+    fn one(loads: &[Load], quantity: Quantity) -> &Load {
+        let found: Vec<&Load> = loads.iter().filter(|l| l.quantity == quantity).collect();
+        assert_eq!(found.len(), 1, "{quantity:?} in {loads:?}");
+        found[0]
+    }
+
+    /// Straight, left arc, straight, right arc, a spin each way.
+    const DRIVE: [([f64; 2], f64); 6] = [
+        ([0.5, 0.5], 20.0),
+        ([0.35, 0.65], 8.0),
+        ([0.5, 0.5], 20.0),
+        ([0.65, 0.35], 8.0),
+        ([-0.25, 0.25], 8.0),
+        ([0.25, -0.25], 8.0),
+    ];
+
+    #[test]
+    fn loads_and_track_of_a_known_ground_are_recovered() {
+        let (loads, withheld) = loads(GROUND, &DRIVE, None);
+        assert_eq!(withheld, []);
+        for (quantity, truth) in [
+            (Quantity::StraightLoad, GROUND.straight),
+            (Quantity::TurningLoad, GROUND.turning),
+            (Quantity::ArcSum, 0.5 * GROUND.straight + GROUND.turning),
+            (Quantity::SpinSum, 0.5 * GROUND.straight + GROUND.turning),
+            (Quantity::EffectiveTrack, GROUND.track),
+        ] {
+            let l = one(&loads, quantity);
+            assert!((l.value - truth).abs() <= 1e-6_f64.max(2.0 * l.error), "{l:?}, truth {truth}");
+            assert!(l.error < 0.1 * truth && l.seconds >= LEAST_SECONDS, "{l:?}");
+        }
+        assert!(one(&loads, Quantity::Asymmetry).value.abs() < 1e-9);
+        approx::assert_relative_eq!(one(&loads, Quantity::StraightLoad).speed[0], 0.5, epsilon = 1e-9);
+        let arc = one(&loads, Quantity::TurningLoad).speed;
+        approx::assert_relative_eq!(arc[0], 0.35, epsilon = 1e-9);
+        approx::assert_relative_eq!(arc[1], 0.65, epsilon = 1e-9);
+    }
+
+    #[test]
+    fn speeds_are_not_mixed() {
+        let (loads, _) = loads(GROUND, &[([0.2, 0.2], 10.0), ([0.5, 0.5], 10.0), ([0.8, 0.8], 10.0)], None);
+        let speeds: Vec<f64> =
+            loads.iter().filter(|l| l.quantity == Quantity::StraightLoad).map(|l| l.speed[0]).collect();
+        assert_eq!(speeds.len(), 3);
+        for (s, truth) in speeds.iter().zip([0.2, 0.5, 0.8]) {
+            approx::assert_relative_eq!(*s, truth, epsilon = 1e-9);
+        }
+    }
+
+    #[test]
+    fn too_little_steady_driving_is_withheld_with_the_reason() {
+        let (loads, withheld) = loads(GROUND, &[([0.5, 0.5], 3.0), ([0.35, 0.65], 2.0), ([0.2, 0.2], 2.0)], None);
+        assert_eq!(loads, []);
+        let reasons: Vec<(Quantity, &str)> = withheld.iter().map(|w| (w.quantity, w.reason.as_str())).collect();
+        assert_eq!(reasons.len(), 3, "{reasons:?}");
+        assert_eq!(reasons[0].0, Quantity::StraightLoad);
+        assert!(reasons[0].1.contains("steady straight driving") && reasons[0].1.contains("3 s are needed"));
+        assert_eq!(reasons[1].0, Quantity::TurningLoad);
+        assert!(reasons[1].1.contains("s of steady turning"), "{reasons:?}");
+        assert_eq!(reasons[2].0, Quantity::EffectiveTrack);
+        assert!(reasons[2].1.contains("with a gyro"), "{reasons:?}");
+    }
+
+    #[test]
+    fn a_side_in_the_dead_band_gives_no_straight_load() {
+        // One side shows nothing: the sum of both is not known, the outer side of a left arc is.
+        let (found, withheld) = loads(GROUND, &DRIVE, Some(0));
+        assert!(found.iter().all(|l| l.quantity != Quantity::StraightLoad && l.quantity != Quantity::TurningLoad));
+        assert!(withheld.iter().any(|w| w.quantity == Quantity::StraightLoad && w.reason.contains("both sides")));
+        // A load that is smaller than the dead band on both sides does not read as zero either.
+        let light = Ground { straight: 3.0, ..GROUND };
+        let (found, withheld) = loads(light, &[([0.5, 0.5], 30.0)], None);
+        assert_eq!(found, []);
+        assert!(withheld.iter().any(|w| w.quantity == Quantity::StraightLoad));
+    }
+
+    #[test]
+    fn one_short_turn_gives_no_track() {
+        let (found, withheld) = loads(GROUND, &[([0.5, 0.5], 10.0), ([0.35, 0.65], 5.5)], None);
+        assert!(found.iter().all(|l| l.quantity != Quantity::EffectiveTrack));
+        let track = withheld.iter().find(|w| w.quantity == Quantity::EffectiveTrack).expect("withheld");
+        assert!(track.reason.contains("one short turn"), "{track:?}");
+    }
+}

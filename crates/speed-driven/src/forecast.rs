@@ -1,0 +1,149 @@
+//! The last third of a recording forecast from its set speeds, with everything fitted on the first two.
+
+use crate::clock::TURN;
+use crate::extract::extract;
+use crate::law::{Law, error, fit, torques};
+use crate::median::median;
+use crate::run::SpeedRun;
+use verdict::{Forecast, Quantity};
+
+/// Recordings shorter than this are not split, s; nor those that turn less in either part, s.
+const LEAST_SECONDS: f64 = 15.0;
+const LEAST_TURNING: f64 = 3.0;
+/// Lags of the body behind its set speeds that are tried, s.
+const LAGS: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+
+/// What the references say of the forecast: torques by the law, and the effective track in m.
+pub(crate) struct Nominal {
+    constants: Option<[f64; crate::law::CONSTANTS]>,
+    track: f64,
+    straight: f64,
+}
+
+impl Nominal {
+    /// Median of the constants that fit each reference. `straight` is their straight load, N m.
+    pub(crate) fn new(references: &[SpeedRun], straight: f64, track: f64) -> Self {
+        let fits: Vec<_> = references
+            .iter()
+            .filter(|r| turning_seconds(r, 0, r.time.len()) >= LEAST_TURNING)
+            .map(|r| fit(Law::Turning, r, r.time.len(), straight))
+            .collect();
+        let middle = |k: usize| median(fits.iter().map(|c| c[k])).unwrap_or(f64::NAN);
+        Self { constants: (!fits.is_empty()).then(|| std::array::from_fn(middle)), track, straight }
+    }
+}
+
+fn turning_seconds(run: &SpeedRun, from: usize, until: usize) -> f64 {
+    (from..until).filter(|&i| run.difference(i).abs() > TURN).count() as f64 * run.period()
+}
+
+/// Forecasts of torques and yaw rate; none of a recording that is short or does not turn in both parts.
+pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
+    let rows = run.time.len();
+    let (first, last) = (run.time[0], run.time[rows - 1]);
+    let split = run.time.partition_point(|t| *t < first + (last - first) * 2.0 / 3.0);
+    let turns = turning_seconds(run, 0, split) >= LEAST_TURNING && turning_seconds(run, split, rows) >= LEAST_TURNING;
+    if last - first < LEAST_SECONDS || !turns {
+        return Vec::new();
+    }
+    let mut out = Vec::new();
+    if let Some(constants) = &nominal.constants {
+        let of = |law| error(&torques(law, &fit(law, run, split, nominal.straight), run), run, split);
+        out.push(Forecast {
+            recording: run.name.clone(),
+            quantity: "torque of a side, N m".into(),
+            interval: [run.time[split], last],
+            nominal: error(&torques(Law::Turning, constants, run), run, split),
+            retuned: error(&vec![level(run, split); rows], run, split),
+            corrected: of(Law::Turning),
+            placebos: Law::PLACEBOS.into_iter().map(|law| (law.effect().into(), of(law))).collect(),
+        });
+    }
+    if let Some(yaw) = &run.yaw_rate {
+        let rms = |b: f64, lag: f64, from: usize, until: usize| {
+            let follow = followed(run, lag);
+            root_mean_square((from..until).map(|i| follow[i] / b - yaw[i]))
+        };
+        let lag_of = |b: f64| {
+            LAGS.into_iter().min_by(|x, y| rms(b, *x, 0, split).total_cmp(&rms(b, *y, 0, split))).unwrap_or(0.0)
+        };
+        let own = effective_track(&run.head(split)).unwrap_or(nominal.track);
+        let known: Vec<f64> = yaw[..split].iter().copied().filter(|w| w.is_finite()).collect();
+        let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        let level = root_mean_square(yaw[split..].iter().map(|w| w - mean));
+        out.push(Forecast {
+            recording: run.name.clone(),
+            quantity: "yaw rate, rad/s".into(),
+            interval: [run.time[split], last],
+            nominal: rms(nominal.track, 0.0, split, rows),
+            retuned: level,
+            corrected: rms(own, lag_of(own), split, rows),
+            placebos: Vec::new(),
+        });
+    }
+    out
+}
+
+/// Of what is known: rows without a yaw rate are left out.
+fn root_mean_square(errors: impl Iterator<Item = f64>) -> f64 {
+    let (sum, n) = errors.filter(|e| e.is_finite()).fold((0.0, 0.0), |(sum, n), e| (sum + e * e, n + 1.0));
+    (sum / f64::max(n, 1.0)).sqrt()
+}
+
+/// Effective track from steady turning, m.
+fn effective_track(run: &SpeedRun) -> Option<f64> {
+    extract(run).0.into_iter().find(|l| l.quantity == Quantity::EffectiveTrack).map(|l| l.value)
+}
+
+/// Mean torques of the rows before `until`.
+fn level(run: &SpeedRun, until: usize) -> [f64; 2] {
+    [0, 1].map(|j| run.torque[j][..until].iter().sum::<f64>() / until.max(1) as f64)
+}
+
+/// Difference of the speeds behind a first-order lag, m/s.
+fn followed(run: &SpeedRun, lag: f64) -> Vec<f64> {
+    let mut x = run.difference(0);
+    (0..run.time.len())
+        .map(|i| {
+            let dt = if i > 0 { run.time[i] - run.time[i - 1] } else { 0.0 };
+            let share = if lag > 0.0 { 1.0 - (-dt / lag).exp() } else { 1.0 };
+            x += share * (run.difference(i) - x);
+            x
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, STRAIGHT, drive};
+
+    /// Straight driving and turns both ways, some rounds of it.
+    fn rounds(n: usize) -> Vec<Leg> {
+        let right = Leg { speed: [0.24, 0.08], ..Leg::turn(5.0) };
+        (0..n).flat_map(|_| [Leg::straight(6.0), Leg::turn(5.0), Leg::straight(4.0), right]).collect()
+    }
+
+    #[test]
+    fn the_last_third_is_forecast_better_than_by_a_level_or_a_wrong_law() {
+        let reference = drive(&rounds(3), false);
+        // A ground that scrubs more.
+        let harder: Vec<Leg> = rounds(4).into_iter().map(|leg| Leg { scrub: 30.0, ..leg }).collect();
+        let nominal = Nominal::new(&[reference], STRAIGHT, 0.77);
+        let all = forecasts(&drive(&harder, false), &nominal);
+        let torque = all.iter().find(|f| f.quantity.starts_with("torque")).expect("torques");
+        assert!(torque.retuned > 2.5 * torque.corrected, "{torque:?}");
+        assert!(torque.nominal > 1.3 * torque.corrected, "{torque:?}");
+        assert_eq!(torque.placebos.len(), 3);
+        assert!(torque.placebos.iter().all(|p| p.1 > 2.0 * torque.corrected), "{torque:?}");
+        let yaw = all.iter().find(|f| f.quantity.starts_with("yaw")).expect("a yaw rate");
+        assert!(yaw.corrected < 0.02 && yaw.retuned > 5.0 * yaw.corrected, "{yaw:?}");
+    }
+
+    #[test]
+    fn a_run_that_does_not_turn_is_not_forecast() {
+        let nominal = Nominal::new(&[drive(&rounds(2), false)], STRAIGHT, 0.77);
+        assert_eq!(forecasts(&drive(&[Leg::straight(40.0)], false), &nominal), []);
+        assert_eq!(forecasts(&drive(&[Leg::straight(4.0), Leg::turn(6.0)], false), &nominal), []);
+    }
+}

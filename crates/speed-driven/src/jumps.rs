@@ -1,0 +1,130 @@
+//! Jumps of the straight load, by currents.
+
+use crate::changes::{APART, GRADE, ROLLING, Usual, class, pieces};
+use crate::compare::NINETY;
+use crate::name::UNNAMED_STRAIGHT;
+use crate::run::SpeedRun;
+use crate::straight::{Reading, reads_nothing};
+use verdict::LoadChange;
+
+/// A change shorter than this is not told, s of straight driving.
+const LEAST: f64 = 1.5;
+/// A slope whose pull counts as a jump of the load, degrees.
+const JUMP: f64 = 1.9;
+/// No friction falls to this share of the usual load: the robot runs downhill.
+const BELOW_FRICTION: f64 = 0.35;
+const BELOW_SECONDS: f64 = 1.0;
+/// Scatter of the straight load along one floor, as a share.
+const SCATTER: f64 = 0.15;
+/// Headings this far apart tell a slope from the ground, rad; a way back, rad.
+const OTHER_HEADING: f64 = std::f64::consts::FRAC_PI_3;
+const WAY_BACK: f64 = 2.6;
+
+/// Jumps of the load, from currents. `after_slope`: what a slope does was taken away.
+pub(super) fn jumps(
+    run: &SpeedRun,
+    readings: &[Option<Reading>],
+    level: &[f64],
+    usual: &Usual,
+    weight: f64,
+    after_slope: bool,
+) -> Vec<LoadChange> {
+    let period = run.period();
+    let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
+    let step = weight * JUMP.to_radians();
+    let changed = |i: &usize| (level[*i] - base(*i)).abs() > step.max((1.0 - 1.0 / UNNAMED_STRAIGHT) * base(*i));
+    let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
+    let mut out = Vec::new();
+    for piece in pieces(&run.time, seen.iter().copied().filter(changed), APART) {
+        // A piece has one direction.
+        for piece in piece.chunk_by(|&a, &b| (level[a] > base(a)) == (level[b] > base(b))) {
+            let seconds = piece.len() as f64 * period;
+            if seconds < LEAST {
+                continue;
+            }
+            let exact: Vec<usize> =
+                piece.iter().copied().filter(|&i| readings[i].is_some_and(Reading::is_exact)).collect();
+            let bound = 2 * exact.len() < piece.len();
+            let of = if bound { piece } else { &exact };
+            let mean = |f: &dyn Fn(usize) -> f64| of.iter().map(|&i| f(i)).sum::<f64>() / of.len() as f64;
+            let load = mean(&|i| readings[i].map_or(0.0, Reading::value));
+            let from = mean(&base);
+            if from <= 0.0 {
+                continue;
+            }
+            // What the currents only bound from above may be anything between.
+            if bound && load > from / UNNAMED_STRAIGHT {
+                continue;
+            }
+            let (first, last) = (piece[0], piece[piece.len() - 1]);
+            let own = |i: usize| level[i] - base(i);
+            let before = seen.iter().rev().find(|&&i| i < first).copied();
+            let after = seen.iter().find(|&&i| i > last).copied();
+            // Cold drive trains differ from the references, but do not jump at one speed.
+            let jumped = [before, after].into_iter().flatten().any(|i| {
+                class(run.forward(i).abs()) == class(run.forward(first).abs()) && own(i).abs() < 0.5 * own(first).abs()
+            });
+            if !jumped && load > from / UNNAMED_STRAIGHT && load < from * UNNAMED_STRAIGHT * (1.0 + SCATTER) {
+                continue;
+            }
+            let slope = ((load - from) / weight).clamp(-1.0, 1.0).asin().to_degrees();
+            let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
+            let below = load < BELOW_FRICTION * from || nothing >= BELOW_SECONDS && load < from / UNNAMED_STRAIGHT;
+            let (causes, reason) = if after_slope {
+                (vec![ROLLING], "the gyro shows no slope that would do it")
+            } else if below {
+                (vec![GRADE], "less than any friction: it runs downhill")
+            } else {
+                (vec![GRADE, ROLLING], "a straight drive one way cannot tell them apart")
+            };
+            out.push(LoadChange {
+                recording: run.name.clone(),
+                interval: [run.time[first], run.time[last]],
+                onset: [before.map_or(run.time[0], |i| run.time[i]), run.time[first]],
+                end: [run.time[last], after.map_or(run.time[run.time.len() - 1], |i| run.time[i])],
+                seconds,
+                ratio: Some(load / from),
+                slope,
+                slope_half: NINETY * SCATTER * from / weight * 180.0 / std::f64::consts::PI,
+                bound,
+                causes,
+                reason: reason.into(),
+            });
+        }
+    }
+    if !after_slope {
+        decide_by_heading(run, &mut out);
+    }
+    out
+}
+
+/// A slope depends on the heading, the ground does not: changes driven both ways tell them apart.
+fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
+    let Some(yaw) = &run.yaw_rate else { return };
+    let mut heading = vec![0.0; yaw.len()];
+    for i in 1..yaw.len() {
+        let rate = 0.5 * (yaw[i] + yaw[i - 1]);
+        let turned = rate * (run.time[i] - run.time[i - 1]);
+        heading[i] = heading[i - 1] + if turned.is_finite() { turned } else { 0.0 };
+    }
+    // Direction of travel in the middle of a change.
+    let direction = |c: &LoadChange| {
+        let i = run.time.partition_point(|t| *t < 0.5 * (c.interval[0] + c.interval[1])).min(heading.len() - 1);
+        heading[i] + if run.forward(i) < 0.0 { std::f64::consts::PI } else { 0.0 }
+    };
+    // A bound says neither that loads are alike nor that they are opposite.
+    let seen: Vec<(f64, f64)> = found.iter().filter(|c| !c.bound).map(|c| (direction(c), c.slope)).collect();
+    for change in found.iter_mut().filter(|c| c.causes.len() > 1 && !c.bound) {
+        let (own, slope) = (direction(change), change.slope);
+        let apart = |other: f64| (other - own).sin().atan2((other - own).cos()).abs();
+        let way_back = seen.iter().any(|o| apart(o.0) > WAY_BACK && o.1 * slope < 0.0);
+        let whichever = seen.iter().any(|o| apart(o.0) > OTHER_HEADING && (o.1 / slope - 1.0).abs() < SCATTER);
+        if way_back {
+            change.causes = vec![GRADE];
+            change.reason = "the way back shows the opposite".into();
+        } else if whichever {
+            change.causes = vec![ROLLING];
+            change.reason = "it is the same in another heading".into();
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! A law of the sides' torques from the set speeds alone, and what wrong laws of the same freedom reach.
+//!
+//! Torque of a side `τ = S/2 (1 ± a) sgn v ± T x`, plus on the right. The scrub winds up with the distance:
+//! `dx/ds = (tanh(κ/κ₀) − x)/d`, `κ` the difference over the larger of the speeds, `s` the way of the faster side; the
+//! drive follows its set speeds with a lag. Unsigned currents show what drives and nothing of what brakes.
+
+use faer::Mat;
+
+use crate::run::SpeedRun;
+use inference::linalg::solve_spd;
+
+/// Free constants of every law.
+pub(crate) const CONSTANTS: usize = 6;
+type Constants = [f64; CONSTANTS];
+
+/// What may stand in the place of the turning term, with as many constants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Law {
+    /// Scrub that winds up: couple, curvature, distance.
+    Turning,
+    /// Loads grow with the speed: viscous, quadratic, inertia.
+    Speed,
+    /// Loads drift with time: linear, quadratic, and a lag.
+    Drift,
+    /// A constant pull and loads that differ forward and backward.
+    Pull,
+}
+
+impl Law {
+    /// Laws that are wrong for a robot that turns.
+    pub(crate) const PLACEBOS: [Self; 3] = [Self::Speed, Self::Drift, Self::Pull];
+
+    /// Id of the effect it stands for.
+    pub(crate) fn effect(self) -> &'static str {
+        match self {
+            Self::Turning => "turning_resistance",
+            Self::Speed => "viscous_friction",
+            Self::Drift => "thermal_drift",
+            Self::Pull => "constant_pull",
+        }
+    }
+}
+
+/// Where the fit begins: straight load, scrub couple (N m), curvature, distance (m), asymmetry, lag (s); and bounds.
+fn begin(law: Law, straight: f64) -> [Constants; 3] {
+    match law {
+        Law::Turning => [
+            [straight, 2.0 * straight, 0.3, 0.15, 0.1, 0.2],
+            [0.2 * straight, 0.1 * straight, 0.02, 0.01, -0.7, 0.01],
+            [6.0 * straight, 8.0 * straight, 2.0, 2.0, 0.7, 1.0],
+        ],
+        _ => [
+            [straight, 0.0, 0.0, 0.0, 0.1, 0.2],
+            [0.2 * straight, -20.0 * straight, -20.0 * straight, -20.0 * straight, -0.7, 0.01],
+            [6.0 * straight, 20.0 * straight, 20.0 * straight, 20.0 * straight, 0.7, 1.0],
+        ],
+    }
+}
+
+/// Below this speed a side rests, m/s; and the least that a curvature is taken over.
+const REST: f64 = 0.01;
+const LEAST_SPEED: f64 = 0.02;
+/// Torque over which an unsigned current goes from nothing to a reading, N m.
+const SOFT: f64 = 1.0;
+
+/// What the sensor shows of a torque.
+fn shown(torque: f64, speed: f64, magnitude_only: bool) -> f64 {
+    if !magnitude_only {
+        return torque;
+    }
+    let drives = if speed.abs() > REST { torque * speed.signum() } else { torque.abs() };
+    // Soft at zero, so that a fit sees from which side it comes.
+    drives.max(0.0) + SOFT * (-(drives / SOFT).abs()).exp().ln_1p()
+}
+
+/// Torques of both sides that a law gives from the set speeds, row by row.
+pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f64; 2]> {
+    let [straight, a1, a2, a3, asymmetry, lag] = *constants;
+    let Some(&first) = run.time.first() else { return Vec::new() };
+    let length = (run.time[run.time.len() - 1] - first).max(1e-9);
+    let mut speed = [run.speed[0][0], run.speed[1][0]];
+    let (mut wound, mut before, mut then) = (0.0, speed, first);
+    let mut out = Vec::with_capacity(run.time.len());
+    for (i, &now) in run.time.iter().enumerate() {
+        let dt = now - then;
+        let follow = 1.0 - (-dt / lag).exp();
+        for (j, v) in speed.iter_mut().enumerate() {
+            *v += follow * (run.speed[j][i] - *v);
+        }
+        let [l, r] = speed;
+        let fastest = l.abs().max(r.abs());
+        if law == Law::Turning {
+            let scrub = ((r - l) / fastest.max(LEAST_SPEED) / a2).tanh();
+            wound += (1.0 - (-fastest * dt / a3).exp()) * (scrub - wound);
+        }
+        let mut row = [0.0; 2];
+        for (j, side) in [(0, -1.0), (1, 1.0)] {
+            let v = speed[j];
+            let rolling = (v / LEAST_SPEED).tanh() * 0.5 * straight * (1.0 + side * asymmetry);
+            let rest = match law {
+                Law::Turning => side * a1 * wound,
+                Law::Speed => {
+                    let rate = if dt > 0.0 { (v - before[j]) / dt } else { 0.0 };
+                    a1 * v + a2 * v * v.abs() + a3 * rate
+                }
+                Law::Drift => {
+                    let x = (now - first) / length;
+                    (v / LEAST_SPEED).tanh() * (a1 * x + a2 * x * x + a3 * (-8.0 * x).exp())
+                }
+                Law::Pull => a1 + a2 * side + if v > 0.0 { a3 } else { 0.0 },
+            };
+            row[j] = shown(rolling + rest, v, run.magnitude_only);
+        }
+        (before, then) = (speed, now);
+        out.push(row);
+    }
+    out
+}
+
+/// Residual beyond which a row counts less, N m.
+const FAR_OFF: f64 = 3.0;
+/// Steps of the fit and of its derivatives (share of the way from bound to bound), first damping.
+const STEPS: usize = 25;
+const SHIFT: f64 = 1e-4;
+const DAMPING: f64 = 1e-2;
+
+/// Fits a law to the rows before `until` (Levenberg–Marquardt, soft-L1 loss, within bounds).
+pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Constants {
+    let [mut x, low, high] = begin(law, straight);
+    let span: Constants = std::array::from_fn(|k| high[k] - low[k]);
+    let residuals = |c: &Constants| -> Vec<f64> {
+        let rows = torques(law, c, run);
+        (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
+    };
+    let cost = |r: &[f64]| r.iter().map(|e| 2.0 * ((1.0 + (e / FAR_OFF).powi(2)).sqrt() - 1.0)).sum::<f64>();
+    let mut r = residuals(&x);
+    let (mut best, mut damping) = (cost(&r), DAMPING);
+    for _ in 0..STEPS {
+        let columns: Vec<Vec<f64>> = (0..CONSTANTS)
+            .map(|k| {
+                let mut shifted = x;
+                let h = SHIFT * span[k] * if x[k] + SHIFT * span[k] > high[k] { -1.0 } else { 1.0 };
+                shifted[k] += h;
+                residuals(&shifted).iter().zip(&r).map(|(a, b)| (a - b) / h * span[k]).collect()
+            })
+            .collect();
+        let w: Vec<f64> = r.iter().map(|e| (1.0 + (e / FAR_OFF).powi(2)).powf(-0.5)).collect();
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&w).map(|((a, b), w)| a * b * w).sum::<f64>();
+        let normal = Mat::from_fn(CONSTANTS, CONSTANTS, |a, b| dot(&columns[a], &columns[b]));
+        let gradient = Mat::from_fn(CONSTANTS, 1, |a, _| -dot(&columns[a], &r));
+        let mut improved = false;
+        while damping < 1e6 && !improved {
+            let damped = Mat::from_fn(CONSTANTS, CONSTANTS, |a, b| {
+                normal[(a, b)] + if a == b { damping * (normal[(a, a)] + 1e-6) } else { 0.0 }
+            });
+            let Some((step, _)) = solve_spd(&damped, &gradient) else { break };
+            let next: Constants = std::array::from_fn(|k| (x[k] + step[(k, 0)] * span[k]).clamp(low[k], high[k]));
+            let trial = residuals(&next);
+            let value = cost(&trial);
+            improved = value < best - 1e-9 * best.abs();
+            if improved {
+                (x, r, best) = (next, trial, value);
+                damping = (damping * 0.3).max(1e-9);
+            } else {
+                damping *= 4.0;
+            }
+        }
+        if !improved {
+            break;
+        }
+    }
+    x
+}
+
+/// What was recorded of a side's torque at a row: a magnitude where only that is known, N m.
+fn recorded(run: &SpeedRun, i: usize, side: usize) -> f64 {
+    let torque = run.torque[side][i];
+    if run.magnitude_only { torque.abs() } else { torque }
+}
+
+/// Root mean squared error of forecast torques over the rows from `from`, N m.
+pub(crate) fn error(rows: &[[f64; 2]], run: &SpeedRun, from: usize) -> f64 {
+    let squares = (from..run.time.len()).flat_map(|i| [0, 1].map(|j| (rows[i][j] - recorded(run, i, j)).powi(2)));
+    (squares.sum::<f64>() / (2 * (run.time.len() - from)).max(1) as f64).sqrt()
+}

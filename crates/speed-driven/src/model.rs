@@ -1,0 +1,213 @@
+//! The plant in steady driving: what loads it predicts, and its calibration on the references' loads.
+
+use faer::Mat;
+use robot_model::tunable::COUNT as NUISANCES;
+use robot_model::{Active, Plant, Robot, State};
+use verdict::Quantity;
+
+use crate::run::SpeedRun;
+use inference::hypothesis::Dose;
+use inference::linalg::solve_spd;
+use robot_model::tunable::tuned;
+
+/// Integration step, s.
+const STEP: f64 = 2e-3;
+/// Headings over which a turn is averaged.
+const HEADINGS: usize = 6;
+/// Gauss–Newton steps of the calibration and the size of finite steps, in sigmas.
+const STEPS: usize = 6;
+const SHIFT: f64 = 0.2;
+
+/// Speed below which a braking side reads its braking current, without sign, m/s.
+const BRAKING_READS: f64 = 0.12;
+
+/// Where and how a load is driven.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Operating {
+    pub(crate) quantity: Quantity,
+    /// Speeds at the tyres, left and right, m/s.
+    pub(crate) speed: [f64; 2],
+}
+
+/// Means of a steady drive over all headings: torque of each side, yaw rate.
+fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
+    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+    let plant = Plant::new(robot, &active, STEP);
+    let wheel = speed.map(|v| v / robot.wheel_radius);
+    let turning = (speed[1] - speed[0]).abs() > 1e-6;
+    // A slope pulls differently around a turn; a straight drive keeps its heading.
+    let headings = if turning { HEADINGS } else { 1 };
+    let yaw = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+    let mut s = State { yaw_rate: yaw, ..State::default() };
+    plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
+    let (mut torque, mut turned) = ([0.0; 2], 0.0);
+    for k in 0..headings {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / headings as f64).sin_cos();
+        s.heading = [cos, sin];
+        plant.settle_at_speed(&mut s, wheel);
+        torque[0] += s.needed[0].abs() / headings as f64;
+        torque[1] += s.needed[1].abs() / headings as f64;
+        turned += s.yaw_rate / headings as f64;
+    }
+    (torque, turned)
+}
+
+/// The load that a robot shows, on the scale on which loads are compared (logarithm, or itself for a difference).
+pub(crate) fn predicted(robot: &Robot<f64>, doses: &[Dose], at: Operating) -> f64 {
+    let [l, r] = at.speed;
+    let (torque, yaw) = steady(robot, doses, at.speed);
+    let outer = if l.abs() > r.abs() { torque[0] } else { torque[1] };
+    let value = match at.quantity {
+        Quantity::StraightLoad => torque[0] + torque[1],
+        Quantity::Asymmetry => return (torque[1] - torque[0]) / (torque[0] + torque[1]).max(1e-9),
+        Quantity::ArcSum => outer,
+        Quantity::TurningLoad => {
+            let v = 0.5 * (l + r);
+            let (straight, _) = steady(robot, doses, [v, v]);
+            outer - 0.5 * (straight[0] + straight[1])
+        }
+        Quantity::SpinSum => 0.5 * (torque[0] + torque[1]),
+        Quantity::EffectiveTrack => (r - l) / if yaw.abs() > 1e-6 { yaw } else { 1e-6 },
+    };
+    value.abs().max(1e-6).ln()
+}
+
+/// A measured load with where it was driven, on the comparison scale.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Measured {
+    pub(crate) at: Operating,
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+}
+
+/// Constants of the robot that the loads determine, and how well.
+#[derive(Clone)]
+pub(crate) struct Tuned {
+    pub(crate) theta: [f64; NUISANCES],
+    pub(crate) covariance: Mat<f64>,
+}
+
+/// Derivatives of each prediction by θ (in sigmas).
+pub(crate) fn sensitivity(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    theta: &[f64; NUISANCES],
+    at: &[Operating],
+) -> Mat<f64> {
+    let base: Vec<f64> = at.iter().map(|o| predicted(&tuned(robot, sigma, theta), &[], *o)).collect();
+    let columns: Vec<Vec<f64>> = (0..NUISANCES)
+        .map(|k| {
+            let mut t = *theta;
+            t[k] += SHIFT;
+            let r = tuned(robot, sigma, &t);
+            at.iter().zip(&base).map(|(o, b)| (predicted(&r, &[], *o) - b) / SHIFT).collect()
+        })
+        .collect();
+    Mat::from_fn(at.len(), NUISANCES, |i, k| columns[k][i])
+}
+
+/// Tunes the robot to measured loads, with the robot file's sigmas as prior.
+pub(crate) fn tune(robot: &Robot<f64>, sigma: &[f64; NUISANCES], data: &[Measured]) -> Option<Tuned> {
+    let at: Vec<Operating> = data.iter().map(|d| d.at).collect();
+    let mut theta = [0.0; NUISANCES];
+    let mut covariance = Mat::identity(NUISANCES, NUISANCES);
+    for _ in 0..STEPS {
+        let j = sensitivity(robot, sigma, &theta, &at);
+        let r = tuned(robot, sigma, &theta);
+        let w: Vec<f64> = data.iter().map(|d| d.error.powi(-2)).collect();
+        let residual: Vec<f64> = data.iter().map(|d| d.value - predicted(&r, &[], d.at)).collect();
+        let m = Mat::from_fn(NUISANCES, NUISANCES, |a, b| {
+            f64::from(a == b) + (0..data.len()).map(|i| w[i] * j[(i, a)] * j[(i, b)]).sum::<f64>()
+        });
+        let g = Mat::from_fn(NUISANCES, 1, |a, _| {
+            (0..data.len()).map(|i| w[i] * j[(i, a)] * residual[i]).sum::<f64>() - theta[a]
+        });
+        let (step, _) = solve_spd(&m, &g)?;
+        for (k, t) in theta.iter_mut().enumerate() {
+            *t = (*t + step[(k, 0)].clamp(-1.0, 1.0)).clamp(-4.0, 4.0);
+        }
+        covariance = solve_spd(&m, &Mat::identity(NUISANCES, NUISANCES))?.0;
+    }
+    Some(Tuned { theta, covariance })
+}
+
+/// What a robot's sensors would show row by row, by its speeds alone: in steady motion plus inertia.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    /// Torque of each side, N m; `None` where it would show something unknown.
+    pub(crate) torque: [Vec<Option<f64>>; 2],
+    /// Yaw rate, rad/s.
+    pub(crate) yaw_rate: Vec<Option<f64>>,
+}
+
+impl Rows {
+    /// Root mean squared error of the torques, N m.
+    pub(crate) fn rms(&self, run: &SpeedRun) -> f64 {
+        let (mut sum, mut n) = (0.0, 0.0);
+        for i in 0..run.time.len() {
+            for square in self.squares(run, i) {
+                sum += square;
+                n += 1.0;
+            }
+        }
+        (sum / f64::max(n, 1.0)).sqrt()
+    }
+
+    /// Mean squared error of the torques of a row, (N m)².
+    pub(crate) fn square(&self, run: &SpeedRun, i: usize) -> Option<f64> {
+        let (n, sum) = self.squares(run, i).fold((0.0, 0.0), |(n, sum), square| (n + 1.0, sum + square));
+        (n > 0.0).then(|| sum / n)
+    }
+
+    /// What lies in the dead band on both accounts counts as right.
+    fn squares<'a>(&'a self, run: &'a SpeedRun, i: usize) -> impl Iterator<Item = f64> + 'a {
+        (0..2).filter_map(move |j| {
+            let shown = self.torque[j][i]?;
+            let measured = run.torque[j][i];
+            let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };
+            Some((measured - shown).powi(2))
+        })
+    }
+}
+
+/// What a robot's sensors would show in a recording.
+///
+/// Of currents without sign, a side that brakes reads nothing (the drive feeds back), below [`BRAKING_READS`]
+/// something unknown, which is left out.
+pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> Rows {
+    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+    let plant = Plant::new(robot, &active, STEP);
+    let radius = robot.wheel_radius;
+    let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
+    let rows = run.time.len();
+    let mut out = Rows { torque: [vec![None; rows], vec![None; rows]], yaw_rate: vec![None; rows] };
+    let mut s = State::default();
+    for i in 1..rows {
+        let span = run.time[i] - run.time[i - 1];
+        let speed = [run.speed[0][i], run.speed[1][i]];
+        // The body follows its wheels within a tenth of a second: rows are longer than that.
+        s.yaw_rate = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+        plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
+        plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
+        out.yaw_rate[i] = Some(s.yaw_rate).filter(|w| w.is_finite());
+        let forward = 0.5 * (speed[0] + speed[1] - run.speed[0][i - 1] - run.speed[1][i - 1]) / span;
+        let mean = [0, 1].map(|j| {
+            let own = (speed[j] - run.speed[j][i - 1]) / radius / span;
+            s.needed[j] + inertia * own + 0.5 * robot.mass * forward * radius
+        });
+        for (j, m) in mean.into_iter().enumerate() {
+            let brakes = m * speed[j] < 0.0;
+            if run.magnitude_only && brakes && speed[j].abs() < BRAKING_READS {
+                continue;
+            }
+            out.torque[j][i] = Some(if !run.magnitude_only {
+                m
+            } else if brakes {
+                run.dead_band
+            } else {
+                m.abs().max(run.dead_band)
+            });
+        }
+    }
+    out
+}

@@ -1,0 +1,302 @@
+//! Which effects could make the loads differ as they do.
+
+use faer::Mat;
+use rayon::prelude::*;
+use robot_model::Robot;
+use robot_model::effect::Role;
+use robot_model::tunable::COUNT as NUISANCES;
+use verdict::Quantity;
+
+use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
+use inference::hypothesis::Dose;
+use inference::hypothesis::{Free, Place, Variant, variants};
+use inference::linalg::solve_spd;
+use robot_model::tunable::tuned;
+
+/// One difference between a recording and the references, on the comparison scale.
+#[derive(Debug, Clone)]
+pub(crate) struct Difference {
+    pub(crate) recording: String,
+    pub(crate) here: Measured,
+    pub(crate) reference: Measured,
+}
+
+/// One or two effects fitted to the differences.
+#[derive(Clone)]
+pub(crate) struct Named {
+    pub(crate) parts: Vec<Variant>,
+    /// Free values of each effect in turn.
+    pub(crate) values: Vec<f64>,
+    /// One sigma of each free value.
+    pub(crate) sigma: Vec<f64>,
+    /// Log evidence over "nothing is missing", nats.
+    pub(crate) score: f64,
+}
+
+impl Named {
+    /// Free values and sigmas of one of its effects.
+    pub(crate) fn of(&self, part: usize) -> (&[f64], &[f64]) {
+        let before: usize = self.parts[..part].iter().map(|v| v.free(1.0).len()).sum();
+        let n = self.parts[part].free(1.0).len();
+        (&self.values[before..before + n], &self.sigma[before..before + n])
+    }
+
+    pub(crate) fn doses(&self) -> Vec<Dose> {
+        doses(&self.parts, &self.values)
+    }
+
+    pub(crate) fn ids(&self) -> Vec<&'static str> {
+        self.parts.iter().map(|v| v.card().id).collect()
+    }
+}
+
+fn doses(parts: &[Variant], values: &[f64]) -> Vec<Dose> {
+    let mut at = 0;
+    parts
+        .iter()
+        .map(|v| {
+            let n = v.free(1.0).len();
+            at += n;
+            v.dose(&values[at - n..at], None)
+        })
+        .collect()
+}
+
+/// The comparison of all hypotheses.
+pub(crate) struct Naming {
+    /// Best first.
+    pub(crate) effects: Vec<Named>,
+    /// Evidence of free factors, one per quantity, that no effect ties together.
+    pub(crate) unknown: f64,
+}
+
+/// The straight load of a drive train varies by up to this factor (90 %) between days without a cause that these
+/// signals could name: cold grease, tyre pressure.
+pub(crate) const UNNAMED_STRAIGHT: f64 = 1.45;
+/// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
+const PLAUSIBLE: f64 = 3.0;
+/// Robot for which the cards' medium sizes are meant: mass in kg, torque m g r in N m, wheelbase in m.
+const MEDIUM_ROBOT: [f64; 3] = [20.0, 20.0, 0.36];
+/// Price of naming an effect, and of "unknown", nats.
+const PER_EFFECT: f64 = 3.0;
+const PER_UNKNOWN: f64 = 4.0;
+const STEPS: usize = 8;
+/// An effect whose response is weaker than this at a medium size does not show in steady loads.
+const LEAST_RESPONSE: f64 = 1e-3;
+/// Single effects that are tried with a second one.
+const FIRSTS: usize = 4;
+
+/// Covariance of the differences: own errors, errors of shared references, the unnamed variation of the straight
+/// load, and what re-tuning the model could change.
+fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], calibrated: &Tuned) -> Mat<f64> {
+    let here: Vec<Operating> = d.iter().map(|d| d.here.at).collect();
+    let there: Vec<Operating> = d.iter().map(|d| d.reference.at).collect();
+    let j = sensitivity(robot, sigma, &calibrated.theta, &here) - sensitivity(robot, sigma, &calibrated.theta, &there);
+    let tuning = &j * &calibrated.covariance * j.transpose();
+    let unnamed = (UNNAMED_STRAIGHT.ln() / crate::compare::NINETY).powi(2);
+    Mat::from_fn(d.len(), d.len(), |a, b| {
+        let (x, y) = (&d[a], &d[b]);
+        let same = x.here.at.quantity == y.here.at.quantity;
+        let mut c = tuning[(a, b)];
+        if a == b {
+            c += x.here.error.powi(2) + x.here.at.quantity.scatter().powi(2);
+        }
+        if same && x.reference.value == y.reference.value {
+            c += x.reference.error.powi(2);
+        }
+        // A cold drive train loads every straight drive of its day.
+        if same && x.here.at.quantity == Quantity::StraightLoad && x.recording == y.recording {
+            c += unnamed;
+        }
+        c
+    })
+}
+
+/// Differences, what they weigh and what the model says of them.
+pub(crate) struct Comparison<'a> {
+    differences: &'a [Difference],
+    model: Robot<f64>,
+    weight: Mat<f64>,
+    measured: Vec<f64>,
+    /// Predictions at the references' operating points.
+    there: Vec<f64>,
+    /// Residuals without any effect.
+    plain: Vec<f64>,
+}
+
+impl<'a> Comparison<'a> {
+    pub(crate) fn new(
+        differences: &'a [Difference],
+        robot: &Robot<f64>,
+        sigma: &[f64; NUISANCES],
+        calibrated: &Tuned,
+    ) -> Option<Self> {
+        let n = differences.len();
+        let model = tuned(robot, sigma, &calibrated.theta);
+        let c = covariance(differences, robot, sigma, calibrated);
+        let mut out = Self {
+            differences,
+            weight: solve_spd(&c, &Mat::identity(n, n))?.0,
+            measured: differences.iter().map(|d| d.here.value - d.reference.value).collect(),
+            there: differences.iter().map(|d| predicted(&model, &[], d.reference.at)).collect(),
+            plain: Vec::new(),
+            model,
+        };
+        out.plain = out.residual(&[]);
+        Some(out)
+    }
+
+    fn residual(&self, doses: &[Dose]) -> Vec<f64> {
+        let expected =
+            self.differences.iter().zip(&self.there).map(|(d, t)| predicted(&self.model, doses, d.here.at) - t);
+        self.measured.iter().zip(expected).map(|(m, e)| m - e).collect()
+    }
+
+    fn quadratic(&self, a: &[f64], b: &[f64]) -> f64 {
+        (0..a.len()).map(|i| (0..b.len()).map(|k| a[i] * self.weight[(i, k)] * b[k]).sum::<f64>()).sum()
+    }
+
+    /// One sigma of a strength before anything is measured.
+    fn plausible(&self, v: &Variant, f: &Free) -> f64 {
+        let r = &self.model;
+        let torque = r.mass * r.gravity * r.wheel_radius / MEDIUM_ROBOT[1];
+        let size = match f.parameter.map_or("-", |i| v.card().parameters[i].unit) {
+            "kg" | "N" => r.mass / MEDIUM_ROBOT[0],
+            "m" => 2.0 * r.half_wheelbase / MEDIUM_ROBOT[2],
+            unit if unit.starts_with("N m") => torque,
+            _ => 1.0,
+        };
+        PLAUSIBLE * f.unit * size
+    }
+
+    /// Price of a free number: half the logarithm of how many differences it is fitted to.
+    fn price(&self) -> f64 {
+        0.5 * (self.differences.len() as f64).max(2.0).ln()
+    }
+
+    /// Gauss–Newton on the free values of one or two effects from their neutral values (or from `start`).
+    pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
+        let free: Vec<_> = parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
+        let neutral = |v: &Variant, f: &Free| f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
+        let mut e: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
+        if let Some(s) = start {
+            e[..s.len()].copy_from_slice(s);
+        }
+        let mut r = self.residual(&doses(parts, &e));
+        let rest: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
+        let width: Vec<f64> = free.iter().map(|(v, f)| self.plausible(v, f)).collect();
+        let prior = |e: &[f64]| -> f64 {
+            e.iter()
+                .zip(&rest)
+                .zip(&width)
+                .map(|((e, r), w)| if r.abs() < 1e6 { 0.5 * ((e - r) / w).powi(2) } else { 0.0 })
+                .sum()
+        };
+        let mut left = 0.5 * self.quadratic(&r, &r) + prior(&e);
+        let mut sigma = vec![f64::INFINITY; e.len()];
+        let mut occam = 0.0;
+        for _ in 0..STEPS {
+            let columns: Vec<Vec<f64>> = free
+                .iter()
+                .enumerate()
+                .map(|(i, (_, f))| {
+                    let mut shifted = e.clone();
+                    let h = 0.1 * f.unit;
+                    shifted[i] += h;
+                    self.residual(&doses(parts, &shifted)).iter().zip(&r).map(|(a, b)| (b - a) / h * f.unit).collect()
+                })
+                .collect();
+            let k = columns.len();
+            let m = Mat::from_fn(k, k, |a, b| {
+                self.quadratic(&columns[a], &columns[b])
+                    + if a == b { 1e-6 + (free[a].1.unit / width[a]).powi(2) } else { 0.0 }
+            });
+            if (0..k).all(|i| self.quadratic(&columns[i], &columns[i]) < LEAST_RESPONSE) {
+                return None;
+            }
+            let g = Mat::from_fn(k, 1, |a, _| {
+                self.quadratic(&columns[a], &r) - (e[a] - rest[a]) * free[a].1.unit / width[a].powi(2)
+            });
+            let (step, _) = solve_spd(&m, &g)?;
+            let (inverse, _) = solve_spd(&m, &Mat::identity(k, k))?;
+            // Price of the free numbers: how far the data narrow them down from what was plausible before.
+            let scaled = Mat::from_fn(k, k, |a, b| m[(a, b)] * width[a] / free[a].1.unit * width[b] / free[b].1.unit);
+            occam = solve_spd(&scaled, &Mat::zeros(k, 1)).map_or(0.0, |s| 0.5 * s.1);
+            sigma = (0..k).map(|i| inverse[(i, i)].max(0.0).sqrt() * free[i].1.unit).collect();
+            let mut share = 1.0;
+            let mut moved = false;
+            for _ in 0..6 {
+                let next: Vec<f64> = e
+                    .iter()
+                    .zip(&free)
+                    .enumerate()
+                    .map(|(i, (e, (_, f)))| {
+                        let d = (step[(i, 0)] * f.unit).clamp(-width[i], width[i]);
+                        (e + share * d).clamp(f.bounds[0], f.bounds[1])
+                    })
+                    .collect();
+                let r2 = self.residual(&doses(parts, &next));
+                let left2 = 0.5 * self.quadratic(&r2, &r2) + prior(&next);
+                if left2 < left {
+                    moved = left - left2 > 1e-2;
+                    (e, r, left) = (next, r2, left2);
+                    break;
+                }
+                share *= 0.5;
+            }
+            if !moved {
+                break;
+            }
+        }
+        let paid = occam + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
+        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - left - paid;
+        Some(Named { parts: parts.to_vec(), values: e, sigma, score })
+    }
+
+    /// Evidence for a factor of its own for each quantity, which nothing ties together.
+    fn unknown(&self) -> Option<f64> {
+        let mut quantities: Vec<Quantity> = self.differences.iter().map(|d| d.here.at.quantity).collect();
+        quantities.sort_unstable();
+        quantities.dedup();
+        let (n, m) = (self.differences.len(), quantities.len());
+        let a = Mat::from_fn(n, m, |i, q| f64::from(self.differences[i].here.at.quantity == quantities[q]));
+        let r = Mat::from_fn(n, 1, |i, _| self.plain[i]);
+        let g = a.transpose() * &self.weight * &r;
+        let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
+        let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
+        Some(explained - (self.price() + PER_UNKNOWN) * m as f64)
+    }
+}
+
+/// Weighs every effect that can be present everywhere, and every pair with one of the best, against the differences.
+pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
+    let candidates: Vec<Variant> = variants(true)
+        .into_iter()
+        .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
+        // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
+        .filter(|v| v.card().parameters.iter().all(|p| p.role != Role::Shape))
+        .collect();
+    let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
+    best_first(&mut singles);
+    let able: Vec<Variant> = singles.iter().map(|s| s.parts[0]).collect();
+    let mut firsts: Vec<&Named> = Vec::new();
+    for s in &singles {
+        if firsts.len() < FIRSTS && !firsts.iter().any(|f| f.ids() == s.ids()) {
+            firsts.push(s);
+        }
+    }
+    let tasks: Vec<(&Named, Variant)> = firsts
+        .iter()
+        .flat_map(|f| able.iter().filter(|v| v.card().id != f.parts[0].card().id).map(|v| (*f, *v)))
+        .collect();
+    let pairs: Vec<Named> =
+        tasks.par_iter().filter_map(|(f, v)| comparison.fit(&[f.parts[0], *v], Some(&f.values))).collect();
+    let mut effects = singles.clone();
+    effects.extend(pairs);
+    best_first(&mut effects);
+    Some(Naming { effects, unknown: comparison.unknown()? })
+}
+
+fn best_first(list: &mut [Named]) {
+    list.sort_by(|a, b| b.score.total_cmp(&a.score));
+}

@@ -1,0 +1,85 @@
+//! Drives with a known load, for tests.
+
+use crate::clock::Alignment;
+use crate::run::{BodyRates, SpeedRun};
+
+/// Torque of the robot's weight at a wheel's radius, N m, and the usual straight load, N m.
+pub(crate) const WEIGHT: f64 = 121.5;
+pub(crate) const STRAIGHT: f64 = 11.0;
+const RATE: f64 = 6.5;
+const RATE_STEP: f64 = 0.1;
+
+/// A part of a drive: speeds of the sides, m/s; how long, s; slope uphill along the body, degrees; straight load and
+/// scrub couple, N m.
+#[derive(Clone, Copy)]
+pub(crate) struct Leg {
+    pub(crate) speed: [f64; 2],
+    pub(crate) seconds: f64,
+    pub(crate) slope: f64,
+    pub(crate) straight: f64,
+    pub(crate) scrub: f64,
+}
+
+impl Leg {
+    pub(crate) const fn straight(seconds: f64) -> Self {
+        Self { speed: [0.24, 0.24], seconds, slope: 0.0, straight: STRAIGHT, scrub: 20.0 }
+    }
+
+    pub(crate) const fn turn(seconds: f64) -> Self {
+        Self { speed: [0.08, 0.24], ..Self::straight(seconds) }
+    }
+
+    pub(crate) const fn slope(self, slope: f64) -> Self {
+        Self { slope, ..self }
+    }
+}
+
+/// What a Husky without signs would have recorded; with roll and pitch rates if `gyro`.
+pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
+    const DEAD_BAND: f64 = 1.68;
+    const TRACK: f64 = 0.77;
+    let rows: Vec<Leg> =
+        legs.iter().flat_map(|leg| std::iter::repeat_n(*leg, (leg.seconds * RATE).round() as usize)).collect();
+    let time: Vec<f64> = (0..rows.len()).map(|i| i as f64 / RATE).collect();
+    // A repeating scatter: no random numbers, no lucky draw.
+    let scatter = |i: usize| [0.8, -1.1, 0.4, -0.1, 0.9, -0.9][i % 6];
+    let torque = |side: usize| -> Vec<f64> {
+        rows.iter()
+            .enumerate()
+            .map(|(i, leg)| {
+                let turn = (leg.speed[1] - leg.speed[0]).signum() * f64::from(leg.speed[1] != leg.speed[0]);
+                let way = leg.speed[0].signum();
+                let pull = WEIGHT * leg.slope.to_radians().sin();
+                let own = 0.5 * (leg.straight * way + pull) + if side == 1 { turn } else { -turn } * leg.scrub;
+                let shown = own * leg.speed[side].signum() + scatter(i + 3 * side);
+                if shown > DEAD_BAND { shown } else { 0.0 }
+            })
+            .collect()
+    };
+    let yaw: Vec<f64> = rows.iter().map(|leg| (leg.speed[1] - leg.speed[0]) / TRACK).collect();
+    let steps = (time[time.len() - 1] / RATE_STEP) as usize;
+    let grid: Vec<f64> = (0..=steps).map(|k| k as f64 * RATE_STEP).collect();
+    let row = |t: f64| ((t * RATE) as usize).min(rows.len() - 1);
+    // The nose rises within a step.
+    let pitch: Vec<f64> = grid
+        .iter()
+        .map(|t| -(rows[row(*t)].slope - rows[row((t - RATE_STEP).max(0.0))].slope).to_radians() / RATE_STEP)
+        .collect();
+    let body_rates = gyro.then(|| BodyRates {
+        rate: [vec![0.0; grid.len()], pitch, grid.iter().map(|t| yaw[row(*t)]).collect()],
+        time: grid,
+        step: RATE_STEP,
+    });
+    SpeedRun {
+        name: "run".to_owned(),
+        speed: [0, 1].map(|j| rows.iter().map(|leg| leg.speed[j]).collect()),
+        torque: [torque(0), torque(1)],
+        dead_band: DEAD_BAND,
+        set_points: true,
+        magnitude_only: true,
+        alignment: Some(Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() }),
+        yaw_rate: Some(yaw),
+        body_rates,
+        time,
+    }
+}

@@ -1,0 +1,213 @@
+//! What a speed-driven case says in sentences.
+
+use crate::{Alignment, UNNAMED_STRAIGHT};
+use inference::words::{quantity, revealed_by};
+use verdict::{
+    ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
+};
+
+/// The answer of a speed-driven case in sentences.
+pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
+    let theirs = if loads.references.is_empty() { "the robot file's" } else { "the references'" };
+    let mut out = Vec::new();
+    match d.verdict {
+        Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
+        Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
+            out.push("No mismatch that these loads could name.".to_owned());
+        }
+        Verdict::NoMismatch => {
+            out.push(
+                "Over each whole recording no mismatch that these loads could name; inside, loads change.".to_owned(),
+            );
+        }
+        Verdict::Unknown => {
+            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
+        }
+        Verdict::Explained => {
+            let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
+            for class in &d.indistinguishable {
+                let names: Vec<String> = class.iter().map(|i| name(i)).collect();
+                let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
+                let tail = if names.len() > 1 {
+                    "; these recordings cannot tell them apart".to_owned()
+                } else {
+                    format!(", {size}")
+                };
+                out.push(format!("Missing: {}{tail}.", names.join(" or ")));
+                // The drives that reveal the members split the class; the first three are enough to begin with.
+                let mut drives: Vec<&str> = Vec::new();
+                for drive in class.iter().filter_map(|id| revealed_by(id)) {
+                    if !drives.contains(&drive) && drives.len() < 3 {
+                        drives.push(drive);
+                    }
+                }
+                if class.len() > 1 {
+                    out.push(format!("To tell them apart, record: {}.", drives.join("; ")));
+                }
+            }
+        }
+    }
+    let pooled = |r: &&Ratio| {
+        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
+    };
+    for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
+        out.push(load(r, theirs));
+    }
+    out.extend(loads.standstills.iter().map(standstill));
+    out.extend(loads.changes.found.iter().map(change));
+    out.extend(loads.turning_changes.iter().map(turning_change));
+    out.extend(hidden(&loads.changes.hidden));
+    out.extend(turning(&loads.turning));
+    if set_points && !loads.ratios.is_empty() {
+        out.push("All figures compare set speeds, not measured ones.".to_owned());
+    }
+    out
+}
+
+/// How well clocks were aligned; `None` where there was one clock only.
+pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
+    let [from, until] = all.iter().fold([f64::MAX, f64::MIN], |[a, b], c| [a.min(c.lag[0]), b.max(c.lag[1])]);
+    let left_out: Vec<f64> = all.iter().flat_map(|c| c.left_out.iter().copied()).collect();
+    let pooled = Alignment { lag: Vec::new(), left_out };
+    let error = pooled.error().map_or_else(
+        || "too few turns to say how well".to_owned(),
+        |[median, most]| {
+            let turns = pooled.left_out.len();
+            format!("on {turns} turns left out in turn it errs by {median:.2} s in the median, 90 % below {most:.2} s")
+        },
+    );
+    (!all.is_empty()).then(|| {
+        format!("the gyro runs on another clock: aligned by the turns, lag from {from:.2} s to {until:.2} s; {error}")
+    })
+}
+
+/// A load over `theirs`.
+fn load(r: &Ratio, theirs: &str) -> String {
+    let [slow, fast] = r.range;
+    let at = match r.quantity {
+        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => format!(" at {slow:.2} to {fast:.2} m/s"),
+        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
+        _ => String::new(),
+    };
+    let what = r.quantity.name();
+    let [a, b] = r.interval;
+    if r.quantity == Quantity::EffectiveTrack {
+        return format!("{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of {theirs}.", r.recording, r.value, r.half, r.ratio);
+    }
+    if r.quantity == Quantity::Asymmetry {
+        return format!("{}: {what}{at} {:+.2} beyond {theirs} [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
+    }
+    let judgement = if a > 1.0 || b < 1.0 {
+        if r.quantity == Quantity::StraightLoad && a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT {
+            ": differs, but cold drive trains vary as much: unexplained"
+        } else {
+            ""
+        }
+    } else {
+        ": no difference"
+    };
+    let firm = if r.firm { "" } else { ", tentative" };
+    format!(
+        "{}: {what}{at} {:.2} times {theirs} [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
+        r.recording, r.ratio, r.seconds
+    )
+}
+
+fn standstill(s: &Standstill) -> String {
+    let [from, until] = s.interval;
+    format!(
+        "{}: from {from:.1} s to {until:.1} s the body stands although its wheels are told to turn it ({:.0} % of the \
+         yaw rate, {:.0} N m on the more loaded side): dug in, or spinning free.",
+        s.recording,
+        100.0 * s.share,
+        s.load
+    )
+}
+
+/// "196.6 s", or "between 183.8 s and 200.9 s" where it is hidden.
+fn moment([a, b]: [f64; 2]) -> String {
+    /// Closer than this is one moment, s.
+    const MOMENT: f64 = 1.0;
+    if b - a < MOMENT { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
+}
+
+fn change(c: &LoadChange) -> String {
+    let name = |id| match id {
+        "grade" => "slope",
+        "rolling_resistance" => "rolling resistance",
+        other => other,
+    };
+    let causes: Vec<&str> = c.causes.iter().map(|id| name(id.as_ref())).collect();
+    let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
+    let size = if c.bound {
+        format!("at least {:.1}° {way}", c.slope.abs())
+    } else {
+        format!("{:.1} ± {:.1}° {way} (90 %)", c.slope.abs(), c.slope_half)
+    };
+    let what = match c.ratio {
+        Some(ratio) if c.bound => format!("straight load at most {ratio:.2} times the rest's; if a slope, {size}"),
+        Some(ratio) => format!("straight load {ratio:.2} times the rest's; if a slope, {size}"),
+        None => format!("slope of {size}"),
+    };
+    format!(
+        "{}: from {} until {}: {what}. Cause: {} ({}).",
+        c.recording,
+        moment(c.onset),
+        moment(c.end),
+        causes.join(" or "),
+        c.reason
+    )
+}
+
+fn turning_change(c: &TurningChange) -> String {
+    format!(
+        "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), from {:.0} s: another ground.",
+        c.recording,
+        moment(c.onset),
+        moment(c.end),
+        c.ratio,
+        c.half,
+        c.seconds
+    )
+}
+
+/// One sentence per recording: the longest stretches, and how much there is in all.
+fn hidden(all: &[Hidden]) -> Vec<String> {
+    /// Stretches that are named.
+    const NAMED: usize = 3;
+    let of = |list: &[Hidden]| {
+        let seconds = |h: &Hidden| h.interval[1] - h.interval[0];
+        let mut longest: Vec<&Hidden> = list.iter().collect();
+        longest.sort_by(|a, b| seconds(b).total_cmp(&seconds(a)));
+        longest.truncate(NAMED);
+        longest.sort_by(|a, b| a.interval[0].total_cmp(&b.interval[0]));
+        let spans: Vec<String> =
+            longest.iter().map(|h| format!("{:.0}-{:.0} s", h.interval[0], h.interval[1])).collect();
+        let more =
+            if list.len() > NAMED { format!(" and {} shorter stretches", list.len() - NAMED) } else { String::new() };
+        format!(
+            "{}: no straight driving in {}{more} ({:.0} s in all): a change of the ground would not show there.",
+            list[0].recording,
+            spans.join(", "),
+            list.iter().map(seconds).sum::<f64>()
+        )
+    };
+    all.chunk_by(|a, b| a.recording == b.recording).map(of).collect()
+}
+
+/// One sentence per recording.
+fn turning(all: &[Turning]) -> Vec<String> {
+    let of = |list: &[Turning]| {
+        let seconds =
+            |way: Way| list.iter().filter(|t| t.way == way).map(|t| t.interval[1] - t.interval[0]).sum::<f64>();
+        format!(
+            "{}: by the loads it turns to the left for {:.0} s, to the right for {:.0} s, on the spot or under load on \
+             both sides for {:.0} s, although neither speeds nor a gyro say so.",
+            list[0].recording,
+            seconds(Way::Left),
+            seconds(Way::Right),
+            seconds(Way::Unknown)
+        )
+    };
+    all.chunk_by(|a, b| a.recording == b.recording).map(of).collect()
+}

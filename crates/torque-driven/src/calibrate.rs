@@ -1,0 +1,192 @@
+//! Calibration on the references: what the model explains when nothing is missing, and how well.
+
+use faer::Mat;
+use robot_model::Robot;
+use robot_model::tunable::COUNT as NUISANCES;
+
+use crate::drives::Drives;
+use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
+use crate::gate::Gate;
+use crate::simulate::Response;
+use crate::windows::{CHANNELS, Cut};
+use inference::linalg::solve_spd;
+use inference::{DiagnosisError, Options};
+
+/// What the references teach.
+pub(crate) struct Calibration {
+    pub(crate) theta: [f64; NUISANCES],
+    /// Prior information about θ for the recordings.
+    pub(crate) information: Mat<f64>,
+    pub(crate) variance: [f64; CHANNELS],
+    pub(crate) spread: f64,
+    pub(crate) regimes: Regimes,
+    /// What the references themselves would be accused of.
+    pub(crate) gate: Gate,
+}
+
+/// Variances to start with, from typical residuals: wheel 0.3 rad/s, yaw 0.04 rad/s, v 0.03 and 0.012 m/s,
+/// a 0.12 and 0.08 m/s².
+const FIRST_SIGMA: [f64; CHANNELS] = [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08];
+/// No channel is trusted beyond this share of its typical residual.
+const LEAST_SHARE: f64 = 0.1;
+/// Common factors of the run-to-run deviations that are tried, and the log-normal prior about 1.3 of width 0.6.
+const SPREADS: [f64; 6] = [0.6, 0.9, 1.3, 1.9, 2.7, 3.8];
+/// Gauss–Newton steps.
+const STEPS: usize = 4;
+
+/// Expected misfit of a segment from those of the references driven alike.
+#[derive(Clone, Default)]
+pub(crate) struct Regimes {
+    /// Features and ln(q/D) of each reference segment.
+    known: Vec<([f64; 3], f64)>,
+    median: f64,
+    /// By which factor the misfit of each reference segment differs from what the others let expect.
+    pub(crate) scatter: Vec<f64>,
+}
+
+/// Segments at the middle that a kernel mean begins with.
+const PSEUDO_COUNTS: f64 = 2.0;
+
+/// Mean of the values of segments driven like `features`: Gaussian kernel of unit width over the features, begun with a
+/// few segments at `middle`.
+pub(crate) fn kernel_mean(known: impl Iterator<Item = ([f64; 3], f64)>, features: [f64; 3], middle: f64) -> f64 {
+    let (mut weight, mut sum) = (PSEUDO_COUNTS, PSEUDO_COUNTS * middle);
+    for (other, value) in known {
+        let distance2: f64 = other.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
+        let k = (-0.5 * distance2).exp();
+        weight += k;
+        sum += k * value;
+    }
+    sum / weight
+}
+
+impl Regimes {
+    fn new(mut known: Vec<([f64; 3], f64)>) -> Self {
+        known.retain(|k| k.1.is_finite());
+        let mut sorted: Vec<f64> = known.iter().map(|k| k.1).collect();
+        sorted.sort_by(f64::total_cmp);
+        let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let mut out = Self { known, median, scatter: Vec::new() };
+        out.scatter =
+            (0..out.known.len()).map(|i| out.known[i].1.exp() / out.expected_but(out.known[i].0, Some(i))).collect();
+        out
+    }
+
+    /// Expected q/D: kernel mean of ln(q/D) over features, unit bandwidth.
+    pub(crate) fn expected(&self, features: [f64; 3]) -> f64 {
+        self.expected_but(features, None)
+    }
+
+    fn expected_but(&self, features: [f64; 3], left_out: Option<usize>) -> f64 {
+        let others = self.known.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, k)| *k);
+        kernel_mean(others, features, self.median).exp()
+    }
+
+    pub(crate) fn of(&self, cuts: &[Cut]) -> Vec<Vec<f64>> {
+        cuts.iter().map(|c| c.segments.iter().map(|s| self.expected(s.regime)).collect()).collect()
+    }
+}
+
+/// Calibrates the model on the references.
+pub(crate) fn calibrate(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    cuts: &[Cut],
+    largest_torque: f64,
+    options: &Options,
+) -> Result<Calibration, DiagnosisError> {
+    let mut problem = Problem {
+        robot,
+        sigma: *sigma,
+        cuts,
+        variance: FIRST_SIGMA.map(|s| s * s),
+        regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
+        information: Mat::identity(NUISANCES, NUISANCES),
+        centre: [0.0; NUISANCES],
+        spread: 1.3,
+        temper: options.temper,
+        kappa: options.kappa,
+        step: options.step,
+        largest_torque,
+        drives: Drives::default(),
+    };
+    let none = Hypothesis::default();
+    let mut at = problem.begin(&none, problem.origin(), None);
+    for step in 0..STEPS {
+        at.cost = problem.cost(&at.point, &at.response);
+        at = problem.refine(&none, at, 1, (step > 0).then_some(0));
+        problem.variance = channel_variance(&problem, &at.response);
+        problem.regime = regimes(&problem, &at.response).of(cuts);
+    }
+    problem.spread = spread(&mut problem, &at.point, &at.columns)?;
+    let mut at = problem.begin(&none, at.point, None);
+    at = problem.refine(&none, at, 2, None);
+    problem.variance = channel_variance(&problem, &at.response);
+    let regimes = regimes(&problem, &at.response);
+    problem.regime = regimes.of(cuts);
+    let columns = problem.nuisance_columns(&at.point, &none, &at.response);
+    let normal = problem
+        .normal(&at.point, &at.response, &columns, &Columns(Vec::new()))
+        .ok_or(DiagnosisError::Singular { stage: "calibration" })?;
+    let information = &normal.matrix + &problem.information;
+    let gate = Gate::new(&problem, &at.point, &information);
+    Ok(Calibration {
+        theta: at.point.theta,
+        information,
+        variance: problem.variance,
+        spread: problem.spread,
+        regimes,
+        gate,
+    })
+}
+
+fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNELS] {
+    let (mut sum, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS]);
+    for (r, cut) in problem.cuts.iter().enumerate() {
+        for (s, segment) in cut.segments.iter().enumerate() {
+            for (i, (o, p)) in segment.observed.iter().zip(&response[r][s]).enumerate() {
+                if segment.valid[i] {
+                    sum[i % CHANNELS] += (o - p).powi(2);
+                    n[i % CHANNELS] += 1.0;
+                }
+            }
+        }
+    }
+    std::array::from_fn(|c| {
+        let least = (LEAST_SHARE * FIRST_SIGMA[c]).powi(2);
+        if n[c] > 0.0 { (sum[c] / n[c]).max(least) } else { FIRST_SIGMA[c].powi(2) }
+    })
+}
+
+fn regimes(problem: &Problem<'_>, response: &Response) -> Regimes {
+    let mut known = Vec::new();
+    for (r, cut) in problem.cuts.iter().enumerate() {
+        for (s, segment) in cut.segments.iter().enumerate() {
+            if segment.count > 0.0 {
+                known.push((segment.regime, (problem.q(r, s, &response[r][s]) / segment.count).ln()));
+            }
+        }
+    }
+    Regimes::new(known)
+}
+
+/// The common factor of the run-to-run deviations by marginal likelihood of the linearised model.
+fn spread(problem: &mut Problem<'_>, point: &crate::fit::Point, columns: &Columns) -> Result<f64, DiagnosisError> {
+    let mut flat = point.clone();
+    flat.run = vec![[0.0; PER_RUN]; problem.cuts.len()];
+    let response = problem.response(&flat, &Hypothesis::default());
+    let mut best = (f64::MIN, 1.3);
+    for f in SPREADS {
+        problem.spread = f;
+        let Some(mut normal) = problem.normal(&flat, &response, columns, &Columns(Vec::new())) else { continue };
+        problem.with_prior(&flat, &mut normal);
+        let Some((x, logdet)) = solve_spd(&normal.matrix, &normal.gradient) else { continue };
+        let gain: f64 = (0..NUISANCES).map(|i| 0.5 * x[(i, 0)] * normal.gradient[(i, 0)]).sum();
+        let prior = -0.5 * ((f / 1.3_f64).ln() / 0.6).powi(2);
+        let value = normal.gain + gain - 0.5 * (normal.log_determinant + logdet) + prior;
+        if value > best.0 {
+            best = (value, f);
+        }
+    }
+    if best.0 == f64::MIN { Err(DiagnosisError::Singular { stage: "calibration" }) } else { Ok(best.1) }
+}

@@ -1,0 +1,349 @@
+//! Gauss–Newton in free run: nuisance parameters, run-to-run deviations and the strengths and shapes of effects.
+
+use std::ops::Range;
+
+use faer::Mat;
+use rayon::prelude::*;
+use robot_model::Robot;
+use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
+
+use crate::drives::Drives;
+use crate::simulate::{Body, Grid, Response, free_run};
+use crate::windows::{CHANNELS, Cut, FORWARD};
+use inference::hypothesis::Dose;
+use inference::hypothesis::{Free, Onsets, Variant, variants};
+use verdict::Correction;
+
+/// Offsets of a run that sensors add: gyro, accelerometer x and y.
+pub(crate) const OFFSETS: usize = 3;
+/// Channel of each offset.
+pub(crate) const OFFSET_CHANNEL: [usize; OFFSETS] = [2, 5, 6];
+/// Constants of the ground and drivetrain that differ a little from run to run: their place among the tunables.
+pub(crate) const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
+/// Relative standard deviation of each of these between runs, before the common factor.
+const DEVIATION: [f64; 5] = [0.004, 0.01, 0.01, 0.01, 0.005];
+/// Standard deviation of the offsets between runs before the common factor: rad/s, m/s², m/s².
+pub(crate) const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
+/// Damping of a step that is tried in turn, and the gain below which a fit has arrived, nats.
+const DAMPING: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 100.0];
+const LEAST_GAIN: f64 = 0.05;
+/// Cost of a response that is not finite.
+const HOPELESS: f64 = 1e300;
+/// Numbers that a run has to itself.
+pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
+/// Finite step of a nuisance parameter, in its sigma.
+const NUISANCE_STEP: f64 = 0.3;
+
+/// Effects that a fit includes, with the onsets of those that have one.
+#[derive(Clone, Default)]
+pub(crate) struct Hypothesis {
+    pub(crate) parts: Vec<(Variant, Onsets)>,
+}
+
+impl Hypothesis {
+    pub(crate) fn single(variant: Variant, onsets: Onsets) -> Self {
+        Self { parts: vec![(variant, onsets)] }
+    }
+
+    /// Its effects, in order.
+    pub(crate) fn ids(&self) -> Vec<&'static str> {
+        self.parts.iter().map(|(v, _)| v.card().id).collect()
+    }
+
+    pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
+        self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
+    }
+
+    pub(crate) fn doses(&self, e: &[f64], run: usize) -> Vec<Dose> {
+        let mut at = 0;
+        self.parts
+            .iter()
+            .map(|(v, onsets)| {
+                let n = v.free(1.0).len();
+                let dose = v.dose(&e[at..at + n], onsets.get(run).copied().flatten());
+                at += n;
+                dose
+            })
+            .collect()
+    }
+}
+
+/// Everything a fit compares with and is bound by.
+#[derive(Clone)]
+pub(crate) struct Problem<'a> {
+    pub(crate) robot: &'a Robot<f64>,
+    /// One sigma of each tunable.
+    pub(crate) sigma: [f64; NUISANCES],
+    pub(crate) cuts: &'a [Cut],
+    /// Mean squared residual of each channel on the references.
+    pub(crate) variance: [f64; CHANNELS],
+    /// Expected q/D of each segment's regime.
+    pub(crate) regime: Vec<Vec<f64>>,
+    /// Information about θ: `½ (θ − centre)ᵀ H (θ − centre)`.
+    pub(crate) information: Mat<f64>,
+    pub(crate) centre: [f64; NUISANCES],
+    /// Common factor of the run-to-run deviations.
+    pub(crate) spread: f64,
+    /// Share of the log-likelihood that counts, for correlation within a segment.
+    pub(crate) temper: f64,
+    /// Saturation of outliers.
+    pub(crate) kappa: f64,
+    /// Integration step, s.
+    pub(crate) step: f64,
+    /// Largest torque commanded, N m.
+    pub(crate) largest_torque: f64,
+    pub(crate) drives: Drives,
+}
+
+/// Where a fit stands.
+#[derive(Clone)]
+pub(crate) struct Point {
+    pub(crate) theta: [f64; NUISANCES],
+    pub(crate) run: Vec<[f64; PER_RUN]>,
+    pub(crate) effects: Vec<f64>,
+}
+
+/// Columns of a Jacobian, one response each.
+pub(crate) struct Columns(pub(crate) Vec<Response>);
+
+impl Problem<'_> {
+    pub(crate) fn origin(&self) -> Point {
+        Point { theta: self.centre, run: vec![[0.0; PER_RUN]; self.cuts.len()], effects: Vec::new() }
+    }
+
+    /// A hypothesis at a point, for files.
+    pub(crate) fn correction(&self, h: &Hypothesis, theta: &[f64; NUISANCES], effects: &[f64]) -> Correction {
+        let tunings = tunables::<f64>().into_iter().zip(self.sigma).zip(theta);
+        let tuning = tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect();
+        let names: Vec<&str> = self.cuts.iter().map(|c| c.name.as_str()).collect();
+        let mut at = 0;
+        let effects = h.parts.iter().map(|(variant, onsets)| {
+            let n = variant.free(1.0).len();
+            at += n;
+            variant.at(&effects[at - n..at], onsets, &names)
+        });
+        Correction { tuning, effects: effects.collect(), response: None }
+    }
+
+    /// Every form of every effect that these recordings may show in the motion.
+    pub(crate) fn variants(&self) -> Vec<Variant> {
+        // A forward velocity comes from a pose only.
+        let segments = || self.cuts.iter().flat_map(|c| &c.segments);
+        variants(segments().any(|s| s.valid.iter().skip(FORWARD).step_by(CHANNELS).any(|&v| v)))
+    }
+
+    /// Standard deviation of a run's own numbers, in sigmas of θ or in units of the channel.
+    pub(crate) fn run_scale(&self, i: usize) -> f64 {
+        if i < DEVIATING.len() {
+            DEVIATION[i] * self.spread / self.sigma[DEVIATING[i]]
+        } else {
+            OFFSET_SIGMA[i - DEVIATING.len()]
+        }
+    }
+
+    fn robot_of(&self, point: &Point, run: usize) -> Robot<f64> {
+        let mut theta = point.theta;
+        for (i, &k) in DEVIATING.iter().enumerate() {
+            theta[k] += point.run[run][i] * self.run_scale(i);
+        }
+        tuned(self.robot, &self.sigma, &theta)
+    }
+
+    /// Response of the recordings `runs`.
+    fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
+        let body = |run| {
+            let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
+            let torque = self.drives.delivered(run, cut, &robot, &doses, &Grid::new(cut, self.step));
+            Body { robot, doses, torque }
+        };
+        let bodies: Vec<Body> = runs.clone().map(body).collect();
+        let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
+        for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {
+            for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
+                let offset = own[DEVIATING.len() + o] * OFFSET_SIGMA[o];
+                for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
+                    *v += offset;
+                }
+            }
+        }
+        out
+    }
+
+    /// Response at several points and doses at once.
+    pub(crate) fn lanes(&self, lanes: &[Lane<'_>]) -> Vec<Response> {
+        lanes.par_iter().map(|l| self.free(l, 0..self.cuts.len())).collect()
+    }
+
+    pub(crate) fn response(&self, point: &Point, h: &Hypothesis) -> Response {
+        let doses = |run: usize| h.doses(&point.effects, run);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, 0..self.cuts.len())
+    }
+
+    /// Response of one recording.
+    pub(crate) fn run_response(&self, run: usize, point: &Point, h: &Hypothesis) -> Vec<Vec<f64>> {
+        let doses = |run: usize| h.doses(&point.effects, run);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, run..run + 1).remove(0)
+    }
+
+    /// Response and columns of θ by finite steps of 0.3 sigma.
+    pub(crate) fn nuisance_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
+        let doses = |run: usize| h.doses(&point.effects, run);
+        let lanes: Vec<Lane<'_>> = (0..NUISANCES)
+            .map(|k| {
+                let mut p = point.clone();
+                p.theta[k] += NUISANCE_STEP;
+                Lane { point: p, doses: &doses, part: None }
+            })
+            .collect();
+        let out = self.lanes(&lanes);
+        Columns(out.into_iter().map(|y| difference(&y, base, 1.0 / NUISANCE_STEP)).collect())
+    }
+
+    /// Columns of the effects' free values, per unit, by finite steps.
+    pub(crate) fn effect_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
+        let free = h.free(self.largest_torque);
+        let shifted: Vec<(Point, f64)> = free
+            .iter()
+            .enumerate()
+            .map(|(i, f)| {
+                let mut p = point.clone();
+                let size = (0.1 * f.unit).max(0.02 * p.effects[i].abs());
+                // Step towards the inside of the bounds.
+                let d = if p.effects[i] + size > f.bounds[1] { -size } else { size };
+                p.effects[i] += d;
+                (p, d)
+            })
+            .collect();
+        let doses: Vec<_> = shifted.iter().map(|(p, _)| move |run: usize| h.doses(&p.effects, run)).collect();
+        let lanes: Vec<Lane<'_>> =
+            shifted.iter().zip(&doses).map(|((p, _), d)| Lane { point: p.clone(), doses: d, part: None }).collect();
+        let out = self.lanes(&lanes);
+        Columns(out.iter().zip(&shifted).zip(&free).map(|((y, (_, d)), f)| difference(y, base, f.unit / d)).collect())
+    }
+
+    /// Weighted square of a segment's residual, `Σ r²/R`, for its predicted windows.
+    pub(crate) fn q(&self, run: usize, segment: usize, predicted: &[f64]) -> f64 {
+        let s = &self.cuts[run].segments[segment];
+        let mut q = 0.0;
+        for (i, ((o, p), &valid)) in s.observed.iter().zip(predicted).zip(&s.valid).enumerate() {
+            if valid {
+                q += (o - p).powi(2) / self.variance[i % CHANNELS];
+            }
+        }
+        q
+    }
+
+    /// Tempered, saturated cost of a segment, nats.
+    pub(crate) fn segment_cost(&self, run: usize, segment: usize, q: f64) -> f64 {
+        let d = self.cuts[run].segments[segment].count;
+        if d == 0.0 {
+            return 0.0;
+        }
+        let c = self.regime[run][segment];
+        0.5 * self.temper * d * self.kappa * (q / (self.kappa * d * c)).ln_1p()
+    }
+
+    /// Cost of a response, without priors.
+    pub(crate) fn misfit(&self, response: &Response) -> f64 {
+        (0..self.cuts.len()).map(|r| self.misfit_of_run(r, &response[r])).sum()
+    }
+
+    /// Cost of one recording's response; huge if it is not finite.
+    pub(crate) fn misfit_of_run(&self, run: usize, response: &[Vec<f64>]) -> f64 {
+        let cost = |(s, y): (usize, &Vec<f64>)| self.segment_cost(run, s, self.q(run, s, y));
+        let f: f64 = response.iter().enumerate().map(cost).sum();
+        if f.is_finite() { f } else { HOPELESS }
+    }
+
+    fn prior(&self, point: &Point) -> f64 {
+        let d: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
+        let mut f = 0.0;
+        for i in 0..NUISANCES {
+            for j in 0..NUISANCES {
+                f += 0.5 * d[i] * self.information[(i, j)] * d[j];
+            }
+        }
+        f + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
+    }
+
+    pub(crate) fn cost(&self, point: &Point, response: &Response) -> f64 {
+        self.misfit(response) + self.prior(point)
+    }
+
+    pub(crate) fn weight(&self, run: usize, segment: usize, q: f64) -> f64 {
+        let d = self.cuts[run].segments[segment].count.max(1.0);
+        let c = self.regime[run][segment];
+        self.temper / (c * (1.0 + q / (self.kappa * d * c)))
+    }
+
+    /// Gauss–Newton from `start`: at most `steps`, each damped (Levenberg–Marquardt) until the cost falls.
+    ///
+    /// The columns of θ are those given; they are renewed before step `renew` if that is reached.
+    pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
+        let mut at = start;
+        let free = h.free(self.largest_torque);
+        for step in 0..steps {
+            if renew == Some(step) {
+                at.columns = std::sync::Arc::new(self.nuisance_columns(&at.point, h, &at.response));
+            }
+            let effects = self.effect_columns(&at.point, h, &at.response);
+            let Some(mut normal) = self.normal(&at.point, &at.response, &at.columns, &effects) else { break };
+            self.with_prior(&at.point, &mut normal);
+            let n = normal.matrix.nrows();
+            for i in NUISANCES..n {
+                // A whiff of a prior on strengths keeps what the data do not determine where it is.
+                normal.matrix[(i, i)] += 1e-3;
+            }
+            let mut moved = false;
+            let mut promised = 0.0;
+            for damping in DAMPING {
+                let Some(delta) = Self::bounded_step(&at.point, &normal, &free, damping) else { break };
+                promised = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
+                let point = Self::advanced(&at.point, &delta, &normal, &free);
+                let response = self.response(&point, h);
+                let cost = self.cost(&point, &response);
+                if cost < at.cost {
+                    moved = at.cost - cost > LEAST_GAIN;
+                    at = Fitted { point, response, cost, columns: at.columns.clone() };
+                    break;
+                }
+            }
+            if !moved || promised < LEAST_GAIN {
+                break;
+            }
+        }
+        at
+    }
+
+    /// A fit's first point with its response and columns.
+    pub(crate) fn begin(&self, h: &Hypothesis, point: Point, columns: Option<std::sync::Arc<Columns>>) -> Fitted {
+        let response = self.response(&point, h);
+        let cost = self.cost(&point, &response);
+        let columns = columns.unwrap_or_else(|| std::sync::Arc::new(self.nuisance_columns(&point, h, &response)));
+        Fitted { point, response, cost, columns }
+    }
+}
+
+/// One lane of a simulation: a point, doses for each run, and optionally only one part of each segment.
+pub(crate) struct Lane<'a> {
+    pub(crate) point: Point,
+    pub(crate) doses: &'a (dyn Fn(usize) -> Vec<Dose> + Sync),
+    pub(crate) part: Option<usize>,
+}
+
+/// Where a fit has come to.
+#[derive(Clone)]
+pub(crate) struct Fitted {
+    pub(crate) point: Point,
+    pub(crate) response: Response,
+    pub(crate) cost: f64,
+    pub(crate) columns: std::sync::Arc<Columns>,
+}
+
+/// `(y − base)·factor`, number by number.
+pub(crate) fn difference(y: &Response, base: &Response, factor: f64) -> Response {
+    y.iter()
+        .zip(base)
+        .map(|(y, b)| y.iter().zip(b).map(|(y, b)| y.iter().zip(b).map(|(y, b)| (y - b) * factor).collect()).collect())
+        .collect()
+}

@@ -1,0 +1,62 @@
+//! The null's own evidence: what each reference would be accused of if only the others had calibrated the model.
+
+use faer::Mat;
+use robot_model::tunable::COUNT as NUISANCES;
+
+use crate::decide::penalty;
+use crate::fit::{Columns, Hypothesis, PER_RUN, Point, Problem};
+use crate::screen::screen;
+use inference::linalg::solve_spd;
+
+/// Scores that healthy recordings of this robot reach.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Gate {
+    /// Of each reference left out in turn: its worst accusation and what that scores, nats.
+    pub(crate) accusations: Vec<(String, f64)>,
+}
+
+impl Gate {
+    /// Screens every reference with a calibration from which its own share is taken away.
+    ///
+    /// At the calibrated θ the gradients of all references and of the prior cancel, so that without reference r
+    /// `θ₋ᵣ = θ − (H − Sᵣ)⁻¹ gᵣ` with prior information `H − Sᵣ`: no second calibration is needed.
+    pub(crate) fn new(problem: &Problem<'_>, at: &Point, information: &Mat<f64>) -> Self {
+        if problem.cuts.len() < 2 {
+            return Self::default();
+        }
+        let accusations = (0..problem.cuts.len()).filter_map(|r| Self::left_out(problem, at, information, r)).collect();
+        Self { accusations }
+    }
+
+    fn left_out(problem: &Problem<'_>, at: &Point, information: &Mat<f64>, r: usize) -> Option<(String, f64)> {
+        let none = Hypothesis::default();
+        let mut alone = Problem {
+            cuts: &problem.cuts[r..=r],
+            regime: vec![problem.regime[r].clone()],
+            information: information.clone(),
+            centre: at.theta,
+            ..problem.clone()
+        };
+        let point = Point { theta: at.theta, run: vec![[0.0; PER_RUN]], effects: Vec::new() };
+        let base = alone.begin(&none, point, None);
+        let own = alone.normal(&base.point, &base.response, &base.columns, &Columns(Vec::new()))?;
+        let others = information - &own.matrix;
+        let (shift, _) = solve_spd(&others, &own.gradient)?;
+        for k in 0..NUISANCES {
+            alone.centre[k] -= shift[(k, 0)];
+        }
+        alone.information = others;
+        screen(&alone, &base, &alone.variants(), &none)
+            .into_iter()
+            .map(|c| {
+                let h = Hypothesis::single(c.variant, c.onsets.clone());
+                (c.variant.label(), c.evidence - penalty(&h, &c.start))
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The highest score of a healthy recording.
+    pub(crate) fn highest(&self) -> f64 {
+        self.accusations.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
+    }
+}

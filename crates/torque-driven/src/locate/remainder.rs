@@ -1,0 +1,94 @@
+//! What the best answer leaves: how much, in which signal, in what kind of driving.
+
+use crate::fit::Problem;
+use crate::locate::healthy::Energy;
+use crate::windows::{CHANNEL_NAMES, CHANNELS};
+use verdict::{Regime, Remainder};
+
+/// Limits of |yaw rate| (rad/s) and |forward velocity| (m/s) that split the driving in two.
+const LIMITS: [(usize, &str, &str, [f64; 3]); 2] =
+    [(2, "turning", "rad/s", [0.1, 0.3, 0.6]), (3, "speed", "m/s", [0.1, 0.3, 0.6])];
+/// A kind of driving is told when it holds this much of what is left, and this much more than its share of the time.
+const MOST: f64 = 0.6;
+const BEYOND_TIME: f64 = 0.15;
+/// Probability below which a signal's remainder stands out from healthy driving, for all signals together.
+const STANDS_OUT: f64 = 0.05;
+/// Sides within this ratio are alike.
+const ALIKE: f64 = 0.6;
+
+/// Energy of each channel beyond what is healthy, never below zero.
+pub(crate) fn excess(energy: &Energy) -> [f64; CHANNELS] {
+    std::array::from_fn(|c| {
+        let all = energy.iter().flatten().flatten().map(|w| w[c]).filter(|e| e.is_finite());
+        all.map(|e| e - 1.0).sum::<f64>().max(0.0)
+    })
+}
+
+/// Where what is left of `share` sits.
+pub(crate) fn remainder(
+    problem: &Problem<'_>,
+    share: f64,
+    energy: &Energy,
+    probabilities: &[Option<f64>; CHANNELS],
+) -> Remainder {
+    let excess = excess(energy);
+    let total: f64 = excess.iter().sum();
+    let mut order: Vec<usize> = (0..CHANNELS).filter(|&c| excess[c] > 0.0).collect();
+    order.sort_by(|&a, &b| excess[b].total_cmp(&excess[a]));
+    let by_signal = order.iter().map(|&c| (CHANNEL_NAMES[c].to_owned(), excess[c] / total)).collect();
+    let stands = |c: &usize| probabilities[*c].is_some_and(|p| p < STANDS_OUT / CHANNELS as f64);
+    let largest = order.first().copied().filter(stands);
+    let place = largest.map(|c| match c {
+        0 | 1 if excess[1 - c] > ALIKE * excess[c] => "in the wheel speeds of both sides".to_owned(),
+        0 => "on the left side".to_owned(),
+        1 => "on the right side".to_owned(),
+        _ => format!("in the {}", CHANNEL_NAMES[c]),
+    });
+    Remainder { share, by_signal, place, regime: largest.and_then(|c| regime(problem, energy, c)) }
+}
+
+/// The kind of driving that holds most of a channel's remainder for the least time.
+fn regime(problem: &Problem<'_>, energy: &Energy, channel: usize) -> Option<Regime> {
+    let mut best: Option<Regime> = None;
+    for (by_channel, by, unit, limits) in LIMITS {
+        // Size of the quantity and excess of each window.
+        let mut windows: Vec<(f64, f64)> = Vec::new();
+        for (cut, run) in problem.cuts.iter().zip(energy) {
+            for (segment, e) in cut.segments.iter().zip(run) {
+                for (w, e) in e.iter().enumerate() {
+                    let i = w * CHANNELS + by_channel;
+                    if segment.valid[i] && e[channel].is_finite() {
+                        windows.push((segment.observed[i].abs(), e[channel] - 1.0));
+                    }
+                }
+            }
+        }
+        let (all, count) = (windows.iter().map(|w| w.1).sum::<f64>(), windows.len() as f64);
+        if all <= 0.0 {
+            continue;
+        }
+        for range in limits.iter().flat_map(|&l| [[0.0, l], [l, f64::INFINITY]]) {
+            let inside = || windows.iter().filter(|w| w.0 >= range[0] && w.0 < range[1]);
+            let time = inside().count() as f64 / count;
+            let share = (inside().map(|w| w.1).sum::<f64>() / all).min(1.0);
+            let beyond = share - time;
+            let better = best.as_ref().is_none_or(|b| beyond > b.share - b.time);
+            if share >= MOST && beyond >= BEYOND_TIME && better {
+                best = Some(Regime { by: by.into(), unit: unit.into(), range, share, time });
+            }
+        }
+    }
+    best
+}
+
+/// A remainder as a sentence.
+pub(crate) fn sentence(r: &Remainder) -> String {
+    let place = r.place.as_ref().map_or(String::new(), |p| format!(", mostly {p}"));
+    let driving = r.regime.as_ref().filter(|_| r.place.is_some()).map_or(String::new(), |regime| {
+        let [from, until] = regime.range;
+        let (word, limit) = if from > 0.0 { ("above", from) } else { ("below", until) };
+        let of = if regime.by == "turning" { "turning" } else { "speed" };
+        format!(" {word} {limit} {} of {of}", regime.unit)
+    });
+    format!("{:.0} % of the mismatch is still unexplained{place}{driving}.", 100.0 * r.share)
+}

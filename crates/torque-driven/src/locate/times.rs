@@ -1,0 +1,69 @@
+//! When the mismatch begins and ends, signal by signal.
+
+use crate::fit::Problem;
+use crate::locate::change::{Change, Reference, Sense, find};
+use crate::locate::compare::{BETWEEN, LEAST_WITHIN, level};
+use crate::locate::healthy::{Energy, Healthy};
+use crate::locate::null::Null;
+use crate::windows::{CHANNEL_NAMES, CHANNELS, Cut};
+use verdict::Span;
+
+/// Windows that are averaged, for runs of usual length.
+const WINDOWS: usize = 5;
+/// Bins of a series at most: longer runs get wider ones.
+const MOST_BINS: usize = 72;
+
+/// ln(energy) of one channel in bins of `width` windows.
+fn series(run: &[Vec<[f64; CHANNELS]>], c: usize, width: usize) -> Vec<f64> {
+    let windows: Vec<f64> = run.iter().flatten().map(|w| w[c]).collect();
+    windows
+        .chunks(width)
+        .map(|bin| {
+            let (n, sum) = bin.iter().filter(|e| e.is_finite()).fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
+            level(if n > 0.0 { sum / n } else { f64::NAN })
+        })
+        .collect()
+}
+
+/// A change in seconds of its recording; `bin` is the length of a bin, s.
+pub(crate) fn span(cut: &Cut, signal: &str, side: Option<usize>, change: &Change, bins: usize, bin: f64) -> Span {
+    let end = bins as f64 * bin;
+    // A bin that holds a border belongs half to each side of it, and a free run takes a moment to drift off.
+    let around = |k: usize, ends: [usize; 2]| {
+        let limits = [(ends[0] as f64 - 1.0) * bin, (ends[1] as f64 + 0.5) * bin];
+        // The first and the last bin tell little: a robot at rest mismatches nothing.
+        (k > 1 && k + 1 < bins).then(|| limits.map(|t| cut.from + t.clamp(0.0, end)))
+    };
+    Span {
+        recording: cut.name.clone(),
+        signal: signal.to_owned(),
+        side: side.map(|s| inference::words::side(s).into()),
+        interval: [change.from, change.until].map(|k| cut.from + k as f64 * bin),
+        onset: around(change.from, change.onset),
+        end: around(change.until, change.end),
+        gain: change.gain,
+    }
+}
+
+/// Stretches in which each signal of each recording mismatches the calibrated simulation.
+pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, healthy: &Healthy) -> Vec<Span> {
+    let longest = energy.iter().map(|run| run.iter().map(Vec::len).sum::<usize>()).max().unwrap_or(0);
+    let width = WINDOWS * longest.div_ceil(WINDOWS * MOST_BINS).max(1);
+    let known: Vec<Vec<Vec<f64>>> =
+        (0..CHANNELS).map(|c| healthy.energy.iter().map(|run| series(run, c, width)).collect()).collect();
+    let nulls = known.iter().map(|k| Null::new(k, BETWEEN, LEAST_WITHIN)).collect();
+    let reference = Reference { series: known, nulls, sense: Sense::Rise };
+    let segment = healthy.energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    let threshold = reference.threshold(longest.div_ceil(width), (segment / width).max(1));
+    let mut out = Vec::new();
+    for (cut, run) in problem.cuts.iter().zip(energy) {
+        let bin = (width * cut.rows_per_window) as f64 * cut.period;
+        for (c, null) in reference.nulls.iter().enumerate() {
+            let Some(null) = null else { continue };
+            let y = series(run, c, width);
+            let found = find(&y, null, reference.sense, threshold);
+            out.extend(found.iter().map(|f| span(cut, CHANNEL_NAMES[c], (c < 2).then_some(c), f, y.len(), bin)));
+        }
+    }
+    out
+}

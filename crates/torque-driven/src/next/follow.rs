@@ -1,0 +1,188 @@
+//! A robot that follows a course under torque, as a recording without noise.
+
+use robot_model::{Active, Plant, Robot, State};
+
+use crate::drives::Drives;
+use crate::fit::Problem;
+use crate::hold::Hold;
+use crate::simulate::Grid;
+use crate::windows::{CHANNELS, Cut, FORWARD, Segment, Start};
+use inference::hypothesis::Dose;
+use verdict::{Course, wheel_speeds};
+
+/// Time in which the wheels reach what is wanted, s, and how much faster the integral acts.
+const REACH: f64 = 0.15;
+const INTEGRAL: f64 = 3.0;
+/// Yaw rate per error of the heading, 1/s, and the largest error that counts, rad.
+const HEADING: [f64; 2] = [2.0, 0.6];
+/// Wheel speed at which known friction is compensated in full, rad/s.
+const FRICTION_REST: f64 = 0.5;
+/// A robot file's limit beyond this is none, N m.
+const NO_LIMIT: f64 = 1e6;
+
+/// What a drive is made with: the robot as its user knows it, and how the recordings were made.
+#[derive(Debug, Clone)]
+pub(crate) struct Follower {
+    known: Robot<f64>,
+    limit: f64,
+    gain: f64,
+    period: f64,
+    /// Integration step, s.
+    step: f64,
+    /// Windows of a segment.
+    windows: usize,
+    rows_per_window: usize,
+    /// Channels that the recordings have.
+    channels: [bool; CHANNELS],
+}
+
+impl Follower {
+    /// As the recordings of a problem were made; `None` without any segment.
+    pub(crate) fn new(problem: &Problem<'_>) -> Option<Self> {
+        let cut = problem.cuts.iter().find(|c| !c.segments.is_empty())?;
+        let known = *problem.robot;
+        let limit = if known.drive.limit < NO_LIMIT { known.drive.limit } else { problem.largest_torque };
+        let inertia = 0.5 * known.mass * known.wheel_radius.powi(2) + 2.0 * known.wheel_inertia + known.motor_inertia;
+        let shown = |c: usize| {
+            let all = problem.cuts.iter().flat_map(|c| &c.segments);
+            all.flat_map(|s| s.valid.iter().skip(c).step_by(CHANNELS)).any(|&v| v)
+        };
+        Some(Self {
+            known,
+            limit,
+            gain: inertia / REACH,
+            period: cut.period,
+            step: problem.step,
+            windows: cut.segments[0].windows,
+            rows_per_window: cut.rows_per_window,
+            channels: std::array::from_fn(shown),
+        })
+    }
+
+    /// Drives a robot along a course; what it shows is left to a free run. Without ground nothing holds the heading.
+    pub(crate) fn drive(
+        &self,
+        robot: &Robot<f64>,
+        doses: &[Dose],
+        course: &Course,
+        start: [f64; 3],
+        ground: bool,
+    ) -> Cut {
+        let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+        let length = course.points.last().map_or(0.0, |p| p[0]);
+        let rows = (length / self.period).round() as usize;
+        let mut cut = Cut {
+            from: 0.0,
+            name: "next".to_owned(),
+            period: self.period,
+            rows_per_window: self.rows_per_window,
+            torque: Vec::with_capacity(rows),
+            segments: Vec::new(),
+            path: Vec::new(),
+        };
+        let grid = Grid::new(&cut, self.step);
+        let plant = Plant::new(robot, &active, grid.h);
+        let hold = Hold::new(self.period, grid.substeps, plant.drive().delay);
+        let per_segment = self.windows * self.rows_per_window;
+        let (sin, cos) = start[2].sin_cos();
+        let mut s = State { position: [start[0], start[1]], heading: [cos, sin], ..State::default() };
+        let (mut heading, mut turned, mut sums) = (0.0, 0.0, [0.0; 2]);
+        for k in 0..rows {
+            // As in a recording, a whole window is left after the last segment.
+            if k % per_segment == 0 && k + per_segment + self.rows_per_window <= rows {
+                cut.segments.push(self.segment(k, start_of(&plant, &s, start[2] + turned)));
+            }
+            let t = k as f64 * self.period;
+            let [speed, turn] = course.at(t);
+            heading += turn * self.period;
+            let off = (heading - turned).clamp(-HEADING[1], HEADING[1]);
+            heading = turned + off;
+            let turn = if ground { turn + HEADING[0] * off } else { turn };
+            let wanted = wheel_speeds([speed, turn], self.known.wheel_radius, self.known.half_track);
+            let command = if course.is_free(t) {
+                sums = [0.0; 2];
+                [0.0; 2]
+            } else {
+                std::array::from_fn(|j| self.command(j, wanted[j], s.wheel_speed[j], &mut sums[j]))
+            };
+            cut.torque.push(command);
+            for i in 0..grid.substeps {
+                let before = s.yaw_rate;
+                plant.step(&mut s, hold.command(&cut.torque, k, i));
+                turned += 0.5 * (before + s.yaw_rate) * grid.h;
+            }
+        }
+        cut
+    }
+
+    /// Torque of a side: known friction, and what brings the wheel to its speed.
+    fn command(&self, j: usize, wanted: f64, speed: f64, sum: &mut f64) -> f64 {
+        let error = wanted - speed;
+        let known = self.known.coulomb[j] * (wanted / FRICTION_REST).tanh() + self.known.viscous[j] * wanted;
+        let torque = known + self.gain * error + *sum;
+        // No winding up beyond the limit.
+        if torque.abs() < self.limit || torque * error < 0.0 {
+            *sum += INTEGRAL * self.gain * error * self.period;
+        }
+        torque.clamp(-self.limit, self.limit)
+    }
+
+    fn segment(&self, row: usize, start: Start) -> Segment {
+        let valid: Vec<bool> = (0..self.windows).flat_map(|_| self.channels).collect();
+        let count = valid.iter().filter(|v| **v).count() as f64;
+        Segment {
+            row,
+            windows: self.windows,
+            start,
+            observed: vec![0.0; valid.len()],
+            valid,
+            wheels: Vec::new(),
+            regime: [0.0; 3],
+            count,
+        }
+    }
+}
+
+fn start_of(plant: &Plant<'_, f64>, s: &State<f64>, yaw: f64) -> Start {
+    Start {
+        wheel_speed: s.wheel_speed,
+        wheel_angle: s.wheel_angle,
+        yaw_rate: s.yaw_rate,
+        velocity: plant.velocity(s),
+        position: s.position,
+        yaw,
+    }
+}
+
+/// Fills in what the drive showed, and what kind of driving each segment is.
+pub(crate) fn observe(cut: &mut Cut, response: &[Vec<f64>]) {
+    for (segment, shown) in cut.segments.iter_mut().zip(response) {
+        segment.observed.clone_from(shown);
+        for (v, valid) in segment.observed.iter_mut().zip(&segment.valid) {
+            *v = if *valid { *v } else { 0.0 };
+        }
+        let windows = || segment.observed.chunks(CHANNELS);
+        let mean = |c: usize| windows().map(|w| w[c].abs()).sum::<f64>() / segment.windows.max(1) as f64;
+        let wheels = || windows().flat_map(|w| [w[0], w[1]]);
+        let range = wheels().fold(f64::MIN, f64::max) - wheels().fold(f64::MAX, f64::min);
+        // The same measures of a kind of driving as a recording's.
+        let regime = [mean(2) / 0.3, mean(FORWARD) / 0.3, range / 4.0];
+        segment.regime = regime;
+    }
+}
+
+/// A problem on one drive of a robot; nothing is known of the drive's own numbers yet.
+pub(crate) fn on_drive<'a>(
+    problem: &Problem<'a>,
+    robot: &'a Robot<f64>,
+    cut: &'a Cut,
+    regime: Vec<f64>,
+) -> Problem<'a> {
+    Problem {
+        robot,
+        cuts: std::slice::from_ref(cut),
+        regime: vec![regime],
+        drives: Drives::default(),
+        ..problem.clone()
+    }
+}

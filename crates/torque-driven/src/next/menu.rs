@@ -1,0 +1,157 @@
+//! The menu: drives that a user can make without preparation, and two that need some.
+
+use robot_model::Robot;
+
+use crate::windows::{CHANNELS, Cut, WINDOW};
+use verdict::{Course, WIDENING};
+
+/// Share of what was reached before that counts as the robot's limit, and the least limits, m/s and rad/s.
+const REACHED: f64 = 0.97;
+const LEAST: [f64; 2] = [0.15, 0.3];
+/// A robot that drives so fast can also spin: share of the yaw rate at which its wheels turn as fast.
+const SPIN: f64 = 0.6;
+/// Windows that a point of the recorded path is a mean of.
+const THINNED: usize = 5;
+
+/// How the robot is prepared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Setup {
+    /// As it was.
+    AsItIs,
+    /// With a known load of a fifth of its mass over its centre.
+    Loaded,
+    /// Wheels off the ground.
+    Lifted,
+}
+
+/// One drive of the menu.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) name: String,
+    pub(crate) setup: Setup,
+    /// Pose at the start: x, y in m, yaw in rad.
+    pub(crate) start: [f64; 3],
+    pub(crate) course: Course,
+    /// Found by a search for these rivals.
+    pub(crate) optimised: bool,
+}
+
+/// How fast the robot may go, turn, and where it starts.
+#[derive(Debug, Clone)]
+pub(crate) struct Scope {
+    /// m/s and rad/s.
+    pub(crate) limits: [f64; 2],
+    pub(crate) start: [f64; 3],
+    /// Length of every drive, s.
+    pub(crate) length: f64,
+    /// The recorded path as a course.
+    path: Course,
+}
+
+impl Scope {
+    /// What the drives of a case reached; starts where the first recording starts.
+    pub(crate) fn new(references: &[Cut], recordings: &[Cut], robot: &Robot<f64>, length: f64) -> Self {
+        let of = |w: &[f64]| [0.5 * robot.wheel_radius * (w[0] + w[1]), w[2]];
+        let mut reached = [Vec::new(), Vec::new()];
+        for s in references.iter().chain(recordings).flat_map(|c| &c.segments) {
+            for (w, valid) in s.observed.chunks(CHANNELS).zip(s.valid.chunks(CHANNELS)) {
+                for (c, v) in of(w).into_iter().enumerate() {
+                    if [valid[0] && valid[1], valid[2]][c] {
+                        reached[c].push(v.abs());
+                    }
+                }
+            }
+        }
+        let mut limits = [0, 1].map(|c| quantile(&mut reached[c], REACHED).max(LEAST[c]));
+        limits[1] = limits[1].max(SPIN * limits[0] / (WIDENING * robot.half_track));
+        let windows: Vec<[f64; 2]> = recordings
+            .iter()
+            .take(1)
+            .flat_map(|c| c.segments.iter().flat_map(|s| s.observed.chunks(CHANNELS).map(of)))
+            .collect();
+        let start = recordings.first().and_then(|c| c.path.first()).copied().unwrap_or_default();
+        Self { limits, start, length, path: again(&windows, length) }
+    }
+
+    /// The menu.
+    pub(crate) fn entries(&self) -> Vec<Entry> {
+        let [v, w] = self.limits;
+        let entry = |name: &str, course: Course| Entry {
+            name: name.to_owned(),
+            setup: Setup::AsItIs,
+            start: self.start,
+            course,
+            optimised: false,
+        };
+        let both = |level: [f64; 2], times: usize| {
+            let back = [-level[0], -level[1]];
+            Course::of_levels(&[level, back].repeat(times), self.length)
+        };
+        let mut out = Vec::new();
+        for (word, share) in [("slow", 0.3), ("medium", 0.6), ("fast", 1.0)] {
+            out.push(entry(&format!("{word} spins, both ways"), both([0.0, share * w], 1)));
+            out.push(entry(&format!("straight ahead and back, {word}"), both([share * v, 0.0], 1)));
+        }
+        for (word, share) in [("slow", 0.4), ("fast", 0.8)] {
+            let arcs = [[share * v, 0.5 * share * w], [share * v, -0.5 * share * w]];
+            out.push(entry(
+                &format!("{word} circles of one radius, left then right"),
+                Course::of_levels(&arcs, self.length),
+            ));
+        }
+        out.push(entry("slow reversals, straight", both([0.4 * v, 0.0], 2)));
+        out.push(entry("fast reversals, straight", both([v, 0.0], 4)));
+        out.push(entry("fast reversals, on the spot", both([0.0, w], 4)));
+        out.push(entry("fast reversals while turning", both([0.7 * v, 0.6 * w], 4)));
+        let mut coasting = both([v, 0.0], 1);
+        // From speed to rest without torque, once each way.
+        coasting.torque_free = [0.25, 0.75].map(|share| [share * self.length, (share + 0.25) * self.length]).to_vec();
+        out.push(entry("coast-down, ahead and back", coasting));
+        for (word, turned) in [("a quarter turn", 0.5), ("half a turn", 1.0)] {
+            let mut e = entry(&format!("the recorded path, begun {word} further left"), self.path.clone());
+            e.start[2] += turned * std::f64::consts::PI;
+            out.push(e);
+        }
+        let prepared = |name: &str, setup: Setup, course: Course| Entry { setup, ..entry(name, course) };
+        let loaded = |name: &str, level| prepared(name, Setup::Loaded, both(level, 2));
+        out.push(loaded("with a known load: straight reversals", [0.8 * v, 0.0]));
+        out.push(loaded("with a known load: spins, both ways", [0.0, 0.6 * w]));
+        out.push(prepared("wheels off the ground: reversals", Setup::Lifted, both([v, 0.0], 3)));
+        out
+    }
+
+    /// Straight through a place and back again: its centre lies half way.
+    pub(crate) fn across(&self, [x, y, _]: [f64; 3]) -> Entry {
+        let speed = 0.6 * self.limits[0];
+        let (sin, cos) = self.start[2].sin_cos();
+        // Half of the first half of the drive, ramps aside.
+        let reach = 0.2 * self.length * speed;
+        Entry {
+            name: "across the place and back".to_owned(),
+            setup: Setup::AsItIs,
+            start: [x - reach * cos, y - reach * sin, self.start[2]],
+            course: Course::of_levels(&[[speed, 0.0], [-speed, 0.0]], self.length),
+            optimised: false,
+        }
+    }
+}
+
+/// The path of a recording as a course of the usual length, begun again where it is shorter.
+fn again(windows: &[[f64; 2]], length: f64) -> Course {
+    let means: Vec<[f64; 2]> = windows
+        .chunks(THINNED)
+        .map(|part| [0, 1].map(|c| part.iter().map(|w| w[c]).sum::<f64>() / part.len() as f64))
+        .collect();
+    let each = THINNED as f64 * WINDOW;
+    let count = (length / each) as usize;
+    let inner = means.iter().cycle().take(count.saturating_sub(2)).enumerate();
+    let mut points = vec![[0.0; 3]];
+    points.extend(inner.map(|(i, m)| [(i as f64 + 1.0) * each, m[0], m[1]]));
+    points.push([length, 0.0, 0.0]);
+    Course { points, torque_free: Vec::new() }
+}
+
+fn quantile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get((share * values.len() as f64) as usize).or(values.last()).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,123 @@
+//! The next manoeuvre: which drive would tell the remaining rivals apart best.
+//!
+//! For every drive of a `menu`, and for short profiles made by a search (`optimise`), every rival in turn is taken for
+//! true: its robot follows the drive (`follow`), and each other rival runs free over the same segments, re-tuned within
+//! what is known of it (`outlook`). What the drive is expected to gain is the expected fall of the `entropy` of the
+//! rivals (Box and Hill 1967; Buzzi-Ferraris, Forzatti 1983; here with the decision's own temper).
+
+mod follow;
+mod menu;
+mod optimise;
+mod outlook;
+mod rivals;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+use verdict::{Advice, Contender, Manoeuvre};
+
+use crate::answer::Answer;
+use crate::calibrate::Regimes;
+use crate::decide::TEMPERATURE;
+use crate::fit::{Fitted, Problem};
+use crate::windows::{CHANNEL_NAMES, CHANNELS};
+use follow::Follower;
+use inference::advice::{among as advice_among, nothing_to_split, sorted};
+use inference::entropy::expected_bits;
+use menu::{Entry, Scope, Setup};
+use outlook::{Outlook, Prospect};
+use rivals::{Rival, rivals};
+
+/// Probability of "unknown" from which advice among the catalogue's effects needs a word.
+const DOUBT: f64 = 0.1;
+/// Advises on the next drive of a torque-driven robot.
+pub(crate) fn advise(answer: &Answer<'_>, retuned: &Fitted, length: f64) -> Advice {
+    let rivals = rivals(answer.problem, answer.decision, retuned);
+    let problem = answer.problem;
+    let scope = Scope::new(answer.references, problem.cuts, problem.robot, length);
+    among(problem, &answer.calibration.regimes, &scope, &rivals, answer.decision.unknown)
+}
+
+/// Advice on what tells these rivals apart; `unknown` is the probability that none of them is true.
+fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Rival], unknown: f64) -> Advice {
+    let Some(follower) = Follower::new(problem) else { return Advice::withheld("no recording is long enough") };
+    let contender =
+        |r: &Rival| Contender { effects: r.effects.clone(), name: r.name.clone(), probability: r.probability };
+    let mut out = advice_among(rivals.iter().map(contender));
+    let mut entries = scope.entries();
+    entries.extend(rivals.iter().find_map(Rival::place).map(|place| scope.across(place)));
+    let prospect = Prospect { problem, regimes, rivals, follower };
+    let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
+    let bits = |o: &Outlook| expected_bits(&p, &o.views, TEMPERATURE);
+    let mut drives: Vec<(Entry, Outlook)> =
+        entries.into_par_iter().filter_map(|e| prospect.outlook(&e).map(|o| (e, o))).collect();
+    if rivals.len() > 1 {
+        let found = optimise::optimised(scope, |e| prospect.outlook(e).map(|o| bits(&o)));
+        drives.extend(found.and_then(|(e, _)| prospect.outlook(&e).map(|o| (e, o))));
+    }
+    let gained: Vec<f64> = drives.par_iter().map(|(_, o)| bits(o)).collect();
+    out.manoeuvres = drives.iter().zip(gained).map(|((e, o), bits)| manoeuvre(e, o, bits, rivals)).collect();
+    out.withheld = nothing_to_split(&out);
+    out.limits = limits(unknown, &out);
+    sorted(out)
+}
+
+fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> Manoeuvre {
+    let split = best_split(outlook, rivals);
+    let mut out = Manoeuvre::new(&entry.name, entry.course.clone(), entry.start);
+    out.why = split.map_or_else(
+        || narrowing(outlook.narrows, rivals),
+        |(k, l)| apart(&rivals[k], &rivals[l], &outlook.shows[k][l]),
+    );
+    out.expected_bits = bits;
+    out.splits = split.map(|(k, l)| [rivals[k].name.clone(), rivals[l].name.clone()]);
+    out.narrows = outlook.narrows;
+    out.joins = entry.setup == Setup::AsItIs;
+    out.optimised = entry.optimised;
+    out
+}
+
+/// The pair that a drive tells apart best: probable rivals count more.
+fn best_split(outlook: &Outlook, rivals: &[Rival]) -> Option<(usize, usize)> {
+    let worth = |k: usize, l: usize| {
+        let apart = 1.0 - (-outlook.views[k].behind[l] / TEMPERATURE).exp();
+        rivals[k].probability * rivals[l].probability * apart
+    };
+    let pairs = (0..rivals.len()).flat_map(|k| (0..rivals.len()).filter(move |l| *l != k).map(move |l| (k, l)));
+    pairs.max_by(|a, b| worth(a.0, a.1).total_cmp(&worth(b.0, b.1)))
+}
+
+fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {
+    let (c, most) = (0..CHANNELS).map(|c| (c, shows[c])).fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    format!(
+        "Between {} and {} the {} would differ by {most:.1} times what healthy drives show, with all constants re-tuned.",
+        k.name, l.name, CHANNEL_NAMES[c]
+    )
+}
+
+fn narrowing(narrows: Option<f64>, rivals: &[Rival]) -> String {
+    match (narrows, rivals.first()) {
+        (Some(share), Some(first)) => {
+            format!("The uncertainty of the size of {} would fall to {:.0} %.", first.name, 100.0 * share)
+        }
+        _ => "It would add to what is known of the robot.".to_owned(),
+    }
+}
+
+fn limits(unknown: f64, advice: &Advice) -> Vec<String> {
+    let mut out = Vec::new();
+    if unknown > DOUBT {
+        out.push(format!(
+            "with probability {unknown:.2} the cause is not in the catalogue: what would show that best cannot be \
+             computed, and the bits count among the catalogue's effects only"
+        ));
+    }
+    if advice.manoeuvres.iter().any(|m| !m.joins) {
+        out.push(
+            "drives with a load or with wheels off the ground cannot be added to the other recordings: diagnose them by \
+             themselves, with a robot file that says so"
+                .to_owned(),
+        );
+    }
+    out
+}

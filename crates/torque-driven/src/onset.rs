@@ -1,0 +1,37 @@
+//! Moving the onsets of an effect that begins at an instant.
+
+use crate::fit::Problem;
+use crate::search::Trial;
+use inference::hypothesis::Place;
+
+/// Steps of the search, s, and how many to each side.
+const STEPS: [f64; 2] = [0.5, 0.1];
+const REACH: i32 = 4;
+
+/// Moves every onset to where the cost is least: half-second steps about the start, then tenths.
+pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
+    for part in 0..trial.hypothesis.parts.len() {
+        if trial.hypothesis.parts[part].0.place != Place::Onset {
+            continue;
+        }
+        for run in 0..problem.cuts.len() {
+            let cut = &problem.cuts[run];
+            for step in STEPS {
+                let Some(now) = trial.hypothesis.parts[part].1[run] else { continue };
+                let mut least = problem.misfit_of_run(run, &trial.fitted.response[run]);
+                for k in (-REACH..=REACH).filter(|&k| k != 0) {
+                    let mut h = trial.hypothesis.clone();
+                    h.parts[part].1[run] = Some((now + step * f64::from(k)).clamp(cut.from, cut.end()));
+                    let response = problem.run_response(run, &trial.fitted.point, &h);
+                    let cost = problem.misfit_of_run(run, &response);
+                    if cost < least {
+                        trial.fitted.cost += cost - least;
+                        trial.fitted.response[run] = response;
+                        trial.hypothesis = h;
+                        least = cost;
+                    }
+                }
+            }
+        }
+    }
+}

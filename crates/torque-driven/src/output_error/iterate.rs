@@ -1,0 +1,151 @@
+//! Gauss–Newton with Levenberg–Marquardt damping, and what the data determine.
+
+use faer::{Mat, Side};
+use robot_model::Robot;
+
+use super::equations::Equations;
+use super::{OutputError, OutputErrorError};
+use inference::linalg::solve_spd;
+
+/// Damping of the first step, by how much it changes, and when a fit gives up.
+const FIRST_DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-9;
+const MOST_DAMPING: f64 = 1e6;
+const DAMPING_FACTOR: f64 = 10.0;
+/// A fit has arrived when the cost falls by less than this share of itself, or all constants move by less than this share of
+/// their scale.
+const LEAST_FALL: f64 = 1e-7;
+const LEAST_MOVE: f64 = 1e-4;
+/// Jacobians at most.
+const MOST_JACOBIANS: usize = 60;
+/// Smallest eigenvalue of the columns' correlations from which on they are told apart: finite steps are known to 1e-5 or so.
+const LEAST_EIGENVALUE: f64 = 1e-9;
+/// A constant that is known to no better than this many scales is not determined.
+const MOST_SIGMA: f64 = 10.0;
+/// A constant has a part in an undetermined combination from this share on.
+const PART: f64 = 0.2;
+
+/// Constants fitted to recordings.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// Change of each constant: logarithm of a factor, or an offset in its unit.
+    pub delta: Vec<f64>,
+    /// One standard deviation of each, by the curvature: right if noise is as stated and the model is.
+    pub sigma: Vec<f64>,
+    /// The robot with its constants changed.
+    pub robot: Robot<f64>,
+    /// `Σ ((y − ŷ)/σ)²` over the numbers that are compared.
+    pub cost: f64,
+    /// Numbers that are compared.
+    pub numbers: usize,
+    /// Jacobians that it took: each is one run of all recordings, of as many robots as there are constants and one more.
+    pub jacobians: usize,
+    /// False if the steps ran out before the cost came to rest.
+    pub converged: bool,
+}
+
+impl OutputError<'_> {
+    /// Fits the constants from `start`, one value for each.
+    ///
+    /// # Errors
+    /// A start that is none or cannot be run, and constants that the recordings do not determine.
+    pub fn fit(&self, start: &[f64]) -> Result<Fitted, OutputErrorError> {
+        self.check(start)?;
+        let mut delta = start.to_vec();
+        let mut at = self.linearised(&delta).map_err(|place| self.not_finite(place))?;
+        let (mut jacobians, mut damping, mut converged) = (1, FIRST_DAMPING, false);
+        while !converged && jacobians < MOST_JACOBIANS && damping <= MOST_DAMPING {
+            self.all_leave_a_trace(&at)?;
+            let Some(step) = self.step(&at, damping) else {
+                damping *= DAMPING_FACTOR;
+                continue;
+            };
+            let moved: Vec<f64> = delta.iter().zip(&step).map(|(d, s)| d + s).collect();
+            let next = self.linearised(&moved).ok();
+            jacobians += 1;
+            // At the minimum rounding decides which way is down.
+            converged = step.iter().zip(&self.constants).all(|(s, c)| s.abs() < LEAST_MOVE * c.scale());
+            if let Some(next) = next.filter(|next| next.cost < at.cost) {
+                converged |= at.cost - next.cost < LEAST_FALL * at.cost;
+                damping = (damping / DAMPING_FACTOR).max(LEAST_DAMPING);
+                (delta, at) = (moved, next);
+            } else {
+                damping *= DAMPING_FACTOR;
+            }
+        }
+        let sigma = self.determined(&at)?;
+        let robot = self.changed(&delta).ok_or_else(|| self.not_finite(0))?;
+        Ok(Fitted { delta, sigma, robot, cost: at.cost, numbers: at.numbers, jacobians, converged })
+    }
+
+    /// `Σ ((y − ŷ(δ))/σ)²`, each recording run by itself.
+    ///
+    /// # Errors
+    /// Changes that are not one finite number for each constant, and runs that are not finite.
+    pub fn cost(&self, delta: &[f64]) -> Result<f64, OutputErrorError> {
+        self.check(delta)?;
+        let residuals = self.residuals(delta).ok_or_else(|| self.not_finite(0))?;
+        Ok(residuals.iter().map(|e| e * e).sum())
+    }
+
+    /// The curvature `JᵀJ` at `delta` with `J = ∂(ŷ/σ)/∂δ`, row by row, all robots and recordings side by side.
+    ///
+    /// # Errors
+    /// As [`OutputError::cost`].
+    pub fn curvature(&self, delta: &[f64]) -> Result<Vec<Vec<f64>>, OutputErrorError> {
+        self.check(delta)?;
+        let at = self.linearised(delta).map_err(|place| self.not_finite(place))?;
+        let n = self.constants.len();
+        Ok((0..n).map(|i| (0..n).map(|j| at.matrix[(i, j)]).collect()).collect())
+    }
+
+    fn not_finite(&self, place: usize) -> OutputErrorError {
+        OutputErrorError::NotFinite { recording: self.recordings[place].name.clone() }
+    }
+
+    /// A damped step, no longer than is sensible in any constant.
+    fn step(&self, at: &Equations, damping: f64) -> Option<Vec<f64>> {
+        let n = self.constants.len();
+        let scale = |i: usize| self.constants[i].scale();
+        // Every constant in its own scale, so that the equations are well-behaved.
+        let m = Mat::from_fn(n, n, |i, j| {
+            at.matrix[(i, j)] * scale(i) * scale(j) * if i == j { 1.0 + damping } else { 1.0 }
+        });
+        let g = Mat::from_fn(n, 1, |i, _| at.gradient[(i, 0)] * scale(i));
+        let (x, _) = solve_spd(&m, &g)?;
+        let longest = |i: usize| self.constants[i].longest_step();
+        Some((0..n).map(|i| (x[(i, 0)] * scale(i)).clamp(-longest(i), longest(i))).collect())
+    }
+
+    fn undetermined(&self, mut which: impl FnMut(usize) -> bool) -> OutputErrorError {
+        let names: Vec<&str> =
+            (0..self.constants.len()).filter(|i| which(*i)).map(|i| self.constants[i].name()).collect();
+        let together = if names.len() > 1 { " apart" } else { "" };
+        OutputErrorError::NotDetermined { constants: names.join(", ") + together }
+    }
+
+    /// Refuses constants that change nothing.
+    fn all_leave_a_trace(&self, at: &Equations) -> Result<(), OutputErrorError> {
+        let silent = |i: usize| at.matrix[(i, i)] * (MOST_SIGMA * self.constants[i].scale()).powi(2) < 1.0;
+        if (0..self.constants.len()).any(silent) { Err(self.undetermined(silent)) } else { Ok(()) }
+    }
+
+    /// Standard deviations, or which constants are not determined.
+    fn determined(&self, at: &Equations) -> Result<Vec<f64>, OutputErrorError> {
+        self.all_leave_a_trace(at)?;
+        let n = self.constants.len();
+        let size: Vec<f64> = (0..n).map(|i| at.matrix[(i, i)].sqrt()).collect();
+        let correlation = Mat::from_fn(n, n, |i, j| at.matrix[(i, j)] / (size[i] * size[j]));
+        let eigen = correlation.self_adjoint_eigen(Side::Lower).map_err(|_| self.undetermined(|_| true))?;
+        let values = eigen.S().column_vector();
+        let worst = (0..n).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
+        if values[worst] < LEAST_EIGENVALUE {
+            return Err(self.undetermined(|i| eigen.U()[(i, worst)].abs() > PART));
+        }
+        let sigma: Vec<f64> = (0..n)
+            .map(|i| (0..n).map(|k| eigen.U()[(i, k)].powi(2) / values[k]).sum::<f64>().sqrt() / size[i])
+            .collect();
+        let vague = |i: usize| sigma[i] > MOST_SIGMA * self.constants[i].scale();
+        if (0..n).any(vague) { Err(self.undetermined(vague)) } else { Ok(sigma) }
+    }
+}

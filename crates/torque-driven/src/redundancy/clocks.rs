@@ -1,0 +1,183 @@
+//! Clocks against each other: the gyro against the pose, and both against the wheels.
+//!
+//! Gyro and pose see the same turning of the same body, so a delay between them is one of their clocks. Which one, the
+//! wheels tell: it is the one that moved more against them. They cannot tell more: slip delays the body behind the
+//! wheels, for both sensors alike, by an amount that a centre of mass or a belt changes by 0.1 s.
+
+use robot_model::effect::Redundancy;
+
+use super::pool::{Measured, beyond, least_squares};
+use super::{Fault, card};
+use crate::motion::{GyroError, integrated_yaw, pose_yaw};
+use crate::run::Run;
+
+/// Rows on each side over which a rate is averaged.
+const AROUND: usize = 5;
+/// Poses that tell as much as one: their noise is white, but the errors of what they are compared with are not.
+const ALIKE: f64 = 3.0;
+
+/// Delays of a run's clocks, s, and growth of one.
+#[derive(Debug, Clone, Copy, Default)]
+struct Delays {
+    /// Gyro behind pose, constant.
+    gyro: Option<Measured>,
+    /// Gyro behind pose at the start, and growth of it in seconds per second.
+    growing: Option<[Measured; 2]>,
+    /// Gyro and pose behind the wheels.
+    wheels: [Option<Measured>; 2],
+}
+
+fn delays(run: &Run) -> Delays {
+    let mut out = Delays::default();
+    let poses = pose_yaw(run);
+    let Some(turned) = integrated_yaw(run, GyroError::default()) else { return out };
+    let half = |x: &[f64], k: usize| 0.5 * (x[k] + x[k.saturating_sub(1)]);
+    let mean = |k: usize| {
+        let (a, b) = (k.saturating_sub(AROUND + 1), (k + AROUND).min(run.rows() - 1));
+        (turned[b] - turned[a]) / ((b - a) as f64 * run.period)
+    };
+    let wheels = wheel_turning(run);
+    let (mut pose, mut long) = (Vec::new(), Vec::new());
+    let mut against: [Vec<([f64; 6], f64)>; 2] = Default::default();
+    for &(k, yaw) in &poses {
+        let (t, rate, shown) = ((k as f64 - 0.5) * run.period, mean(k), half(&turned, k));
+        // ∫gyro = c + b t + (1 + s) yaw − τ rate
+        pose.push(([1.0, t, yaw, -rate], shown));
+        long.push(([1.0, t, yaw, -rate, -rate * t], shown));
+        if let Some([angle, slipping, driving, speed]) = wheels[k] {
+            against[0].push(([1.0, t, angle, slipping, driving, -speed], shown));
+            against[1].push(([1.0, t, angle, slipping, driving, -speed], yaw));
+        }
+    }
+    out.gyro = least_squares(&pose, ALIKE).map(|x| x[3]);
+    out.growing = least_squares(&long, ALIKE).map(|x| [x[3], x[4]]);
+    out.wheels = against.map(|rows| {
+        let [_, _, gain, _, _, delayed] = least_squares(&rows, ALIKE)?;
+        let value = delayed.value / gain.value;
+        (gain.value.abs() > 3.0 * gain.sigma).then(|| Measured { value, sigma: (delayed.sigma / gain.value).abs() })
+    });
+    out
+}
+
+/// Difference of the wheel angles, right less left, at each row; its parts that slip makes depend on the turning and
+/// on the driving speed; and the difference of the wheel speeds.
+fn wheel_turning(run: &Run) -> Vec<Option<[f64; 4]>> {
+    let mut sums = [0.0; 2];
+    (0..run.rows())
+        .map(|k| {
+            let angle = |k: usize| Some([run.angle[0].get(k).copied()??, run.angle[1].get(k).copied()??]);
+            let time = (2 * AROUND + 1) as f64 * run.period;
+            let (before, after) = (angle(k.checked_sub(AROUND + 1)?)?, angle(k + AROUND)?);
+            let speed = [0, 1].map(|j| (after[j] - before[j]) / time);
+            let (turn, drive) = (speed[1] - speed[0], 0.5 * (speed[0] + speed[1]));
+            sums[0] += turn * turn.abs() * run.period;
+            sums[1] += turn * drive.abs() * run.period;
+            let (now, last) = (angle(k)?, angle(k.checked_sub(1)?)?);
+            Some([0.5 * (now[1] - now[0] + last[1] - last[0]), sums[0], sums[1], turn])
+        })
+        .collect()
+}
+
+/// Offset and drift of the clocks of IMU and pose.
+pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
+    let (Some(offset), Some(drift)) = (card(Redundancy::Delay), card(Redundancy::DelayGrowth)) else { return };
+    let (here, there): (Vec<Delays>, Vec<Delays>) =
+        (runs.iter().map(delays).collect(), references.iter().map(delays).collect());
+    let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64| {
+        let of = |all: &[Delays]| all.iter().map(pick).collect::<Vec<_>>();
+        beyond(&of(&here), &of(&there), interest)
+    };
+    let growth = compare(&|d| d.growing.map(|g| g[1]), drift.interest).filter(|g| g.is_told(drift.interest));
+    // Beside a drift, the offset is that at the start.
+    let delay = if growth.is_some() {
+        compare(&|d| d.growing.map(|g| g[0]), offset.interest)
+    } else {
+        compare(&|d| d.gyro, offset.interest)
+    };
+    // The sensor that moved against the wheels is the late one.
+    let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest).map_or(0.0, |m| m.value.abs()));
+    let pose = usize::from(moved[1] > moved[0]);
+    let mut tell = |card, m: Measured| {
+        let magnitude = if pose == 1 { -m.value } else { m.value };
+        out.push(Fault { card, parameter: pose, magnitude, sigma: m.sigma, side: None });
+    };
+    if let Some(growth) = growth {
+        tell(drift, growth);
+    }
+    if let Some(delay) = delay.filter(|d| d.is_told(offset.interest)) {
+        tell(offset, delay);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::{Effect, Presence, effects};
+
+    use super::super::check;
+    use super::*;
+    use crate::testing::{driven, robot};
+    use inference::hypothesis::Dose;
+
+    fn runs(doses: &[Dose]) -> Vec<Run> {
+        [18.0, 20.0, 24.0].map(|seconds| driven(&robot(), doses, seconds)).into()
+    }
+
+    /// Writes every sample later: by `rows`, and by a share `growth` of the time that has passed.
+    fn late(channel: &mut Vec<Option<f64>>, rows: f64, growth: f64) {
+        let sound = std::mem::replace(channel, vec![None; channel.len()]);
+        for (k, v) in sound.into_iter().enumerate().filter(|(_, v)| v.is_some()) {
+            let row = (k as f64 * (1.0 + growth) + rows).round().max(0.0) as usize;
+            if let Some(slot) = channel.get_mut(row) {
+                *slot = v;
+            }
+        }
+    }
+
+    fn imu_late(rows: f64, growth: f64) -> Vec<Run> {
+        let mut all = runs(&[]);
+        for run in &mut all {
+            late(&mut run.gyro, rows, growth);
+            run.accel.iter_mut().for_each(|a| late(a, rows, growth));
+        }
+        all
+    }
+
+    #[test]
+    fn a_late_sensor_is_found_with_its_delay() {
+        for rows in [-3.0, 3.0, 8.0] {
+            let found = check(&imu_late(rows, 0.0), &runs(&[])).faults;
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!((found[0].card.id, found[0].parameter), ("clock_offset", 0));
+            approx::assert_abs_diff_eq!(found[0].magnitude, 0.01 * rows, epsilon = 2e-3);
+        }
+        let mut all = runs(&[]);
+        all.iter_mut().flat_map(|r| &mut r.pose).for_each(|p| late(p, 5.0, 0.0));
+        let found = check(&all, &runs(&[])).faults;
+        assert_eq!((found.len(), found[0].card.id, found[0].parameter), (1, "clock_offset", 1));
+        approx::assert_abs_diff_eq!(found[0].magnitude, 0.05, epsilon = 2e-3);
+    }
+
+    #[test]
+    fn a_clock_that_runs_slow_is_found_with_its_rate() {
+        let found = check(&imu_late(0.0, 4e-3), &runs(&[])).faults;
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].card.id, "clock_drift");
+        approx::assert_abs_diff_eq!(found[0].magnitude, 4e-3, epsilon = 4e-4);
+    }
+
+    #[test]
+    fn a_robot_that_answers_late_is_no_fault_of_a_clock() {
+        let lag: &dyn Effect<f64> = &effects::motor_lag::Law;
+        for (effect, values) in [
+            (lag, &[0.2][..]),
+            (&effects::transport_delay::Law, &[0.1]),
+            (&effects::slip_stiffness::Law, &[3.0]),
+            (&effects::com_offset::Law, &[0.08, 0.0]),
+            (&effects::payload::Law, &[8.0]),
+        ] {
+            let dose = Dose { effect, values: values.to_vec(), presence: Presence::default() };
+            let found = check(&runs(&[dose]), &runs(&[])).faults;
+            assert!(found.is_empty(), "{}: {found:?}", effect.card().id);
+        }
+    }
+}

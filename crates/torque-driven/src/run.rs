@@ -1,0 +1,201 @@
+//! A torque-driven recording on its regular grid of rows.
+
+use recordings::{Recording, Signal};
+
+use inference::DiagnosisError;
+
+/// One recording of a torque-driven robot: what was commanded and what the sensors showed, row by row.
+///
+/// A missing sample is `None`. Sides: 0 left, 1 right.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Name of the recording.
+    pub name: String,
+    /// Time of the first row, s: zero unless the run is a later stretch of a longer recording. Time counts from its start.
+    pub from: f64,
+    /// Time between rows, s.
+    pub period: f64,
+    /// Torque command of each side, held for the row that follows, N m.
+    pub torque: Vec<[f64; 2]>,
+    /// Wheel angle of each side, rad.
+    pub angle: [Vec<Option<f64>>; 2],
+    /// Yaw rate, rad/s.
+    pub gyro: Vec<Option<f64>>,
+    /// Specific force (x, y), m/s².
+    pub accel: [Vec<Option<f64>>; 2],
+    /// Pose (x, y, yaw), m and rad.
+    pub pose: [Vec<Option<f64>>; 3],
+    /// Torque rows that were missing and took the value before them.
+    pub held_torques: usize,
+}
+
+impl Run {
+    /// Lays a recording on its grid.
+    ///
+    /// Wheel angles are taken as recorded or, where only wheel speeds are, integrated.
+    ///
+    /// # Errors
+    /// When torque or wheel motion is missing, when there are too few rows, or when nothing moves.
+    pub fn new(recording: &Recording) -> Result<Self, DiagnosisError> {
+        let name = recording.name().to_owned();
+        let missing = |what: &'static str| DiagnosisError::MissingSignal { recording: name.clone(), what };
+        let get = |s: Signal| recording.get(s);
+        let left = get(Signal::TorqueLeft).ok_or_else(|| missing("torque_left"))?;
+        let right = get(Signal::TorqueRight).ok_or_else(|| missing("torque_right"))?;
+        let mut gaps: Vec<i64> = left.t_ns().windows(2).map(|w| w[1] - w[0]).collect();
+        if gaps.len() < 200 {
+            return Err(DiagnosisError::TooShort { recording: name, rows: gaps.len() + 1, needed: 201 });
+        }
+        gaps.sort_unstable();
+        let period_ns = gaps[gaps.len() / 2].max(1);
+        let (start, end) = (left.t_ns()[0], left.t_ns()[left.len() - 1]);
+        let rows = ((end - start + period_ns / 2) / period_ns) as usize + 1;
+        if rows > 100 * left.len() {
+            return Err(DiagnosisError::Gaps { recording: name, rows, samples: left.len() });
+        }
+        let grid = |signal: Signal| -> Vec<Option<f64>> {
+            let mut out = vec![None; rows];
+            if let Some(c) = recording.get(signal) {
+                for (t, v) in c.samples() {
+                    let k = (t - start + period_ns / 2).div_euclid(period_ns);
+                    if let Some(slot) = usize::try_from(k).ok().and_then(|k| out.get_mut(k)) {
+                        *slot = Some(v);
+                    }
+                }
+            }
+            out
+        };
+        let mut torque = vec![[0.0; 2]; rows];
+        let mut held = 0;
+        for (j, c) in [left, right].into_iter().enumerate() {
+            let mut last = 0.0;
+            for (row, v) in torque.iter_mut().zip(grid(c.signal())) {
+                if v.is_none() {
+                    held += 1;
+                }
+                last = v.unwrap_or(last);
+                row[j] = last;
+            }
+        }
+        let period = period_ns as f64 * 1e-9;
+        let wheel = |angle: Signal, speed: Signal, what: &'static str| {
+            if get(angle).is_some() {
+                Ok(grid(angle))
+            } else if get(speed).is_some() {
+                let mut sum = 0.0;
+                Ok(grid(speed)
+                    .into_iter()
+                    .map(|v| {
+                        v.map(|w| {
+                            sum += w * period;
+                            sum
+                        })
+                    })
+                    .collect())
+            } else {
+                Err(missing(what))
+            }
+        };
+        let angle = [
+            wheel(Signal::WheelAngleLeft, Signal::WheelSpeedLeft, "wheel_angle_left or wheel_speed_left")?,
+            wheel(Signal::WheelAngleRight, Signal::WheelSpeedRight, "wheel_angle_right or wheel_speed_right")?,
+        ];
+        if angle.iter().all(|a| a.iter().flatten().all(|&x| Some(x) == a[0])) {
+            return Err(DiagnosisError::NoMotion { recording: name });
+        }
+        Ok(Self {
+            from: 0.0,
+            period,
+            torque,
+            angle,
+            gyro: grid(Signal::GyroZ),
+            accel: [grid(Signal::AccelX), grid(Signal::AccelY)],
+            pose: [grid(Signal::PoseX), grid(Signal::PoseY), grid(Signal::PoseYaw)],
+            held_torques: held,
+            name,
+        })
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.torque.len()
+    }
+
+    /// Length, s.
+    pub fn duration(&self) -> f64 {
+        self.rows() as f64 * self.period
+    }
+
+    /// Samples that are there, with their row.
+    pub(crate) fn present(channel: &[Option<f64>]) -> impl Iterator<Item = (usize, f64)> + '_ {
+        channel.iter().enumerate().filter_map(|(k, v)| v.map(|v| (k, v)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{recording, samples};
+
+    const ROWS: usize = 300;
+
+    fn channels() -> Vec<(Signal, Vec<(f64, f64)>)> {
+        vec![
+            (Signal::TorqueLeft, samples(ROWS, |t| t)),
+            (Signal::TorqueRight, samples(ROWS, |t| -t)),
+            (Signal::WheelAngleLeft, samples(ROWS, |t| 2.0 * t)),
+            (Signal::WheelSpeedRight, samples(ROWS, |_| 3.0)),
+        ]
+    }
+
+    fn error(channels: &[(Signal, Vec<(f64, f64)>)]) -> DiagnosisError {
+        Run::new(&recording(channels)).expect_err("refused")
+    }
+
+    #[test]
+    fn lies_on_its_grid_with_angles_as_recorded_or_integrated() {
+        let run = Run::new(&recording(&channels())).expect("a run");
+        assert_eq!((run.rows(), run.period, run.held_torques), (ROWS, 0.01, 0));
+        approx::assert_relative_eq!(run.torque[100][1], -1.0);
+        approx::assert_relative_eq!(run.angle[0][100].expect("there"), 2.0);
+        let turned = run.angle[1][200].expect("there") - run.angle[1][100].expect("there");
+        approx::assert_relative_eq!(turned, 3.0, epsilon = 1e-9);
+        assert!(run.gyro.iter().all(Option::is_none));
+    }
+
+    #[test]
+    fn a_gap_stays_a_gap_and_a_missing_torque_holds_the_one_before() {
+        let mut c = channels();
+        c[0].1.drain(100..105);
+        c[2].1.drain(50..60);
+        let run = Run::new(&recording(&c)).expect("a run");
+        assert_eq!((run.rows(), run.held_torques), (ROWS, 5));
+        assert_eq!(run.torque[104][0], run.torque[99][0]);
+        assert!(run.angle[0][50..60].iter().all(Option::is_none));
+        assert!(run.angle[0][60].is_some());
+    }
+
+    #[test]
+    fn missing_signals_are_named() {
+        for (i, name) in [(0, "torque_left"), (1, "torque_right"), (2, "wheel_angle_left"), (3, "wheel_speed_right")] {
+            let mut c = channels();
+            c.remove(i);
+            let e = error(&c);
+            assert!(matches!(e, DiagnosisError::MissingSignal { .. }));
+            assert!(e.to_string().contains(name), "{e}");
+        }
+    }
+
+    #[test]
+    fn too_short_without_motion_or_mostly_holes_is_refused() {
+        let short: Vec<_> = channels().into_iter().map(|(s, c)| (s, c[..150].to_vec())).collect();
+        assert!(matches!(error(&short), DiagnosisError::TooShort { rows: 150, needed: 201, .. }));
+        let mut still = channels();
+        still[2].1 = samples(ROWS, |_| 0.7);
+        still[3].1 = samples(ROWS, |_| 0.0);
+        assert!(matches!(error(&still), DiagnosisError::NoMotion { .. }));
+        let mut holes = channels();
+        holes[0].1.push((1e5, 0.0));
+        assert!(matches!(error(&holes), DiagnosisError::Gaps { samples: 301, .. }));
+    }
+}

@@ -1,0 +1,218 @@
+//! The linearised free run with every effect as a column: which effects could explain what differs.
+
+use faer::Mat;
+use robot_model::effect::{MAX_PARAMETERS, Role};
+use robot_model::presence::Presence;
+use robot_model::tunable::COUNT as NUISANCES;
+use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
+
+use crate::fit::{Columns, Fitted, Hypothesis, Lane, Problem, difference};
+use crate::local;
+use crate::simulate::Response;
+use crate::windows::PARTS;
+use inference::hypothesis::Dose;
+use inference::hypothesis::{Free, Onsets, Place, Variant};
+use inference::linalg::{select, solve_spd};
+
+/// A form of an effect with its evidence and where a fit of it should start.
+#[derive(Clone)]
+pub(crate) struct Candidate {
+    pub(crate) variant: Variant,
+    pub(crate) start: Vec<f64>,
+    pub(crate) onsets: Onsets,
+    /// Log Bayes factor over "re-tune only", nats.
+    pub(crate) evidence: f64,
+}
+
+/// One raw lane: a variant at one probe.
+struct Probe {
+    variant: usize,
+    /// Free value that is probed, and its probe.
+    index: usize,
+    size: f64,
+}
+
+/// Evidence of a set of columns with unit-prior coefficients: `½ bᵀ(A+I)⁻¹b − ½ ln det(A+I)`, and the coefficients.
+fn evidence(a: &Mat<f64>, b: &Mat<f64>) -> Option<(f64, Vec<f64>, f64)> {
+    let n = a.nrows();
+    let m = Mat::from_fn(n, n, |i, j| a[(i, j)] + f64::from(i == j));
+    let (x, logdet) = solve_spd(&m, b)?;
+    let gain: f64 = (0..n).map(|i| 0.5 * x[(i, 0)] * b[(i, 0)]).sum();
+    let sd = 1.0 / m[(0, 0)].sqrt();
+    Some((gain - 0.5 * logdet, (0..n).map(|i| x[(i, 0)]).collect(), sd))
+}
+
+/// Evidence for a coefficient that must be positive: the share of the posterior that is, over that of the prior.
+fn positive_share(mean: f64, sd: f64) -> f64 {
+    let z = mean / sd;
+    if z < -30.0 { -0.5 * z * z } else { (2.0 * Gaussian::standard().cdf(z)).max(1e-300).ln() }
+}
+
+pub(crate) fn single(a: f64, b: f64, signed: bool) -> Option<(f64, f64)> {
+    let (value, x, sd) = evidence(&Mat::from_fn(1, 1, |_, _| a), &Mat::from_fn(1, 1, |_, _| b))?;
+    Some((value + if signed { 0.0 } else { positive_share(x[0], sd) }, x[0]))
+}
+
+/// A strength at `size` (or a shaped strength at its probe), shapes as usual, everywhere or on its side.
+fn probe_dose(variant: &Variant, free: &[Free], index: usize, size: f64) -> Dose {
+    let mut values: Vec<f64> = variant.card().parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+    if let Some(i) = free[index].parameter {
+        values[i] = size;
+    }
+    let mut presence = Presence::default();
+    if let Place::Side(s) = variant.place {
+        presence.side = Some(s);
+    }
+    Dose { effect: variant.effect, values, presence }
+}
+
+/// Sizes at which a free value is probed.
+fn probes(variant: &Variant, free: &Free) -> Vec<f64> {
+    let Some(i) = free.parameter else { return Vec::new() };
+    let p = &variant.card().parameters[i];
+    if p.role == Role::Shape {
+        return Vec::new();
+    }
+    let scale = free.unit / p.probes[p.probes.len() / 2].abs();
+    p.probes.iter().map(|x| x * scale).collect()
+}
+
+/// Where a screen stands: a point, and the columns of what is re-tuned together with every candidate.
+pub(crate) struct Ground<'a> {
+    pub(crate) problem: &'a Problem<'a>,
+    base: &'a Fitted,
+    /// Columns of the effects that are there already.
+    beside: Columns,
+}
+
+/// Ranks every variant by its evidence over re-tuning at the point of `base`, where `beside` is present already and
+/// its sizes are re-tuned too.
+pub(crate) fn screen(
+    problem: &Problem<'_>,
+    base: &Fitted,
+    variants: &[Variant],
+    beside: &Hypothesis,
+) -> Vec<Candidate> {
+    let ground = Ground { problem, base, beside: problem.effect_columns(&base.point, beside, &base.response) };
+    let largest = problem.largest_torque;
+    let mut list: Vec<Probe> = Vec::new();
+    let mut locals: Vec<usize> = Vec::new();
+    for (v, variant) in variants.iter().enumerate() {
+        match variant.place {
+            Place::Whole | Place::Side(_) => {
+                for (index, f) in variant.free(largest).iter().enumerate() {
+                    list.extend(probes(variant, f).into_iter().map(|size| Probe { variant: v, index, size }));
+                }
+            }
+            Place::Disc | Place::Onset => locals.push(v),
+        }
+    }
+    // Local forms of the same effect share their part lanes.
+    let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].card().id).collect();
+    part_of.dedup();
+    part_of.sort_unstable();
+    part_of.dedup();
+    let mut doses: Vec<(Dose, Option<usize>)> = list
+        .iter()
+        .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(largest), p.index, p.size), None))
+        .collect();
+    for id in &part_of {
+        let Some(&v) = locals.iter().find(|&&v| variants[v].card().id == *id) else { continue };
+        let (variant, free) = (&variants[v], variants[v].free(largest));
+        doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
+    }
+    let makers: Vec<_> = doses
+        .iter()
+        .map(|(d, _)| {
+            move |run: usize| {
+                let mut all = beside.doses(&base.point.effects, run);
+                all.push(d.clone());
+                all
+            }
+        })
+        .collect();
+    let lanes: Vec<Lane<'_>> = doses
+        .iter()
+        .zip(&makers)
+        .map(|((_, part), m)| Lane { point: base.point.clone(), doses: m, part: *part })
+        .collect();
+    let raw: Vec<Response> = problem.lanes(&lanes).iter().map(|y| difference(y, &base.response, 1.0)).collect();
+    let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
+    for (n, id) in part_of.iter().enumerate() {
+        let parts = &raw[list.len() + n * PARTS..list.len() + (n + 1) * PARTS];
+        for &v in locals.iter().filter(|&&v| variants[v].card().id == *id) {
+            let found = match variants[v].place {
+                Place::Disc => local::disc(&ground, &variants[v], parts),
+                _ => local::onset(&ground, &variants[v], parts),
+            };
+            out.extend(found);
+        }
+    }
+    out.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    out
+}
+
+/// `A` and `b` of the columns after θ, the effects that are there and the runs' own numbers are eliminated.
+pub(crate) fn reduced(ground: &Ground<'_>, mut columns: Columns) -> Option<(Mat<f64>, Mat<f64>)> {
+    let (problem, base) = (ground.problem, ground.base);
+    let n = columns.0.len();
+    columns.0.extend(ground.beside.0.iter().cloned());
+    let mut normal = problem.normal(&base.point, &base.response, &base.columns, &columns)?;
+    problem.with_prior(&base.point, &mut normal);
+    let known = ground.beside.0.len();
+    for i in NUISANCES + n..NUISANCES + n + known {
+        normal.matrix[(i, i)] += 1e-3;
+    }
+    let all = NUISANCES + n + known + 1;
+    // Order: columns, gradient, then θ and what is there already, which are eliminated.
+    let order: Vec<usize> =
+        (NUISANCES..NUISANCES + n).chain([all - 1]).chain(0..NUISANCES).chain(NUISANCES + n..all - 1).collect();
+    let full = Mat::from_fn(all, all, |i, j| {
+        let last = all - 1;
+        match (i == last, j == last) {
+            (true, true) => 0.0,
+            (true, false) => normal.gradient[(j, 0)],
+            (false, true) => normal.gradient[(i, 0)],
+            _ => normal.matrix[(i, j)],
+        }
+    });
+    let m = inference::linalg::eliminate(&select(&full, &order), NUISANCES + known)?;
+    Some((m.submatrix(0, 0, n, n).to_owned(), m.submatrix(0, n, n, 1).to_owned()))
+}
+
+fn whole(ground: &Ground<'_>, variants: &[Variant], list: &[Probe], raw: &[Response]) -> Vec<Candidate> {
+    let problem = ground.problem;
+    let Some((a, b)) = reduced(ground, Columns(raw.to_vec())) else { return Vec::new() };
+    let mut out = Vec::new();
+    for (v, variant) in variants.iter().enumerate() {
+        let mine: Vec<usize> = (0..list.len()).filter(|&i| list[i].variant == v).collect();
+        if mine.is_empty() {
+            continue;
+        }
+        let free = variant.free(problem.largest_torque);
+        let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
+        let best = if variant.card().is_linear() && mine.len() > 1 {
+            let (a, b) = (select(&a, &mine), Mat::from_fn(mine.len(), 1, |i, _| b[(mine[i], 0)]));
+            evidence(&a, &b).map(|(value, x, _)| {
+                for (&i, x) in mine.iter().zip(x) {
+                    start[list[i].index] = x * list[i].size;
+                }
+                value
+            })
+        } else {
+            let tries = mine.iter().filter_map(|&i| {
+                let (value, x) = single(a[(i, i)], b[(i, 0)], variant.card().signed)?;
+                let size = if variant.card().is_linear() { x * list[i].size } else { list[i].size };
+                Some((value, list[i].index, size))
+            });
+            tries.max_by(|x, y| x.0.total_cmp(&y.0)).map(|(value, index, size)| {
+                start[index] = size.clamp(free[index].bounds[0], free[index].bounds[1]);
+                value
+            })
+        };
+        if let Some(evidence) = best {
+            out.push(Candidate { variant: *variant, start, onsets: Vec::new(), evidence });
+        }
+    }
+    out
+}

@@ -1,0 +1,152 @@
+//! Synthetic drives for the unit tests.
+
+use recordings::{Channel, Clock, Recording, Signal};
+use robot_model::robot::Drive;
+use robot_model::{Active, Plant, Robot, State};
+
+use faer::Mat;
+use robot_model::tunable::COUNT as NUISANCES;
+
+use crate::drives::Drives;
+use crate::fit::Problem;
+use crate::hold::Hold;
+use crate::motion::GyroError;
+use crate::run::Run;
+use crate::windows::{Cut, CutOptions};
+use inference::Options;
+use inference::hypothesis::Dose;
+use robot_model::tunable::usual_sigma;
+
+/// Time between rows, s.
+pub(crate) const PERIOD: f64 = 0.01;
+
+/// A robot of 20 kg.
+pub(crate) fn robot() -> Robot<f64> {
+    Robot {
+        mass: 20.0,
+        yaw_inertia: 0.9,
+        com: [0.0, 0.0, 0.12],
+        half_wheelbase: 0.18,
+        half_track: 0.2,
+        wheel_radius: 0.1,
+        wheel_inertia: 0.006,
+        motor_inertia: 0.02,
+        adhesion: 0.7,
+        slip_at_peak: 0.15,
+        sliding_share: 1.0,
+        rest_speed: 0.3,
+        lateral_factor: 1.0,
+        rolling_resistance: 0.03,
+        coulomb: [0.3; 2],
+        viscous: [0.05; 2],
+        stribeck: 0.0,
+        hitch_x: -0.18,
+        drive: Drive { gain: 1.0, lag: 0.02, extra_lag: 0.0, delay: 0.0, limit: 20.0, dead_band: 0.0 },
+        gravity: 9.81,
+    }
+}
+
+/// Segments of 2 s of this robot.
+pub(crate) fn cutting() -> CutOptions {
+    let r = robot();
+    CutOptions {
+        segment: 2.0,
+        pose_sigma: 1e-4,
+        gyro: GyroError::default(),
+        wheel_radius: r.wheel_radius,
+        half_base: [r.half_wheelbase, r.half_track],
+    }
+}
+
+/// A run whose sensors show nothing yet.
+pub(crate) fn blank(rows: usize) -> Run {
+    let nothing = || vec![None; rows];
+    Run {
+        name: "synthetic".to_owned(),
+        from: 0.0,
+        period: PERIOD,
+        torque: vec![[0.0; 2]; rows],
+        angle: [nothing(), nothing()],
+        gyro: nothing(),
+        accel: [nothing(), nothing()],
+        pose: [nothing(), nothing(), nothing()],
+        held_torques: 0,
+    }
+}
+
+/// A drive of the plant itself in curves, seen by perfect sensors; the pose comes in every tenth row.
+pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
+    let rows = (seconds / PERIOD).round() as usize;
+    let mut run = blank(rows);
+    for (k, torque) in run.torque.iter_mut().enumerate() {
+        let t = k as f64 * PERIOD;
+        let (both, turn) = (1.3 + 0.8 * (0.9 * t).sin(), 3.5 * (0.7 * t).sin());
+        *torque = [both - turn, both + turn];
+    }
+    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+    let steps = 10;
+    let h = PERIOD / steps as f64;
+    let plant = Plant::new(robot, &active, h);
+    let hold = Hold::new(PERIOD, steps, plant.drive().delay);
+    let mut s = State::default();
+    for k in 0..rows {
+        run.angle[0][k] = Some(s.wheel_angle[0]);
+        run.angle[1][k] = Some(s.wheel_angle[1]);
+        for i in 0..steps {
+            plant.step(&mut s, hold.command(&run.torque, k, i));
+            // A sample belongs half a row before the row it is written in.
+            if i + 1 == steps / 2 && k + 1 < rows {
+                let mut r = plant.readings(&s);
+                plant.sense(&mut r);
+                run.gyro[k + 1] = Some(r.gyro);
+                run.accel[0][k + 1] = Some(r.accel[0]);
+                run.accel[1][k + 1] = Some(r.accel[1]);
+                if k % 10 == 0 {
+                    run.pose[0][k + 1] = Some(s.position[0]);
+                    run.pose[1][k + 1] = Some(s.position[1]);
+                    run.pose[2][k + 1] = Some(s.heading[1].atan2(s.heading[0]));
+                }
+            }
+        }
+    }
+    run
+}
+
+/// A recording of these channels on one clock; samples `(time in s, value)`.
+pub(crate) fn recording(channels: &[(Signal, Vec<(f64, f64)>)]) -> Recording {
+    let channels = channels
+        .iter()
+        .map(|(signal, samples)| {
+            let (t, v) = samples.iter().map(|(t, v)| ((t * 1e9).round() as i64, *v)).unzip();
+            Channel::new(*signal, 0, t, v).expect("a channel")
+        })
+        .collect();
+    let clock = Clock { name: "test".to_owned(), nominal_rate_hz: None };
+    Recording::new("r", vec![clock], channels).expect("a recording")
+}
+
+/// `n` samples of `f` at 100 Hz.
+pub(crate) fn samples(n: usize, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    (0..n).map(|k| k as f64 * PERIOD).map(|t| (t, f(t))).collect()
+}
+
+/// What a calibration on typical references would leave: variances of 0.3 rad/s, 0.04 rad/s, 0.03 and 0.012 m/s,
+/// 0.12 and 0.08 m/s².
+pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a> {
+    let options = Options::default();
+    Problem {
+        robot,
+        sigma: usual_sigma(),
+        cuts,
+        variance: [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08].map(|s: f64| s * s),
+        regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
+        information: Mat::identity(NUISANCES, NUISANCES),
+        centre: [0.0; NUISANCES],
+        spread: 1.3,
+        temper: options.temper,
+        kappa: options.kappa,
+        step: options.step,
+        largest_torque: 5.0,
+        drives: Drives::default(),
+    }
+}

@@ -1,0 +1,62 @@
+//! Sentences for people.
+
+use inference::words::{named, quantity};
+
+use crate::locate;
+use crate::redundancy::Fault;
+use verdict::{Cause, Diagnosis, Verdict};
+
+/// Name of a sensor fault: with its side, and with its number where the effect has several.
+pub(crate) fn fault(f: &Fault) -> String {
+    let card = f.card;
+    let name = named(card.name, f.side);
+    if card.strengths().count() > 1 { format!("{name}: {}", card.parameters[f.parameter].name) } else { name }
+}
+
+/// The answer in sentences, the most important one first.
+pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
+    let mut out = Vec::new();
+    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != "none" && c.effect != "unknown").collect();
+    match d.verdict {
+        Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
+        Verdict::Unknown => {
+            out.push(
+                "The simulation lacks something that is not in the catalogue: no effect in it explains these recordings.".to_owned(),
+            );
+            if let Some(c) = causes.first() {
+                out.push(format!("The nearest is {}, {}, but it leaves too much.", c.name, quantity(c)));
+            }
+        }
+        Verdict::Explained => {
+            for c in causes.iter().filter(|c| c.probability > 0.5) {
+                let place =
+                    c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
+                out.push(format!("Missing: {}, {}{place} (probability {:.2}).", c.name, quantity(c), c.probability));
+            }
+            if out.is_empty()
+                && let Some(c) = causes.first()
+            {
+                out.push(format!(
+                    "Most likely missing: {}, {} (probability {:.2}).",
+                    c.name,
+                    quantity(c),
+                    c.probability
+                ));
+            }
+        }
+        Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
+    }
+    for class in &d.indistinguishable {
+        out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
+    }
+    let unknown = d.ranked.iter().find(|c| c.effect == "unknown").map_or(0.0, |c| c.probability);
+    if d.verdict == Verdict::Explained && unknown > 0.5 {
+        out.push(format!(
+            "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."
+        ));
+    }
+    if let Some(r) = d.located.remainder.as_ref().filter(|_| d.verdict != Verdict::NoMismatch) {
+        out.push(locate::sentence(r));
+    }
+    out
+}

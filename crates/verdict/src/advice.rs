@@ -1,0 +1,105 @@
+//! Which drive to record next.
+
+use serde::{Deserialize, Serialize};
+
+use crate::course::Course;
+
+/// Which drive would tell the remaining rivals apart.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Advice {
+    /// What may still be true, the most probable first; probabilities sum to one.
+    pub rivals: Vec<Contender>,
+    /// How open the question is: entropy of the rivals, bits.
+    pub entropy_bits: f64,
+    /// Drives, the best first.
+    pub manoeuvres: Vec<Manoeuvre>,
+    /// Why there is none, or none worth making.
+    pub withheld: Option<String>,
+    /// What limits the advice.
+    pub limits: Vec<String>,
+}
+
+/// A hypothesis that may be true.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Contender {
+    /// Its effects by id; none of "nothing is missing".
+    pub effects: Vec<String>,
+    /// For people.
+    pub name: String,
+    /// Its probability among the rivals.
+    pub probability: f64,
+}
+
+/// A drive that could be made next.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manoeuvre {
+    /// What it is.
+    pub name: String,
+    /// Why it tells rivals apart, in a sentence.
+    pub why: String,
+    /// Expected fall of the entropy of the rivals, bits.
+    pub expected_bits: f64,
+    /// The two rivals that it tells apart best.
+    pub splits: Option<[String; 2]>,
+    /// One sigma of the first rival's size after the drive over that before, if it has a size.
+    pub narrows: Option<f64>,
+    /// Its recording can be added to the others as it is; else the robot was changed for it, and so must be its file.
+    pub joins: bool,
+    /// Found by a search for these rivals.
+    pub optimised: bool,
+    /// Pose at the start, in the frame of the recordings: x, y in m, yaw in rad.
+    pub start: [f64; 3],
+    /// Wanted speeds: time s, speed m/s, yaw rate rad/s; linear between points.
+    pub profile: Vec<[f64; 3]>,
+    /// When the drives are given no torque, s.
+    pub torque_free: Vec<[f64; 2]>,
+}
+
+impl Manoeuvre {
+    /// A drive along a course, of which nothing is known yet.
+    pub fn new(name: &str, course: Course, start: [f64; 3]) -> Self {
+        Self {
+            name: name.to_owned(),
+            why: String::new(),
+            expected_bits: 0.0,
+            splits: None,
+            narrows: None,
+            joins: true,
+            optimised: false,
+            start,
+            profile: course.points,
+            torque_free: course.torque_free,
+        }
+    }
+
+    fn course(&self) -> Course {
+        Course { points: self.profile.clone(), torque_free: self.torque_free.clone() }
+    }
+
+    /// Length, s.
+    pub fn length(&self) -> f64 {
+        self.profile.last().map_or(0.0, |p| p[0])
+    }
+
+    /// Wanted speed m/s and yaw rate rad/s at a time.
+    pub fn wanted(&self, t: f64) -> [f64; 2] {
+        self.course().at(t)
+    }
+
+    /// Whether the drives are given no torque at a time.
+    pub fn is_torque_free(&self, t: f64) -> bool {
+        self.course().is_free(t)
+    }
+}
+
+impl Advice {
+    /// No advice.
+    pub fn withheld(reason: &str) -> Self {
+        Self { withheld: Some(reason.to_owned()), ..Self::default() }
+    }
+
+    /// The best drive whose recording can be added to the others.
+    pub fn best(&self) -> Option<&Manoeuvre> {
+        self.manoeuvres.iter().find(|m| m.joins)
+    }
+}

@@ -1,0 +1,66 @@
+//! A possible cause and what is known about it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Word;
+
+/// One possible cause with what is known about it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cause {
+    /// Effect id, "none" or "unknown".
+    pub effect: String,
+    /// Name for people, with side, axis and place.
+    pub name: String,
+    /// Probability that it is part of the truth.
+    pub probability: f64,
+    /// Size in `unit`.
+    pub magnitude: Option<f64>,
+    /// One sigma of the size.
+    pub sigma: Option<f64>,
+    /// Unit of the size.
+    pub unit: Word,
+    /// Every number of its law, by name; of a place also x, y and radius, m.
+    pub parameters: BTreeMap<String, Estimate>,
+    /// Side, when it sits on one.
+    pub side: Option<Word>,
+    /// Where on the ground, when it is a place: x, y, radius in m.
+    pub place: Option<[f64; 3]>,
+    /// When it was present in each recording, s; `None` when it was there all the time.
+    pub intervals: Option<BTreeMap<String, Vec<[f64; 2]>>>,
+}
+
+/// A fitted number.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Its value in the unit of the card.
+    pub value: f64,
+    /// One sigma, where it is known.
+    pub sigma: Option<f64>,
+    /// Whether the fit stopped at the end of what the card calls sensible: the value is then no estimate.
+    pub at_bound: bool,
+}
+
+impl Cause {
+    /// Whether any number of it stopped at its bound.
+    pub fn is_at_bound(&self) -> bool {
+        self.parameters.values().any(|p| p.at_bound)
+    }
+
+    /// A cause of which only the probability is known.
+    pub fn plain(effect: &str, name: &str, probability: f64) -> Self {
+        Self {
+            effect: effect.to_owned(),
+            name: name.to_owned(),
+            probability,
+            magnitude: None,
+            sigma: None,
+            unit: "-".into(),
+            parameters: BTreeMap::new(),
+            side: None,
+            place: None,
+            intervals: None,
+        }
+    }
+}

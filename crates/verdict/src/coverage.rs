@@ -1,0 +1,99 @@
+//! What a diagnosis of long recordings rests on, in figures and sentences.
+
+use serde::{Deserialize, Serialize};
+
+/// What pieces were compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ComparedWith {
+    /// The law among signals that the references follow.
+    References,
+    /// That of the first minutes of the recordings themselves: there were no references, or too little of them.
+    Beginning,
+    /// Nothing: the recordings lack the signals for a law.
+    Nothing,
+}
+
+/// A piece on which the diagnosis rests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Chosen {
+    /// Its name in the rest of the diagnosis.
+    pub name: String,
+    /// Recording that it is of.
+    pub recording: String,
+    /// When it begins and ends, s since the recording's start.
+    pub interval: [f64; 2],
+    /// Why it was chosen.
+    pub why: Why,
+    /// Mean squared residual of the law over what is usual; the worst of its targets. `None` without a law.
+    pub unlike: Option<f64>,
+}
+
+/// What a diagnosis of long recordings rests on, and what it leaves out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Coverage {
+    /// Recorded time that was screened, s.
+    pub screened: f64,
+    /// Recorded time that the diagnosis rests on, s.
+    pub diagnosed: f64,
+    /// What pieces were compared with.
+    pub compared_with: ComparedWith,
+    /// The pieces that the diagnosis rests on.
+    pub chosen: Vec<Chosen>,
+    /// Pieces that were left out.
+    pub left_out: usize,
+    /// How far pieces are from the law: least, lower quartile, median, upper quartile, largest.
+    pub unlike: [Option<f64>; 5],
+    /// The same of those that were left out: median and largest.
+    pub unlike_left_out: [Option<f64>; 2],
+}
+
+/// Why a piece was chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    /// One of those spread evenly over the recording.
+    Spread,
+    /// Its driving tells most about the robot's constants (D-optimal with the others).
+    Telling,
+    /// It is least like the law of the references.
+    Unlike,
+}
+
+impl Coverage {
+    /// What it rests on: `what` are the recordings or the references.
+    pub fn sentence(&self, what: &str) -> String {
+        let count = |why: Why| self.chosen.iter().filter(|c| c.why == why).count();
+        let against = match self.compared_with {
+            ComparedWith::References => "least like the references",
+            ComparedWith::Beginning => "least like the beginning",
+            ComparedWith::Nothing => "further",
+        };
+        format!(
+            "Of {} of {what}, all screened, {} were taken: {} stretches ({} spread evenly, {} whose driving tells most, {} {against}).",
+            minutes(self.screened),
+            minutes(self.diagnosed),
+            self.chosen.len(),
+            count(Why::Spread),
+            count(Why::Telling),
+            count(Why::Unlike),
+        )
+    }
+
+    /// What was left out, and how unlike that is.
+    pub fn limit(&self, what: &str) -> String {
+        let taken = self.chosen.iter().filter_map(|c| c.unlike).fold(0.0, f64::max);
+        let unlike = match self.unlike_left_out {
+            [Some(median), Some(largest)] => format!(
+                "their mean squared residual of the law among signals is {median:.2} (median) to {largest:.2} (largest) of \
+                 what is usual, that of the stretches that were taken up to {taken:.2}"
+            ),
+            _ => "they have no signals that a law could be told from".to_owned(),
+        };
+        format!("{} stretches of {what} were screened and left out: {unlike}", self.left_out)
+    }
+}
+
+fn minutes(seconds: f64) -> String {
+    if seconds < 5400.0 { format!("{:.1} min", seconds / 60.0) } else { format!("{:.1} h", seconds / 3600.0) }
+}

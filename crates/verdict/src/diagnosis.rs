@@ -1,0 +1,120 @@
+//! What a diagnosis says.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Trace, Trial,
+};
+
+/// Version of the JSON of a diagnosis.
+pub const FORMAT: u32 = 2;
+
+/// The kind of answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// One or more effects of the catalogue explain the mismatch.
+    Explained,
+    /// There is a mismatch, but nothing in the catalogue explains it.
+    Unknown,
+    /// Nothing is missing.
+    NoMismatch,
+    /// The recordings permit no answer.
+    Withheld,
+}
+
+/// The answer to a case.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// Version of this structure.
+    pub format: u32,
+    /// Kind of answer.
+    pub verdict: Verdict,
+    /// The answer in sentences.
+    pub sentences: Vec<String>,
+    /// Causes, "none" and "unknown" by probability.
+    pub ranked: Vec<Cause>,
+    /// Classes of effects that these recordings cannot tell apart, one for each missing effect; the best first.
+    pub indistinguishable: Vec<Vec<String>>,
+    /// Where the mismatch shows.
+    pub findings: Vec<Finding>,
+    /// Mismatch by speed, turning, slip, heading and place.
+    pub cells: Vec<Cell>,
+    /// When it shows, residual torque, and what is left after the verdict.
+    pub located: Located,
+    /// Free runs on recordings that were not fitted.
+    pub free_runs: Vec<FreeRun>,
+    /// Share of the mismatch that the best answer leaves unexplained, if there is one.
+    pub unexplained: Option<f64>,
+    /// What limits the answer.
+    pub limits: Vec<String>,
+    /// Hypotheses that were fitted, best first.
+    pub trials: Vec<Trial>,
+    /// Cost of the recordings when calibrated, when re-tuned, when healthy: nats.
+    pub costs: [f64; 3],
+    /// What each reference, left out in turn, would be accused of, and what that scores: a hypothesis must do better.
+    pub accusations: Vec<(String, f64)>,
+    /// Evidence of the screen per effect, nats.
+    pub screened: Vec<(String, f64)>,
+    /// Constants of the robot as re-tuned together with the named effects, relative to sigma.
+    pub tuning: BTreeMap<String, f64>,
+    /// The simulation as this diagnosis would have it: what held-out drives are predicted with.
+    pub correction: Correction,
+    /// Recordings beside the simulation.
+    pub traces: Vec<Trace>,
+    /// Loads of steady driving (speed-driven cases).
+    pub steady: Option<Loads>,
+    /// Response from command over wheels to the body (command-driven cases).
+    pub response: Option<Response>,
+    /// Which drive would tell the rivals apart, if that was asked.
+    #[serde(default)]
+    pub next: Option<Advice>,
+    /// Of long recordings and references, the stretches that this rests on, by the part that they play.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub coverage: BTreeMap<String, Coverage>,
+    /// Predicted responses of the held-out drives: corrected, then without the effect.
+    #[serde(skip)]
+    pub predictions: Vec<(Prediction, Prediction)>,
+}
+
+impl Diagnosis {
+    /// No answer yet: what a diagnosis starts from.
+    pub fn withheld() -> Self {
+        Self {
+            format: FORMAT,
+            verdict: Verdict::Withheld,
+            sentences: Vec::new(),
+            ranked: Vec::new(),
+            indistinguishable: Vec::new(),
+            findings: Vec::new(),
+            cells: Vec::new(),
+            located: Located::default(),
+            free_runs: Vec::new(),
+            unexplained: None,
+            limits: Vec::new(),
+            trials: Vec::new(),
+            costs: [0.0; 3],
+            accusations: Vec::new(),
+            screened: Vec::new(),
+            tuning: BTreeMap::new(),
+            correction: Correction::default(),
+            traces: Vec::new(),
+            steady: None,
+            response: None,
+            next: None,
+            coverage: BTreeMap::new(),
+            predictions: Vec::new(),
+        }
+    }
+
+    /// Says what it rests on where recordings were too long to be used whole.
+    pub fn rest_on(&mut self, coverage: &BTreeMap<String, Coverage>) {
+        for (part, coverage) in coverage {
+            self.sentences.push(coverage.sentence(part));
+            self.limits.push(coverage.limit(part));
+        }
+        self.coverage.clone_from(coverage);
+    }
+}

@@ -1,0 +1,41 @@
+//! What a diagnosis says: plain data that serde writes and reads, and nothing else.
+//!
+//! Engines fill it; pages, exports, the command line and Python read it. It depends on no engine.
+
+mod advice;
+mod cause;
+mod correction;
+mod course;
+mod coverage;
+mod diagnosis;
+mod free_run;
+mod loads;
+mod located;
+mod prediction;
+mod response;
+mod response_constants;
+mod trace;
+mod trial;
+
+use std::borrow::Cow;
+
+/// A word of the program's own; of another's when read from JSON.
+pub type Word = Cow<'static, str>;
+
+pub use advice::{Advice, Contender, Manoeuvre};
+pub use cause::{Cause, Estimate};
+pub use correction::{Correction, EffectAt, Side};
+pub use course::{Course, WIDENING, wheel_speeds};
+pub use coverage::{Chosen, ComparedWith, Coverage, Why};
+pub use diagnosis::{Diagnosis, FORMAT, Verdict};
+pub use free_run::FreeRun;
+pub use loads::{
+    Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, Quantity, Ratio, Standstill, Turning,
+    TurningChange, Way, Withheld,
+};
+pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
+pub use prediction::Prediction;
+pub use response::{Alternative, Earned, Element, Parameter, Response, ResponseModel, Scaling};
+pub use response_constants::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseError};
+pub use trace::{Compared, Trace, instant, rounded};
+pub use trial::Trial;

@@ -1,0 +1,103 @@
+//! Constants of the response of a command-driven robot: what they are called and where they may lie.
+
+use crate::{ResponseModel, Word};
+
+/// A constant of a response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResponseConstant {
+    /// Its id.
+    pub id: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Value of the simulation "wheels do what is commanded, the body rolls without slip".
+    pub neutral: f64,
+    /// Least and largest value that is sensible.
+    pub bounds: [f64; 2],
+    /// Size of a usual change, for steps of a fit.
+    pub scale: f64,
+}
+
+const fn constant(
+    id: &'static str,
+    unit: &'static str,
+    neutral: f64,
+    bounds: [f64; 2],
+    scale: f64,
+) -> ResponseConstant {
+    ResponseConstant { id, unit, neutral, bounds, scale }
+}
+
+/// No limit.
+const NONE: f64 = f64::INFINITY;
+
+/// Constants between command and wheel.
+pub const DRIVE_CONSTANTS: [ResponseConstant; 13] = [
+    constant("dead_time", "s", 0.0, [0.0, 1.0], 0.1),
+    constant("forward_gain", "-", 1.0, [0.05, 20.0], 0.5),
+    constant("turn_gain", "-", 1.0, [0.05, 20.0], 0.5),
+    constant("turn_limit", "rad/s", NONE, [0.05, 200.0], 1.0),
+    constant("forward_limit", "rad/s", NONE, [0.05, 200.0], 1.0),
+    constant("wheel_limit", "rad/s", NONE, [0.05, 200.0], 1.0),
+    constant("forward_ramp", "rad/s^2", NONE, [0.05, 2000.0], 1.0),
+    constant("turn_ramp", "rad/s^2", NONE, [0.05, 2000.0], 1.0),
+    constant("side_ramp", "rad/s^2", NONE, [0.05, 2000.0], 1.0),
+    constant("lag", "s", 0.0, [0.0, 3.0], 0.1),
+    constant("natural_frequency", "rad/s", NONE, [0.5, 60.0], 2.0),
+    constant("damping", "-", 1.0, [0.1, 5.0], 0.3),
+    constant("side_gain", "-", 0.0, [-0.5, 0.5], 0.05),
+];
+/// Constants between wheel and body.
+pub const GROUND_CONSTANTS: [ResponseConstant; 6] = [
+    ResponseConstant { id: "radius_factor", unit: "-", neutral: 1.0, bounds: [0.2, 3.0], scale: 0.2 },
+    ResponseConstant { id: "track_factor", unit: "-", neutral: 1.0, bounds: [0.2, 20.0], scale: 0.2 },
+    ResponseConstant { id: "centre_offset", unit: "m", neutral: 0.0, bounds: [-1.0, 1.0], scale: 0.05 },
+    ResponseConstant { id: "turn_slip", unit: "s^2/rad^2", neutral: 0.0, bounds: [0.0, 20.0], scale: 0.2 },
+    ResponseConstant { id: "body_lag", unit: "s", neutral: 0.0, bounds: [0.0, 2.0], scale: 0.1 },
+    ResponseConstant { id: "side_radius", unit: "-", neutral: 0.0, bounds: [-0.3, 0.3], scale: 0.02 },
+];
+
+/// A response that cannot be.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ResponseError {
+    /// A constant that no response has.
+    #[error("response takes a finite number for each of {known}, but '{name}' is none of these")]
+    NoSuchConstant {
+        /// What was named.
+        name: String,
+        /// Those that there are.
+        known: Word,
+    },
+    /// A constant beyond what is sensible.
+    #[error("`{name}` is {value}, but must lie between {least} and {most}; correct it")]
+    OutOfBounds {
+        /// The constant.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Least value.
+        least: f64,
+        /// Largest value.
+        most: f64,
+    },
+}
+
+impl ResponseModel {
+    /// Checks every constant.
+    ///
+    /// # Errors
+    /// A constant that no response has, or one beyond what is sensible.
+    pub fn checked(&self) -> Result<(), ResponseError> {
+        let all = || DRIVE_CONSTANTS.iter().chain(&GROUND_CONSTANTS);
+        for (name, &value) in &self.constants {
+            let constant = all().find(|c| c.id == name).ok_or_else(|| ResponseError::NoSuchConstant {
+                name: name.clone(),
+                known: all().map(|c| c.id).collect::<Vec<_>>().join(", ").into(),
+            })?;
+            let [least, most] = constant.bounds;
+            if !(least..=most).contains(&value) {
+                return Err(ResponseError::OutOfBounds { name: name.clone(), value, least, most });
+            }
+        }
+        Ok(())
+    }
+}
