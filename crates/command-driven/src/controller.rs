@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn a_second_order_lag_settles_on_the_set_point_and_overshoots_when_light() {
-        let mut x: Vec<f64> = DRIVE_CONSTANTS.iter().map(|c| c.neutral).collect();
+        let mut x: Vec<f64> = verdict::DRIVE_CONSTANTS.iter().map(|c| c.neutral).collect();
         (x[FREQUENCY], x[DAMPING]) = (10.0, 0.5);
         let lag = Lag::new(Law { second_order: true, ..Law::default() }, &x);
         let (mut y, mut v, mut top) = (0.0, 0.0, 0.0_f64);

@@ -4,7 +4,7 @@ use recordings::{Channel, Clock, Recording, Signal};
 use robot_model::Robot;
 use verdict::{Diagnosis, FreeRun, Parameter, Scaling, Verdict};
 
-use super::controller::{CONSTANTS, DAMPING, DEAD_TIME, FREQUENCY, GAIN, LAG, Law, RAMP, TURN_LIMIT, WHEEL_LIMIT};
+use super::controller::{DAMPING, DEAD_TIME, FREQUENCY, GAIN, LAG, Law, RAMP, TURN_LIMIT, WHEEL_LIMIT};
 use super::ground::{self, RADIUS, TRACK};
 use super::run::{Piece, STEP};
 use super::*;
@@ -12,7 +12,7 @@ use super::*;
 const NOMINAL: [f64; 2] = [0.15, 0.6];
 
 fn robot() -> Robot<f64> {
-    let mut robot = crate::testing::robot();
+    let mut robot = testing::robot();
     (robot.wheel_radius, robot.half_track) = (NOMINAL[0], 0.5 * NOMINAL[1]);
     robot
 }
@@ -41,7 +41,11 @@ struct Truth {
 
 impl Truth {
     fn perfect() -> Self {
-        Self { law: Law::default(), drive: CONSTANTS.iter().map(|c| c.neutral).collect(), ground: ground::neutral() }
+        Self {
+            law: Law::default(),
+            drive: verdict::DRIVE_CONSTANTS.iter().map(|c| c.neutral).collect(),
+            ground: ground::neutral(),
+        }
     }
 
     /// A controller as in stock skid-steer robots.

@@ -102,6 +102,8 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
 
 #[cfg(test)]
 mod tests {
+    use verdict::LoadChange;
+
     use super::*;
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive};
 

@@ -238,9 +238,9 @@ fn why(at: &[Operating], model: &Robot<f64>, k: &Rival<'_>, l: &Rival<'_>) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::robot;
     use inference::hypothesis::{Place, variants};
     use robot_model::tunable::usual_sigma;
+    use testing::robot;
 
     fn named(id: &str, value: f64, score: f64) -> Named {
         let form = variants(true).into_iter().find(|v| v.card().id == id && v.place == Place::Whole);

@@ -5,8 +5,8 @@
 
 use std::error::Error;
 
-use diagnosis::output_error::{CHANNELS, Constant, OutputError, Recorded};
 use robot_model::{Plant, Robot, State};
+use torque_driven::output_error::{CHANNELS, Constant, OutputError, Recorded};
 
 #[path = "../../../benches/shared/clock.rs"]
 mod clock;

@@ -6,17 +6,14 @@ use faer::Mat;
 use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
-use crate::calibrate::Calibration;
-use crate::case::Case;
-use crate::decide::{Decision, Scored, healthy_cost};
-use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::decide::{Scored, healthy_cost};
+use crate::fit::{Fitted, Hypothesis};
+use crate::judged::Judged;
 use crate::leave_out::{is_worthwhile, leave_one_out};
 use crate::motion::GyroError;
 use crate::predict::predict;
-use crate::redundancy::{Fault, Redundant};
-use crate::windows::Cut;
+use crate::redundancy::Fault;
 use crate::{locate, words};
-use inference::Options;
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Place, Variant};
 use inference::linalg::solve_spd;
@@ -35,18 +32,7 @@ const LISTED: f64 = 1e-4;
 /// A rival this likely, relative to the best, cannot be told from it.
 const RIVAL: f64 = 0.1;
 
-/// All that an answer is made of.
-pub(crate) struct Answer<'a> {
-    pub(crate) case: &'a Case,
-    pub(crate) options: &'a Options,
-    pub(crate) problem: &'a Problem<'a>,
-    pub(crate) references: &'a [Cut],
-    pub(crate) calibration: &'a Calibration,
-    pub(crate) sensors: &'a Redundant,
-    pub(crate) decision: &'a Decision,
-}
-
-impl Answer<'_> {
+impl Judged<'_> {
     fn verdict(&self) -> Verdict {
         let d = self.decision;
         let best = d.scored.first().map_or(0.0, |s| s.probability);
@@ -60,14 +46,6 @@ impl Answer<'_> {
         } else {
             Verdict::NoMismatch
         }
-    }
-
-    /// The hypothesis the robot is corrected with; `None` when nothing in the motion is to be corrected.
-    pub(crate) fn winner(&self) -> Option<&Scored> {
-        let d = self.decision;
-        let best = d.scored.first()?;
-        // Also under "unknown" the best effect still makes a better simulator than none.
-        (d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none).then_some(best)
     }
 
     fn causes(&self) -> Vec<Cause> {

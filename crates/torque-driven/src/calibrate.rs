@@ -4,6 +4,7 @@ use faer::Mat;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
+use crate::case::Case;
 use crate::drives::Drives;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
 use crate::gate::Gate;
@@ -189,4 +190,30 @@ fn spread(problem: &mut Problem<'_>, point: &crate::fit::Point, columns: &Column
         }
     }
     if best.0 == f64::MIN { Err(DiagnosisError::Singular { stage: "calibration" }) } else { Ok(best.1) }
+}
+
+/// What the recordings are compared with after calibration.
+pub(crate) fn problem<'a>(
+    robot: &'a Robot<f64>,
+    case: &Case,
+    cuts: &'a [Cut],
+    calibration: &Calibration,
+    largest_torque: f64,
+    options: &Options,
+) -> Problem<'a> {
+    Problem {
+        robot,
+        sigma: case.sigma,
+        cuts,
+        variance: calibration.variance,
+        regime: calibration.regimes.of(cuts),
+        information: calibration.information.clone(),
+        centre: calibration.theta,
+        spread: calibration.spread,
+        temper: options.temper,
+        kappa: options.kappa,
+        step: options.step,
+        largest_torque,
+        drives: Drives::default(),
+    }
 }

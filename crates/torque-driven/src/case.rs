@@ -153,7 +153,7 @@ impl HeldOut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{recording, samples};
+    use testing::{recording, samples};
 
     fn torques() -> Vec<(Signal, Vec<(f64, f64)>)> {
         vec![(Signal::TorqueLeft, samples(500, |t| t)), (Signal::TorqueRight, samples(500, |t| 2.0 * t))]

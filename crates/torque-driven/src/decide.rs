@@ -1,7 +1,7 @@
 //! From fits to probabilities.
 
 use crate::fit::{Fitted, Hypothesis, Problem};
-use crate::search::{Found, Trial};
+use crate::trial::{Found, Trial};
 use crate::visits;
 use inference::hypothesis::Place;
 
@@ -122,8 +122,9 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{cutting, driven, problem, robot};
+    use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
+    use testing::robot;
 
     #[test]
     fn without_any_hypothesis_a_healthy_drive_has_nothing_missing() {

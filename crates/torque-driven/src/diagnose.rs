@@ -2,12 +2,10 @@
 
 use robot_model::Robot;
 
-use crate::answer::Answer;
-use crate::calibrate::{Calibration, calibrate};
+use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
 use crate::decide::decide;
-use crate::drives::Drives;
-use crate::fit::Problem;
+use crate::judged::Judged;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::search;
@@ -75,7 +73,7 @@ impl Calibrated {
         let found = search(&problem, progress);
         let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
         progress("comparing on data that was not fitted");
-        let answer = Answer {
+        let answer = Judged {
             case,
             options,
             problem: &problem,
@@ -132,30 +130,4 @@ fn cut_all(
 
 fn largest_torque(runs: &[Run]) -> f64 {
     runs.iter().flat_map(|r| &r.torque).flatten().fold(0.0_f64, |a, t| a.max(t.abs()))
-}
-
-/// What the recordings are compared with after calibration.
-pub(crate) fn problem<'a>(
-    robot: &'a Robot<f64>,
-    case: &Case,
-    cuts: &'a [Cut],
-    calibration: &Calibration,
-    largest_torque: f64,
-    options: &Options,
-) -> Problem<'a> {
-    Problem {
-        robot,
-        sigma: case.sigma,
-        cuts,
-        variance: calibration.variance,
-        regime: calibration.regimes.of(cuts),
-        information: calibration.information.clone(),
-        centre: calibration.theta,
-        spread: calibration.spread,
-        temper: options.temper,
-        kappa: options.kappa,
-        step: options.step,
-        largest_torque,
-        drives: Drives::default(),
-    }
 }

@@ -1,7 +1,7 @@
 //! Moving and resizing the disc of a local effect: its edge makes the cost too rough for Gauss–Newton alone.
 
 use crate::fit::{Fitted, Point, Problem};
-use crate::search::Trial;
+use crate::trial::Trial;
 use inference::hypothesis::Place;
 
 /// Moves of (x, y, radius): each alone, and growing or shrinking with one edge held.

@@ -222,8 +222,9 @@ mod tests {
     use recordings::Signal;
 
     use super::{simulate, simulate_at_speed};
-    use crate::testing::{recording, robot, samples};
-    use crate::{Correction, DiagnosisError, EffectAt, Options};
+    use inference::{Corrected as _, DiagnosisError, Options};
+    use testing::{recording, robot, samples};
+    use verdict::{Correction, EffectAt};
 
     fn torques() -> recordings::Recording {
         recording(&[

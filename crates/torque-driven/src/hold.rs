@@ -50,7 +50,7 @@ impl Hold {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::PERIOD;
+    use testing::PERIOD;
 
     const SUBSTEPS: usize = 10;
     const H: f64 = 1e-3;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::answer::Answer;
+use crate::calibrate::problem;
 use crate::decide::Scored;
-use crate::diagnose::problem;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
-use crate::locate;
+use crate::judged::Judged;
+use crate::rms::rms;
 use crate::simulate::Response;
 use crate::windows::Cut;
 use verdict::FreeRun;
@@ -42,7 +42,7 @@ pub(crate) struct Forecasts {
 }
 
 /// Free runs on each recording, fitted on the others only. A lone recording cannot be left out: it is simulated as fitted.
-pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts {
+pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts {
     let p = answer.problem;
     let none = Hypothesis::default();
     let nominal = Point { theta: [0.0; NUISANCES], ..p.origin() };
@@ -65,7 +65,7 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts 
         let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
         let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
         let run = |point: &Point, h: &Hypothesis| p.run_response(left_out, point, h);
-        let rms = |response: &Vec<Vec<f64>>| locate::rms(p, &[(left_out, response.clone())]);
+        let error = |response: &Vec<Vec<f64>>| rms(p, &[(left_out, response.clone())]);
         let refit = |s: &Scored, theta: [f64; NUISANCES], columns: Option<Arc<Columns>>, steps: usize| {
             let h = without(&s.trial.hypothesis, left_out);
             let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
@@ -75,7 +75,7 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts 
         // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
         let placebo = wrong.map(|s| {
             let point = refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS);
-            rms(&run(&point, &s.trial.hypothesis))
+            error(&run(&point, &s.trial.hypothesis))
         });
         let retuned = elsewhere(&retuned);
         let shown = Simulated {
@@ -84,8 +84,8 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts 
             retuned: run(&retuned, &none),
             corrected: corrected.as_ref().map(|(point, h)| run(point, h)),
         };
-        let (a, b) = (rms(&shown.nominal), rms(&shown.retuned));
-        let c = shown.corrected.as_ref().map_or(b, rms);
+        let (a, b) = (error(&shown.nominal), error(&shown.retuned));
+        let c = shown.corrected.as_ref().map_or(b, error);
         simulated.push(shown);
         for (i, quantity) in ["wheel speed, rad/s", "yaw rate, rad/s"].into_iter().enumerate() {
             out.push(FreeRun {
@@ -105,7 +105,7 @@ pub(crate) fn leave_one_out(answer: &Answer<'_>, retuned: &Fitted) -> Forecasts 
 /// Whether the correction (or re-tuning, without one) forecasts recordings that were left out of its fit no worse than the
 /// calibrated model does, all recordings and both quantities together.
 pub(crate) fn is_worthwhile(p: &Problem<'_>, calibrated: &Response, runs: &[FreeRun]) -> bool {
-    let before = (0..p.cuts.len()).flat_map(|r| locate::rms(p, &[(r, calibrated[r].clone())]));
+    let before = (0..p.cuts.len()).flat_map(|r| rms(p, &[(r, calibrated[r].clone())]));
     let change: f64 = runs.iter().zip(before).map(|(f, before)| (f.corrected / before.max(1e-9)).ln()).sum();
     change.is_nan() || change <= 0.0
 }
@@ -120,7 +120,7 @@ fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
 }
 
 /// The best hypothesis that shares no effect with the winner and is no larger.
-fn placebo<'a>(answer: &'a Answer<'_>) -> Option<&'a Scored> {
+fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
     let winner = answer.winner()?.trial.hypothesis.ids();
     let shared = |s: &Scored| s.trial.hypothesis.ids().iter().any(|id| winner.contains(id));
     let all = answer.decision.scored.iter();

@@ -2,6 +2,7 @@
 
 mod answer;
 mod calibrate;
+mod candidate;
 mod case;
 mod decide;
 mod diagnose;
@@ -11,6 +12,7 @@ mod fit;
 mod forward;
 mod gate;
 mod hold;
+mod judged;
 mod leave_out;
 mod local;
 mod locate;
@@ -21,6 +23,7 @@ mod onset;
 pub mod output_error;
 mod predict;
 mod redundancy;
+mod rms;
 mod run;
 mod screen;
 mod search;
@@ -28,6 +31,7 @@ mod simulate;
 mod smooth;
 #[cfg(test)]
 mod testing;
+mod trial;
 mod visits;
 mod windows;
 mod words;

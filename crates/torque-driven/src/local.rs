@@ -1,8 +1,8 @@
 //! Screening local forms of an effect: columns of a disc or an onset superposed from columns of the segments' parts.
 
+use crate::candidate::{Candidate, Ground, reduced, single};
 use crate::disc::neighbours;
 use crate::fit::{Columns, Problem};
-use crate::screen::{Candidate, Ground, reduced, single};
 use crate::simulate::Response;
 use crate::windows::{PARTS, Segment};
 use inference::hypothesis::Variant;

@@ -1,7 +1,7 @@
 //! Moving the onsets of an effect that begins at an instant.
 
 use crate::fit::Problem;
-use crate::search::Trial;
+use crate::trial::Trial;
 use inference::hypothesis::Place;
 
 /// Steps of the search, s, and how many to each side.

@@ -135,7 +135,7 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{recording, samples};
+    use testing::{recording, samples};
 
     const ROWS: usize = 300;
 

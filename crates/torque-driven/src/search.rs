@@ -4,25 +4,11 @@ use std::sync::Arc;
 
 use robot_model::Card;
 
+use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
-use crate::screen::{Candidate, screen};
+use crate::screen::screen;
+use crate::trial::{Found, Trial};
 use crate::{disc, onset};
-
-/// A hypothesis that was fitted in free run.
-#[derive(Clone)]
-pub(crate) struct Trial {
-    pub(crate) hypothesis: Hypothesis,
-    pub(crate) fitted: Fitted,
-}
-
-/// All that the search found.
-pub(crate) struct Found {
-    pub(crate) retuned: Fitted,
-    pub(crate) singles: Vec<Trial>,
-    pub(crate) pairs: Vec<Trial>,
-    /// Best evidence of the screens per effect id, for the report.
-    pub(crate) screened: Vec<(String, f64)>,
-}
 
 /// Finalists that are refitted: common effects, and rare ones beside them, which take no place from a common one.
 const FINALISTS: [usize; 2] = [6, 2];

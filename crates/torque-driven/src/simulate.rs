@@ -192,8 +192,9 @@ impl NullaryFnOnce for Drive<'_, '_> {
 mod tests {
     use super::*;
     use crate::drives::Drives;
-    use crate::testing::{cutting, driven, robot};
+    use crate::testing::{cutting, driven};
     use crate::windows::cut;
+    use testing::robot;
 
     #[test]
     fn a_free_run_reproduces_a_drive_of_the_plant_itself() {

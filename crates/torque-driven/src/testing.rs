@@ -1,11 +1,11 @@
 //! Synthetic drives for the unit tests.
 
-use recordings::{Channel, Clock, Recording, Signal};
-use robot_model::robot::Drive;
 use robot_model::{Active, Plant, Robot, State};
 
 use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
+
+use testing::{PERIOD, robot};
 
 use crate::drives::Drives;
 use crate::fit::Problem;
@@ -16,35 +16,6 @@ use crate::windows::{Cut, CutOptions};
 use inference::Options;
 use inference::hypothesis::Dose;
 use robot_model::tunable::usual_sigma;
-
-/// Time between rows, s.
-pub(crate) const PERIOD: f64 = 0.01;
-
-/// A robot of 20 kg.
-pub(crate) fn robot() -> Robot<f64> {
-    Robot {
-        mass: 20.0,
-        yaw_inertia: 0.9,
-        com: [0.0, 0.0, 0.12],
-        half_wheelbase: 0.18,
-        half_track: 0.2,
-        wheel_radius: 0.1,
-        wheel_inertia: 0.006,
-        motor_inertia: 0.02,
-        adhesion: 0.7,
-        slip_at_peak: 0.15,
-        sliding_share: 1.0,
-        rest_speed: 0.3,
-        lateral_factor: 1.0,
-        rolling_resistance: 0.03,
-        coulomb: [0.3; 2],
-        viscous: [0.05; 2],
-        stribeck: 0.0,
-        hitch_x: -0.18,
-        drive: Drive { gain: 1.0, lag: 0.02, extra_lag: 0.0, delay: 0.0, limit: 20.0, dead_band: 0.0 },
-        gravity: 9.81,
-    }
-}
 
 /// Segments of 2 s of this robot.
 pub(crate) fn cutting() -> CutOptions {
@@ -110,24 +81,6 @@ pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
         }
     }
     run
-}
-
-/// A recording of these channels on one clock; samples `(time in s, value)`.
-pub(crate) fn recording(channels: &[(Signal, Vec<(f64, f64)>)]) -> Recording {
-    let channels = channels
-        .iter()
-        .map(|(signal, samples)| {
-            let (t, v) = samples.iter().map(|(t, v)| ((t * 1e9).round() as i64, *v)).unzip();
-            Channel::new(*signal, 0, t, v).expect("a channel")
-        })
-        .collect();
-    let clock = Clock { name: "test".to_owned(), nominal_rate_hz: None };
-    Recording::new("r", vec![clock], channels).expect("a recording")
-}
-
-/// `n` samples of `f` at 100 Hz.
-pub(crate) fn samples(n: usize, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
-    (0..n).map(|k| k as f64 * PERIOD).map(|t| (t, f(t))).collect()
 }
 
 /// What a calibration on typical references would leave: variances of 0.3 rad/s, 0.04 rad/s, 0.03 and 0.012 m/s,

@@ -2,7 +2,7 @@
 
 use crate::fit::{Fitted, Problem};
 use crate::local::share_inside;
-use crate::search::Trial;
+use crate::trial::Trial;
 use crate::windows::PARTS;
 use inference::hypothesis::Place;
 
@@ -44,11 +44,12 @@ pub(crate) fn supporting(problem: &Problem<'_>, retuned: &Fitted, trial: &Trial)
 mod tests {
     use super::*;
     use crate::fit::Hypothesis;
-    use crate::testing::{cutting, driven, problem, robot};
+    use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
     use inference::hypothesis::Dose;
     use inference::hypothesis::variants;
     use robot_model::presence::{Disc, Presence};
+    use testing::robot;
 
     #[test]
     fn visits_are_counted_run_by_run() {

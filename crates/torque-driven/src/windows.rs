@@ -246,7 +246,8 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{PERIOD, blank, cutting};
+    use crate::testing::{blank, cutting};
+    use testing::PERIOD;
 
     /// Wheels at 5 and 6 rad/s, gyro at 0.2 rad/s, accelerometer at (0.1, 0.3) m/s².
     fn steady(rows: usize) -> Run {

@@ -3,27 +3,16 @@
 use recordings::Signal;
 
 use super::*;
-use crate::simulate::Dose;
-use crate::testing::{driven, recording, robot};
+use testing::{PERIOD, recording, robot, samples};
 
-/// A drive of the plant as a recording; its wheels have more dry friction in some minutes.
+/// A drive of the plant in curves; its wheels have more dry friction in some minutes.
 fn drive(name: &str, seconds: f64, extra: f64) -> Recording {
     let robot = robot_model::Robot { coulomb: [0.3 + extra; 2], ..robot() };
-    let run = driven(&robot, &[] as &[Dose], seconds);
-    let times = |k: usize| k as f64 * run.period;
-    let column = |values: &dyn Fn(usize) -> Option<f64>| {
-        (0..run.rows()).filter_map(|k| Some((times(k), values(k)?))).collect::<Vec<_>>()
-    };
-    let channels = vec![
-        (Signal::TorqueLeft, column(&|k| Some(run.torque[k][0]))),
-        (Signal::TorqueRight, column(&|k| Some(run.torque[k][1]))),
-        (Signal::WheelAngleLeft, column(&|k| run.angle[0][k])),
-        (Signal::WheelAngleRight, column(&|k| run.angle[1][k])),
-        (Signal::GyroZ, column(&|k| run.gyro[k])),
-        (Signal::AccelX, column(&|k| run.accel[0][k])),
-        (Signal::AccelY, column(&|k| run.accel[1][k])),
-    ];
-    recording(&channels).renamed(name)
+    let rows = (seconds / PERIOD).round() as usize;
+    let torque = |side: f64| samples(rows, move |t| 1.3 + 0.8 * (0.9 * t).sin() + side * 3.5 * (0.7 * t).sin());
+    let inputs = recording(&[(Signal::TorqueLeft, torque(-1.0)), (Signal::TorqueRight, torque(1.0))]);
+    let driven = torque_driven::simulate(&robot, &[], &inputs, &inference::Options::default()).expect("a drive");
+    driven.renamed(name)
 }
 
 /// Minutes joined, the friction of each given.

@@ -66,7 +66,7 @@ fn thin(channel: &Channel, stands: &Stands) -> (Vec<i64>, Vec<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::recording;
+    use testing::recording;
 
     #[test]
     fn ten_rows_become_one_each_at_its_instant() {

@@ -10,8 +10,8 @@ use sim::{Purpose, Stream};
 
 use crate::fit::{Hypothesis, PER_RUN, Point, Problem};
 use crate::leave_out::LeftOut;
-use crate::locate::rms;
 use crate::locate::torque::Followed;
+use crate::rms::rms;
 use crate::windows::{CHANNELS, Cut};
 use inference::linalg::solve_spd;
 use verdict::ResidualModel;
@@ -269,11 +269,12 @@ pub(crate) fn residual_model(
 mod tests {
     use super::*;
     use crate::locate::torque::follow;
-    use crate::testing::{cutting, driven, problem, robot};
+    use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
     use inference::hypothesis::Dose;
     use robot_model::effects;
     use robot_model::presence::Presence;
+    use testing::robot;
 
     /// The network for drives of the robot with this much viscous friction that nobody names.
     fn network(viscous: f64) -> Option<ResidualModel> {

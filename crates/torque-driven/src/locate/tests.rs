@@ -12,9 +12,10 @@ use crate::locate::side::side;
 use crate::locate::times::spans;
 use crate::locate::torque::follow;
 use crate::run::Run;
-use crate::testing::{cutting, driven, problem, robot};
+use crate::testing::{cutting, driven, problem};
 use crate::windows::{Cut, cut};
 use inference::hypothesis::Dose;
+use testing::robot;
 use verdict::Span;
 use verdict::{Cell, Finding};
 

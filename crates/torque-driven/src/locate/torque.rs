@@ -154,10 +154,11 @@ pub(crate) fn follow(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{cutting, driven, robot};
+    use crate::testing::{cutting, driven};
     use crate::windows::cut;
     use robot_model::effects;
     use robot_model::presence::Presence;
+    use testing::robot;
 
     pub(super) fn brake(side: usize, torque: f64) -> Dose {
         let effect = effects::catalogue::<f64>().into_iter().find(|e| e.card().id == "coulomb_side").expect("known");

@@ -1,8 +1,8 @@
 //! All locators over one case.
 
-use crate::answer::Answer;
-use crate::diagnose::problem;
+use crate::calibrate::problem;
 use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::judged::Judged;
 use crate::leave_out::{Forecasts, LeftOut};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
@@ -41,7 +41,7 @@ fn followed(problem: &Problem<'_>, runs: &[Run]) -> Vec<Followed> {
 }
 
 /// A network for what is left, beside the best answer's own model.
-fn network(answer: &Answer<'_>, best: &Fitted, left_out: &[LeftOut]) -> Option<ResidualModel> {
+fn network(answer: &Judged<'_>, best: &Fitted, left_out: &[LeftOut]) -> Option<ResidualModel> {
     let p = answer.problem;
     let none = Hypothesis::default();
     let h = answer.winner().map_or(&none, |w| &w.trial.hypothesis);
@@ -55,7 +55,7 @@ fn network(answer: &Answer<'_>, best: &Fitted, left_out: &[LeftOut]) -> Option<R
 
 /// Locates the mismatch of the calibrated model, and what the best answer's fit leaves of it.
 pub(crate) fn locate(
-    answer: &Answer<'_>,
+    answer: &Judged<'_>,
     calibrated: &Response,
     best: &Fitted,
     forecasts: &Forecasts,

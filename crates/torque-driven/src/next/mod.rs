@@ -16,10 +16,10 @@ mod tests;
 use rayon::prelude::*;
 use verdict::{Advice, Contender, Manoeuvre};
 
-use crate::answer::Answer;
 use crate::calibrate::Regimes;
 use crate::decide::TEMPERATURE;
 use crate::fit::{Fitted, Problem};
+use crate::judged::Judged;
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use follow::Follower;
 use inference::advice::{among as advice_among, nothing_to_split, sorted};
@@ -31,7 +31,7 @@ use rivals::{Rival, rivals};
 /// Probability of "unknown" from which advice among the catalogue's effects needs a word.
 const DOUBT: f64 = 0.1;
 /// Advises on the next drive of a torque-driven robot.
-pub(crate) fn advise(answer: &Answer<'_>, retuned: &Fitted, length: f64) -> Advice {
+pub(crate) fn advise(answer: &Judged<'_>, retuned: &Fitted, length: f64) -> Advice {
     let rivals = rivals(answer.problem, answer.decision, retuned);
     let problem = answer.problem;
     let scope = Scope::new(answer.references, problem.cuts, problem.robot, length);

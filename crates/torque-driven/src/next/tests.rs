@@ -6,9 +6,10 @@ use super::follow::{Follower, observe};
 use super::*;
 use crate::calibrate::Regimes;
 use crate::fit::{Hypothesis, Problem};
-use crate::testing::{cutting, driven, problem, robot};
+use crate::testing::{cutting, driven, problem};
 use crate::windows::{Cut, cut};
 use inference::hypothesis::{Place, Variant, variants};
+use testing::robot;
 use verdict::Course;
 
 /// A slow straight drive of the plain robot, as a recording without noise.

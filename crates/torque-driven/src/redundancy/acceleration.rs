@@ -90,8 +90,9 @@ mod tests {
 
     use super::super::check;
     use super::*;
-    use crate::testing::{driven, robot};
+    use crate::testing::driven;
     use inference::hypothesis::Dose;
+    use testing::robot;
 
     fn runs(effect: Option<(&'static dyn Effect<f64>, &[f64])>) -> Vec<Run> {
         let doses: Vec<Dose> = effect

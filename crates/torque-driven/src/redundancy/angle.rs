@@ -76,7 +76,8 @@ pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
 mod tests {
     use super::super::check;
     use super::*;
-    use crate::testing::{PERIOD, driven, robot};
+    use crate::testing::driven;
+    use testing::{PERIOD, robot};
 
     fn runs() -> Vec<Run> {
         vec![driven(&robot(), &[], 20.0); 3]

@@ -115,8 +115,9 @@ mod tests {
 
     use super::super::check;
     use super::*;
-    use crate::testing::{driven, robot};
+    use crate::testing::driven;
     use inference::hypothesis::Dose;
+    use testing::robot;
 
     fn runs(doses: &[Dose]) -> Vec<Run> {
         [18.0, 20.0, 24.0].map(|seconds| driven(&robot(), doses, seconds)).into()

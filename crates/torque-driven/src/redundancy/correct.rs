@@ -84,7 +84,8 @@ mod tests {
 
     use super::super::check;
     use super::*;
-    use crate::testing::{driven, robot};
+    use crate::testing::driven;
+    use testing::robot;
 
     fn runs() -> Vec<Run> {
         vec![driven(&robot(), &[], 20.0); 3]

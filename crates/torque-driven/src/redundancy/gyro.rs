@@ -81,7 +81,8 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Redundant) {
 mod tests {
     use super::super::check;
     use super::*;
-    use crate::testing::{driven, robot};
+    use crate::testing::driven;
+    use testing::robot;
 
     /// Three runs of the plant whose gyro shows `(1 + scale) ω + bias`.
     fn runs(bias: f64, scale: f64) -> Vec<Run> {

@@ -74,7 +74,8 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
 mod tests {
     use super::super::check;
     use super::*;
-    use crate::testing::{PERIOD, blank};
+    use crate::testing::blank;
+    use testing::PERIOD;
 
     /// Straight driving at a speed that rises and falls, on wheels of 0.1 m that slip by a share `slip` with the torque
     /// and whose right encoder shows `scale` times the angle.

@@ -1,0 +1,55 @@
+//! What the tests of several engines share: a robot, and recordings that are made up.
+
+use recordings::{Channel, Clock, Recording, Signal};
+use robot_model::Robot;
+use robot_model::robot::Drive;
+
+/// Time between rows, s.
+pub const PERIOD: f64 = 0.01;
+
+/// A robot of 20 kg.
+pub fn robot() -> Robot<f64> {
+    Robot {
+        mass: 20.0,
+        yaw_inertia: 0.9,
+        com: [0.0, 0.0, 0.12],
+        half_wheelbase: 0.18,
+        half_track: 0.2,
+        wheel_radius: 0.1,
+        wheel_inertia: 0.006,
+        motor_inertia: 0.02,
+        adhesion: 0.7,
+        slip_at_peak: 0.15,
+        sliding_share: 1.0,
+        rest_speed: 0.3,
+        lateral_factor: 1.0,
+        rolling_resistance: 0.03,
+        coulomb: [0.3; 2],
+        viscous: [0.05; 2],
+        stribeck: 0.0,
+        hitch_x: -0.18,
+        drive: Drive { gain: 1.0, lag: 0.02, extra_lag: 0.0, delay: 0.0, limit: 20.0, dead_band: 0.0 },
+        gravity: 9.81,
+    }
+}
+
+/// A recording of these channels on one clock; samples `(time in s, value)`.
+///
+/// # Panics
+/// When times do not increase.
+pub fn recording(channels: &[(Signal, Vec<(f64, f64)>)]) -> Recording {
+    let channels = channels
+        .iter()
+        .map(|(signal, samples)| {
+            let (t, v) = samples.iter().map(|(t, v)| ((t * 1e9).round() as i64, *v)).unzip();
+            Channel::new(*signal, 0, t, v).expect("a channel")
+        })
+        .collect();
+    let clock = Clock { name: "test".to_owned(), nominal_rate_hz: None };
+    Recording::new("r", vec![clock], channels).expect("a recording")
+}
+
+/// `n` samples of `f` at 100 Hz.
+pub fn samples(n: usize, f: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    (0..n).map(|k| k as f64 * PERIOD).map(|t| (t, f(t))).collect()
+}
