@@ -6,11 +6,12 @@ use faer::Mat;
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
+use sim::rollout::Grid;
 
 use crate::correction::Correction;
 use crate::drives::Drives;
 use crate::hypothesis::{Free, Onsets, Variant, variants};
-use crate::simulate::{Body, Dose, Grid, Response, free_run};
+use crate::simulate::{Body, Dose, Response, free_run};
 use crate::windows::{CHANNELS, Cut, FORWARD};
 
 /// Offsets of a run that sensors add: gyro, accelerometer x and y.
@@ -160,7 +161,7 @@ impl Problem<'_> {
     fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
         let body = |run| {
             let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
-            let torque = self.drives.delivered(run, cut, &robot, &doses, &Grid::new(cut, self.step));
+            let torque = self.drives.delivered(run, cut, &robot, &doses, Grid::nearest(cut.period, self.step));
             Body { robot, doses, torque }
         };
         let bodies: Vec<Body> = runs.clone().map(body).collect();

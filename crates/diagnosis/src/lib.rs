@@ -20,7 +20,6 @@ mod error;
 mod fit;
 mod forward;
 mod gate;
-mod hold;
 mod hypothesis;
 mod leave_out;
 mod linalg;
