@@ -40,7 +40,7 @@ mod tests;
 mod visitor;
 
 use pulp::NullaryFnOnce;
-use robot_model::{Lanes, Plant, Scalar, State};
+use robot_model::{Plant, Scalar, State};
 
 pub use grid::Grid;
 pub use hold::Hold;
@@ -88,18 +88,16 @@ impl<'p, 'e, T: Scalar> Rollout<'p, 'e, T> {
         }
         Ok(())
     }
-}
 
-impl<const N: usize> Rollout<'_, '_, Lanes<N>> {
-    /// The same for robots side by side, compiled for every vector unit that the machine may have.
+    /// The same, compiled for every vector unit that the machine may have: for robots side by side.
     ///
     /// Inputs and visitors gain from it only where their methods are `#[inline(always)]`.
     ///
     /// # Errors
     /// What the visitor stops with.
-    pub fn run_vectorised<I: Input<Lanes<N>>, V: Visitor<Lanes<N>>>(
+    pub fn run_vectorised<I: Input<T>, V: Visitor<T>>(
         &self,
-        state: &mut State<Lanes<N>>,
+        state: &mut State<T>,
         input: &mut I,
         visitor: &mut V,
     ) -> Result<(), V::Stop> {
@@ -108,14 +106,14 @@ impl<const N: usize> Rollout<'_, '_, Lanes<N>> {
 }
 
 /// A rollout that [`pulp`] compiles once for each vector unit.
-struct Vectorised<'a, 'p, 'e, const N: usize, I, V> {
-    rollout: Rollout<'p, 'e, Lanes<N>>,
-    state: &'a mut State<Lanes<N>>,
+struct Vectorised<'a, 'p, 'e, T: Scalar, I, V> {
+    rollout: Rollout<'p, 'e, T>,
+    state: &'a mut State<T>,
     input: &'a mut I,
     visitor: &'a mut V,
 }
 
-impl<const N: usize, I: Input<Lanes<N>>, V: Visitor<Lanes<N>>> NullaryFnOnce for Vectorised<'_, '_, '_, N, I, V> {
+impl<T: Scalar, I: Input<T>, V: Visitor<T>> NullaryFnOnce for Vectorised<'_, '_, '_, T, I, V> {
     type Output = Result<(), V::Stop>;
 
     #[inline(always)]

@@ -206,13 +206,16 @@ fn every_lane_has_the_bits_that_it_has_alone() {
 /// Holds a wheel speed by what it sees at the start of each row.
 struct Keep {
     speed: f64,
+    sum: [f64; 2],
     command: [f64; 2],
 }
 
 impl Input<f64> for Keep {
     fn begin(&mut self, _: usize, _: &Plant<'_, f64>, s: &State<f64>) {
         for j in 0..2 {
-            self.command[j] += 0.1 * (self.speed - s.wheel_speed[j]);
+            let error = self.speed - s.wheel_speed[j];
+            self.sum[j] += 0.015 * error;
+            self.command[j] = 0.5 * error + self.sum[j];
         }
     }
 
@@ -225,7 +228,7 @@ impl Input<f64> for Keep {
 fn feedback_sees_the_state_at_the_start_of_each_row() {
     let robot = robot();
     let plant = Plant::new(&robot, &[], GRID.step());
-    let (mut s, mut keep) = (State::default(), Keep { speed: 4.0, command: [0.0; 2] });
+    let (mut s, mut keep) = (State::default(), Keep { speed: 4.0, sum: [0.0; 2], command: [0.0; 2] });
     let Ok(()) = Rollout::new(&plant, 2000, GRID.substeps).run(&mut s, &mut keep, &mut ());
     assert!((s.wheel_speed[0] - 4.0).abs() < 0.02, "{:?}", s.wheel_speed);
     assert!(keep.command[0] > 0.1);
