@@ -1,13 +1,23 @@
-//! Fixed-step simulation, scenarios and the experiment of Hendzel & Trojnacki 2014.
+//! Forward simulation of a skid-steer robot, and the experiment of Hendzel & Trojnacki 2014.
 //!
+//! Simulation of any robot:
+//! * [`rollout`]: the one loop over a plant, from a start state under held torques or wheel speeds;
+//! * `rollout/grid`: rows divided into steps; `rollout/hold`: delayed commands held over rows; `rollout/input`: what moves
+//!   the robot; `rollout/visitor`: who watches; `rollout/start`: known states and restarts; `rollout/lanes`: several
+//!   robots side by side.
+//!
+//! The paper's experiment:
 //! * [`rk4`]: the integrator;
-//! * [`Stream`]: random numbers keyed by seed, purpose and draw, so that results do not depend on threads;
-//! * [`Recipe`]: everything the experiment assumes, as data;
+//! * [`Recipe`], `network_recipe`: everything that the experiment assumes, as data;
 //! * [`Trajectory`]: the plant under its controller, simulated once;
 //! * [`Experiment`]: identifiers with many random first layers over that trajectory, since the motion does not depend
-//!   on what an identifier makes of it;
+//!   on what an identifier makes of it; `identification`: one draw; `group`: eight draws side by side; `tally`: their
+//!   indices;
 //! * [`learning`]: which adaptive laws keep what they learn;
-//! * [`table1`]: the paper's indices and what counts as reproduced.
+//! * [`table1`], [`statistics`]: the paper's indices and what counts as reproduced.
+//!
+//! For both: [`Stream`], random numbers keyed by seed, purpose and draw, so that results do not depend on threads;
+//! [`SimError`].
 //!
 //! Everything is deterministic: the same recipe and seed give the same bits on any machine with any thread count.
 //! A simulation stops at the first value that is not finite and names it with its time.
@@ -31,6 +41,7 @@ mod network_recipe;
 mod random;
 mod recipe;
 mod rk4;
+pub mod rollout;
 pub mod statistics;
 pub mod table1;
 mod tally;
@@ -47,3 +58,8 @@ pub use recipe::{
 };
 pub use rk4::rk4;
 pub use trajectory::{EVENTS, Trajectory, Windows};
+
+/// The README's snippets, run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

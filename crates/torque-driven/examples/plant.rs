@@ -6,8 +6,8 @@
 use std::error::Error;
 use std::hint::black_box;
 
-use pulp::NullaryFnOnce;
 use robot_model::{Lanes, Plant, Robot, Scalar, State};
+use sim::rollout::{Commanded, Rollout};
 
 #[path = "../../../benches/shared/clock.rs"]
 mod clock;
@@ -19,27 +19,12 @@ const STEP: f64 = 1e-3;
 /// Steps that a torque is held.
 const HELD: usize = 10;
 
-/// A drive of one robot or several, compiled for every vector unit that the machine may have.
-struct Drive<'a, 'b, T: Scalar> {
-    plant: &'a Plant<'b, T>,
-    torque: &'a [[f64; 2]],
-    steps: usize,
-}
-
-impl<T: Scalar> NullaryFnOnce for Drive<'_, '_, T> {
-    type Output = T;
-
-    #[inline(always)]
-    fn call(self) -> T {
-        let mut s = State::default();
-        for k in 0..self.steps {
-            let torque = self.torque[k / HELD % self.torque.len()].map(T::real);
-            self.plant.step_drive(&mut s, torque);
-            let delivered = self.plant.delivered(&s);
-            self.plant.step_under(&mut s, delivered);
-        }
-        s.position[0]
-    }
+/// A drive of one robot or several; where it ends along x.
+fn drive<T: Scalar>(plant: &Plant<'_, T>, torque: &[[f64; 2]], steps: usize) -> T {
+    let mut s = State::default();
+    let held = |step: usize, _: usize| torque[step / HELD % torque.len()].map(T::real);
+    let Ok(()) = Rollout::new(plant, steps, 1).run_vectorised(&mut s, &mut Commanded(held), &mut ());
+    s.position[0]
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -50,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mode, width, seconds) = match std::env::args().nth(1).as_deref() {
         None | Some("scalar") => {
             let plant = Plant::new(&robot, &[], STEP);
-            let run = || pulp::Arch::new().dispatch(Drive { plant: &plant, torque: &torque, steps });
+            let run = || drive(&plant, &torque, steps);
             ("scalar", 1, clock::timed(rounds, run).0)
         }
         Some("lanes") => {
@@ -59,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 *mass += 0.01 * i as f64;
             }
             let plant = Plant::new(&wide, &[], Lanes::real(STEP));
-            let run = || pulp::Arch::new().dispatch(Drive { plant: &plant, torque: &torque, steps });
+            let run = || drive(&plant, &torque, steps);
             ("lanes", WIDTH, clock::timed(rounds, run).0)
         }
         Some(other) => return Err(format!("there is no mode '{other}'; there are scalar and lanes").into()),

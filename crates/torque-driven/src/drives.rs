@@ -5,9 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use robot_model::robot::Drive;
 use robot_model::{Active, Plant, Robot, State};
+use sim::rollout::{DriveAlone, Grid, Hold, Rollout, each_step};
 
-use crate::hold::Hold;
-use crate::simulate::Grid;
 use crate::windows::Cut;
 use inference::hypothesis::Dose;
 
@@ -32,9 +31,9 @@ impl Clone for Drives {
 
 impl Drives {
     /// Torque delivered in recording `run`, up to the end of its last segment.
-    pub(crate) fn delivered(&self, run: usize, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], grid: &Grid) -> Torques {
+    pub(crate) fn delivered(&self, run: usize, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], grid: Grid) -> Torques {
         let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-        let plant = Plant::new(robot, &active, grid.h);
+        let plant = Plant::new(robot, &active, grid.step());
         let drive = *plant.drive();
         // A poisoned lock holds whole entries all the same: they are only ever pushed and popped.
         let lock = || self.recent.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -49,16 +48,14 @@ impl Drives {
     }
 }
 
-fn simulated(cut: &Cut, plant: &Plant<'_, f64>, grid: &Grid) -> Vec<[f64; 2]> {
-    let hold = Hold::new(cut.period, grid.substeps, plant.drive().delay);
+fn simulated(cut: &Cut, plant: &Plant<'_, f64>, grid: Grid) -> Vec<[f64; 2]> {
+    let hold = Hold::new(grid, plant.drive().delay);
     let rows = cut.segments.last().map_or(0, |s| s.row + s.windows * cut.rows_per_window);
-    let mut s = State::default();
     let mut out = Vec::with_capacity(rows * grid.substeps);
-    for k in 0..rows {
-        for i in 0..grid.substeps {
-            plant.step_drive(&mut s, hold.command(&cut.torque, k, i));
-            out.push(plant.delivered(&s));
-        }
-    }
+    let Ok(()) = Rollout::new(plant, rows, grid.substeps).run(
+        &mut State::default(),
+        &mut DriveAlone(|row, step| hold.command(&cut.torque, row, step)),
+        &mut each_step(|_, _, plant, s| out.push(plant.delivered(s))),
+    );
     out
 }

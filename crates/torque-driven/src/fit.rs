@@ -6,9 +6,10 @@ use faer::Mat;
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
+use sim::rollout::Grid;
 
 use crate::drives::Drives;
-use crate::simulate::{Body, Grid, Response, free_run};
+use crate::simulate::{Body, Response, free_run};
 use crate::windows::{CHANNELS, Cut, FORWARD};
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Free, Onsets, Variant, variants};
@@ -153,7 +154,7 @@ impl Problem<'_> {
     fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
         let body = |run| {
             let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
-            let torque = self.drives.delivered(run, cut, &robot, &doses, &Grid::new(cut, self.step));
+            let torque = self.drives.delivered(run, cut, &robot, &doses, Grid::nearest(cut.period, self.step));
             Body { robot, doses, torque }
         };
         let bodies: Vec<Body> = runs.clone().map(body).collect();

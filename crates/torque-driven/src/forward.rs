@@ -3,9 +3,9 @@
 
 use recordings::{Channel, Clock, Recording, Signal};
 use robot_model::{Active, Plant, Robot, State};
+use sim::rollout::{AtSpeed, Commanded, Grid, Hold, Ramp, Rollout, Start, Visitor};
 
 use crate::case::{HeldOut, Restart};
-use crate::hold::Hold;
 use crate::motion::GyroError;
 use crate::predict::predict;
 use inference::{DiagnosisError, Options};
@@ -29,21 +29,22 @@ pub fn simulate(
     options: &Options,
 ) -> Result<Recording, DiagnosisError> {
     let held = HeldOut::inputs(inputs)?;
-    let substeps = (held.period / options.step).round().max(1.0) as usize;
-    let plant = Plant::new(robot, effects, held.period / substeps as f64);
-    let hold = Hold::new(held.period, substeps, plant.drive().delay);
+    let grid = Grid::nearest(held.period, options.step);
+    let plant = Plant::new(robot, effects, grid.step());
+    let hold = Hold::new(grid, plant.drive().delay);
+
     let mut s = State::default();
-    if let Some(start) = held.restarts.first().filter(|r| r.row == 0) {
-        start.set(&plant, &mut s, gyro_error(&plant));
+    if let Some(first) = held.restarts.first().filter(|r| r.row == 0) {
+        first.start(gyro_error(&plant)).set(&plant, &mut s);
     }
-    let mut out = Sheet::new(inputs.name(), &held.stamps);
-    for k in 0..held.torque.len() {
-        out.row(&plant, &s, held.torque[k])?;
-        for i in 0..substeps {
-            plant.step(&mut s, hold.command(&held.torque, k, i));
-        }
-    }
-    out.recording()
+
+    let mut written = Written { sheet: Sheet::new(inputs.name(), &held.stamps), torque: &held.torque };
+    Rollout::new(&plant, held.torque.len(), grid.substeps).run(
+        &mut s,
+        &mut Commanded(|row, step| hold.command(&held.torque, row, step)),
+        &mut written,
+    )?;
+    written.sheet.recording()
 }
 
 /// Simulates a speed-driven robot on the measured (or commanded) wheel speeds of a recording: out comes what it takes,
@@ -77,14 +78,10 @@ pub fn simulate_at_speed(
     let at_rest = Plant::new(robot, effects, STEP_AT_SPEED);
     out.row(&at_rest, &s, [f64::NAN; 2])?;
     for pair in rows.windows(2) {
-        let span = (pair[1].0 - pair[0].0) as f64 * 1e-9;
-        let substeps = (span / STEP_AT_SPEED).ceil().max(1.0) as usize;
-        let plant = Plant::new(robot, effects, span / substeps as f64);
-        let rate = [0, 1].map(|j| (pair[1].1[j] - pair[0].1[j]) / span);
-        for i in 1..=substeps {
-            let share = i as f64 / substeps as f64;
-            plant.step_at_speed(&mut s, [0, 1].map(|j| pair[0].1[j] + share * span * rate[j]), rate);
-        }
+        let grid = Grid::at_most((pair[1].0 - pair[0].0) as f64 * 1e-9, STEP_AT_SPEED);
+        let plant = Plant::new(robot, effects, grid.step());
+        let ramp = Ramp::new([pair[0].1, pair[1].1], grid);
+        let Ok(()) = Rollout::new(&plant, 1, grid.substeps).run(&mut s, &mut AtSpeed(|_, step| ramp.at(step)), &mut ());
         out.row(&plant, &s, [f64::NAN; 2])?;
     }
     out.recording()
@@ -108,22 +105,16 @@ fn gyro_error(plant: &Plant<'_, f64>) -> GyroError {
 }
 
 impl Restart {
-    /// Sets a state; what the drives have in store goes on.
-    pub(crate) fn set(&self, plant: &Plant<'_, f64>, s: &mut State<f64>, gyro: GyroError) {
-        let (sin, cos) = self.pose[2].sin_cos();
-        *s = State {
-            time: s.time,
-            position: [self.pose[0], self.pose[1]],
-            heading: [cos, sin],
-            yaw_rate: (self.gyro - gyro.bias) / (1.0 + gyro.scale),
+    /// The motion behind it, the gyro's error taken off.
+    pub(crate) fn start(&self, gyro: GyroError) -> Start {
+        Start {
             wheel_speed: self.wheel_speed,
-            front_speed: self.wheel_speed,
             wheel_angle: self.wheel_angle,
-            torque: s.torque,
-            lagged: s.lagged,
-            ..State::default()
-        };
-        plant.set_velocity(s, self.velocity);
+            yaw_rate: (self.gyro - gyro.bias) / (1.0 + gyro.scale),
+            velocity: self.velocity,
+            position: [self.pose[0], self.pose[1]],
+            yaw: self.pose[2],
+        }
     }
 }
 
@@ -153,6 +144,20 @@ struct Sheet<'a> {
     /// Shown wheel angles and heading, which grow beyond a turn, rad.
     angle: [f64; 2],
     yaw: f64,
+}
+
+/// A sheet with the commands of its rows.
+struct Written<'a> {
+    sheet: Sheet<'a>,
+    torque: &'a [[f64; 2]],
+}
+
+impl Visitor<f64> for Written<'_> {
+    type Stop = DiagnosisError;
+
+    fn begin(&mut self, row: usize, plant: &Plant<'_, f64>, s: &mut State<f64>) -> Result<(), DiagnosisError> {
+        self.sheet.row(plant, s, self.torque[row])
+    }
 }
 
 impl<'a> Sheet<'a> {

@@ -11,7 +11,6 @@ mod drives;
 mod fit;
 mod forward;
 mod gate;
-mod hold;
 mod judged;
 mod leave_out;
 mod local;

@@ -1,6 +1,8 @@
 //! Synthetic drives for the unit tests.
 
 use robot_model::{Active, Plant, Robot, State};
+use sim::rollout::{Commanded, Grid, Hold, Rollout, Visitor};
+use std::convert::Infallible;
 
 use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
@@ -9,7 +11,6 @@ use testing::{PERIOD, robot};
 
 use crate::drives::Drives;
 use crate::fit::Problem;
-use crate::hold::Hold;
 use crate::motion::GyroError;
 use crate::run::Run;
 use crate::windows::{Cut, CutOptions};
@@ -55,32 +56,52 @@ pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
         *torque = [both - turn, both + turn];
     }
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let steps = 10;
-    let h = PERIOD / steps as f64;
-    let plant = Plant::new(robot, &active, h);
-    let hold = Hold::new(PERIOD, steps, plant.drive().delay);
-    let mut s = State::default();
-    for k in 0..rows {
-        run.angle[0][k] = Some(s.wheel_angle[0]);
-        run.angle[1][k] = Some(s.wheel_angle[1]);
-        for i in 0..steps {
-            plant.step(&mut s, hold.command(&run.torque, k, i));
-            // A sample belongs half a row before the row it is written in.
-            if i + 1 == steps / 2 && k + 1 < rows {
-                let mut r = plant.readings(&s);
-                plant.sense(&mut r);
-                run.gyro[k + 1] = Some(r.gyro);
-                run.accel[0][k + 1] = Some(r.accel[0]);
-                run.accel[1][k + 1] = Some(r.accel[1]);
-                if k % 10 == 0 {
-                    run.pose[0][k + 1] = Some(s.position[0]);
-                    run.pose[1][k + 1] = Some(s.position[1]);
-                    run.pose[2][k + 1] = Some(s.heading[1].atan2(s.heading[0]));
-                }
-            }
+    let grid = Grid { period: PERIOD, substeps: 10 };
+    let plant = Plant::new(robot, &active, grid.step());
+    let hold = Hold::new(grid, plant.drive().delay);
+    let torque = run.torque.clone();
+    let mut sensors = Sensors { run, middle: grid.substeps / 2 };
+    let Ok(()) = Rollout::new(&plant, rows, grid.substeps).run(
+        &mut State::default(),
+        &mut Commanded(|row, step| hold.command(&torque, row, step)),
+        &mut sensors,
+    );
+    sensors.run
+}
+
+/// Perfect sensors that write a run.
+struct Sensors {
+    run: Run,
+    /// Steps to the middle of a row.
+    middle: usize,
+}
+
+impl Visitor<f64> for Sensors {
+    type Stop = Infallible;
+
+    fn begin(&mut self, k: usize, _: &Plant<'_, f64>, s: &mut State<f64>) -> Result<(), Infallible> {
+        self.run.angle[0][k] = Some(s.wheel_angle[0]);
+        self.run.angle[1][k] = Some(s.wheel_angle[1]);
+        Ok(())
+    }
+
+    fn step(&mut self, k: usize, step: usize, plant: &Plant<'_, f64>, s: &State<f64>) {
+        // A sample belongs half a row before the row it is written in.
+        let run = &mut self.run;
+        if step + 1 != self.middle || k + 1 >= run.torque.len() {
+            return;
+        }
+        let mut r = plant.readings(s);
+        plant.sense(&mut r);
+        run.gyro[k + 1] = Some(r.gyro);
+        run.accel[0][k + 1] = Some(r.accel[0]);
+        run.accel[1][k + 1] = Some(r.accel[1]);
+        if k.is_multiple_of(10) {
+            run.pose[0][k + 1] = Some(s.position[0]);
+            run.pose[1][k + 1] = Some(s.position[1]);
+            run.pose[2][k + 1] = Some(s.heading[1].atan2(s.heading[0]));
         }
     }
-    run
 }
 
 /// What a calibration on typical references would leave: variances of 0.3 rad/s, 0.04 rad/s, 0.03 and 0.012 m/s,

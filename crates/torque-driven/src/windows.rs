@@ -1,5 +1,7 @@
 //! Windows of 0.1 s and the segments from which the model runs free.
 
+use sim::rollout::Start;
+
 use crate::motion::{GyroError, Smoothed, frozen_rows};
 use crate::run::Run;
 use crate::smooth::{interpolate, local_fit};
@@ -31,18 +33,6 @@ pub(crate) const WINDOW: f64 = 0.1;
 /// Parts of a segment in which a local presence is resolved.
 pub(crate) const PARTS: usize = 4;
 
-/// State of the robot at the start of a segment, from all sensors.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Start {
-    pub(crate) wheel_speed: [f64; 2],
-    pub(crate) wheel_angle: [f64; 2],
-    pub(crate) yaw_rate: f64,
-    /// Velocity of the geometric centre in body axes.
-    pub(crate) velocity: [f64; 2],
-    pub(crate) position: [f64; 2],
-    pub(crate) yaw: f64,
-}
-
 /// A stretch over which the model runs free.
 #[derive(Debug, Clone)]
 pub(crate) struct Segment {
@@ -50,6 +40,7 @@ pub(crate) struct Segment {
     pub(crate) row: usize,
     /// Number of windows.
     pub(crate) windows: usize,
+    /// State of the robot at its start, from all sensors.
     pub(crate) start: Start,
     /// Window by window, channel by channel; zero where not valid.
     pub(crate) observed: Vec<f64>,

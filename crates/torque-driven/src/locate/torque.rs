@@ -5,14 +5,17 @@
 //! identifier's known part, `J Ŵᵀφ` is the residual torque. The free runs know nothing of it: what is looked for is
 //! shown by the weights, not absorbed by them.
 
+use std::convert::Infallible;
+use std::iter::Peekable;
+
 use identifier::{Identifier, IdentifierError, Ledger, Midpoint, Sample};
 use nn_basis::{Basis, dot};
 use robot_model::{Active, Plant, Robot, State};
+use sim::rollout::{AtSpeed, DriveAlone, Grid, Hold, Rollout, Visitor};
 use sim::{Purpose, Recipe, Stream, UNITS};
 
-use crate::hold::Hold;
 use crate::run::Run;
-use crate::windows::Cut;
+use crate::windows::{Cut, Segment};
 use inference::hypothesis::Dose;
 use verdict::TorqueCertificate;
 
@@ -64,39 +67,71 @@ fn speeds(angle: &[Option<f64>], period: f64) -> Vec<f64> {
 /// Mean torque over each row that the drives deliver less what the model's wheels need at the measured speeds, N m.
 fn surplus(run: &Run, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], speed: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let substeps = (run.period / STEP).round().max(1.0) as usize;
-    let h = run.period / substeps as f64;
-    let plant = Plant::new(robot, &active, h);
-    let hold = Hold::new(run.period, substeps, plant.drive().delay);
-    let gain = plant.drive().gain;
-    let mut starts = cut.segments.iter().map(|s| (s.row, &s.start)).peekable();
+    let grid = Grid::nearest(run.period, STEP);
+    let plant = Plant::new(robot, &active, grid.step());
+    let hold = Hold::new(grid, plant.drive().delay);
+
     let mut s = State::default();
-    if let Some((_, start)) = starts.peek() {
-        s.yaw_rate = start.yaw_rate;
-        plant.set_velocity(&mut s, start.velocity);
+    if let Some(first) = cut.segments.first() {
+        s.yaw_rate = first.start.yaw_rate;
+        plant.set_velocity(&mut s, first.start.velocity);
     }
-    (0..speed.len().saturating_sub(1))
-        .map(|k| {
-            if let Some((_, start)) = starts.next_if(|(row, _)| *row == k) {
-                s.position = start.position;
-                s.heading = [start.yaw.cos(), start.yaw.sin()];
-                s.wheel_angle = start.wheel_angle;
-                s.time = cut.time(k as f64);
-            }
-            let mut sum = [0.0; 2];
-            for i in 0..substeps {
-                let share = (i as f64 + 0.5) / substeps as f64;
-                let now = [0, 1].map(|j| speed[k][j] + share * (speed[k + 1][j] - speed[k][j]));
-                plant.step_drive(&mut s, hold.command(&run.torque, k, i));
-                plant.step_at_speed(&mut s, now, [0.0; 2]);
-                let delivered = plant.delivered(&s);
-                for j in 0..2 {
-                    sum[j] += (delivered[j] - s.needed[j] * gain) / substeps as f64;
-                }
-            }
-            sum
-        })
-        .collect()
+
+    let measured = |row: usize, step: usize| {
+        let share = (step as f64 + 0.5) / grid.substeps as f64;
+        let now = [0, 1].map(|j| speed[row][j] + share * (speed[row + 1][j] - speed[row][j]));
+        (now, [0.0; 2])
+    };
+    let rows = speed.len().saturating_sub(1);
+    let mut surplus = Surplus {
+        cut,
+        starts: cut.segments.iter().peekable(),
+        substeps: grid.substeps as f64,
+        sum: [0.0; 2],
+        rows: Vec::with_capacity(rows),
+    };
+    let Ok(()) = Rollout::new(&plant, rows, grid.substeps).run(
+        &mut s,
+        &mut (DriveAlone(|row, step| hold.command(&run.torque, row, step)), AtSpeed(measured)),
+        &mut surplus,
+    );
+    surplus.rows
+}
+
+/// Takes the mean over each row of what the drives deliver beyond what the wheels need.
+struct Surplus<'a> {
+    cut: &'a Cut,
+    starts: Peekable<std::slice::Iter<'a, Segment>>,
+    substeps: f64,
+    sum: [f64; 2],
+    rows: Vec<[f64; 2]>,
+}
+
+impl Visitor<f64> for Surplus<'_> {
+    type Stop = Infallible;
+
+    fn begin(&mut self, row: usize, _: &Plant<'_, f64>, s: &mut State<f64>) -> Result<(), Infallible> {
+        // Only where the robot is: how the body moves follows from its wheels.
+        if let Some(Segment { start, .. }) = self.starts.next_if(|s| s.row == row) {
+            s.position = start.position;
+            s.heading = [start.yaw.cos(), start.yaw.sin()];
+            s.wheel_angle = start.wheel_angle;
+            s.time = self.cut.time(row as f64);
+        }
+        self.sum = [0.0; 2];
+        Ok(())
+    }
+
+    fn step(&mut self, _: usize, _: usize, plant: &Plant<'_, f64>, s: &State<f64>) {
+        let (delivered, gain) = (plant.delivered(s), plant.drive().gain);
+        for j in 0..2 {
+            self.sum[j] += (delivered[j] - s.needed[j] * gain) / self.substeps;
+        }
+    }
+
+    fn end(&mut self, _: usize, _: &Plant<'_, f64>, _: &State<f64>) {
+        self.rows.push(self.sum);
+    }
 }
 
 /// Lets the paper's identifier follow both wheel speeds of a recording, the robot with its doses as the known part.

@@ -1,12 +1,11 @@
 //! A robot that follows a course under torque, as a recording without noise.
 
 use robot_model::{Active, Plant, Robot, State};
+use sim::rollout::{Grid, Hold, Input, Rollout, Start};
 
 use crate::drives::Drives;
 use crate::fit::Problem;
-use crate::hold::Hold;
-use crate::simulate::Grid;
-use crate::windows::{CHANNELS, Cut, FORWARD, Segment, Start};
+use crate::windows::{CHANNELS, Cut, FORWARD, Segment};
 use inference::hypothesis::Dose;
 use verdict::{Course, wheel_speeds};
 
@@ -71,48 +70,36 @@ impl Follower {
         let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
         let length = course.points.last().map_or(0.0, |p| p[0]);
         let rows = (length / self.period).round() as usize;
-        let mut cut = Cut {
+        let grid = Grid::nearest(self.period, self.step);
+        let plant = Plant::new(robot, &active, grid.step());
+
+        let (sin, cos) = start[2].sin_cos();
+        let mut s = State { position: [start[0], start[1]], heading: [cos, sin], ..State::default() };
+        let mut following = Following {
+            follower: self,
+            course,
+            ground,
+            rows,
+            hold: Hold::new(grid, plant.drive().delay),
+            step: grid.step(),
+            yaw: start[2],
+            heading: 0.0,
+            turned: 0.0,
+            sums: [0.0; 2],
+            torque: Vec::with_capacity(rows),
+            segments: Vec::new(),
+        };
+        let Ok(()) = Rollout::new(&plant, rows, grid.substeps).run(&mut s, &mut following, &mut ());
+
+        Cut {
             from: 0.0,
             name: "next".to_owned(),
             period: self.period,
             rows_per_window: self.rows_per_window,
-            torque: Vec::with_capacity(rows),
-            segments: Vec::new(),
+            torque: following.torque,
+            segments: following.segments,
             path: Vec::new(),
-        };
-        let grid = Grid::new(&cut, self.step);
-        let plant = Plant::new(robot, &active, grid.h);
-        let hold = Hold::new(self.period, grid.substeps, plant.drive().delay);
-        let per_segment = self.windows * self.rows_per_window;
-        let (sin, cos) = start[2].sin_cos();
-        let mut s = State { position: [start[0], start[1]], heading: [cos, sin], ..State::default() };
-        let (mut heading, mut turned, mut sums) = (0.0, 0.0, [0.0; 2]);
-        for k in 0..rows {
-            // As in a recording, a whole window is left after the last segment.
-            if k % per_segment == 0 && k + per_segment + self.rows_per_window <= rows {
-                cut.segments.push(self.segment(k, start_of(&plant, &s, start[2] + turned)));
-            }
-            let t = k as f64 * self.period;
-            let [speed, turn] = course.at(t);
-            heading += turn * self.period;
-            let off = (heading - turned).clamp(-HEADING[1], HEADING[1]);
-            heading = turned + off;
-            let turn = if ground { turn + HEADING[0] * off } else { turn };
-            let wanted = wheel_speeds([speed, turn], self.known.wheel_radius, self.known.half_track);
-            let command = if course.is_free(t) {
-                sums = [0.0; 2];
-                [0.0; 2]
-            } else {
-                std::array::from_fn(|j| self.command(j, wanted[j], s.wheel_speed[j], &mut sums[j]))
-            };
-            cut.torque.push(command);
-            for i in 0..grid.substeps {
-                let before = s.yaw_rate;
-                plant.step(&mut s, hold.command(&cut.torque, k, i));
-                turned += 0.5 * (before + s.yaw_rate) * grid.h;
-            }
         }
-        cut
     }
 
     /// Torque of a side: known friction, and what brings the wheel to its speed.
@@ -143,14 +130,69 @@ impl Follower {
     }
 }
 
-fn start_of(plant: &Plant<'_, f64>, s: &State<f64>, yaw: f64) -> Start {
-    Start {
-        wheel_speed: s.wheel_speed,
-        wheel_angle: s.wheel_angle,
-        yaw_rate: s.yaw_rate,
-        velocity: plant.velocity(s),
-        position: s.position,
-        yaw,
+/// A follower on its way: sets the torque of each row from the state at its start.
+struct Following<'a> {
+    follower: &'a Follower,
+    course: &'a Course,
+    ground: bool,
+    rows: usize,
+    hold: Hold,
+    /// Integration step, s.
+    step: f64,
+    /// Yaw at the start; heading that is wanted and turn that is made since, rad.
+    yaw: f64,
+    heading: f64,
+    turned: f64,
+    /// Integrals of the two sides' controllers, N m.
+    sums: [f64; 2],
+    torque: Vec<[f64; 2]>,
+    segments: Vec<Segment>,
+}
+
+impl Following<'_> {
+    fn start(&self, plant: &Plant<'_, f64>, s: &State<f64>) -> Start {
+        Start {
+            wheel_speed: s.wheel_speed,
+            wheel_angle: s.wheel_angle,
+            yaw_rate: s.yaw_rate,
+            velocity: plant.velocity(s),
+            position: s.position,
+            yaw: self.yaw + self.turned,
+        }
+    }
+}
+
+impl Input<f64> for Following<'_> {
+    fn begin(&mut self, row: usize, plant: &Plant<'_, f64>, s: &State<f64>) {
+        let f = self.follower;
+
+        // As in a recording, a whole window is left after the last segment.
+        let per_segment = f.windows * f.rows_per_window;
+        if row.is_multiple_of(per_segment) && row + per_segment + f.rows_per_window <= self.rows {
+            self.segments.push(f.segment(row, self.start(plant, s)));
+        }
+
+        let t = row as f64 * f.period;
+        let [speed, turn] = self.course.at(t);
+        self.heading += turn * f.period;
+        let off = (self.heading - self.turned).clamp(-HEADING[1], HEADING[1]);
+        self.heading = self.turned + off;
+        let turn = if self.ground { turn + HEADING[0] * off } else { turn };
+
+        let wanted = wheel_speeds([speed, turn], f.known.wheel_radius, f.known.half_track);
+        let command = if self.course.is_free(t) {
+            self.sums = [0.0; 2];
+            [0.0; 2]
+        } else {
+            std::array::from_fn(|j| f.command(j, wanted[j], s.wheel_speed[j], &mut self.sums[j]))
+        };
+        self.torque.push(command);
+    }
+
+    fn advance(&mut self, row: usize, step: usize, plant: &Plant<'_, f64>, s: &mut State<f64>) {
+        let before = s.yaw_rate;
+        plant.step(s, self.hold.command(&self.torque, row, step));
+        self.turned += 0.5 * (before + s.yaw_rate) * self.step;
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::array::from_fn;
 
+use super::Grid;
+
 /// Which set-points a step sees, relative to its row, and the share of the first.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
@@ -13,16 +15,16 @@ struct Seen {
 /// Set-points held for the row that follows, delayed: the mean over each step, continuous in the delay.
 ///
 /// A negative delay looks ahead.
-pub(crate) struct Hold {
+pub struct Hold {
     /// Of each step within a row.
     steps: Vec<Seen>,
 }
 
 impl Hold {
-    /// `period` of the rows and `delay` in s.
-    pub(crate) fn new(period: f64, substeps: usize, delay: f64) -> Self {
-        let (n, delay) = (substeps as f64, delay / period);
-        let steps = (0..substeps)
+    /// For rows divided as `grid` says; `delay` in s.
+    pub fn new(grid: Grid, delay: f64) -> Self {
+        let (n, delay) = (grid.substeps as f64, delay / grid.period);
+        let steps = (0..grid.substeps)
             .map(|i| {
                 // A hair of slack: row borders are exact multiples of the step up to rounding.
                 let (a, b) = (i as f64 / n - delay + 1e-6, (i + 1) as f64 / n - delay - 1e-6);
@@ -34,11 +36,12 @@ impl Hold {
         Self { steps }
     }
 
-    /// Torque of each side over step `step` of row `row`; zero before the first set-point, the last one stays.
+    /// Torque of each side, N m, over step `step` of row `row`; zero before the first set-point (or without
+    /// any), the last one stays.
     #[inline]
-    pub(crate) fn command(&self, torque: &[[f64; 2]], row: usize, step: usize) -> [f64; 2] {
+    pub fn command(&self, torque: &[[f64; 2]], row: usize, step: usize) -> [f64; 2] {
         let at = |by: isize| match row.checked_add_signed(by) {
-            Some(i) => torque[i.min(torque.len() - 1)],
+            Some(i) => torque.get(i).or(torque.last()).copied().unwrap_or_default(),
             None => [0.0; 2],
         };
         let seen = self.steps[step];
@@ -50,15 +53,15 @@ impl Hold {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use testing::PERIOD;
 
+    const PERIOD: f64 = 0.01;
     const SUBSTEPS: usize = 10;
     const H: f64 = 1e-3;
     const TORQUE: [[f64; 2]; 4] = [[1.0, -1.0], [3.0, -3.0], [2.0, 5.0], [0.0, 7.0]];
 
     fn at(t: f64, delay: f64) -> [f64; 2] {
         let step = (t / H).round() as usize;
-        Hold::new(PERIOD, SUBSTEPS, delay).command(&TORQUE, step / SUBSTEPS, step % SUBSTEPS)
+        Hold::new(Grid { period: PERIOD, substeps: SUBSTEPS }, delay).command(&TORQUE, step / SUBSTEPS, step % SUBSTEPS)
     }
 
     fn left(t: f64, delay: f64) -> f64 {
@@ -81,7 +84,7 @@ mod tests {
     #[test]
     fn a_delay_is_fractional_and_continuous() {
         assert_eq!(left(0.012, 0.0035), TORQUE[0][0]);
-        approx::assert_relative_eq!(left(0.013, 0.0035), 2.0, epsilon = 0.01);
+        assert!((left(0.013, 0.0035) - 2.0).abs() < 0.01);
         assert_eq!(left(0.014, 0.0035), TORQUE[1][0]);
         let (mut last, step) = (left(0.025, -0.02), 1e-5);
         for i in -1999..3000 {
