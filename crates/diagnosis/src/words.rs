@@ -1,11 +1,11 @@
 //! Sentences for people.
 
+use inference::robust::NINETY;
 use robot_model::Card;
 
 use crate::hypothesis::{Place, Variant};
 use crate::locate;
 use crate::redundancy::Fault;
-use crate::steady::NINETY;
 use crate::verdict::{Cause, Diagnosis, Verdict};
 
 pub(crate) fn side(s: usize) -> &'static str {

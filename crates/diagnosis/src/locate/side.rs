@@ -1,5 +1,7 @@
 //! On which side the mismatch sits, and whether a named effect contradicts it.
 
+use inference::robust::NINETY_FIVE;
+
 use crate::locate::told::ResidualTorque;
 use crate::verdict::{Cause, Finding};
 use crate::windows::CHANNELS;
@@ -30,7 +32,7 @@ pub(crate) fn side(
 fn torque(all: &[ResidualTorque], side: &str) -> f64 {
     let own = all.iter().filter(|t| t.side == side);
     own.map(|t| {
-        let half = 0.5 * (t.band[1] - t.band[0]) / 1.96;
+        let half = 0.5 * (t.band[1] - t.band[0]) / NINETY_FIVE;
         (t.rms * t.rms - half * half).max(0.0)
     })
     .sum()

@@ -6,7 +6,6 @@
 //! rivals (Box and Hill 1967; Buzzi-Ferraris, Forzatti 1983; here with the decision's own temper).
 
 mod course;
-mod entropy;
 mod follow;
 mod menu;
 mod optimise;
@@ -16,6 +15,7 @@ mod steady;
 #[cfg(test)]
 mod tests;
 
+use inference::expected_information::{entropy, expected_bits, widest_pair};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,6 @@ use crate::decide::TEMPERATURE;
 use crate::fit::{Fitted, Problem};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use course::Course;
-use entropy::{entropy, expected_bits};
 use follow::Follower;
 use menu::{Entry, Scope, Setup};
 use outlook::{Outlook, Prospect};
@@ -191,7 +190,8 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
 }
 
 fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> Manoeuvre {
-    let split = best_split(outlook, rivals);
+    let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
+    let split = widest_pair(&p, &outlook.views, TEMPERATURE);
     let mut out = Manoeuvre::new(&entry.name, entry.course.clone(), entry.start);
     out.why = split.map_or_else(
         || narrowing(outlook.narrows, rivals),
@@ -203,16 +203,6 @@ fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> M
     out.joins = entry.setup == Setup::AsItIs;
     out.optimised = entry.optimised;
     out
-}
-
-/// The pair that a drive tells apart best: probable rivals count more.
-fn best_split(outlook: &Outlook, rivals: &[Rival]) -> Option<(usize, usize)> {
-    let worth = |k: usize, l: usize| {
-        let apart = 1.0 - (-outlook.views[k].behind[l] / TEMPERATURE).exp();
-        rivals[k].probability * rivals[l].probability * apart
-    };
-    let pairs = (0..rivals.len()).flat_map(|k| (0..rivals.len()).filter(move |l| *l != k).map(move |l| (k, l)));
-    pairs.max_by(|a, b| worth(a.0, a.1).total_cmp(&worth(b.0, b.1)))
 }
 
 fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {

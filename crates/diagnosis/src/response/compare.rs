@@ -1,5 +1,7 @@
 //! Forecasts of left-out windows from the commands alone, by four simulations.
 
+use inference::robust::{median, rms};
+
 use crate::response::constants::Element;
 use crate::response::controller::{Law, Scaling};
 use crate::response::drive::DrivePart;
@@ -191,17 +193,8 @@ fn placebo(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f6
 
 /// Root mean square and median.
 pub(crate) fn summary(errors: &[f64]) -> [f64; 2] {
-    let n = errors.len().max(1) as f64;
-    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / n).sqrt();
-    let mut sorted = errors.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    let median = match sorted.len() {
-        0 => 0.0,
-        n if n % 2 == 0 => 0.5 * (sorted[middle - 1] + sorted[middle]),
-        _ => sorted[middle],
-    };
-    [rms, median]
+    let all = || errors.iter().copied();
+    [rms(all()).unwrap_or(0.0), median(all()).unwrap_or(0.0)]
 }
 
 /// Rows of the answer: rms and median over windows of 2 s of every quantity that was recorded.

@@ -1,5 +1,7 @@
 //! The fit of wheel speeds to commands.
 
+use inference::robust::select_quantile;
+
 use crate::response::constants::{Constant, Element};
 use crate::response::controller::{
     CONSTANTS, DAMPING, DEAD_TIME, FORWARD_LIMIT, FREQUENCY, GAIN, LAG, Law, POWER, RAMP, SHAPE, SIDE_GAIN, SIDE_RAMP,
@@ -107,10 +109,7 @@ impl Part for DrivePart<'_> {
     fn guess(&self, constant: usize) -> f64 {
         /// Rows in which a change is measured: longer than a sample-hold.
         const SPAN: usize = 5;
-        let quantile = |mut all: Vec<f64>, q: f64| {
-            all.sort_by(f64::total_cmp);
-            all.get(((all.len() as f64 * q) as usize).min(all.len().saturating_sub(1))).copied().unwrap_or(1.0)
-        };
+        let quantile = |mut all: Vec<f64>, q: f64| select_quantile(&mut all, q).unwrap_or(1.0);
         let of = |f: &dyn Fn([f64; 2]) -> f64| -> Vec<f64> {
             self.windows.pieces.iter().flat_map(|p| p.wheel.iter().map(|w| f(*w).abs())).collect()
         };

@@ -3,6 +3,7 @@
 //! From currents alone: the straight load as a piecewise constant course ([`level`](super::level)). With all three
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
+use inference::robust::median;
 use serde::{Deserialize, Serialize};
 
 use crate::verdict::Word;
@@ -11,7 +12,6 @@ use crate::steady::attitude::{Attitude, attitude};
 use crate::steady::extract::CLASSES;
 use crate::steady::jumps::jumps;
 use crate::steady::level::levels;
-use crate::steady::median::median;
 use crate::steady::name::UNNAMED_STRAIGHT;
 use crate::steady::run::SpeedRun;
 use crate::steady::slopes::slopes;

@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use inference::robust::NINETY;
 use serde::{Deserialize, Serialize};
 
 use crate::steady::extract::{CLASSES, Load, Quantity};
-
-/// 90 % of a Gaussian lies within this many sigmas.
-pub(crate) const NINETY: f64 = 1.645;
 
 /// A load over the references'.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

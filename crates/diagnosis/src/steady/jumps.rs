@@ -1,10 +1,10 @@
 //! Jumps of the straight load, by currents.
 
 use crate::steady::changes::{APART, GRADE, LoadChange, ROLLING, Usual, class, pieces};
-use crate::steady::compare::NINETY;
 use crate::steady::name::UNNAMED_STRAIGHT;
 use crate::steady::run::SpeedRun;
 use crate::steady::straight::{Reading, reads_nothing};
+use inference::robust::NINETY;
 
 /// A change shorter than this is not told, s of straight driving.
 const LEAST: f64 = 1.5;

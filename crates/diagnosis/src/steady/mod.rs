@@ -14,7 +14,6 @@ mod forecast;
 mod jumps;
 mod law;
 mod level;
-mod median;
 mod model;
 mod name;
 mod run;
@@ -43,7 +42,6 @@ use name::{Comparison, Difference, name};
 
 pub use changes::{Changes, Hidden, LoadChange};
 pub use clock::{Alignment, align, box_mean, interpolate};
-pub(crate) use compare::NINETY;
 pub use compare::Ratio;
 pub use extract::{Load, Quantity, Withheld};
 pub use forecast::Forecast;

@@ -1,10 +1,10 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
+use inference::robust::median;
 use recordings::{Channel, Recording, Signal};
 
 use crate::DiagnosisError;
 use crate::steady::clock::{self, Alignment};
-use crate::steady::median::median;
 
 /// One recording of a speed-driven robot. Sides: 0 left, 1 right.
 #[derive(Debug, Clone)]

@@ -1,11 +1,10 @@
 //! When inside a recording turning begins or ceases to cost another torque: another ground.
 
+use inference::robust::{NINETY, median};
 use serde::{Deserialize, Serialize};
 
-use crate::steady::compare::NINETY;
 use crate::steady::extract::is_steady_turn;
 use crate::steady::level::{PER_SECOND, levels};
-use crate::steady::median::median;
 use crate::steady::run::SpeedRun;
 use crate::steady::straight::Reading;
 

@@ -2,8 +2,8 @@
 
 use crate::steady::attitude::Attitude;
 use crate::steady::changes::{DRIVING, GRADE, LoadChange, pieces};
-use crate::steady::compare::NINETY;
 use crate::steady::run::SpeedRun;
+use inference::robust::NINETY;
 
 /// A slope that is told, degrees, and for how long at least, s.
 const SLOPE: f64 = 1.6;
