@@ -148,7 +148,8 @@ mod tests {
         let robot = robot();
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let problem = problem(&robot, &cuts);
-        let retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+        let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+        retuned.cost += 100.0;
         let singles = ["viscous_friction", "rolling_resistance"].map(|id| gained(&problem, &retuned, id, 24.0));
         let found = Found { retuned, singles: singles.to_vec(), pairs: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);

@@ -79,7 +79,8 @@ proptest! {
 
     #[test]
     fn no_neighbour_within_the_bounds_is_cheaper(data in numbers(ROWS), loss in loss()) {
-        let fitted = Residuals::new(start(), decay(&data)).with_loss(loss).fit(&Settings::default()).expect("finite");
+        let settings = Settings { iterations: 500, ..Settings::default() };
+        let fitted = Residuals::new(start(), decay(&data)).with_loss(loss).fit(&settings).expect("finite");
         for (k, c) in start().into_iter().enumerate() {
             for h in [-1e-3, 1e-3] {
                 let mut beside = fitted.values.clone();

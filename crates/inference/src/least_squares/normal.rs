@@ -113,12 +113,13 @@ impl Normal {
         }
     }
 
-    /// Levenberg–Marquardt step in scales: a parameter at a bound that the step would cross is held.
+    /// Levenberg–Marquardt step in scales: a parameter at a bound that the step would cross is held, and let go
+    /// once if its slope points inwards when the others have moved.
     ///
     /// `None` if the equations are not positive definite.
     pub fn step(&self, parameters: &[Parameter], damping: f64) -> Option<Mat<f64>> {
         let n = self.matrix.nrows();
-        let mut held = vec![false; n];
+        let (mut held, mut let_go) = (vec![false; n], vec![false; n]);
         loop {
             let m = Mat::from_fn(n, n, |i, j| {
                 let diagonal = i == j;
@@ -130,10 +131,17 @@ impl Normal {
             });
             let g = Mat::from_fn(n, 1, |i, _| if held[i] { 0.0 } else { self.gradient[(i, 0)] });
             let delta = solve_spd(&m, &g)?.0;
+            if let Some(crossing) = (0..n).find(|&i| !held[i] && parameters[i].leaves(delta[(i, 0)])) {
+                held[crossing] = true;
+                continue;
+            }
 
-            let crossing = (0..n).find(|&i| !held[i] && parameters[i].leaves(delta[(i, 0)]));
-            match crossing {
-                Some(i) => held[i] = true,
+            let points_inwards = |i: usize| {
+                let moved: f64 = (0..n).map(|j| self.matrix[(i, j)] * delta[(j, 0)]).sum();
+                !parameters[i].leaves(self.gradient[(i, 0)] - moved)
+            };
+            match (0..n).find(|&i| held[i] && !let_go[i] && points_inwards(i)) {
+                Some(i) => (held[i], let_go[i]) = (false, true),
                 None => return Some(delta),
             }
         }
@@ -198,5 +206,14 @@ mod tests {
         parameters[0].bounds[1] = 1.0;
         let held = normal.step(&parameters, 0.0).expect("positive definite");
         assert_eq!((held[(0, 0)], held[(1, 0)]), (0.0, 0.0));
+    }
+
+    /// The whole step crosses both bounds; with the second held, the first leads back inside.
+    #[test]
+    fn a_held_parameter_is_let_go_when_its_slope_points_inwards() {
+        let normal = Normal::new(faer::mat![[2.0, -1.8], [-1.8, 2.0]], faer::mat![[-0.5], [3.0]]);
+        let at_bound = Parameter { bounds: [-10.0, 1.0], ..Parameter::unbounded(1.0, 1.0) };
+        let step = normal.step(&[at_bound; 2], 0.0).expect("positive definite");
+        assert_eq!((step[(0, 0)], step[(1, 0)]), (-0.25, 0.0));
     }
 }
