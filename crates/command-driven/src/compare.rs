@@ -7,6 +7,7 @@ use crate::identify::{Identified, Simulated};
 use crate::run::WINDOW;
 use crate::search::{Model, Trial, attempt};
 use crate::windows::{FOLDS, Windows};
+use inference::robust::{median, rms};
 use verdict::{Element, FreeRun, Scaling};
 
 /// What is compared: over the window, and at its end.
@@ -190,17 +191,8 @@ fn placebo(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f6
 
 /// Root mean square and median.
 pub(crate) fn summary(errors: &[f64]) -> [f64; 2] {
-    let n = errors.len().max(1) as f64;
-    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / n).sqrt();
-    let mut sorted = errors.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    let median = match sorted.len() {
-        0 => 0.0,
-        n if n % 2 == 0 => 0.5 * (sorted[middle - 1] + sorted[middle]),
-        _ => sorted[middle],
-    };
-    [rms, median]
+    let all = || errors.iter().copied();
+    [rms(all()).unwrap_or(0.0), median(all()).unwrap_or(0.0)]
 }
 
 /// Rows of the answer: rms and median over windows of 2 s of every quantity that was recorded.

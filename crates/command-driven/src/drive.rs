@@ -7,6 +7,7 @@ use crate::controller::{
 use crate::run::{STEP, WINDOW};
 use crate::search::Part;
 use crate::windows::Windows;
+use inference::robust::select_quantile;
 use verdict::{DRIVE_CONSTANTS, Element, ResponseConstant};
 
 /// Errors beyond this share of the rms wheel speed count linearly only. Chosen after a look at the open data.
@@ -107,10 +108,7 @@ impl Part for DrivePart<'_> {
     fn guess(&self, constant: usize) -> f64 {
         /// Rows in which a change is measured: longer than a sample-hold.
         const SPAN: usize = 5;
-        let quantile = |mut all: Vec<f64>, q: f64| {
-            all.sort_by(f64::total_cmp);
-            all.get(((all.len() as f64 * q) as usize).min(all.len().saturating_sub(1))).copied().unwrap_or(1.0)
-        };
+        let quantile = |mut all: Vec<f64>, q: f64| select_quantile(&mut all, q).unwrap_or(1.0);
         let of = |f: &dyn Fn([f64; 2]) -> f64| -> Vec<f64> {
             self.windows.pieces.iter().flat_map(|p| p.wheel.iter().map(|w| f(*w).abs())).collect()
         };

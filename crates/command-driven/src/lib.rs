@@ -19,6 +19,7 @@ mod traces;
 mod windows;
 mod words;
 
+use inference::robust::mean_with_error;
 use robot_model::Robot;
 
 use inference::DiagnosisError;
@@ -28,7 +29,7 @@ use compare::{Errors, Four, free_runs, summary};
 use drive::DrivePart;
 use ground::GroundPart;
 use identify::{Identified, Simulated, identify, neutral};
-use windows::{FOLDS, Windows, mean};
+use windows::{FOLDS, Windows};
 use words::Told;
 
 pub use model::{response_errors, simulate_response};
@@ -87,7 +88,7 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
         told = self::told(&errors, &four.drive_only(&unseen, true), position);
     }
     let response = response(&windows, unseen.list.len(), &base, &found, &four, nominal);
-    let (_, off_error) = mean(&windows.by_block(|w| left_out[0][0][w]));
+    let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out[0][0][w]));
     let mut out = Diagnosis::withheld();
     let ranked = name::ranked(&found, &response.parameters, summary(&left_out[0][0])[0], off_error, nominal[1]);
     out.ranked = ranked;

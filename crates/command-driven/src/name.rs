@@ -5,14 +5,15 @@ use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
 
 use crate::identify::{Identified, Simulated};
 use crate::search::{Evidence, Part, Trial, sigmas};
-use inference::NINETY;
+use inference::evidence::{logistic, none_of};
+use inference::robust::NINETY;
 
 pub(crate) fn earned((element, e): &(Element, Evidence)) -> Earned {
     Earned { element: *element, rise: e.rise, standard_error: e.standard_error, probability: probability(e) }
 }
 
 fn probability(e: &Evidence) -> f64 {
-    1.0 / (1.0 + (-e.score).exp())
+    logistic(e.score)
 }
 
 /// Fitted constants of a part with their intervals.
@@ -68,11 +69,11 @@ const SURE: f64 = 0.999;
 /// Causes by probability; of those that are sure, the one nearer to the command first.
 pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off_error: f64, track: f64) -> Vec<Cause> {
     let mut out = Vec::new();
-    let mut none = 1.0;
+    let mut present = Vec::new();
     for (effect, name, elements) in CAUSES {
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let p = own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
-        none *= 1.0 - p;
+        present.push(p);
         if p < LISTED {
             continue;
         }
@@ -102,7 +103,7 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
         }
         out.push(cause);
     }
-    out.push(Cause::plain("none", "nothing is missing", none));
+    out.push(Cause::plain("none", "nothing is missing", none_of(present)));
     out.push(Cause::plain("unknown", "something that is not in the catalogue", 0.0));
     out.sort_by(|a, b| b.probability.min(SURE).total_cmp(&a.probability.min(SURE)));
     out

@@ -1,18 +1,22 @@
 //! Fits and left-out forecasts of one part of the response, and which elements earn their place.
 
 use faer::Mat;
+use inference::algebra::inverse_spd;
+use inference::least_squares::{Constant as FreeConstant, Loss, Residuals, Settings};
+use inference::robust::mean_with_error;
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
-use crate::windows::{FOLDS, Windows, mean};
-use inference::linalg::solve_spd;
+use crate::windows::{FOLDS, Windows};
 
 /// Iterations of a fit, and of one that starts beside its optimum.
 const ITERATIONS: [usize; 2] = [25, 10];
-/// Dampings tried before a fit is taken to stand in its valley.
-const TRIALS: usize = 12;
 /// A fit has converged when its cost falls by less than this share.
 const CONVERGED: f64 = 1e-6;
+/// First damping; longest step and finite step, shares of a constant (of its scale where that is more).
+const DAMPING: f64 = 1e-2;
+const LONGEST: f64 = 0.7;
+const DIFFERENCE: f64 = 1e-3;
 /// Log odds against an element before anything was seen: one in twenty. An element stays when z²/2 exceeds it.
 pub(crate) const PRIOR: f64 = 3.0;
 /// Sandwich intervals are widened by this. Of 100 made-up robots, 90 % intervals then held the truth in 90 to 99, a lag's in
@@ -84,8 +88,8 @@ pub(crate) fn losses<P: Part>(part: &P, m: &Model<P::Law>) -> Vec<f64> {
 
 /// Evidence for what `with` has and `without` has not.
 pub(crate) fn evidence(windows: &Windows, without: &[f64], with: &[f64]) -> Evidence {
-    let (rise, error) = mean(&windows.by_block(|i| without[i] - with[i]));
-    let (level, _) = mean(&windows.by_block(|i| with[i]));
+    let (rise, error) = mean_with_error(&windows.by_block(|i| without[i] - with[i]));
+    let (level, _) = mean_with_error(&windows.by_block(|i| with[i]));
     let z = if error > 0.0 { rise / error } else { 0.0 };
     let level = level.max(1e-12);
     let relevant = rise > RELEVANT * level;
@@ -93,15 +97,8 @@ pub(crate) fn evidence(windows: &Windows, without: &[f64], with: &[f64]) -> Evid
     Evidence { rise: rise / level, standard_error: error / level, score }
 }
 
-/// Normal equations of the rows of `used` windows at `x`, with the robust cost.
-struct Normal {
-    cost: f64,
-    matrix: Mat<f64>,
-    gradient: Mat<f64>,
-}
-
 fn step_of(c: &ResponseConstant, v: f64) -> f64 {
-    1e-3 * v.abs().max(c.scale)
+    DIFFERENCE * v.abs().max(c.scale)
 }
 
 /// Derivatives of the residuals by the free constants, one column each.
@@ -119,30 +116,7 @@ fn columns<P: Part>(part: &P, m: &Model<P::Law>, free: &[usize], r: &[f64]) -> V
         .collect()
 }
 
-fn cost(r: &[f64], rows: usize, used: &[bool]) -> f64 {
-    r.chunks(rows).zip(used).filter(|(_, u)| **u).flat_map(|(w, _)| w).map(|r| huber(*r)).sum()
-}
-
-fn normal(r: &[f64], columns: &[Vec<f64>], rows: usize, used: &[bool]) -> Normal {
-    let n = columns.len();
-    let mut out = Normal { cost: 0.0, matrix: Mat::zeros(n, n), gradient: Mat::zeros(n, 1) };
-    for (w, _) in used.iter().enumerate().filter(|(_, u)| **u) {
-        for i in w * rows..(w + 1) * rows {
-            let weight = 1.0 / r[i].abs().max(1.0);
-            out.cost += huber(r[i]);
-            for a in 0..n {
-                let scaled = weight * columns[a][i];
-                out.gradient[(a, 0)] += scaled * r[i];
-                for b in 0..n {
-                    out.matrix[(a, b)] += scaled * columns[b][i];
-                }
-            }
-        }
-    }
-    out
-}
-
-/// Robust Levenberg-Marquardt within bounds.
+/// Robust fit of the free constants within their bounds, on the rows of `used` windows, with its cost.
 fn fit<P: Part>(
     part: &P,
     start: &Model<P::Law>,
@@ -150,40 +124,30 @@ fn fit<P: Part>(
     used: &[bool],
     iterations: usize,
 ) -> (Model<P::Law>, f64) {
-    let mut m = start.clone();
-    let mut r = part.residuals(m.law, &m.x);
-    let rows = r.len() / used.len();
-    let mut best = cost(&r, rows, used);
-    let mut damping: f64 = 1e-2;
-    for _ in 0..iterations {
-        let n = normal(&r, &columns(part, &m, free, &r), rows, used);
-        let before = best;
-        for _ in 0..TRIALS {
-            let mut a = n.matrix.clone();
-            for i in 0..free.len() {
-                a[(i, i)] += damping * n.matrix[(i, i)] + 1e-9;
-            }
-            let Some((step, _)) = solve_spd(&a, &n.gradient) else { break };
-            let mut next = m.clone();
-            for (i, &k) in free.iter().enumerate() {
-                let c = &part.constants()[k];
-                let most = 0.7 * m.x[k].abs().max(c.scale);
-                next.x[k] = (m.x[k] - step[(i, 0)].clamp(-most, most)).clamp(c.bounds[0], c.bounds[1]);
-            }
-            let residuals = part.residuals(next.law, &next.x);
-            let trial = cost(&residuals, rows, used);
-            if trial < best {
-                (m, r, best) = (next, residuals, trial);
-                damping = (damping / 6.0).max(1e-4);
-                break;
-            }
-            damping *= 6.0;
-        }
-        if before - best <= CONVERGED * before {
-            break;
-        }
-    }
-    (m, best)
+    let with = |values: &[f64]| {
+        let mut x = start.x.clone();
+        free.iter().zip(values).for_each(|(&k, v)| x[k] = *v);
+        x
+    };
+    let misfit = |values: &[f64]| -> Vec<f64> {
+        let r = part.residuals(start.law, &with(values));
+        let rows = r.len() / used.len();
+        r.chunks(rows).zip(used).filter(|(_, u)| **u).flat_map(|(w, _)| w.iter().copied()).collect()
+    };
+    let constant = |&k: &usize| {
+        let c = &part.constants()[k];
+        let [least, largest] = c.bounds;
+        let constant = FreeConstant::new(start.x[k].clamp(least, largest), c.scale).within(least, largest);
+        FreeConstant { relative: true, longest: LONGEST, difference: DIFFERENCE, ..constant }
+    };
+    let settings =
+        Settings { iterations, first_damping: DAMPING, least_relative_fall: CONVERGED, ..Settings::default() };
+
+    let residuals = Residuals::new(free.iter().map(constant).collect(), misfit).with_loss(Loss::Huber(1.0));
+    residuals.fit(&settings).map_or_else(
+        |_| (start.clone(), f64::INFINITY),
+        |fitted| (Model { law: start.law, x: with(&fitted.values) }, fitted.cost),
+    )
 }
 
 /// Fits a set of elements on all windows and without each fold. `near` is a fit that begins close by.
@@ -245,7 +209,7 @@ pub(crate) fn attempt<P: Part>(
 impl<L: Copy> Trial<L> {
     /// Mean left-out loss.
     pub(crate) fn level(&self) -> f64 {
-        mean(&self.loss).0
+        mean_with_error(&self.loss).0
     }
 
     pub(crate) fn has(&self, e: Element) -> bool {
@@ -292,11 +256,9 @@ pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
     let rows = r.len() / windows.list.len();
     let columns = columns(part, &t.model, &t.free, &r);
     // Beyond the unit the loss is linear and has no curvature.
-    let curved: Vec<Vec<f64>> =
-        columns.iter().map(|c| c.iter().zip(&r).map(|(c, r)| if r.abs() < 1.0 { *c } else { 0.0 }).collect()).collect();
-    let bread = normal(&r, &curved, rows, &vec![true; windows.list.len()]).matrix;
     let n = t.free.len();
-    let Some((inverse, _)) = solve_spd(&bread, &Mat::identity(n, n)) else { return vec![None; n] };
+    let curved = Mat::from_fn(r.len(), n, |i, c| if r[i].abs() < 1.0 { columns[c][i] } else { 0.0 });
+    let Some(inverse) = inverse_spd(&(curved.transpose() * &curved)) else { return vec![None; n] };
     let mut scores = Mat::<f64>::zeros(n, windows.blocks);
     for (w, window) in windows.list.iter().enumerate() {
         for i in w * rows..(w + 1) * rows {

@@ -64,14 +64,6 @@ impl Windows {
     }
 }
 
-/// Mean and its standard error.
-pub(crate) fn mean(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n.max(1.0);
-    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
-    (mean, (square / (n * (n - 1.0)).max(1.0)).sqrt())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

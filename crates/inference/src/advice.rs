@@ -2,7 +2,7 @@
 
 use verdict::{Advice, Contender, Manoeuvre};
 
-use crate::entropy::entropy;
+use crate::expected_information::entropy;
 
 /// A gain this small, bits, is none.
 pub const LEAST_BITS: f64 = 0.005;

@@ -1,17 +1,21 @@
-//! One inference behind all kinds of robots.
+#![doc = include_str!("../README.md")]
 
+#[cfg(feature = "solver")]
 pub mod advice;
+#[cfg(feature = "solver")]
+pub mod algebra;
 mod corrected;
-pub mod entropy;
 mod error;
+pub mod evidence;
+#[cfg(feature = "solver")]
+pub mod expected_information;
 pub mod hypothesis;
-pub mod linalg;
+#[cfg(feature = "solver")]
+pub mod least_squares;
 mod options;
+pub mod robust;
 pub mod words;
 
 pub use corrected::{Corrected, active, in_catalogue};
 pub use error::DiagnosisError;
 pub use options::Options;
-
-/// Half the width of a 90 % interval in sigmas.
-pub const NINETY: f64 = 1.645;

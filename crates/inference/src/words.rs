@@ -3,8 +3,8 @@
 use robot_model::Card;
 use verdict::Cause;
 
-use crate::NINETY;
 use crate::hypothesis::{Place, Variant};
+use crate::robust::NINETY;
 
 /// A side by its index: 0 left, 1 right.
 pub fn side(s: usize) -> &'static str {

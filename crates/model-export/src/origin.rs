@@ -1,5 +1,6 @@
 //! Where the values of a model come from, as comments.
 
+use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::effect::{Card, Parameter};
 use verdict::Cause;
@@ -8,9 +9,6 @@ use crate::at::At;
 use crate::engine::Way;
 use crate::model::Model;
 use crate::number::number;
-
-/// Half of a 90 % interval, in sigmas.
-const NINETY: f64 = 1.645;
 
 /// A part of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use verdict::{Cause, Cell, Diagnosis, FreeRun, Span};
 
-/// Half the width of a 90 % interval in sigmas of a normal distribution.
-pub const NINETY: f64 = 1.645;
+pub use inference::robust::NINETY;
+
 /// Intervals shown per cause.
 const INTERVALS: usize = 3;
 

@@ -1,4 +1,5 @@
-//! Order statistics of small samples.
+//! Order statistics of small samples, by the rule of `inference::robust` (type 7). They stay here because the paper's
+//! experiments build with what they need and nothing else.
 
 /// The sorted values, NaN last.
 pub fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {

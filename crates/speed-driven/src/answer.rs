@@ -3,6 +3,7 @@
 use crate::name::{Named, Naming};
 use crate::words::{clocks, sentences};
 use crate::{SpeedRun, SteadyCase};
+use inference::evidence::{is_within_odds, probabilities};
 use inference::hypothesis::Place;
 use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
 
@@ -41,18 +42,15 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
             effects.push(e);
         }
     }
-    let top = effects.first().map_or(0.0, |e| e.score).max(naming.unknown).max(0.0);
-    let weight = |s: f64| (s - top).exp();
-    let sum = weight(0.0) + weight(naming.unknown) + effects.iter().map(|e| weight(e.score)).sum::<f64>();
-    let (none, unknown) = (weight(0.0) / sum, weight(naming.unknown) / sum);
+    let scores: Vec<f64> = [0.0, naming.unknown].into_iter().chain(effects.iter().map(|e| e.score)).collect();
+    let shares = probabilities(&scores, 1.0);
+    let (none, unknown, of_effects) = (shares[0], shares[1], &shares[2..]);
     out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
     // An effect is as probable as all hypotheses that contain it; its size is that alone.
     let mut causes: Vec<Cause> = Vec::new();
     // Singles first: a size beside another effect is not the size alone.
-    let singles_first =
-        effects.iter().filter(|e| e.parts.len() == 1).chain(effects.iter().filter(|e| e.parts.len() > 1));
-    for e in singles_first {
-        let p = weight(e.score) / sum;
+    let (singles, pairs): (Vec<_>, Vec<_>) = effects.iter().zip(of_effects).partition(|(e, _)| e.parts.len() == 1);
+    for (e, &p) in singles.into_iter().chain(pairs) {
         for part in 0..e.parts.len() {
             match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
                 Some(c) => c.probability += p,
@@ -86,7 +84,9 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
     effects
         .iter()
         .filter(|e| {
-            e.parts.len() == best.parts.len() && e.score > (best.score - INDISTINGUISHABLE).max(-LEAST_PLAUSIBLE)
+            e.parts.len() == best.parts.len()
+                && is_within_odds(e.score, best.score, INDISTINGUISHABLE)
+                && e.score > -LEAST_PLAUSIBLE
         })
         .filter_map(|e| {
             let ids = e.ids();

@@ -5,10 +5,10 @@
 //! Kalman filter and Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets and the slow change `c` of the
 //! rolling load (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
 
+use inference::robust::median;
 use nalgebra::{SMatrix, SVector};
 
 use crate::clock::interpolate;
-use crate::median::median;
 use crate::run::SpeedRun;
 use crate::straight::Reading;
 

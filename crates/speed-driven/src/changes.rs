@@ -7,11 +7,11 @@ use crate::attitude::{Attitude, attitude};
 use crate::extract::CLASSES;
 use crate::jumps::jumps;
 use crate::level::levels;
-use crate::median::median;
 use crate::name::UNNAMED_STRAIGHT;
 use crate::run::SpeedRun;
 use crate::slopes::slopes;
 use crate::straight::{Reading, readings};
+use inference::robust::median;
 use verdict::{Changes, Hidden, Word};
 
 pub(super) const GRADE: Word = Word::Borrowed("grade");

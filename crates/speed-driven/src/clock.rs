@@ -1,5 +1,6 @@
 //! Two clocks that drift: the gyro's against the speeds', from the turning itself and no assumed track.
 
+use inference::robust::{quantile, sorted};
 /// Nodes of the warp, s.
 const NODE: f64 = 2.0;
 /// Largest lag and its grid, s.
@@ -38,10 +39,11 @@ pub struct Alignment {
 impl Alignment {
     /// Median and 90 % quantile of the errors on turns left out, s; `None` below three turns.
     pub fn error(&self) -> Option<[f64; 2]> {
-        let mut sizes: Vec<f64> = self.left_out.iter().map(|e| e.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let at = |share: f64| sizes[(share * (sizes.len() - 1) as f64).round() as usize];
-        (sizes.len() >= 3).then(|| [at(0.5), at(0.9)])
+        let sizes = sorted(self.left_out.iter().map(|e| e.abs()));
+        if sizes.len() < 3 {
+            return None;
+        }
+        Some([quantile(&sizes, 0.5)?, quantile(&sizes, 0.9)?])
     }
 }
 

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 use verdict::{Load, Quantity, Ratio};
 
 use crate::extract::CLASSES;
-
-/// 90 % of a Gaussian lies within this many sigmas.
-pub(crate) const NINETY: f64 = 1.645;
+use inference::robust::NINETY;
 
 /// A reference value of a quantity: logarithm (or value), its standard error, its speeds.
 #[derive(Debug, Clone)]

@@ -5,6 +5,7 @@
 
 use crate::run::SpeedRun;
 use crate::straight::{STRAIGHT, is_straight};
+use inference::robust::effective_number;
 use verdict::{Load, Quantity, Withheld};
 
 /// Least steady driving for an answer, samples at least and seconds.
@@ -79,8 +80,7 @@ fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Op
     let pieces = pieces(run, rows);
     let n = rows.len() as f64;
     let mean = rows.iter().map(|&i| value(i)).sum::<f64>() / n;
-    let squares: f64 = pieces.iter().map(|p| (p.len() as f64).powi(2)).sum();
-    let effective = n * n / squares;
+    let effective = effective_number(pieces.iter().map(|p| p.len() as f64));
     let scatter: f64 =
         pieces.iter().map(|p| (p.iter().map(|&i| value(i)).sum::<f64>() - p.len() as f64 * mean).powi(2)).sum();
     let small = if effective > 1.5 { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
@@ -185,8 +185,8 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     }
     let b = dd / dw;
     let pieces = pieces(run, &rows);
-    let weights: Vec<f64> = pieces.iter().map(|p| p.iter().map(|&i| run.difference(i).powi(2)).sum()).collect();
-    let effective = dd * dd / weights.iter().map(|w| w * w).sum::<f64>();
+    let weight = |p: &Vec<usize>| p.iter().map(|&i| run.difference(i).powi(2)).sum::<f64>();
+    let effective = effective_number(pieces.iter().map(weight));
     if effective <= 1.5 {
         return Err(refuse("one short turn only: nothing tells how it scatters".to_owned()));
     }

@@ -3,8 +3,8 @@
 use crate::clock::TURN;
 use crate::extract::extract;
 use crate::law::{Law, error, fit, torques};
-use crate::median::median;
 use crate::run::SpeedRun;
+use inference::robust::{median, rms};
 use verdict::{Forecast, Quantity};
 
 /// Recordings shorter than this are not split, s; nor those that turn less in either part, s.
@@ -60,34 +60,35 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
         });
     }
     if let Some(yaw) = &run.yaw_rate {
-        let rms = |b: f64, lag: f64, from: usize, until: usize| {
+        let of_track = |b: f64, lag: f64, from: usize, until: usize| {
             let follow = followed(run, lag);
-            root_mean_square((from..until).map(|i| follow[i] / b - yaw[i]))
+            rms_of_known((from..until).map(|i| follow[i] / b - yaw[i]))
         };
         let lag_of = |b: f64| {
-            LAGS.into_iter().min_by(|x, y| rms(b, *x, 0, split).total_cmp(&rms(b, *y, 0, split))).unwrap_or(0.0)
+            LAGS.into_iter()
+                .min_by(|x, y| of_track(b, *x, 0, split).total_cmp(&of_track(b, *y, 0, split)))
+                .unwrap_or(0.0)
         };
         let own = effective_track(&run.head(split)).unwrap_or(nominal.track);
         let known: Vec<f64> = yaw[..split].iter().copied().filter(|w| w.is_finite()).collect();
         let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
-        let level = root_mean_square(yaw[split..].iter().map(|w| w - mean));
+        let level = rms_of_known(yaw[split..].iter().map(|w| w - mean));
         out.push(Forecast {
             recording: run.name.clone(),
             quantity: "yaw rate, rad/s".into(),
             interval: [run.time[split], last],
-            nominal: rms(nominal.track, 0.0, split, rows),
+            nominal: of_track(nominal.track, 0.0, split, rows),
             retuned: level,
-            corrected: rms(own, lag_of(own), split, rows),
+            corrected: of_track(own, lag_of(own), split, rows),
             placebos: Vec::new(),
         });
     }
     out
 }
 
-/// Of what is known: rows without a yaw rate are left out.
-fn root_mean_square(errors: impl Iterator<Item = f64>) -> f64 {
-    let (sum, n) = errors.filter(|e| e.is_finite()).fold((0.0, 0.0), |(sum, n), e| (sum + e * e, n + 1.0));
-    (sum / f64::max(n, 1.0)).sqrt()
+/// Root mean square of what is known: rows without a yaw rate are left out.
+fn rms_of_known(errors: impl Iterator<Item = f64>) -> f64 {
+    rms(errors.filter(|e| e.is_finite())).unwrap_or(0.0)
 }
 
 /// Effective track from steady turning, m.

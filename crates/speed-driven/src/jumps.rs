@@ -1,10 +1,10 @@
 //! Jumps of the straight load, by currents.
 
 use crate::changes::{APART, GRADE, ROLLING, Usual, class, pieces};
-use crate::compare::NINETY;
 use crate::name::UNNAMED_STRAIGHT;
 use crate::run::SpeedRun;
 use crate::straight::{Reading, reads_nothing};
+use inference::robust::NINETY;
 use verdict::LoadChange;
 
 /// A change shorter than this is not told, s of straight driving.

@@ -4,10 +4,9 @@
 //! `dx/ds = (tanh(κ/κ₀) − x)/d`, `κ` the difference over the larger of the speeds, `s` the way of the faster side; the
 //! drive follows its set speeds with a lag. Unsigned currents show what drives and nothing of what brakes.
 
-use faer::Mat;
+use inference::least_squares::{Constant, Loss, Residuals, Settings};
 
 use crate::run::SpeedRun;
-use inference::linalg::solve_spd;
 
 /// Free constants of every law.
 pub(crate) const CONSTANTS: usize = 6;
@@ -119,57 +118,28 @@ pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f
 
 /// Residual beyond which a row counts less, N m.
 const FAR_OFF: f64 = 3.0;
-/// Steps of the fit and of its derivatives (share of the way from bound to bound), first damping.
+/// Steps of the fit and of its derivatives (share of the way from bound to bound), first damping, and what holds a
+/// constant that shows in no torque.
 const STEPS: usize = 25;
 const SHIFT: f64 = 1e-4;
 const DAMPING: f64 = 1e-2;
+const RIDGE: f64 = 1e-6;
 
-/// Fits a law to the rows before `until` (Levenberg–Marquardt, soft-L1 loss, within bounds).
+/// Fits a law to the rows before `until` (soft-L1 loss, within bounds); where it starts if it has no torque there.
 pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Constants {
-    let [mut x, low, high] = begin(law, straight);
-    let span: Constants = std::array::from_fn(|k| high[k] - low[k]);
-    let residuals = |c: &Constants| -> Vec<f64> {
-        let rows = torques(law, c, run);
+    let [start, low, high] = begin(law, straight);
+    let constant = |k: usize| {
+        let constant = Constant::new(start[k], high[k] - low[k]).within(low[k], high[k]);
+        Constant { difference: SHIFT, ridge: RIDGE, ..constant }
+    };
+    let misfit = |x: &[f64]| -> Vec<f64> {
+        let rows = torques(law, &std::array::from_fn(|k| x[k]), run);
         (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
     };
-    let cost = |r: &[f64]| r.iter().map(|e| 2.0 * ((1.0 + (e / FAR_OFF).powi(2)).sqrt() - 1.0)).sum::<f64>();
-    let mut r = residuals(&x);
-    let (mut best, mut damping) = (cost(&r), DAMPING);
-    for _ in 0..STEPS {
-        let columns: Vec<Vec<f64>> = (0..CONSTANTS)
-            .map(|k| {
-                let mut shifted = x;
-                let h = SHIFT * span[k] * if x[k] + SHIFT * span[k] > high[k] { -1.0 } else { 1.0 };
-                shifted[k] += h;
-                residuals(&shifted).iter().zip(&r).map(|(a, b)| (a - b) / h * span[k]).collect()
-            })
-            .collect();
-        let w: Vec<f64> = r.iter().map(|e| (1.0 + (e / FAR_OFF).powi(2)).powf(-0.5)).collect();
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&w).map(|((a, b), w)| a * b * w).sum::<f64>();
-        let normal = Mat::from_fn(CONSTANTS, CONSTANTS, |a, b| dot(&columns[a], &columns[b]));
-        let gradient = Mat::from_fn(CONSTANTS, 1, |a, _| -dot(&columns[a], &r));
-        let mut improved = false;
-        while damping < 1e6 && !improved {
-            let damped = Mat::from_fn(CONSTANTS, CONSTANTS, |a, b| {
-                normal[(a, b)] + if a == b { damping * (normal[(a, a)] + 1e-6) } else { 0.0 }
-            });
-            let Some((step, _)) = solve_spd(&damped, &gradient) else { break };
-            let next: Constants = std::array::from_fn(|k| (x[k] + step[(k, 0)] * span[k]).clamp(low[k], high[k]));
-            let trial = residuals(&next);
-            let value = cost(&trial);
-            improved = value < best - 1e-9 * best.abs();
-            if improved {
-                (x, r, best) = (next, trial, value);
-                damping = (damping * 0.3).max(1e-9);
-            } else {
-                damping *= 4.0;
-            }
-        }
-        if !improved {
-            break;
-        }
-    }
-    x
+    let settings = Settings { iterations: STEPS, first_damping: DAMPING, ..Settings::default() };
+
+    let residuals = Residuals::new((0..CONSTANTS).map(constant).collect(), misfit).with_loss(Loss::SoftL1(FAR_OFF));
+    residuals.fit(&settings).map_or(start, |fitted| std::array::from_fn(|k| fitted.values[k]))
 }
 
 /// What was recorded of a side's torque at a row: a magnitude where only that is known, N m.

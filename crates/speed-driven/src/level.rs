@@ -1,8 +1,8 @@
 //! A load that is constant but for jumps: the cheapest such course through readings of which some are only bounds.
 
+use inference::robust::{MAD_TO_SIGMA, median};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::median::median;
 use crate::straight::Reading;
 
 /// Levels on the grid, as multiples of the usual load: from a steep descent to five times the usual.
@@ -27,7 +27,7 @@ fn scatter(readings: &[Option<Reading>], usual: f64) -> f64 {
         return USUAL_SCATTER * usual;
     }
     let step = median(exact.windows(2).map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0);
-    (1.4826 / std::f64::consts::SQRT_2 * step).max(LEAST_SCATTER * usual)
+    (MAD_TO_SIGMA / std::f64::consts::SQRT_2 * step).max(LEAST_SCATTER * usual)
 }
 
 /// The level at each row: piecewise constant, penalised by its jumps (a Potts functional, solved exactly on a grid of

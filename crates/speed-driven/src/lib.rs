@@ -14,7 +14,6 @@ mod forecast;
 mod jumps;
 mod law;
 mod level;
-mod median;
 mod model;
 mod name;
 mod next;
@@ -42,7 +41,6 @@ use model::{Measured, tune};
 use name::{Comparison, Difference, name};
 
 pub use clock::{Alignment, align, box_mean, interpolate};
-pub(crate) use compare::NINETY;
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming, UNNAMED_STRAIGHT};
 pub use run::{BodyRates, SpeedRun};

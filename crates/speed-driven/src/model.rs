@@ -1,22 +1,25 @@
 //! The plant in steady driving: what loads it predicts, and its calibration on the references' loads.
 
 use faer::Mat;
+use inference::least_squares::{Constant, Residuals, Settings};
 use robot_model::tunable::COUNT as NUISANCES;
 use robot_model::{Active, Plant, Robot, State};
 use verdict::Quantity;
 
 use crate::run::SpeedRun;
 use inference::hypothesis::Dose;
-use inference::linalg::solve_spd;
 use robot_model::tunable::tuned;
 
 /// Integration step, s.
 const STEP: f64 = 2e-3;
 /// Headings over which a turn is averaged.
 const HEADINGS: usize = 6;
-/// Gauss–Newton steps of the calibration and the size of finite steps, in sigmas.
-const STEPS: usize = 6;
+/// Gauss–Newton steps of the calibration at most; the size of finite steps, the longest step and the farthest value,
+/// in sigmas.
+const STEPS: usize = 12;
 const SHIFT: f64 = 0.2;
+const LONGEST: f64 = 1.0;
+const FARTHEST: f64 = 4.0;
 
 /// Speed below which a braking side reads its braking current, without sign, m/s.
 const BRAKING_READS: f64 = 0.12;
@@ -108,27 +111,20 @@ pub(crate) fn sensitivity(
 
 /// Tunes the robot to measured loads, with the robot file's sigmas as prior.
 pub(crate) fn tune(robot: &Robot<f64>, sigma: &[f64; NUISANCES], data: &[Measured]) -> Option<Tuned> {
-    let at: Vec<Operating> = data.iter().map(|d| d.at).collect();
-    let mut theta = [0.0; NUISANCES];
-    let mut covariance = Mat::identity(NUISANCES, NUISANCES);
-    for _ in 0..STEPS {
-        let j = sensitivity(robot, sigma, &theta, &at);
+    let misfit = |x: &[f64]| -> Vec<f64> {
+        let theta = std::array::from_fn(|k| x[k]);
         let r = tuned(robot, sigma, &theta);
-        let w: Vec<f64> = data.iter().map(|d| d.error.powi(-2)).collect();
-        let residual: Vec<f64> = data.iter().map(|d| d.value - predicted(&r, &[], d.at)).collect();
-        let m = Mat::from_fn(NUISANCES, NUISANCES, |a, b| {
-            f64::from(a == b) + (0..data.len()).map(|i| w[i] * j[(i, a)] * j[(i, b)]).sum::<f64>()
-        });
-        let g = Mat::from_fn(NUISANCES, 1, |a, _| {
-            (0..data.len()).map(|i| w[i] * j[(i, a)] * residual[i]).sum::<f64>() - theta[a]
-        });
-        let (step, _) = solve_spd(&m, &g)?;
-        for (k, t) in theta.iter_mut().enumerate() {
-            *t = (*t + step[(k, 0)].clamp(-1.0, 1.0)).clamp(-4.0, 4.0);
-        }
-        covariance = solve_spd(&m, &Mat::identity(NUISANCES, NUISANCES))?.0;
-    }
-    Some(Tuned { theta, covariance })
+        data.iter().map(|d| (predicted(&r, &[], d.at) - d.value) / d.error).collect()
+    };
+    let tunable = Constant {
+        longest: LONGEST,
+        difference: SHIFT,
+        ..Constant::new(0.0, 1.0).within(-FARTHEST, FARTHEST).known(0.0, 1.0)
+    };
+    let settings = Settings { iterations: STEPS, ..Settings::gauss_newton() };
+
+    let fitted = Residuals::new(vec![tunable; NUISANCES], misfit).fit(&settings).ok()?;
+    Some(Tuned { theta: std::array::from_fn(|k| fitted.values[k]), covariance: fitted.covariance? })
 }
 
 /// What a robot's sensors would show row by row, by its speeds alone: in steady motion plus inertia.

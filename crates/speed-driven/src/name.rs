@@ -1,6 +1,9 @@
 //! Which effects could make the loads differ as they do.
 
 use faer::Mat;
+use inference::algebra::{inverse_spd, whitening};
+use inference::evidence::price_of_a_constant;
+use inference::least_squares::{Constant, Residuals, Settings};
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::effect::Role;
@@ -8,9 +11,9 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
 use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
+use inference::algebra::solve_spd;
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Free, Place, Variant, variants};
-use inference::linalg::solve_spd;
 use robot_model::tunable::tuned;
 
 /// One difference between a recording and the references, on the comparison scale.
@@ -80,7 +83,12 @@ const MEDIUM_ROBOT: [f64; 3] = [20.0, 20.0, 0.36];
 /// Price of naming an effect, and of "unknown", nats.
 const PER_EFFECT: f64 = 3.0;
 const PER_UNKNOWN: f64 = 4.0;
+/// Steps of a fit at most, the gain below which it has arrived (nats), its finite steps (medium sizes), and what holds
+/// a size that shows in no load.
 const STEPS: usize = 8;
+const LEAST_GAIN: f64 = 1e-2;
+const SHIFT: f64 = 0.1;
+const RIDGE: f64 = 1e-6;
 /// An effect whose response is weaker than this at a medium size does not show in steady loads.
 const LEAST_RESPONSE: f64 = 1e-3;
 /// Single effects that are tried with a second one.
@@ -93,7 +101,7 @@ fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], ca
     let there: Vec<Operating> = d.iter().map(|d| d.reference.at).collect();
     let j = sensitivity(robot, sigma, &calibrated.theta, &here) - sensitivity(robot, sigma, &calibrated.theta, &there);
     let tuning = &j * &calibrated.covariance * j.transpose();
-    let unnamed = (UNNAMED_STRAIGHT.ln() / crate::compare::NINETY).powi(2);
+    let unnamed = (UNNAMED_STRAIGHT.ln() / inference::robust::NINETY).powi(2);
     Mat::from_fn(d.len(), d.len(), |a, b| {
         let (x, y) = (&d[a], &d[b]);
         let same = x.here.at.quantity == y.here.at.quantity;
@@ -117,6 +125,7 @@ pub(crate) struct Comparison<'a> {
     differences: &'a [Difference],
     model: Robot<f64>,
     weight: Mat<f64>,
+    whitening: Mat<f64>,
     measured: Vec<f64>,
     /// Predictions at the references' operating points.
     there: Vec<f64>,
@@ -131,12 +140,12 @@ impl<'a> Comparison<'a> {
         sigma: &[f64; NUISANCES],
         calibrated: &Tuned,
     ) -> Option<Self> {
-        let n = differences.len();
         let model = tuned(robot, sigma, &calibrated.theta);
         let c = covariance(differences, robot, sigma, calibrated);
         let mut out = Self {
             differences,
-            weight: solve_spd(&c, &Mat::identity(n, n))?.0,
+            weight: inverse_spd(&c)?,
+            whitening: whitening(&c)?,
             measured: differences.iter().map(|d| d.here.value - d.reference.value).collect(),
             there: differences.iter().map(|d| predicted(&model, &[], d.reference.at)).collect(),
             plain: Vec::new(),
@@ -169,88 +178,58 @@ impl<'a> Comparison<'a> {
         PLAUSIBLE * f.unit * size
     }
 
-    /// Price of a free number: half the logarithm of how many differences it is fitted to.
-    fn price(&self) -> f64 {
-        0.5 * (self.differences.len() as f64).max(2.0).ln()
+    /// Whether a medium size of any of these effects shows in the loads at `values`.
+    fn shows(&self, parts: &[Variant], free: &[(&Variant, Free)], values: &[f64]) -> bool {
+        let r = self.residual(&doses(parts, values));
+        (0..free.len()).any(|i| {
+            let mut shifted = values.to_vec();
+            shifted[i] += SHIFT * free[i].1.unit;
+            let moved = self.residual(&doses(parts, &shifted));
+            let column: Vec<f64> = moved.iter().zip(&r).map(|(a, b)| (a - b) / SHIFT).collect();
+            self.quadratic(&column, &column) >= LEAST_RESPONSE
+        })
     }
 
-    /// Gauss–Newton on the free values of one or two effects from their neutral values (or from `start`).
+    /// Fits the free values of one or two effects from their neutral values (or from `start`).
     pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
-        let free: Vec<_> = parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
-        let neutral = |v: &Variant, f: &Free| f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
-        let mut e: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
-        if let Some(s) = start {
-            e[..s.len()].copy_from_slice(s);
-        }
-        let mut r = self.residual(&doses(parts, &e));
-        let rest: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
-        let width: Vec<f64> = free.iter().map(|(v, f)| self.plausible(v, f)).collect();
-        let prior = |e: &[f64]| -> f64 {
-            e.iter()
-                .zip(&rest)
-                .zip(&width)
-                .map(|((e, r), w)| if r.abs() < 1e6 { 0.5 * ((e - r) / w).powi(2) } else { 0.0 })
-                .sum()
+        let free: Vec<(&Variant, Free)> =
+            parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
+        let constant = |(i, (v, f)): (usize, &(&Variant, Free))| {
+            let neutral = f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
+            let begin = start.and_then(|s| s.get(i)).copied().unwrap_or(neutral);
+            let width = self.plausible(v, f);
+            let constant = Constant::new(begin.clamp(f.bounds[0], f.bounds[1]), f.unit);
+            let (longest, difference, ridge) = (width / f.unit, SHIFT, RIDGE);
+            Constant { longest, difference, ridge, ..constant.within(f.bounds[0], f.bounds[1]).known(neutral, width) }
         };
-        let mut left = 0.5 * self.quadratic(&r, &r) + prior(&e);
-        let mut sigma = vec![f64::INFINITY; e.len()];
-        let mut occam = 0.0;
-        for _ in 0..STEPS {
-            let columns: Vec<Vec<f64>> = free
-                .iter()
-                .enumerate()
-                .map(|(i, (_, f))| {
-                    let mut shifted = e.clone();
-                    let h = 0.1 * f.unit;
-                    shifted[i] += h;
-                    self.residual(&doses(parts, &shifted)).iter().zip(&r).map(|(a, b)| (b - a) / h * f.unit).collect()
-                })
-                .collect();
-            let k = columns.len();
-            let m = Mat::from_fn(k, k, |a, b| {
-                self.quadratic(&columns[a], &columns[b])
-                    + if a == b { 1e-6 + (free[a].1.unit / width[a]).powi(2) } else { 0.0 }
-            });
-            if (0..k).all(|i| self.quadratic(&columns[i], &columns[i]) < LEAST_RESPONSE) {
-                return None;
-            }
-            let g = Mat::from_fn(k, 1, |a, _| {
-                self.quadratic(&columns[a], &r) - (e[a] - rest[a]) * free[a].1.unit / width[a].powi(2)
-            });
-            let (step, _) = solve_spd(&m, &g)?;
-            let (inverse, _) = solve_spd(&m, &Mat::identity(k, k))?;
-            // Price of the free numbers: how far the data narrow them down from what was plausible before.
-            let scaled = Mat::from_fn(k, k, |a, b| m[(a, b)] * width[a] / free[a].1.unit * width[b] / free[b].1.unit);
-            occam = solve_spd(&scaled, &Mat::zeros(k, 1)).map_or(0.0, |s| 0.5 * s.1);
-            sigma = (0..k).map(|i| inverse[(i, i)].max(0.0).sqrt() * free[i].1.unit).collect();
-            let mut share = 1.0;
-            let mut moved = false;
-            for _ in 0..6 {
-                let next: Vec<f64> = e
-                    .iter()
-                    .zip(&free)
-                    .enumerate()
-                    .map(|(i, (e, (_, f)))| {
-                        let d = (step[(i, 0)] * f.unit).clamp(-width[i], width[i]);
-                        (e + share * d).clamp(f.bounds[0], f.bounds[1])
-                    })
-                    .collect();
-                let r2 = self.residual(&doses(parts, &next));
-                let left2 = 0.5 * self.quadratic(&r2, &r2) + prior(&next);
-                if left2 < left {
-                    moved = left - left2 > 1e-2;
-                    (e, r, left) = (next, r2, left2);
-                    break;
-                }
-                share *= 0.5;
-            }
-            if !moved {
-                break;
-            }
+        let constants: Vec<Constant> = free.iter().enumerate().map(constant).collect();
+        let begin: Vec<f64> = constants.iter().map(|c| c.start).collect();
+        if !self.shows(parts, &free, &begin) {
+            return None;
         }
-        let paid = occam + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
-        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - left - paid;
-        Some(Named { parts: parts.to_vec(), values: e, sigma, score })
+
+        let settings = Settings {
+            iterations: STEPS,
+            least_fall: LEAST_GAIN,
+            least_relative_fall: 0.0,
+            ..Settings::gauss_newton()
+        };
+        let misfit = |values: &[f64]| self.whitened(&self.residual(&doses(parts, values)));
+        let fitted = Residuals::new(constants, misfit).fit(&settings).ok()?;
+        if fitted.covariance.is_none() || !self.shows(parts, &free, &fitted.values) {
+            return None;
+        }
+
+        // Price of the free numbers: how far the data narrow them down from what was plausible before.
+        let paid = fitted.occam() + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
+        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost - paid;
+        let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
+        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score })
+    }
+
+    /// Residuals of unit variance that do not go together.
+    fn whitened(&self, r: &[f64]) -> Vec<f64> {
+        (0..r.len()).map(|i| (0..=i).map(|k| self.whitening[(i, k)] * r[k]).sum()).collect()
     }
 
     /// Evidence for a factor of its own for each quantity, which nothing ties together.
@@ -264,7 +243,7 @@ impl<'a> Comparison<'a> {
         let g = a.transpose() * &self.weight * &r;
         let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
         let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
-        Some(explained - (self.price() + PER_UNKNOWN) * m as f64)
+        Some(explained - (price_of_a_constant(n) + PER_UNKNOWN) * m as f64)
     }
 }
 

@@ -4,15 +4,15 @@
 //! `d = ½ Δμᵀ (R + S P Sᵀ)⁻¹ Δμ` with the scatter and tuning doubt of the loads in R and its own doubt of sizes in P.
 
 use faer::Mat;
+use inference::expected_information::{Forecast, expected_bits, widest_pair};
+use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Advice, Contender, Course, Manoeuvre, Quantity, WIDENING};
 
-use crate::{NINETY, Named, Naming, Operating, Tuned, UNNAMED_STRAIGHT};
-use crate::{predicted, sensitivity};
+use crate::{Named, Naming, Operating, Tuned, UNNAMED_STRAIGHT, predicted, sensitivity};
 use inference::advice::{LEAST_BITS, among, nothing_to_split, sorted};
-use inference::entropy::{View, expected_bits};
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
 /// Rivals less probable than this are none, and how many there are at most.
@@ -116,7 +116,7 @@ pub(crate) fn advise_steady(
         let Some(views) = views(&model, &at, &doubt, &rivals) else { continue };
         let mut m = Manoeuvre::new(drive.name, course(&drive, robot), [0.0; 3]);
         m.expected_bits = expected_bits(&p, &views, TEMPERATURE);
-        if let Some((k, l)) = widest(&p, &views) {
+        if let Some((k, l)) = widest_pair(&p, &views, TEMPERATURE) {
             let [a, b] = [k, l].map(|i| rivals[i].contender.name.clone());
             m.why = why(&at, &model, &rivals[k], &rivals[l]);
             m.splits = Some([a, b]);
@@ -178,7 +178,7 @@ fn by_sizes(model: &Robot<f64>, at: &[Operating], named: &Named, base: &[f64]) -
     Mat::from_fn(at.len(), columns.len(), |i, c| columns[c][i])
 }
 
-fn views(model: &Robot<f64>, at: &[Operating], doubt: &Mat<f64>, rivals: &[Rival<'_>]) -> Option<Vec<View>> {
+fn views(model: &Robot<f64>, at: &[Operating], doubt: &Mat<f64>, rivals: &[Rival<'_>]) -> Option<Vec<Forecast>> {
     let shown: Vec<Vec<f64>> = rivals.iter().map(|r| loads(model, at, r.named)).collect();
     let (n, m) = (rivals.len(), at.len());
     // What each rival itself lets expect: loads scatter, and its sizes are not known exactly.
@@ -198,21 +198,12 @@ fn views(model: &Robot<f64>, at: &[Operating], doubt: &Mat<f64>, rivals: &[Rival
         let off: Vec<Vec<f64>> = (0..n).map(|l| shown[k].iter().zip(&shown[l]).map(|(a, b)| a - b).collect()).collect();
         let behind: Vec<f64> = (0..n).map(|l| 0.5 * product(&weights[l], &off[l], &off[l])).collect();
         let size: Vec<f64> = (0..n).map(|l| product(&plain, &off[l], &off[l]).max(0.0).sqrt()).collect();
-        let covariance = Mat::from_fn(n, n, |a, b| {
-            let alike =
-                if size[a] * size[b] > 0.0 { product(&plain, &off[a], &off[b]) / (size[a] * size[b]) } else { 0.0 };
-            2.0 * (behind[a] * behind[b]).sqrt() * alike
-        });
-        View { behind, covariance }
+        let alike = |a: usize, b: usize| {
+            if size[a] * size[b] > 0.0 { product(&plain, &off[a], &off[b]) / (size[a] * size[b]) } else { 0.0 }
+        };
+        Forecast::new(behind, alike)
     });
     Some(views.collect())
-}
-
-/// The pair that a drive tells apart best.
-fn widest(p: &[f64], views: &[View]) -> Option<(usize, usize)> {
-    let worth = |(k, l): (usize, usize)| p[k] * p[l] * (1.0 - (-views[k].behind[l]).exp());
-    let pairs = (0..p.len()).flat_map(|k| (0..p.len()).filter(move |l| *l != k).map(move |l| (k, l)));
-    pairs.max_by(|a, b| worth(*a).total_cmp(&worth(*b)))
 }
 
 /// The load in which two rivals differ most.

@@ -1,9 +1,9 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
+use inference::robust::median;
 use recordings::{Channel, Recording, Signal};
 
 use crate::clock::{self, Alignment};
-use crate::median::median;
 use inference::DiagnosisError;
 
 /// One recording of a speed-driven robot. Sides: 0 left, 1 right.

@@ -1,11 +1,10 @@
 //! When inside a recording turning begins or ceases to cost another torque: another ground.
 
-use crate::compare::NINETY;
 use crate::extract::is_steady_turn;
 use crate::level::{PER_SECOND, levels};
-use crate::median::median;
 use crate::run::SpeedRun;
 use crate::straight::Reading;
+use inference::robust::{NINETY, median};
 use verdict::TurningChange;
 
 /// Ratios within this factor are one ground.

@@ -2,8 +2,8 @@
 
 use crate::attitude::Attitude;
 use crate::changes::{DRIVING, GRADE, pieces};
-use crate::compare::NINETY;
 use crate::run::SpeedRun;
+use inference::robust::NINETY;
 use verdict::LoadChange;
 
 /// A slope that is told, degrees, and for how long at least, s.

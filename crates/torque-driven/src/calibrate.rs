@@ -1,6 +1,7 @@
 //! Calibration on the references: what the model explains when nothing is missing, and how well.
 
 use faer::Mat;
+use inference::robust::median;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
@@ -10,7 +11,7 @@ use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
 use crate::gate::Gate;
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 use inference::{DiagnosisError, Options};
 
 /// What the references teach.
@@ -64,9 +65,7 @@ pub(crate) fn kernel_mean(known: impl Iterator<Item = ([f64; 3], f64)>, features
 impl Regimes {
     fn new(mut known: Vec<([f64; 3], f64)>) -> Self {
         known.retain(|k| k.1.is_finite());
-        let mut sorted: Vec<f64> = known.iter().map(|k| k.1).collect();
-        sorted.sort_by(f64::total_cmp);
-        let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let median = median(known.iter().map(|k| k.1)).unwrap_or(0.0);
         let mut out = Self { known, median, scatter: Vec::new() };
         out.scatter =
             (0..out.known.len()).map(|i| out.known[i].1.exp() / out.expected_but(out.known[i].0, Some(i))).collect();

@@ -1,8 +1,8 @@
 //! A candidate of the screen, and the linear problem that weighs it.
 
 use faer::Mat;
+use inference::algebra::{eliminate, select, solve_spd};
 use inference::hypothesis::{Onsets, Variant};
-use inference::linalg::{eliminate, select, solve_spd};
 use robot_model::tunable::COUNT as NUISANCES;
 use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
 

@@ -1,5 +1,7 @@
 //! From fits to probabilities.
 
+use inference::evidence::{logistic, penalty_of_smallness, probabilities};
+
 use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::trial::{Found, Trial};
 use crate::visits;
@@ -58,11 +60,7 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         sum += if v.place == Place::Disc { DISC } else { 0.0 };
         sum += if onsets.iter().any(Option::is_some) { ONSET } else { 0.0 };
         sum += if i > 0 { SECOND } else { 0.0 };
-        let interest = v.card().interest;
-        if interest > 0.0 {
-            let short = (interest / v.magnitude(e).abs().max(1e-12)).ln().max(0.0) / SIZE_WIDTH;
-            sum += 0.5 * short * short;
-        }
+        sum += penalty_of_smallness(v.magnitude(e), v.card().interest, SIZE_WIDTH);
     }
     sum
 }
@@ -80,10 +78,6 @@ pub(crate) fn healthy_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
         }
     }
     f
-}
-
-fn logistic(x: f64) -> f64 {
-    1.0 / (1.0 + (-x).exp())
 }
 
 /// Weighs all hypotheses.
@@ -104,19 +98,19 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
     let none = NONE.max(gate);
-    let top = scored.first().map_or(none, |s| s.score.max(none));
-    let weight = |s: f64| ((s - top) / TEMPERATURE).exp();
-    let sum = weight(none) + scored.iter().map(|s| weight(s.score)).sum::<f64>();
     let healthy = healthy_cost(problem, scatter);
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / healthy.max(1e-9)).ln();
     let left = (best - healthy) / (base.cost - healthy).max(LEAST_MISMATCH);
     let unknown =
         logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
-    for s in &mut scored {
-        s.probability = (1.0 - unknown) * weight(s.score) / sum;
+    // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
+    let scores: Vec<f64> = std::iter::once(none).chain(scored.iter().map(|s| s.score)).collect();
+    let shares = probabilities(&scores, TEMPERATURE);
+    for (s, share) in scored.iter_mut().zip(&shares[1..]) {
+        s.probability = (1.0 - unknown) * share;
     }
-    Decision { scored, none: (1.0 - unknown) * weight(none) / sum, unknown }
+    Decision { scored, none: (1.0 - unknown) * shares[0], unknown }
 }
 
 #[cfg(test)]
@@ -137,5 +131,38 @@ mod tests {
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
         approx::assert_relative_eq!(decision.none + decision.unknown, 1.0, epsilon = 1e-12);
+    }
+
+    /// A fit of an effect everywhere that gained so many nats, without having been fitted.
+    fn gained(problem: &Problem<'_>, retuned: &Fitted, id: &str, gain: f64) -> Trial {
+        let form = problem.variants().into_iter().find(|v| v.card().id == id && v.place == Place::Whole);
+        let hypothesis = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
+        let effects = hypothesis.free(problem.largest_torque).iter().map(|f| f.usual).collect();
+        let mut fitted = retuned.clone();
+        fitted.point.effects = effects;
+        fitted.cost -= gain;
+        Trial { hypothesis, fitted }
+    }
+
+    #[test]
+    fn probabilities_of_all_hypotheses_sum_to_one_and_follow_the_scores() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+        retuned.cost += 100.0;
+        let singles = ["viscous_friction", "rolling_resistance"].map(|id| gained(&problem, &retuned, id, 24.0));
+        let found = Found { retuned, singles: singles.to_vec(), pairs: Vec::new(), screened: Vec::new() };
+        let decision = decide(&problem, &found, &[1.0], 0.0);
+
+        let named: f64 = decision.scored.iter().map(|s| s.probability).sum();
+        approx::assert_relative_eq!(named + decision.none + decision.unknown, 1.0, epsilon = 1e-12);
+        for s in &decision.scored {
+            let odds = ((s.score - NONE) / TEMPERATURE).exp();
+            approx::assert_relative_eq!(s.probability / decision.none, odds, epsilon = 1e-9);
+        }
+        // The score that fault-free drives reach is the least that names anything.
+        let strict = decide(&problem, &found, &[1.0], 100.0);
+        assert!(strict.none > 0.99 * (1.0 - strict.unknown), "{}", strict.none);
     }
 }

@@ -1,8 +1,11 @@
 //! Gauss–Newton in free run: nuisance parameters, run-to-run deviations and the strengths and shapes of effects.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use faer::Mat;
+use inference::algebra::half_quadratic;
+use inference::least_squares::{self, Normal, Parameter, Settings, Step, minimise, saturated, saturation};
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
@@ -25,8 +28,7 @@ pub(crate) const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
 const DEVIATION: [f64; 5] = [0.004, 0.01, 0.01, 0.01, 0.005];
 /// Standard deviation of the offsets between runs before the common factor: rad/s, m/s², m/s².
 pub(crate) const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
-/// Damping of a step that is tried in turn, and the gain below which a fit has arrived, nats.
-const DAMPING: [f64; 5] = [0.0, 0.1, 1.0, 10.0, 100.0];
+/// Gain below which a fit has arrived, nats: a guess, far below what decides between hypotheses.
 const LEAST_GAIN: f64 = 0.05;
 /// Cost of a response that is not finite.
 const HOPELESS: f64 = 1e300;
@@ -236,12 +238,7 @@ impl Problem<'_> {
 
     /// Tempered, saturated cost of a segment, nats.
     pub(crate) fn segment_cost(&self, run: usize, segment: usize, q: f64) -> f64 {
-        let d = self.cuts[run].segments[segment].count;
-        if d == 0.0 {
-            return 0.0;
-        }
-        let c = self.regime[run][segment];
-        0.5 * self.temper * d * self.kappa * (q / (self.kappa * d * c)).ln_1p()
+        self.temper * saturated(q / self.regime[run][segment], self.cuts[run].segments[segment].count, self.kappa)
     }
 
     /// Cost of a response, without priors.
@@ -257,14 +254,8 @@ impl Problem<'_> {
     }
 
     fn prior(&self, point: &Point) -> f64 {
-        let d: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
-        let mut f = 0.0;
-        for i in 0..NUISANCES {
-            for j in 0..NUISANCES {
-                f += 0.5 * d[i] * self.information[(i, j)] * d[j];
-            }
-        }
-        f + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
+        let off: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
+        half_quadratic(&self.information, &off) + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
     }
 
     pub(crate) fn cost(&self, point: &Point, response: &Response) -> f64 {
@@ -272,55 +263,30 @@ impl Problem<'_> {
     }
 
     pub(crate) fn weight(&self, run: usize, segment: usize, q: f64) -> f64 {
-        let d = self.cuts[run].segments[segment].count.max(1.0);
-        let c = self.regime[run][segment];
-        self.temper / (c * (1.0 + q / (self.kappa * d * c)))
+        let regime = self.regime[run][segment];
+        self.temper / regime * saturation(q / regime, self.cuts[run].segments[segment].count, self.kappa)
     }
 
-    /// Gauss–Newton from `start`: at most `steps`, each damped (Levenberg–Marquardt) until the cost falls.
+    /// Gauss–Newton from `start`: at most `steps`, each damped only where it must be until the cost falls.
     ///
     /// The columns of θ are those given; they are renewed before step `renew` if that is reached.
     pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
-        let mut at = start;
-        let free = h.free(self.largest_torque);
-        for step in 0..steps {
-            if renew == Some(step) {
-                at.columns = std::sync::Arc::new(self.nuisance_columns(&at.point, h, &at.response));
-            }
-            let effects = self.effect_columns(&at.point, h, &at.response);
-            let Some(mut normal) = self.normal(&at.point, &at.response, &at.columns, &effects) else { break };
-            self.with_prior(&at.point, &mut normal);
-            let n = normal.matrix.nrows();
-            for i in NUISANCES..n {
-                // A whiff of a prior on strengths keeps what the data do not determine where it is.
-                normal.matrix[(i, i)] += 1e-3;
-            }
-            let mut moved = false;
-            let mut promised = 0.0;
-            for damping in DAMPING {
-                let Some(delta) = Self::bounded_step(&at.point, &normal, &free, damping) else { break };
-                promised = (0..n).map(|i| 0.5 * delta[(i, 0)] * normal.gradient[(i, 0)]).sum();
-                let point = Self::advanced(&at.point, &delta, &normal, &free);
-                let response = self.response(&point, h);
-                let cost = self.cost(&point, &response);
-                if cost < at.cost {
-                    moved = at.cost - cost > LEAST_GAIN;
-                    at = Fitted { point, response, cost, columns: at.columns.clone() };
-                    break;
-                }
-            }
-            if !moved || promised < LEAST_GAIN {
-                break;
-            }
-        }
-        at
+        let settings = Settings {
+            iterations: steps,
+            least_fall: LEAST_GAIN,
+            least_relative_fall: 0.0,
+            least_move: 0.0,
+            ..Settings::gauss_newton()
+        };
+        let fit = FreeRunFit { problem: self, hypothesis: h, free: h.free(self.largest_torque), renew };
+        minimise(&fit, start, &settings).at
     }
 
     /// A fit's first point with its response and columns.
-    pub(crate) fn begin(&self, h: &Hypothesis, point: Point, columns: Option<std::sync::Arc<Columns>>) -> Fitted {
+    pub(crate) fn begin(&self, h: &Hypothesis, point: Point, columns: Option<Arc<Columns>>) -> Fitted {
         let response = self.response(&point, h);
         let cost = self.cost(&point, &response);
-        let columns = columns.unwrap_or_else(|| std::sync::Arc::new(self.nuisance_columns(&point, h, &response)));
+        let columns = columns.unwrap_or_else(|| Arc::new(self.nuisance_columns(&point, h, &response)));
         Fitted { point, response, cost, columns }
     }
 }
@@ -338,7 +304,44 @@ pub(crate) struct Fitted {
     pub(crate) point: Point,
     pub(crate) response: Response,
     pub(crate) cost: f64,
-    pub(crate) columns: std::sync::Arc<Columns>,
+    pub(crate) columns: Arc<Columns>,
+}
+
+/// A fit of the constants and of a hypothesis in free run.
+struct FreeRunFit<'a> {
+    problem: &'a Problem<'a>,
+    hypothesis: &'a Hypothesis,
+    free: Vec<Free>,
+    /// Before which step the columns of θ are renewed.
+    renew: Option<usize>,
+}
+
+impl least_squares::Problem for FreeRunFit<'_> {
+    type Point = Fitted;
+
+    fn cost(&self, at: &Fitted) -> f64 {
+        at.cost
+    }
+
+    fn parameters(&self, at: &Fitted) -> Vec<Parameter> {
+        Problem::parameters(&at.point, &self.free)
+    }
+
+    fn linearise(&self, at: &mut Fitted, iteration: usize) -> Option<Normal> {
+        let p = self.problem;
+        if self.renew == Some(iteration) {
+            at.columns = Arc::new(p.nuisance_columns(&at.point, self.hypothesis, &at.response));
+        }
+        let effects = p.effect_columns(&at.point, self.hypothesis, &at.response);
+        let mut normal = p.normal(&at.point, &at.response, &at.columns, &effects)?;
+        p.with_prior(&at.point, &mut normal);
+        Some(normal)
+    }
+
+    fn moved(&self, from: &Fitted, step: &Step<'_>) -> Option<Fitted> {
+        let point = Problem::advanced(&from.point, step);
+        Some(self.problem.begin(self.hypothesis, point, Some(from.columns.clone())))
+    }
 }
 
 /// `(y − base)·factor`, number by number.

@@ -6,7 +6,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use crate::decide::penalty;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Point, Problem};
 use crate::screen::screen;
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 
 /// Scores that healthy recordings of this robot reach.
 #[derive(Debug, Clone, Default)]
@@ -58,5 +58,45 @@ impl Gate {
     /// The highest score of a healthy recording.
     pub(crate) fn highest(&self) -> f64 {
         self.accusations.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibrate::calibrate;
+    use crate::testing::{cutting, driven};
+    use crate::windows::{Cut, cut};
+    use inference::Options;
+    use inference::hypothesis::Dose;
+    use robot_model::tunable::usual_sigma;
+    use testing::robot;
+
+    /// The highest null score of three references, of which the last carries so much viscous friction, N m s/rad.
+    fn highest(friction: f64) -> f64 {
+        let robot = robot();
+        let viscous = inference::hypothesis::variants(true)
+            .into_iter()
+            .find(|v| v.card().id == "viscous_friction")
+            .expect("in the catalogue");
+        let dose: Vec<Dose> = vec![viscous.dose(&[friction], None)];
+        let cut_of = |doses: &[Dose], seconds| cut(&driven(&robot, doses, seconds), &cutting());
+        let cuts: [Cut; 3] = [cut_of(&[], 8.0), cut_of(&[], 10.0), cut_of(&dose, 12.0)];
+        let calibration = calibrate(&robot, &usual_sigma(), &cuts, 5.0, &Options::default()).expect("determined");
+        let gate = calibration.gate;
+        assert_eq!(gate.accusations.len(), 3);
+        assert!(gate.accusations.iter().all(|(_, score)| *score <= gate.highest()));
+        gate.highest()
+    }
+
+    #[test]
+    fn a_reference_with_an_effect_raises_the_null_score_and_fault_free_ones_do_not() {
+        let (healthy, ill) = (highest(0.0), highest(0.3));
+        assert!(healthy < 0.0 && ill > healthy + 10.0, "fault-free {healthy}, with friction {ill}");
+    }
+
+    #[test]
+    fn a_lone_reference_has_no_null_score() {
+        assert_eq!(Gate::default().highest(), f64::NEG_INFINITY);
     }
 }

@@ -127,3 +127,112 @@ fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
     all.filter(|s| s.trial.hypothesis.parts.len() <= winner.len() && !shared(s))
         .max_by(|a, b| a.score.total_cmp(&b.score))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibrate::{Calibration, Regimes};
+    use crate::case::Case;
+    use crate::decide::Decision;
+    use crate::gate::Gate;
+    use crate::redundancy::Redundant;
+    use crate::testing::{cutting, driven, problem};
+    use crate::trial::Trial;
+    use crate::windows::{CHANNELS, cut};
+    use inference::Options;
+    use inference::hypothesis::Place;
+    use robot_model::tunable::usual_sigma;
+    use testing::robot;
+
+    fn scored(p: &Problem<'_>, id: &str, score: f64) -> Scored {
+        let form = p.variants().into_iter().find(|v| v.card().id == id && v.place == Place::Whole);
+        let h = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
+        let effects = h.free(p.largest_torque).iter().map(|f| f.usual).collect();
+        let fitted = p.begin(&h, Point { effects, ..p.origin() }, None);
+        Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score, probability: 0.4 }
+    }
+
+    /// Forecasts of drives whose effects have been weighed: viscous friction first, then rolling resistance.
+    fn forecasts(cuts: &[Cut]) -> Forecasts {
+        let robot = robot();
+        let p = problem(&robot, cuts);
+        let calibration = Calibration {
+            theta: p.centre,
+            information: p.information.clone(),
+            variance: p.variance,
+            spread: p.spread,
+            regimes: Regimes::default(),
+            gate: Gate::default(),
+        };
+        let case = Case {
+            robot,
+            sigma: usual_sigma(),
+            pose_sigma: 1e-4,
+            references: Vec::new(),
+            recordings: Vec::new(),
+            held_out: Vec::new(),
+        };
+        let all = [("viscous_friction", 30.0), ("rolling_resistance", 10.0), ("viscous_friction", 5.0)];
+        let scored = all.map(|(id, score)| scored(&p, id, score)).to_vec();
+        let answer = Judged {
+            case: &case,
+            options: &Options::default(),
+            problem: &p,
+            references: &[],
+            calibration: &calibration,
+            sensors: &Redundant::default(),
+            decision: &Decision { scored, none: 0.1, unknown: 0.0 },
+        };
+        let placebo = placebo(&answer).expect("a rival").trial.hypothesis.ids();
+        assert_eq!(placebo, ["rolling_resistance"], "the best hypothesis that shares nothing with the winner");
+        leave_one_out(&answer, &p.begin(&Hypothesis::default(), p.origin(), None))
+    }
+
+    #[test]
+    fn a_fit_does_not_see_the_recording_that_it_leaves_out() {
+        let cuts = [8.0, 10.0].map(|seconds| cut(&driven(&robot(), &[], seconds), &cutting()));
+        let before = forecasts(&cuts);
+
+        let mut changed = cuts;
+        for segment in &mut changed[0].segments {
+            segment.observed.iter_mut().step_by(CHANNELS).for_each(|y| *y *= 1.2);
+        }
+        let after = forecasts(&changed);
+
+        let of = |f: &Forecasts, run: usize| (f.left_out[run].point.theta, f.left_out[run].point.effects.clone());
+        assert_eq!(of(&before, 0), of(&after, 0), "the fit for recording 0 saw recording 0");
+        assert_ne!(of(&before, 1), of(&after, 1), "the fit for recording 1 did not see recording 0");
+        // What was changed is forecast worse, by the placebo as well.
+        let wheels = |f: &Forecasts| (f.free_runs[0].corrected, f.free_runs[0].placebo.expect("a placebo"));
+        let ((c0, p0), (c1, p1)) = (wheels(&before), wheels(&after));
+        assert!(c1 > c0 && p1 > p0, "corrected {c0} to {c1}, placebo {p0} to {p1}");
+    }
+
+    #[test]
+    fn a_correction_is_worthwhile_unless_it_forecasts_worse_than_the_calibrated_model() {
+        let robot = robot();
+        let mut cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        for segment in &mut cuts[0].segments {
+            segment.observed.iter_mut().for_each(|y| *y *= 1.1);
+        }
+        let p = problem(&robot, &cuts);
+        let calibrated = p.response(&p.origin(), &Hypothesis::default());
+        let level = rms(&p, &[(0, calibrated[0].clone())]);
+        let runs = |factor: [f64; 2]| {
+            let run = |i: usize| FreeRun {
+                recording: "r".to_owned(),
+                quantity: "q".to_owned(),
+                nominal: level[i],
+                retuned: level[i],
+                corrected: factor[i] * level[i],
+                placebo: None,
+            };
+            [run(0), run(1)]
+        };
+        assert!(is_worthwhile(&p, &calibrated, &runs([0.5, 0.5])));
+        assert!(!is_worthwhile(&p, &calibrated, &runs([1.5, 1.5])));
+        // Shares count, whatever the quantities' sizes: half of one outweighs a fifth more of the other.
+        assert!(is_worthwhile(&p, &calibrated, &runs([1.2, 0.5])));
+        assert!(!is_worthwhile(&p, &calibrated, &runs([3.0, 0.5])));
+    }
+}

@@ -1,6 +1,7 @@
-//! Normal equations of a fit, every run's own numbers eliminated, and the step they promise.
+//! Normal equations of a fit, every run's own numbers eliminated, and where a step leads.
 
 use faer::Mat;
+use inference::least_squares::{Normal, Parameter, Step};
 use rayon::prelude::*;
 use robot_model::tunable::COUNT as NUISANCES;
 
@@ -8,51 +9,24 @@ use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSET_SIGMA, OFFSETS, PER_
 use crate::simulate::Response;
 use crate::windows::CHANNELS;
 use inference::hypothesis::Free;
-use inference::linalg::solve_spd;
 
-/// Normal equations reduced to θ and the effects, with what back-substitution needs.
-pub(crate) struct Normal {
-    pub(crate) matrix: Mat<f64>,
-    pub(crate) gradient: Mat<f64>,
-    /// Per run: solution of the eliminated block for each kept column and the gradient.
-    eliminated: Vec<Mat<f64>>,
-    /// Log-determinant of the eliminated blocks.
-    pub(crate) log_determinant: f64,
-    /// Fall of the quadratic cost by the eliminated numbers alone.
-    pub(crate) gain: f64,
-}
-
-/// Normal equations of one run.
-struct RunNormal {
-    matrix: Mat<f64>,
-    gradient: Mat<f64>,
-    solved: Mat<f64>,
-    log_determinant: f64,
-    gain: f64,
-}
+/// Tuning beyond so many sigmas is no tuning.
+const FARTHEST: f64 = 6.0;
+/// At most so many units of an effect's value at once: a linear column says nothing beyond.
+const LONGEST: f64 = 2.0;
+/// A whiff of a prior on strengths keeps what the data do not determine where it is.
+const WHIFF: f64 = 1e-3;
 
 impl Problem<'_> {
     /// Normal equations of θ, then `effects`, at `base`, with every run's own numbers eliminated.
     pub(crate) fn normal(&self, point: &Point, base: &Response, theta: &Columns, effects: &Columns) -> Option<Normal> {
-        let parts: Vec<RunNormal> = (0..self.cuts.len())
+        let parts: Vec<Normal> = (0..self.cuts.len())
             .into_par_iter()
             .map(|r| self.normal_of_run(point, base, theta, effects, r))
             .collect::<Option<Vec<_>>>()?;
-        let n = NUISANCES + effects.0.len();
-        let mut sum = Normal {
-            matrix: Mat::zeros(n, n),
-            gradient: Mat::zeros(n, 1),
-            eliminated: Vec::with_capacity(parts.len()),
-            log_determinant: 0.0,
-            gain: 0.0,
-        };
-        for p in parts {
-            sum.matrix += &p.matrix;
-            sum.gradient += &p.gradient;
-            sum.eliminated.push(p.solved);
-            sum.log_determinant += p.log_determinant;
-            sum.gain += p.gain;
-        }
+
+        let mut sum = Normal::zero(NUISANCES + effects.0.len());
+        parts.into_iter().for_each(|part| sum.add(part));
         Some(sum)
     }
 
@@ -63,7 +37,7 @@ impl Problem<'_> {
         theta: &Columns,
         effects: &Columns,
         r: usize,
-    ) -> Option<RunNormal> {
+    ) -> Option<Normal> {
         let columns: Vec<&Response> = theta.0.iter().chain(&effects.0).collect();
         let (n, all) = (columns.len(), columns.len() + OFFSETS + 1);
         // Gram of [θ, effects, offsets, residual], weighted.
@@ -102,68 +76,40 @@ impl Problem<'_> {
             let (a, x) = expand(i);
             if j < n { gram[(a, j)] * x } else { gram[(a, residual)] * x - point.run[r][i] }
         });
-        let (solved, log_determinant) = solve_spd(&own, &right)?;
-        let cross = right.subcols(0, n);
-        let reduced = gram.submatrix(0, 0, n, n) - cross.transpose() * solved.subcols(0, n);
-        let gradient = gram.submatrix(0, residual, n, 1) - cross.transpose() * solved.subcols(n, 1);
-        let gain = (0..PER_RUN).map(|i| 0.5 * right[(i, n)] * solved[(i, n)]).sum();
-        Some(RunNormal { matrix: reduced, gradient, solved, log_determinant, gain })
+        let kept = gram.submatrix(0, 0, n, n).to_owned();
+        Normal::new(kept, gram.submatrix(0, residual, n, 1).to_owned()).reduced(&own, &right)
     }
 
     /// Adds the prior of θ to normal equations.
     pub(crate) fn with_prior(&self, point: &Point, normal: &mut Normal) {
-        for i in 0..NUISANCES {
-            let mut g = 0.0;
-            for j in 0..NUISANCES {
-                normal.matrix[(i, j)] += self.information[(i, j)];
-                g += self.information[(i, j)] * (point.theta[j] - self.centre[j]);
-            }
-            normal.gradient[(i, 0)] -= g;
-        }
+        let off: [f64; NUISANCES] = std::array::from_fn(|i| point.theta[i] - self.centre[i]);
+        normal.add_prior(&self.information, &off);
     }
 
-    /// Levenberg–Marquardt step: a free value at a bound that the step would cross is held.
-    pub(crate) fn bounded_step(point: &Point, normal: &Normal, free: &[Free], damping: f64) -> Option<Mat<f64>> {
-        let n = normal.matrix.nrows();
-        let mut held = vec![false; free.len()];
-        loop {
-            let fixed = |i: usize| i >= NUISANCES && held[i - NUISANCES];
-            let m = Mat::from_fn(n, n, |i, j| {
-                let diagonal = i == j;
-                if fixed(i) || fixed(j) {
-                    f64::from(diagonal)
-                } else {
-                    normal.matrix[(i, j)] * if diagonal { 1.0 + damping } else { 1.0 }
-                }
-            });
-            let g = Mat::from_fn(n, 1, |i, _| if fixed(i) { 0.0 } else { normal.gradient[(i, 0)] });
-            let delta = solve_spd(&m, &g)?.0;
-            let crossing = free.iter().enumerate().find(|(i, f)| {
-                let (e, d) = (point.effects[*i], delta[(NUISANCES + i, 0)]);
-                !held[*i] && ((e <= f.bounds[0] && d < 0.0) || (e >= f.bounds[1] && d > 0.0))
-            });
-            match crossing {
-                Some((i, _)) => held[i] = true,
-                None => return Some(delta),
-            }
-        }
+    /// What a fit may move: θ, then the effects' free values.
+    pub(crate) fn parameters(point: &Point, free: &[Free]) -> Vec<Parameter> {
+        let theta =
+            point.theta.iter().map(|&t| Parameter { bounds: [-FARTHEST, FARTHEST], ..Parameter::unbounded(t, 1.0) });
+        let effects = free.iter().zip(&point.effects).map(|(f, &value)| Parameter {
+            value,
+            scale: f.unit,
+            bounds: f.bounds,
+            longest: LONGEST,
+            ridge: WHIFF,
+        });
+        theta.chain(effects).collect()
     }
 
-    pub(crate) fn advanced(point: &Point, delta: &Mat<f64>, normal: &Normal, free: &[Free]) -> Point {
+    /// The point at the end of a step; every run's own numbers follow.
+    pub(crate) fn advanced(point: &Point, step: &Step<'_>) -> Point {
         let mut p = point.clone();
-        for (k, t) in p.theta.iter_mut().enumerate() {
-            *t = (*t + delta[(k, 0)]).clamp(-6.0, 6.0);
-        }
-        for (i, f) in free.iter().enumerate() {
-            // At most two units at once: a linear column says nothing beyond.
-            let d = delta[(NUISANCES + i, 0)].clamp(-2.0, 2.0) * f.unit;
-            p.effects[i] = (p.effects[i] + d).clamp(f.bounds[0], f.bounds[1]);
-        }
-        let n = delta.nrows();
-        for (u, solved) in p.run.iter_mut().zip(&normal.eliminated) {
-            for (i, u) in u.iter_mut().enumerate() {
-                let back: f64 = (0..n).map(|j| solved[(i, j)] * delta[(j, 0)]).sum();
-                *u += solved[(i, n)] - back;
+        let (theta, effects) = step.values.split_at(NUISANCES);
+        p.theta.copy_from_slice(theta);
+        p.effects.copy_from_slice(effects);
+
+        for (own, moves) in p.run.iter_mut().zip(step.normal.back_substituted(step.delta)) {
+            for (u, m) in own.iter_mut().zip(moves) {
+                *u += m;
             }
         }
         p

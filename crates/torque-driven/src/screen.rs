@@ -9,9 +9,9 @@ use crate::fit::{Columns, Fitted, Hypothesis, Lane, Problem, difference};
 use crate::local;
 use crate::simulate::Response;
 use crate::windows::PARTS;
+use inference::algebra::select;
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Free, Place, Variant};
-use inference::linalg::select;
 
 /// One raw lane: a variant at one probe.
 struct Probe {

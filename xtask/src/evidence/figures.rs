@@ -1,7 +1,7 @@
 //! What is asked of the evidence, and what was reached.
 
+use inference::robust::{median, quantile, sorted};
 use serde_json::Value;
-use sim::statistics::{quantile, sorted};
 
 use super::Evidence;
 use super::ask::interval;
@@ -9,10 +9,6 @@ use super::husky::Examined;
 use super::slopes::{Claim, Outcome, Seen};
 use super::turns::{Turns, share};
 use crate::output::{Asked, Figure};
-
-fn median(all: impl IntoIterator<Item = f64>) -> Option<f64> {
-    quantile(&sorted(all), 0.5)
-}
 
 /// Loads of one kind over the references': value, half of its interval, ratio and its interval, speed.
 struct Load {

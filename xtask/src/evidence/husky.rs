@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use inference::robust::NINETY;
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask, interval};
@@ -84,8 +85,6 @@ pub(super) struct Examined {
 
 /// Causes with the 90 % interval of their size.
 pub(super) fn ranked(diagnosis: &Value) -> Value {
-    /// 90 % of a Gaussian lies within this many sigmas.
-    const NINETY: f64 = 1.645;
     let with_interval = |cause: &Value| {
         let mut cause = cause.clone();
         if let (Some(size), Some(sigma)) = (cause["magnitude"].as_f64(), cause["sigma"].as_f64()) {

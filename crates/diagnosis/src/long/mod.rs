@@ -11,6 +11,7 @@ mod thin;
 
 use std::sync::Arc;
 
+use inference::robust;
 use rayon::prelude::*;
 use recordings::{Recording, RecordingError};
 use serde::{Deserialize, Serialize};
@@ -184,8 +185,8 @@ impl Screening {
             compared_with: if self.law.is_none() { ComparedWith::Nothing } else { self.compared_with },
             left_out: seen.len() - chosen.len(),
             chosen,
-            unlike: [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| quantile(&every, share)),
-            unlike_left_out: [0.5, 1.0].map(|share| quantile(&left_out, share)),
+            unlike: [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| robust::quantile(&every, share)),
+            unlike_left_out: [0.5, 1.0].map(|share| robust::quantile(&left_out, share)),
         };
         (stretches, coverage, seen)
     }
@@ -193,13 +194,7 @@ impl Screening {
 
 /// How far pieces are from the law, from the least to the largest.
 fn sorted<'a>(pieces: impl Iterator<Item = &'a Screen>) -> Vec<f64> {
-    let mut out: Vec<f64> = pieces.filter_map(|s| s.unlike).collect();
-    out.sort_by(f64::total_cmp);
-    out
-}
-
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    sorted.get(((sorted.len() as f64 - 1.0) * share).round().max(0.0) as usize).copied()
+    robust::sorted(pieces.filter_map(|s| s.unlike))
 }
 
 /// First and last stamp over all channels, ns.

@@ -4,7 +4,7 @@ use faer::Mat;
 use verdict::Why;
 
 use super::rows::SIGNALS;
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 
 type Information = [[f64; SIGNALS]; SIGNALS];
 

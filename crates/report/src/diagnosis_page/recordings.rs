@@ -1,5 +1,6 @@
 //! Every recording beside its simulations, over time.
 
+use inference::robust;
 use verdict::{Compared, Diagnosis, Trace};
 
 use crate::figure::{Drawing, Figure, Role, Row, RowLine, TimePlot};
@@ -34,9 +35,7 @@ pub(super) fn simulated(c: &Compared) -> [(Role, &Vec<Option<f64>>); 3] {
 
 /// Root mean squared difference of two signals where both are known.
 pub(super) fn rms(a: &[Option<f64>], b: &[Option<f64>]) -> Option<f64> {
-    let squares = || a.iter().zip(b).filter_map(|(a, b)| Some(((*a)? - (*b)?).powi(2)));
-    let count = squares().count();
-    (count > 0).then(|| (squares().sum::<f64>() / count as f64).sqrt())
+    robust::rms(a.iter().zip(b).filter_map(|(a, b)| Some((*a)? - (*b)?)))
 }
 
 /// A recording with all its signals.

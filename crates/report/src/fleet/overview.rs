@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use inference::robust::median;
+
 use super::Told;
 use super::series::{Fleet, day};
 use crate::figure::{Drawing, Figure, Interval, Intervals};
@@ -115,9 +117,7 @@ fn compared(all: &Fleet<'_>, effect: &str) -> Option<Figure> {
         return None;
     }
     let of = all.series().find(|s| s.effect == effect)?;
-    let mut values: Vec<f64> = last.iter().map(|(_, v)| v[0]).collect();
-    values.sort_by(f64::total_cmp);
-    let median = values[values.len() / 2];
+    let median = median(last.iter().map(|(_, v)| v[0]))?;
     last.sort_by(|a, b| b.1[0].abs().total_cmp(&a.1[0].abs()));
     let left = last.len().saturating_sub(ROBOTS);
     last.truncate(ROBOTS);

@@ -1,5 +1,7 @@
 //! When the identifier's residual torque leaves what the references show in such driving.
 
+use inference::robust::NINETY_FIVE;
+
 use crate::locate::change::{Reference, Sense, find};
 use crate::locate::null::Null;
 use crate::locate::times::span;
@@ -18,8 +20,6 @@ const LEAST: f64 = 0.02;
 const PSEUDO_BINS: f64 = 2.0;
 /// Time in which the weights grow from zero, s: left out.
 const SETTLED: f64 = 1.0;
-/// Half the width of a band that holds 95 % in sigmas of a normal distribution.
-const NINETY_FIVE: f64 = 1.96;
 
 /// Half-second mean of one side's estimate, with the driving it was made in.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use inference::robust::discoveries;
+
 use crate::fit::Problem;
-use crate::locate::compare::{Block, discoveries, null_of, probability};
+use crate::locate::compare::{Block, DISCOVERIES, null_of, probability};
 use crate::locate::healthy::{Energy, Healthy};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use verdict::{Cell, Finding};
@@ -131,7 +133,7 @@ pub(crate) fn cells(problem: &Problem<'_>, references: &Problem<'_>, energy: &En
         });
     }
     let p: Vec<f64> = out.iter().map(|c| c.p).collect();
-    for (cell, significant) in out.iter_mut().zip(discoveries(&p)) {
+    for (cell, significant) in out.iter_mut().zip(discoveries(&p, DISCOVERIES)) {
         cell.significant = significant;
     }
     out
@@ -164,7 +166,7 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let mut out: Vec<Finding> = (0..CHANNELS).filter_map(|c| finding(problem, energy, c, probabilities[c])).collect();
     let p: Vec<f64> = out.iter().map(|f| f.p).collect();
-    for (finding, significant) in out.iter_mut().zip(discoveries(&p)) {
+    for (finding, significant) in out.iter_mut().zip(discoveries(&p, DISCOVERIES)) {
         finding.significant = significant;
     }
     out.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));

@@ -1,12 +1,12 @@
 //! A change of level for a while: two levels, onset and end by profile likelihood, false alarms by resampling.
 
+use inference::robust::{NINETY_FALL, sorted};
+
 use crate::locate::null::Null;
 
 /// Pseudo-runs from which the threshold is taken, and the share of healthy runs that may exceed it.
 const PSEUDO_RUNS: usize = 200;
 const FALSE_ALARMS: f64 = 0.03;
-/// Fall of the profile log-likelihood at the ends of a 90 % interval.
-const NINETY: f64 = 1.353;
 /// Stretches of one series at most.
 const MOST: usize = 3;
 /// Scatter added to resampled segments for what so few references have not shown yet.
@@ -124,7 +124,7 @@ pub(crate) fn find(series: &[f64], null: &Null, sense: Sense, threshold: f64) ->
         }
         let Some(mut found) = best else { continue };
         // Profile of each end, the other one free, outwards from the best until it has fallen too far.
-        let (a, b, least) = (found.from, found.until, found.gain - NINETY);
+        let (a, b, least) = (found.from, found.until, found.gain - NINETY_FALL);
         let ends = |a: usize| (a + 1..=high).any(|b| sums.fits([a, b], range) >= least);
         let onsets = |b: usize| (low..b).any(|a| sums.fits([a, b], range) >= least);
         found.onset = [
@@ -171,7 +171,7 @@ impl Reference {
             return f64::INFINITY;
         }
         let mut draws = Draws::new(7);
-        let mut largest: Vec<f64> = (0..PSEUDO_RUNS)
+        let largest: Vec<f64> = (0..PSEUDO_RUNS)
             .map(|_| {
                 let chosen: Vec<(usize, usize)> =
                     (0..bins.div_ceil(block)).map(|_| blocks[draws.below(blocks.len())]).collect();
@@ -189,9 +189,9 @@ impl Reference {
                 most
             })
             .collect();
-        largest.sort_by(f64::total_cmp);
+        // The order statistic that no more than that share exceeds: a rank, not an estimate of a quantile.
         let few = FEW[first.len().clamp(1, FEW.len()) - 1];
-        few * largest[((1.0 - FALSE_ALARMS) * PSEUDO_RUNS as f64) as usize]
+        few * sorted(largest)[((1.0 - FALSE_ALARMS) * PSEUDO_RUNS as f64) as usize]
     }
 }
 

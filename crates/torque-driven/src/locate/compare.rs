@@ -65,33 +65,12 @@ pub(crate) fn probability(blocks: &[Block], own: &[Block], null: &Null) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(1.0, |t| t.sf((mean - healthy) / total.sqrt()))
 }
 
-/// Which of these probabilities are discoveries (Benjamini and Yekutieli 2001: whatever their dependence).
-pub(crate) fn discoveries(p: &[f64]) -> Vec<bool> {
-    let m = p.len() as f64;
-    let harmonic: f64 = (1..=p.len()).map(|i| 1.0 / i as f64).sum();
-    let mut sorted = p.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let limit = sorted
-        .iter()
-        .enumerate()
-        .filter(|(i, p)| **p <= DISCOVERIES * (i + 1) as f64 / (m * harmonic))
-        .map(|(_, p)| *p)
-        .next_back();
-    p.iter().map(|p| limit.is_some_and(|l| *p <= l)).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use inference::robust::discoveries;
+
     use super::*;
     use crate::locate::change::Draws;
-
-    #[test]
-    fn discoveries_follow_benjamini_and_yekutieli() {
-        // m = 4, harmonic sum 25/12: limits 0.006, 0.012, 0.018, 0.024.
-        assert_eq!(discoveries(&[0.5, 0.001, 0.011, 0.03]), [false, true, true, false]);
-        assert_eq!(discoveries(&[0.007, 0.5, 0.5, 0.5]), [false; 4]);
-        assert!(discoveries(&[]).is_empty());
-    }
 
     #[test]
     fn healthy_cells_are_reported_in_at_most_one_of_twenty_cases() {
@@ -113,7 +92,7 @@ mod tests {
             let null = null_of(references.iter().flatten()).expect("blocks");
             let found = |cells: &[Vec<Block>]| {
                 let p: Vec<f64> = cells.iter().zip(&references).map(|(c, r)| probability(c, r, &null)).collect();
-                discoveries(&p)
+                discoveries(&p, DISCOVERIES)
             };
             alarms += i32::from(found(&healthy).contains(&true));
             hits += i32::from(found(&ill)[0]);

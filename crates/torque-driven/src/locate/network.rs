@@ -13,7 +13,7 @@ use crate::leave_out::LeftOut;
 use crate::locate::torque::Followed;
 use crate::rms::rms;
 use crate::windows::{CHANNELS, Cut};
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 use verdict::ResidualModel;
 use verdict::Word;
 

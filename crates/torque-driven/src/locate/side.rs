@@ -1,8 +1,8 @@
 //! On which side the mismatch sits, and whether a named effect contradicts it.
 
 use crate::windows::CHANNELS;
-use verdict::ResidualTorque;
-use verdict::{Cause, Finding};
+use inference::robust::NINETY_FIVE;
+use verdict::{Cause, Finding, ResidualTorque};
 
 /// A side holds the mismatch when its excess is this many times the other's.
 const CLEAR: f64 = 2.0;
@@ -30,7 +30,7 @@ pub(crate) fn side(
 fn torque(all: &[ResidualTorque], side: &str) -> f64 {
     let own = all.iter().filter(|t| t.side == side);
     own.map(|t| {
-        let half = 0.5 * (t.band[1] - t.band[0]) / 1.96;
+        let half = 0.5 * (t.band[1] - t.band[0]) / NINETY_FIVE;
         (t.rms * t.rms - half * half).max(0.0)
     })
     .sum()

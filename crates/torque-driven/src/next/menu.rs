@@ -1,5 +1,6 @@
 //! The menu: drives that a user can make without preparation, and two that need some.
 
+use inference::robust::select_quantile;
 use robot_model::Robot;
 
 use crate::windows::{CHANNELS, Cut, WINDOW};
@@ -62,7 +63,7 @@ impl Scope {
                 }
             }
         }
-        let mut limits = [0, 1].map(|c| quantile(&mut reached[c], REACHED).max(LEAST[c]));
+        let mut limits = [0, 1].map(|c| select_quantile(&mut reached[c], REACHED).unwrap_or(0.0).max(LEAST[c]));
         limits[1] = limits[1].max(SPIN * limits[0] / (WIDENING * robot.half_track));
         let windows: Vec<[f64; 2]> = recordings
             .iter()
@@ -149,9 +150,4 @@ fn again(windows: &[[f64; 2]], length: f64) -> Course {
     points.extend(inner.map(|(i, m)| [(i as f64 + 1.0) * each, m[0], m[1]]));
     points.push([length, 0.0, 0.0]);
     Course { points, torque_free: Vec::new() }
-}
-
-fn quantile(values: &mut [f64], share: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get((share * values.len() as f64) as usize).or(values.last()).copied().unwrap_or(0.0)
 }

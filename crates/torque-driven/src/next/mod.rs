@@ -23,7 +23,7 @@ use crate::judged::Judged;
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use follow::Follower;
 use inference::advice::{among as advice_among, nothing_to_split, sorted};
-use inference::entropy::expected_bits;
+use inference::expected_information::{expected_bits, widest_pair};
 use menu::{Entry, Scope, Setup};
 use outlook::{Outlook, Prospect};
 use rivals::{Rival, rivals};
@@ -63,7 +63,8 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
 }
 
 fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> Manoeuvre {
-    let split = best_split(outlook, rivals);
+    let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
+    let split = widest_pair(&p, &outlook.views, TEMPERATURE);
     let mut out = Manoeuvre::new(&entry.name, entry.course.clone(), entry.start);
     out.why = split.map_or_else(
         || narrowing(outlook.narrows, rivals),
@@ -75,16 +76,6 @@ fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> M
     out.joins = entry.setup == Setup::AsItIs;
     out.optimised = entry.optimised;
     out
-}
-
-/// The pair that a drive tells apart best: probable rivals count more.
-fn best_split(outlook: &Outlook, rivals: &[Rival]) -> Option<(usize, usize)> {
-    let worth = |k: usize, l: usize| {
-        let apart = 1.0 - (-outlook.views[k].behind[l] / TEMPERATURE).exp();
-        rivals[k].probability * rivals[l].probability * apart
-    };
-    let pairs = (0..rivals.len()).flat_map(|k| (0..rivals.len()).filter(move |l| *l != k).map(move |l| (k, l)));
-    pairs.max_by(|a, b| worth(a.0, a.1).total_cmp(&worth(b.0, b.1)))
 }
 
 fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {

@@ -1,6 +1,9 @@
 //! What a drive would show: for every rival as the truth, how far each other falls behind when it may re-tune itself.
 
 use faer::Mat;
+use inference::algebra::half_quadratic;
+use inference::expected_information::Forecast;
+use inference::least_squares::{Normal, Step};
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
@@ -11,8 +14,7 @@ use crate::calibrate::Regimes;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::simulate::Response;
 use crate::windows::CHANNELS;
-use inference::entropy::View;
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
 /// Mass and inertia of a robot whose wheels turn in the air, kg and kg m², and what is left of gravity, m/s²: no
@@ -35,7 +37,7 @@ pub(crate) struct Prospect<'a> {
 /// What is expected of one drive.
 pub(crate) struct Outlook {
     /// By the rival that is true.
-    pub(crate) views: Vec<View>,
+    pub(crate) views: Vec<Forecast>,
     /// Root mean square of what tells a pair apart, in units of what healthy drives show, by channel: `[truth][other]`.
     pub(crate) shows: Vec<Vec<[f64; CHANNELS]>>,
     /// One sigma of the first rival's size after the drive over that before.
@@ -145,8 +147,10 @@ fn gap_of(new: &Problem<'_>, tuning: &Columns, rival: &Rival, h: &Hypothesis) ->
     normal.matrix += &rival.information;
     let stay = cost(new, rival, &rival.point, &base);
     let mut best = (stay, base);
-    if let Some(delta) = Problem::bounded_step(&rival.point, &normal, &rival.free, 0.0) {
-        let point = Problem::advanced(&rival.point, &delta, &normal, &rival.free);
+    let parameters = Problem::parameters(&rival.point, &rival.free);
+    if let Some(delta) = normal.step(&parameters, 0.0) {
+        let values = Normal::values(&parameters, &delta);
+        let point = Problem::advanced(&rival.point, &Step { values, delta: &delta, normal: &normal });
         let response = new.response(&point, h);
         let moved = cost(new, rival, &point, &response);
         if moved < best.0 {
@@ -187,22 +191,15 @@ fn cost(new: &Problem<'_>, rival: &Rival, point: &Point, response: &Response) ->
         .map(|k| point.theta[k] - rival.point.theta[k])
         .chain(rival.free.iter().enumerate().map(|(i, f)| (point.effects[i] - rival.point.effects[i]) / f.unit))
         .collect();
-    let n = moved.len();
-    let prior: f64 =
-        (0..n).map(|i| (0..n).map(|j| 0.5 * moved[i] * rival.information[(i, j)] * moved[j]).sum::<f64>()).sum();
-    misfit + prior + point.run[0].iter().map(|u| 0.5 * u * u).sum::<f64>()
+    misfit + half_quadratic(&rival.information, &moved) + point.run[0].iter().map(|u| 0.5 * u * u).sum::<f64>()
 }
 
-/// Means and covariances of the log-likelihood ratios: twice the mean is the variance, and what two rivals lack in
-/// common makes their ratios go together.
-fn view(gaps: &[Gap]) -> View {
+/// Log-likelihood ratios to expect: what two rivals lack in common makes theirs go together.
+fn view(gaps: &[Gap]) -> Forecast {
     let norm: Vec<f64> = gaps.iter().map(|g| g.left.iter().map(|x| x * x).sum::<f64>().sqrt()).collect();
     let alike = |a: usize, b: usize| -> f64 {
         let product: f64 = gaps[a].left.iter().zip(&gaps[b].left).map(|(x, y)| x * y).sum();
         if norm[a] * norm[b] > 0.0 { product / (norm[a] * norm[b]) } else { f64::from(a == b) }
     };
-    let behind: Vec<f64> = gaps.iter().map(|g| BELIEVED * g.behind.max(0.0)).collect();
-    let n = gaps.len();
-    let covariance = Mat::from_fn(n, n, |a, b| 2.0 * (behind[a] * behind[b]).sqrt() * alike(a, b));
-    View { behind, covariance }
+    Forecast::new(gaps.iter().map(|g| BELIEVED * g.behind.max(0.0)).collect(), alike)
 }

@@ -1,12 +1,13 @@
 //! The hypotheses that are still in the running, each with its tuned robot and how well that is known.
 
 use faer::Mat;
+use inference::evidence::normalised;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::Decision;
 use crate::fit::{Fitted, Hypothesis, PER_RUN, Point, Problem};
+use inference::algebra::solve_spd;
 use inference::hypothesis::{Free, Place};
-use inference::linalg::solve_spd;
 
 /// Rivals less probable than this are no rivals, and how many there are at most.
 const LEAST: f64 = 0.01;
@@ -123,6 +124,7 @@ pub(crate) fn rivals(problem: &Problem<'_>, decision: &Decision, retuned: &Fitte
     found.retain(|f| f.3 >= LEAST * sum.max(f64::MIN_POSITIVE));
     found.sort_by(|a, b| b.3.total_cmp(&a.3));
     found.truncate(MOST);
-    let sum: f64 = found.iter().map(|f| f.3).sum();
-    found.into_iter().filter_map(|(_, h, fitted, p)| Rival::new(problem, h, fitted, p / sum)).collect()
+    let shares = normalised(&found.iter().map(|f| f.3).collect::<Vec<_>>());
+    let rivals = found.into_iter().zip(shares);
+    rivals.filter_map(|((_, h, fitted, _), p)| Rival::new(problem, h, fitted, p)).collect()
 }

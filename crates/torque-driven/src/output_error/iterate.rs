@@ -1,23 +1,18 @@
-//! Gauss–Newton with Levenberg–Marquardt damping, and what the data determine.
+//! Fits by the common solver, and what the data determine.
 
 use faer::{Mat, Side};
+use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, Stopped, minimise};
 use robot_model::Robot;
 
 use super::equations::Equations;
 use super::{OutputError, OutputErrorError};
-use inference::linalg::solve_spd;
 
-/// Damping of the first step, by how much it changes, and when a fit gives up.
-const FIRST_DAMPING: f64 = 1e-3;
-const LEAST_DAMPING: f64 = 1e-9;
-const MOST_DAMPING: f64 = 1e6;
-const DAMPING_FACTOR: f64 = 10.0;
 /// A fit has arrived when the cost falls by less than this share of itself, or all constants move by less than this share of
 /// their scale.
 const LEAST_FALL: f64 = 1e-7;
 const LEAST_MOVE: f64 = 1e-4;
-/// Jacobians at most.
-const MOST_JACOBIANS: usize = 60;
+/// Steps at most.
+const MOST_STEPS: usize = 60;
 /// Smallest eigenvalue of the columns' correlations from which on they are told apart: finite steps are known to 1e-5 or so.
 const LEAST_EIGENVALUE: f64 = 1e-9;
 /// A constant that is known to no better than this many scales is not determined.
@@ -44,6 +39,46 @@ pub struct Fitted {
     pub converged: bool,
 }
 
+/// Where a fit stands.
+struct Point {
+    delta: Vec<f64>,
+    equations: Equations,
+}
+
+/// A fit of the constants.
+struct Task<'a>(&'a OutputError<'a>);
+
+impl Problem for Task<'_> {
+    type Point = Point;
+
+    fn cost(&self, at: &Point) -> f64 {
+        0.5 * at.equations.cost
+    }
+
+    fn parameters(&self, at: &Point) -> Vec<Parameter> {
+        let free = self.0.constants.iter().zip(&at.delta);
+        free.map(|(c, &delta)| {
+            let scale = c.scale();
+            Parameter { longest: c.longest_step() / scale, ..Parameter::unbounded(delta, scale) }
+        })
+        .collect()
+    }
+
+    /// The equations came with the point: a Jacobian is one run with the shifted robots side by side.
+    fn linearise(&self, at: &mut Point, _iteration: usize) -> Option<Normal> {
+        self.0.all_leave_a_trace(&at.equations).ok()?;
+        let (n, scale) = (self.0.constants.len(), |i: usize| self.0.constants[i].scale());
+        let equations = &at.equations;
+        let matrix = Mat::from_fn(n, n, |i, j| equations.matrix[(i, j)] * scale(i) * scale(j));
+        Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| equations.gradient[(i, 0)] * scale(i))))
+    }
+
+    fn moved(&self, _from: &Point, step: &Step<'_>) -> Option<Point> {
+        let equations = self.0.linearised(&step.values).ok()?;
+        Some(Point { delta: step.values.clone(), equations })
+    }
+}
+
 impl OutputError<'_> {
     /// Fits the constants from `start`, one value for each.
     ///
@@ -51,31 +86,20 @@ impl OutputError<'_> {
     /// A start that is none or cannot be run, and constants that the recordings do not determine.
     pub fn fit(&self, start: &[f64]) -> Result<Fitted, OutputErrorError> {
         self.check(start)?;
-        let mut delta = start.to_vec();
-        let mut at = self.linearised(&delta).map_err(|place| self.not_finite(place))?;
-        let (mut jacobians, mut damping, mut converged) = (1, FIRST_DAMPING, false);
-        while !converged && jacobians < MOST_JACOBIANS && damping <= MOST_DAMPING {
-            self.all_leave_a_trace(&at)?;
-            let Some(step) = self.step(&at, damping) else {
-                damping *= DAMPING_FACTOR;
-                continue;
-            };
-            let moved: Vec<f64> = delta.iter().zip(&step).map(|(d, s)| d + s).collect();
-            let next = self.linearised(&moved).ok();
-            jacobians += 1;
-            // At the minimum rounding decides which way is down.
-            converged = step.iter().zip(&self.constants).all(|(s, c)| s.abs() < LEAST_MOVE * c.scale());
-            if let Some(next) = next.filter(|next| next.cost < at.cost) {
-                converged |= at.cost - next.cost < LEAST_FALL * at.cost;
-                damping = (damping / DAMPING_FACTOR).max(LEAST_DAMPING);
-                (delta, at) = (moved, next);
-            } else {
-                damping *= DAMPING_FACTOR;
-            }
-        }
+        let equations = self.linearised(start).map_err(|place| self.not_finite(place))?;
+        let settings = Settings {
+            iterations: MOST_STEPS,
+            least_relative_fall: LEAST_FALL,
+            least_move: LEAST_MOVE,
+            ..Settings::default()
+        };
+        let outcome = minimise(&Task(self), Point { delta: start.to_vec(), equations }, &settings);
+
+        let Point { delta, equations: at } = outcome.at;
         let sigma = self.determined(&at)?;
         let robot = self.changed(&delta).ok_or_else(|| self.not_finite(0))?;
-        Ok(Fitted { delta, sigma, robot, cost: at.cost, numbers: at.numbers, jacobians, converged })
+        let converged = outcome.stopped == Stopped::Arrived;
+        Ok(Fitted { delta, sigma, robot, cost: at.cost, numbers: at.numbers, jacobians: 1 + outcome.trials, converged })
     }
 
     /// `Σ ((y − ŷ(δ))/σ)²`, each recording run by itself.
@@ -101,20 +125,6 @@ impl OutputError<'_> {
 
     fn not_finite(&self, place: usize) -> OutputErrorError {
         OutputErrorError::NotFinite { recording: self.recordings[place].name.clone() }
-    }
-
-    /// A damped step, no longer than is sensible in any constant.
-    fn step(&self, at: &Equations, damping: f64) -> Option<Vec<f64>> {
-        let n = self.constants.len();
-        let scale = |i: usize| self.constants[i].scale();
-        // Every constant in its own scale, so that the equations are well-behaved.
-        let m = Mat::from_fn(n, n, |i, j| {
-            at.matrix[(i, j)] * scale(i) * scale(j) * if i == j { 1.0 + damping } else { 1.0 }
-        });
-        let g = Mat::from_fn(n, 1, |i, _| at.gradient[(i, 0)] * scale(i));
-        let (x, _) = solve_spd(&m, &g)?;
-        let longest = |i: usize| self.constants[i].longest_step();
-        Some((0..n).map(|i| (x[(i, 0)] * scale(i)).clamp(-longest(i), longest(i))).collect())
     }
 
     fn undetermined(&self, mut which: impl FnMut(usize) -> bool) -> OutputErrorError {

@@ -20,7 +20,7 @@ pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let here = shares(runs);
         let share = mean(&here) - mean(&shares(references));
         if share > card.interest {
-            let sigma = median(here).map_or(0.0, |m| m.1);
+            let sigma = median(&here).map_or(0.0, |m| m.1);
             out.push(Fault { card, parameter: 0, magnitude: share, sigma, side: Some(side) });
         }
     }
@@ -65,7 +65,7 @@ pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let (n, m) = (runs.len().max(1) as f64, references.len() as f64);
         let more = here.len() as f64 / n - there.len() as f64 / m;
         if more > 4.0 * (there.len() as f64).sqrt() / m
-            && let Some((magnitude, sigma)) = median(here)
+            && let Some((magnitude, sigma)) = median(&here)
         {
             out.push(Fault { card, parameter: 0, magnitude, sigma, side: Some(side) });
         }

@@ -1,8 +1,9 @@
 //! What is common to all checks: least squares in a run, and runs judged against the references.
 
 use faer::Mat;
+use inference::robust;
 
-use inference::linalg::solve_spd;
+use inference::algebra::solve_spd;
 
 /// A number with one sigma.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +30,13 @@ impl Measured {
     }
 }
 
+fn values(of: &[Measured]) -> Vec<f64> {
+    of.iter().map(|m| m.value).collect()
+}
+
 /// Median and the sigma of it by the spread.
-pub(super) fn median(mut v: Vec<f64>) -> Option<(f64, f64)> {
-    v.sort_by(f64::total_cmp);
-    let m = *v.get(v.len() / 2)?;
-    let m = if v.len().is_multiple_of(2) { 0.5 * (m + v[v.len() / 2 - 1]) } else { m };
+pub(super) fn median(v: &[f64]) -> Option<(f64, f64)> {
+    let m = robust::median(v.iter().copied())?;
     let spread = v.iter().map(|x| (x - m).powi(2)).sum::<f64>() / (v.len().max(2) - 1) as f64;
     Some((m, (spread / v.len() as f64).sqrt()))
 }
@@ -43,7 +46,7 @@ pub(super) fn median(mut v: Vec<f64>) -> Option<(f64, f64)> {
 /// A run that does not determine the number to half the size that matters has no say.
 pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured> {
     let told: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-    let (value, spread) = median(told.iter().map(|m| m.value).collect())?;
+    let (value, spread) = median(&values(&told))?;
     let n = told.len() as f64;
     let own = (told.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
     Some(Measured { value, sigma: spread.max(own) })
@@ -61,7 +64,7 @@ pub(super) fn beyond(
     let (mut squares, mut own, mut count, mut share) = (WORTH * (USUAL_SPREAD * interest).powi(2), 0.0, 0.0, 0.0);
     for (middle, group) in middle.iter_mut().zip([recordings, references]) {
         let told: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-        *middle = median(told.iter().map(|m| m.value).collect())?.0;
+        *middle = median(&values(&told))?.0;
         squares += told.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
         own += told.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
         count += told.len() as f64;

@@ -50,7 +50,7 @@ fn scales(run: &Run) -> [Option<Measured>; 2] {
         if driving.len() < FEWEST || braking.len() < FEWEST {
             return None;
         }
-        let ((d, ds), (b, bs)) = (median(driving)?, median(braking)?);
+        let ((d, ds), (b, bs)) = (median(&driving)?, median(&braking)?);
         // What driving and braking disagree about is slip.
         Some(Measured { value: 0.5 * (d + b), sigma: (0.25 * (d - b).powi(2) + ds * ds + bs * bs).sqrt() })
     })

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-/// 95 % of a normal distribution lie within so many sigmas.
-const NINETY_FIVE: f64 = 1.96;
+use inference::robust::{self, NINETY_FIVE};
 
 /// How often something is so.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -45,19 +44,12 @@ impl fmt::Display for Rate {
 
 /// Mean, if there is anything.
 pub(in crate::blind) fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    robust::mean(values.iter().copied())
 }
 
-/// Median, if there is anything; between the two in the middle of an even number.
+/// Median, if there is anything.
 pub(in crate::blind) fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => None,
-        n if n % 2 == 1 => Some(sorted[middle]),
-        _ => Some(f64::midpoint(sorted[middle - 1], sorted[middle])),
-    }
+    robust::median(values.iter().copied())
 }
 
 /// The largest, if there is anything.
@@ -67,7 +59,7 @@ pub(in crate::blind) fn largest(values: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rate, largest, mean, median};
+    use super::Rate;
 
     #[test]
     fn wilson_intervals_are_those_of_the_formula() {
@@ -86,13 +78,5 @@ mod tests {
         assert_eq!((rate.hits, rate.count, rate.share()), (3, 4, Some(0.75)));
         assert_eq!(rate.to_string(), "75.0 % (3/4; 30 to 95)");
         assert_eq!(Rate::default().to_string(), "-");
-    }
-
-    #[test]
-    fn medians_lie_in_the_middle() {
-        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), Some(2.5));
-        assert_eq!((median(&[]), mean(&[]), largest(&[])), (None, None, None));
-        assert_eq!((mean(&[1.0, 2.0]), largest(&[1.0, 2.0])), (Some(1.5), Some(2.0)));
     }
 }

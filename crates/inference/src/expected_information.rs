@@ -1,20 +1,46 @@
-//! Expected gain of information, in bits.
+//! Expected gain of information of an experiment, in bits.
 
 use faer::Mat;
-use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::evidence::normalised;
+use crate::robust::normal_quantile;
 
 /// Points of the quasi-random sum.
 const POINTS: usize = 256;
 /// Bases of Halton's sequence, one for each rival of the truth.
 const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 
-/// What a drive would say about all rivals if a certain one were true.
+/// What an experiment would say about all rivals if a certain one were true.
 #[derive(Debug, Clone)]
-pub struct View {
+pub struct Forecast {
     /// Expected fall of each rival's log-likelihood below the truth's, nats; 0 of the truth itself.
     pub behind: Vec<f64>,
     /// Covariance of these falls; twice `behind` on the diagonal.
     pub covariance: Mat<f64>,
+}
+
+impl Forecast {
+    /// Of rivals that fall `behind` by these log-likelihoods (those below zero count as zero), when
+    /// what tells `a` from the truth and what tells `b` from it correlate by `alike(a, b)`.
+    ///
+    /// Twice the mean of a log-likelihood ratio of normal data is its variance:
+    /// `Cov(a, b) = 2 √(d_a d_b) · alike(a, b)`.
+    pub fn new(mut behind: Vec<f64>, alike: impl Fn(usize, usize) -> f64) -> Self {
+        for d in &mut behind {
+            *d = d.max(0.0);
+        }
+        let n = behind.len();
+        let covariance = Mat::from_fn(n, n, |a, b| 2.0 * (behind[a] * behind[b]).sqrt() * alike(a, b));
+        Self { behind, covariance }
+    }
+}
+
+/// The pair of a truth and a rival of it that an experiment tells apart best: the largest
+/// `p_k p_l (1 − exp(−d_kl / T))`; `None` of fewer than two.
+pub fn widest_pair(p: &[f64], forecasts: &[Forecast], temperature: f64) -> Option<(usize, usize)> {
+    let worth = |(k, l): (usize, usize)| p[k] * p[l] * (1.0 - (-forecasts[k].behind[l] / temperature).exp());
+    let pairs = (0..p.len()).flat_map(|k| (0..p.len()).filter(move |l| *l != k).map(move |l| (k, l)));
+    pairs.max_by(|a, b| worth(*a).total_cmp(&worth(*b)))
 }
 
 /// Entropy of a distribution, bits: `−Σ p log2 p`.
@@ -23,30 +49,26 @@ pub fn entropy(p: &[f64]) -> f64 {
     p.iter().filter(|p| **p > 0.0).map(|p| -p * p.log2()).sum::<f64>().abs()
 }
 
-/// Bits that a drive is expected to gain: the entropy of the rivals less its expectation afterwards,
+/// Bits that an experiment is expected to gain: the entropy of the rivals less its expectation afterwards,
 /// `H(p) − Σ_k p_k E[H(p_l exp(−x_l / T))]` with `x ~ N(behind, covariance)` if rival k is true, and T the temperature
 /// with which scores become probabilities.
 ///
 /// The expectation is a sum over Halton points: the same bits for the same input.
-pub fn expected_bits(p: &[f64], views: &[View], temperature: f64) -> f64 {
-    let Ok(normal) = Normal::new(0.0, 1.0) else { return 0.0 };
+pub fn expected_bits(p: &[f64], forecasts: &[Forecast], temperature: f64) -> f64 {
     let n = p.len();
-    let points: Vec<Vec<f64>> = (1..=POINTS)
-        .map(|i| BASES.iter().map(|b| normal.inverse_cdf(radical_inverse(i as u32, *b))).collect())
-        .collect();
+    let points: Vec<Vec<f64>> =
+        (1..=POINTS).map(|i| BASES.iter().map(|b| normal_quantile(radical_inverse(i as u32, *b))).collect()).collect();
     let mut after = 0.0;
-    for (k, view) in views.iter().enumerate() {
-        let root = root(&view.covariance);
+    for (k, forecast) in forecasts.iter().enumerate() {
+        let root = root(&forecast.covariance);
         let mut sum = 0.0;
         for z in &points {
             let weight = |l: usize| {
-                let x: f64 = view.behind[l] + (0..n).map(|i| root[(l, i)] * z[i % BASES.len()]).sum::<f64>();
+                let x: f64 = forecast.behind[l] + (0..n).map(|i| root[(l, i)] * z[i % BASES.len()]).sum::<f64>();
                 p[l] * (-x / temperature).exp()
             };
             let all: Vec<f64> = (0..n).map(weight).collect();
-            let total: f64 = all.iter().sum();
-            let posterior: Vec<f64> = all.iter().map(|w| w / total).collect();
-            sum += entropy(&posterior);
+            sum += entropy(&normalised(&all));
         }
         after += p[k] * sum / POINTS as f64;
     }
@@ -82,14 +104,23 @@ fn root(c: &Mat<f64>) -> Mat<f64> {
 
 #[cfg(test)]
 mod tests {
-    use sim::{Purpose, Stream};
+    use rand_core::{Rng, SeedableRng};
 
     use super::*;
 
-    fn pair(d: f64) -> Vec<View> {
+    /// Standard normal numbers by inversion.
+    struct Stream(rand_pcg::Pcg64);
+
+    impl Stream {
+        fn normal(&mut self) -> f64 {
+            normal_quantile((self.0.next_u64() >> 11) as f64 * 2.0_f64.powi(-53) + 2.0_f64.powi(-54))
+        }
+    }
+
+    fn pair(d: f64) -> Vec<Forecast> {
         let covariance = |k: usize| Mat::from_fn(2, 2, |i, j| f64::from(i == j && i != k) * 2.0 * d);
         let behind = |k: usize| (0..2).map(|l| if l == k { 0.0 } else { d }).collect();
-        (0..2).map(|k| View { behind: behind(k), covariance: covariance(k) }).collect()
+        (0..2).map(|k| Forecast { behind: behind(k), covariance: covariance(k) }).collect()
     }
 
     #[test]
@@ -127,13 +158,13 @@ mod tests {
         let p = [0.5, 0.3, 0.2];
         let to = |a: usize, b: usize| [mean[b][0] - mean[a][0], mean[b][1] - mean[a][1]];
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-        let views: Vec<View> = (0..3)
-            .map(|k| View {
+        let forecasts: Vec<Forecast> = (0..3)
+            .map(|k| Forecast {
                 behind: (0..3).map(|l| 0.5 * dot(to(k, l), to(k, l))).collect(),
                 covariance: Mat::from_fn(3, 3, |a, b| dot(to(k, a), to(k, b))),
             })
             .collect();
-        let mut stream = Stream::new(7, Purpose::SensorNoise, 0);
+        let mut stream = Stream(rand_pcg::Pcg64::seed_from_u64(7));
         let (draws, mut after) = (20_000, 0.0);
         for k in 0..3 {
             for _ in 0..draws {
@@ -143,6 +174,6 @@ mod tests {
                 after += p[k] * entropy(&[w(0) / total, w(1) / total, w(2) / total]) / f64::from(draws);
             }
         }
-        approx::assert_relative_eq!(expected_bits(&p, &views, 1.0), entropy(&p) - after, epsilon = 0.02);
+        approx::assert_relative_eq!(expected_bits(&p, &forecasts, 1.0), entropy(&p) - after, epsilon = 0.02);
     }
 }
