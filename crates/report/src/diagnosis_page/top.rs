@@ -5,8 +5,9 @@ use std::fmt::Write;
 use diagnosis::{Compared, Diagnosis, FreeRun, Trace};
 
 use super::recordings::{plot, rms};
+use crate::escape::escape;
 use crate::figure::{Drawing, Figure};
-use crate::page::{Cell, Page, escape};
+use crate::page::{Cell, Page};
 use crate::words::{
     is_no_cause, number, percent, probability, quantities, quantity_and_unit, size_in_words as size, verdict,
     where_and_when,

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use super::Told;
+use super::seen::Told;
 use super::series::{Fleet, day};
+use crate::escape::escape;
 use crate::figure::{Drawing, Figure, Interval, Intervals};
-use crate::page::{Cell, Page, escape};
+use crate::page::{Cell, Page};
 use crate::words::number;
 
 /// Effects that are compared over robots.
