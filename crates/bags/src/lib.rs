@@ -14,14 +14,14 @@
 //! * `mcap_file/*`: MCAP record by record (`framing`, `window`), chunks (`chunk`), topics and messages (`records`), the end
 //!   of the file (`summary`), its SHA-256 on the way (`hashing`); `file` goes on behind damage. `sqlite`: rosbag2's.
 //! * `fields/*`: paths (`path`), layouts of messages (`schema`, `definitions`), the wanted fields of a message (`reader` by
-//!   `plan` or `json`), which fields there are (`survey`; `known` once they are); `cdr`, `run`, `names` walk the bytes.
+//!   `plan` or `json`), which fields there are (`survey` by `steps`); `cdr`, `run`, `names` walk the bytes.
 //! * `contents`: what a bag holds; `header_stamps`: delays and drift of the stamps of drivers. `suggest`: nearest names.
 //!
 //! # What is written by hand, and why
 //!
 //! * Framing of MCAP records (`mcap_file/framing`, `file`): the readers of `mcap` stop at the first damage; a recording of an
 //!   hour must not end at a flipped bit. What records and chunks hold is that crate's to say.
-//! * Decoding by plan (`fields/plan`, `known`): `re_ros_msg` makes every message a tree of values with their names. Here the
+//! * Decoding by plan (`fields/plan`, `steps`): `re_ros_msg` makes every message a tree of values with their names. Here the
 //!   way to three numbers of a message of fifty is worked out once for a topic and the rest passed over. Definitions are
 //!   parsed by `re_ros_msg`, bytes read by `re_cdr`, and tests hold three decoders against each other.
 //!

@@ -8,6 +8,7 @@ pub mod chart;
 pub mod diagnosis_page;
 mod drawing;
 mod escape;
+mod facts;
 pub mod figure;
 pub mod fleet;
 pub mod manoeuvre;

@@ -5,13 +5,13 @@ mod cell;
 mod definitions;
 mod field;
 mod json;
-mod known;
 mod names;
 mod path;
 mod plan;
 mod reader;
 mod run;
 mod schema;
+mod steps;
 mod survey;
 
 pub use cell::Cell;

@@ -2,14 +2,12 @@
 
 use std::collections::HashSet;
 
-use re_cdr::{ByteOrder, CdrReader};
 use serde_json::Value;
 
-use super::cdr::{self, Undecodable, Walk};
 use super::field::{Field, MOST_TOLD, add};
-use super::known::Known;
-use super::path::{HEADER_STAMP, MOST_NAMES, NAME_LISTS};
-use super::schema::{self, Layout, Type};
+use super::path::NAME_LISTS;
+use super::schema;
+use super::steps::Steps;
 use crate::source::payload;
 use crate::topic::Topic;
 
@@ -17,15 +15,13 @@ use crate::topic::Topic;
 pub(crate) struct Survey {
     way: Result<Way, String>,
     fields: Vec<Field>,
-    /// Messages that did not decode.
+    /// Messages that decoded, and those that did not.
+    decoded: u64,
     pub(crate) undecodable: u64,
 }
 
 enum Way {
-    /// No message was walked to its end yet.
-    Cdr(Layout),
-    /// One was, so that all fields are known.
-    Known(Known),
+    Cdr(Steps),
     Json(HashSet<String>),
 }
 
@@ -33,149 +29,38 @@ impl Survey {
     /// A survey of a topic.
     pub(crate) fn new(topic: &Topic) -> Self {
         let way = match topic.encoding.as_str() {
-            "json" => Ok(Way::Json(HashSet::new())),
-            "cdr" => schema::of(topic).map(Way::Cdr),
+            "json" => Ok((Way::Json(HashSet::new()), Vec::new())),
+            "cdr" => schema::of(topic)
+                .and_then(|layout| Steps::new(&layout))
+                .map(|(steps, fields)| (Way::Cdr(steps), fields)),
             other => Err(format!("messages are encoded as `{other}`; only cdr and json are read")),
         };
-        Self { way, fields: Vec::new(), undecodable: 0 }
+        let (way, fields) = match way {
+            Ok((way, fields)) => (Ok(way), fields),
+            Err(message) => (Err(message), Vec::new()),
+        };
+        Self { way, fields, decoded: 0, undecodable: 0 }
     }
 
     /// Looks at a message; the stamp of its header in ns, where it is one of CDR that has one.
     pub(crate) fn look(&mut self, message: &[u8]) -> Option<i128> {
         let Ok(way) = &mut self.way else { return None };
         let looked = payload(message).and_then(|message| match way {
-            Way::Known(known) => known.look(&message, &mut self.fields).ok(),
-            Way::Cdr(layout) => {
-                let mut looking = Looking { layout, next: 0, steps: 0, stamp: None, fields: &mut self.fields };
-                cdr::walk(&message, &mut looking).ok()?;
-                let stamp = looking.stamp;
-                *way = Way::Known(Known::new(layout));
-                Some(stamp)
-            }
+            Way::Cdr(steps) => steps.look(&message, &mut self.fields).ok(),
             Way::Json(known) => {
                 let root = super::json::parse(&message)?;
                 look_at_json(&root, "", &root, known, &mut self.fields);
                 Some(None)
             }
         });
+        self.decoded += u64::from(looked.is_some());
         self.undecodable += u64::from(looked.is_none());
         looked?
     }
 
-    /// The fields, or why the topic cannot be read.
+    /// The fields, none where no message decoded, or why the topic cannot be read.
     pub(crate) fn finish(self) -> Result<Vec<Field>, String> {
-        self.way.map(|_| self.fields)
-    }
-}
-
-/// A walk that meets the numeric fields in the same order in each message.
-struct Looking<'a> {
-    layout: &'a Layout,
-    /// Which field comes next.
-    next: usize,
-    /// Fields of items looked at: messages within messages may be told without end.
-    steps: usize,
-    /// The header's stamp in ns.
-    stamp: Option<i128>,
-    fields: &'a mut Vec<Field>,
-}
-
-impl Walk for Looking<'_> {
-    fn walk<B: ByteOrder>(&mut self, reader: &mut CdrReader<'_, B>) -> Result<(), Undecodable> {
-        let layout = self.layout;
-        self.message(reader, layout, &mut String::new())
-    }
-}
-
-impl Looking<'_> {
-    fn message<B: ByteOrder>(
-        &mut self,
-        reader: &mut CdrReader<'_, B>,
-        layout: &Layout,
-        path: &mut String,
-    ) -> Result<(), Undecodable> {
-        let names_at = layout.names();
-        let mut names: Vec<String> = Vec::new();
-        let outer = path.len();
-        for (index, (name, ty)) in layout.fields.iter().enumerate() {
-            if outer > 0 {
-                path.push('.');
-            }
-            path.push_str(name);
-            match ty {
-                Type::Number(_) => {
-                    cdr::skip(reader, ty)?;
-                    self.found(path, None, &[]);
-                }
-                Type::Message(inner) if inner.is_stamp() => {
-                    let (seconds, ns) = cdr::stamp(reader)?;
-                    if path == HEADER_STAMP {
-                        self.stamp = Some(seconds * 1_000_000_000 + ns);
-                    }
-                    self.found(path, None, &[]);
-                }
-                Type::Message(inner) => self.message(reader, inner, path)?,
-                Type::List { of, size } => {
-                    let count = cdr::length(reader, *size, of)?;
-                    if names_at == Some(index) && count <= MOST_NAMES {
-                        names = (0..count)
-                            .map(|_| Ok(reader.read_str()?.to_owned()))
-                            .collect::<Result<_, Undecodable>>()?;
-                    } else {
-                        cdr::skip_items(reader, of, count)?;
-                        let named = if names.len() == count { names.as_slice() } else { &[] };
-                        self.list(path, of, count, named);
-                    }
-                }
-                Type::Text | Type::WideText => cdr::skip(reader, ty)?,
-            }
-            path.truncate(outer);
-        }
-        Ok(())
-    }
-
-    /// A list of numbers, or the numeric fields of a list of messages; lists within lists are left out.
-    fn list(&mut self, path: &mut String, of: &Type, count: usize, names: &[String]) {
-        match of {
-            Type::Number(_) => self.found(path, Some(count), names),
-            Type::Message(layout) => {
-                let outer = path.len();
-                path.push_str("[]");
-                self.items(layout, path, count, names);
-                path.truncate(outer);
-            }
-            Type::Text | Type::WideText | Type::List { .. } => {}
-        }
-    }
-
-    fn items(&mut self, layout: &Layout, path: &mut String, count: usize, names: &[String]) {
-        let outer = path.len();
-        for (name, ty) in &layout.fields {
-            self.steps += 1;
-            if self.steps > MOST_TOLD {
-                break;
-            }
-            path.push('.');
-            path.push_str(name);
-            match ty {
-                Type::Number(_) => self.found(path, Some(count), names),
-                Type::Message(inner) if inner.is_stamp() => self.found(path, Some(count), names),
-                Type::Message(inner) => self.items(inner, path, count, names),
-                Type::Text | Type::WideText | Type::List { .. } => {}
-            }
-            path.truncate(outer);
-        }
-    }
-
-    fn found(&mut self, path: &str, length: Option<usize>, names: &[String]) {
-        if self.next >= MOST_TOLD {
-            return;
-        }
-        if self.next == self.fields.len() {
-            self.fields.push(Field { path: path.to_owned(), lengths: length.map(|n| (n, n)), names: Vec::new() });
-        }
-        add(&mut self.fields[self.next], length, names);
-        self.next += 1;
+        self.way.map(|_| if self.decoded > 0 { self.fields } else { Vec::new() })
     }
 }
 

@@ -1,4 +1,5 @@
-//! Messages of a topic whose fields are known: only what may differ between messages is looked at.
+//! The way through the messages of a topic: their fields are those of the layout, and only what may differ between
+//! messages is looked at.
 
 use re_cdr::{ByteOrder, CdrReader};
 
@@ -9,8 +10,11 @@ use super::path::HEADER_STAMP;
 use super::run::Run;
 use super::schema::{Layout, Size, Type};
 
+/// Most fields of a layout, messages within messages counted each time: more is no message of this world.
+const MOST_FIELDS: usize = 1 << 16;
+
 /// The way through a message of one layout.
-pub(super) struct Known {
+pub(super) struct Steps {
     steps: Vec<Step>,
     lists_of_names: Vec<Names>,
     /// The header's stamp in the last message, in ns.
@@ -41,35 +45,46 @@ struct List {
     fields: std::ops::Range<usize>,
     /// The list of names before it in the same message.
     names: Option<usize>,
+    /// Items in the last message.
+    count: usize,
     /// Names that the fields have been told, by their version.
     told: u64,
 }
 
-impl Known {
-    /// The way through messages of a layout, when one was walked field by field, so that it has an end.
-    pub(super) fn new(layout: &Layout) -> Self {
-        let mut making = Making { steps: Vec::new(), lists: 0, next: 0, items: 0 };
-        making.message(layout, &mut String::new());
+impl Steps {
+    /// The way through messages of a layout, and the fields that are told of them; lists have no length yet.
+    pub(super) fn new(layout: &Layout) -> Result<(Self, Vec<Field>), String> {
+        let mut making = Making { steps: Vec::new(), lists: 0, fields: Vec::new(), met: 0, items: 0 };
+        if !making.message(layout, &mut String::new()) {
+            return Err(format!("`{}` has more than {MOST_FIELDS} fields", layout.name));
+        }
         let lists_of_names = (0..making.lists).map(|_| Names::default()).collect();
-        Self { steps: making.steps, lists_of_names, stamp: None }
+        Ok((Self { steps: making.steps, lists_of_names, stamp: None }, making.fields))
     }
 
-    /// Walks a message and updates what is known of its fields; the header's stamp, where there is one.
+    /// Walks a message and, when it decodes, widens what is known of the fields of its lists; the header's stamp, where
+    /// there is one.
     pub(super) fn look(&mut self, message: &[u8], fields: &mut [Field]) -> Result<Option<i128>, Undecodable> {
         struct Walking<'a> {
-            known: &'a mut Known,
+            of: &'a mut Steps,
             body: &'a [u8],
-            fields: &'a mut [Field],
         }
         impl Walk for Walking<'_> {
             fn walk<B: ByteOrder>(&mut self, reader: &mut CdrReader<'_, B>) -> Result<(), Undecodable> {
-                let Known { steps, lists_of_names, stamp } = &mut *self.known;
-                steps.iter_mut().try_for_each(|step| step.walk(self.body, reader, lists_of_names, stamp, self.fields))
+                let Steps { steps, lists_of_names, stamp } = &mut *self.of;
+                steps.iter_mut().try_for_each(|step| step.walk(self.body, reader, lists_of_names, stamp))
             }
         }
         self.stamp = None;
         let body = message.get(cdr::HEAD..).ok_or(Undecodable)?;
-        cdr::walk(message, &mut Walking { known: self, body, fields })?;
+        cdr::walk(message, &mut Walking { of: self, body })?;
+
+        for step in &mut self.steps {
+            if let Step::List(list) = step {
+                let names = list.names.and_then(|names| self.lists_of_names.get(names));
+                list.tell(names, fields);
+            }
+        }
         Ok(self.stamp)
     }
 }
@@ -81,7 +96,6 @@ impl Step {
         reader: &mut CdrReader<'_, B>,
         lists_of_names: &mut [Names],
         stamp: &mut Option<i128>,
-        fields: &mut [Field],
     ) -> Result<(), Undecodable> {
         match self {
             Self::Run(run) => run.skip(reader),
@@ -97,58 +111,64 @@ impl Step {
                 Some(names) => names.read(body, reader, of, *size).map(|_| ()),
                 None => Err(Undecodable),
             },
-            Self::List(list) => {
-                let names = list.names.and_then(|list| lists_of_names.get(list));
-                list.walk(reader, names, fields)
-            }
+            Self::List(list) => list.walk(reader),
         }
     }
 }
 
 impl List {
-    fn walk<B: ByteOrder>(
-        &mut self,
-        reader: &mut CdrReader<'_, B>,
-        names: Option<&Names>,
-        fields: &mut [Field],
-    ) -> Result<(), Undecodable> {
-        let count = cdr::length(reader, self.size, &self.of)?;
-        cdr::skip_items(reader, &self.of, count)?;
-        let names = names.filter(|names| names.list().len() == count && names.version() != self.told);
+    fn walk<B: ByteOrder>(&mut self, reader: &mut CdrReader<'_, B>) -> Result<(), Undecodable> {
+        self.count = cdr::length(reader, self.size, &self.of)?;
+        cdr::skip_items(reader, &self.of, self.count)
+    }
+
+    /// Widens the fields by the list of the last message.
+    fn tell(&mut self, names: Option<&Names>, fields: &mut [Field]) {
+        let names = names.filter(|names| names.list().len() == self.count && names.version() != self.told);
         for field in fields.get_mut(self.fields.clone()).unwrap_or_default() {
-            add(field, Some(count), names.map(Names::list).unwrap_or_default());
+            add(field, Some(self.count), names.map(Names::list).unwrap_or_default());
         }
         self.told = names.map_or(self.told, Names::version);
-        Ok(())
     }
 }
 
-/// Makes the steps, and counts the fields in the order in which the walk field by field tells them.
+/// Makes the steps, and tells the fields in the order of the wire.
 struct Making {
     steps: Vec<Step>,
     lists: usize,
-    next: usize,
+    fields: Vec<Field>,
+    /// Fields met, at all and in items of lists: messages within messages may be told without end.
+    met: usize,
     items: usize,
 }
 
 impl Making {
-    fn message(&mut self, layout: &Layout, path: &mut String) {
+    /// False when there are too many fields.
+    fn message(&mut self, layout: &Layout, path: &mut String) -> bool {
         let names_at = layout.names();
         let mut names = None;
         let outer = path.len();
         for (index, (name, ty)) in layout.fields.iter().enumerate() {
+            self.met += 1;
+            if self.met > MOST_FIELDS {
+                return false;
+            }
             if outer > 0 {
                 path.push('.');
             }
             path.push_str(name);
             match ty {
                 Type::Message(inner) if inner.is_stamp() => {
-                    self.next += 1;
+                    self.tell(path, None);
                     self.steps.push(Step::Stamp { is_header: path == HEADER_STAMP });
                 }
-                Type::Message(inner) => self.message(inner, path),
+                Type::Message(inner) => {
+                    if !self.message(inner, path) {
+                        return false;
+                    }
+                }
                 Type::Number(_) => {
-                    self.next += 1;
+                    self.tell(path, None);
                     match Run::of(ty) {
                         Some(run) => self.run(run),
                         None => self.steps.push(Step::Bool(ty.clone())),
@@ -161,16 +181,17 @@ impl Making {
                     self.steps.push(Step::Names { of: (**of).clone(), size: *size, list: self.lists - 1 });
                 }
                 Type::List { of, size } => {
-                    let first = self.next;
-                    self.next += self.told(of);
+                    let first = self.fields.len();
+                    self.list(of, *size, path);
                     match Run::of(ty).filter(|_| names.is_none()) {
                         // Always of one length, which was told, and without names.
                         Some(run) => self.run(run),
                         None => self.steps.push(Step::List(List {
                             of: (**of).clone(),
                             size: *size,
-                            fields: first.min(MOST_TOLD)..self.next.min(MOST_TOLD),
+                            fields: first..self.fields.len(),
                             names,
+                            count: 0,
                             told: 0,
                         })),
                     }
@@ -178,6 +199,7 @@ impl Making {
             }
             path.truncate(outer);
         }
+        true
     }
 
     fn run(&mut self, run: Run) {
@@ -190,29 +212,43 @@ impl Making {
         }
     }
 
-    /// How many fields are told of a list.
-    fn told(&mut self, of: &Type) -> usize {
+    /// A list of numbers, or the numeric fields of a list of messages; lists within lists are left out.
+    fn list(&mut self, of: &Type, size: Size, path: &mut String) {
+        let lengths = if let Size::Fixed(count) = size { (count, count) } else { (usize::MAX, 0) };
         match of {
-            Type::Number(_) => 1,
-            Type::Message(layout) => self.items(layout),
-            Type::Text | Type::WideText | Type::List { .. } => 0,
+            Type::Number(_) => self.tell(path, Some(lengths)),
+            Type::Message(layout) => {
+                let outer = path.len();
+                path.push_str("[]");
+                self.items(layout, path, lengths);
+                path.truncate(outer);
+            }
+            Type::Text | Type::WideText | Type::List { .. } => {}
         }
     }
 
-    fn items(&mut self, layout: &Layout) -> usize {
-        let mut told = 0;
-        for (_, ty) in &layout.fields {
+    fn items(&mut self, layout: &Layout, path: &mut String, lengths: (usize, usize)) {
+        let outer = path.len();
+        for (name, ty) in &layout.fields {
             self.items += 1;
             if self.items > MOST_TOLD {
                 break;
             }
-            told += match ty {
-                Type::Number(_) => 1,
-                Type::Message(inner) if inner.is_stamp() => 1,
-                Type::Message(inner) => self.items(inner),
-                Type::Text | Type::WideText | Type::List { .. } => 0,
-            };
+            path.push('.');
+            path.push_str(name);
+            match ty {
+                Type::Number(_) => self.tell(path, Some(lengths)),
+                Type::Message(inner) if inner.is_stamp() => self.tell(path, Some(lengths)),
+                Type::Message(inner) => self.items(inner, path, lengths),
+                Type::Text | Type::WideText | Type::List { .. } => {}
+            }
+            path.truncate(outer);
         }
-        told
+    }
+
+    fn tell(&mut self, path: &str, lengths: Option<(usize, usize)>) {
+        if self.fields.len() < MOST_TOLD {
+            self.fields.push(Field { path: path.to_owned(), lengths, names: Vec::new() });
+        }
     }
 }
