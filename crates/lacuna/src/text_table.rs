@@ -1,4 +1,5 @@
-//! Tables of plain text.
+//! Tables of plain text: the same bytes in a terminal, a pipe and the documentation, whose printed tables tests compare.
+//! `comfy-table` and its like wrap to the terminal's width and know borders and colours, none of which is wanted here.
 
 pub use report::words::number;
 

@@ -1,6 +1,7 @@
 //! The crate's one error type.
 
-use crate::place::Place;
+use bags::{FileError, Place};
+
 use crate::signal::Signal;
 use crate::spot::Spot;
 use crate::units::Unit;
@@ -136,17 +137,9 @@ pub enum RecordingError {
     #[error("recording {recording}: no signal {signal} ({}); map a column to it; mapped are: {mapped}", signal.unit())]
     MissingSignal { recording: String, signal: Signal, mapped: String },
 
-    /// The source failed while it was read.
-    #[error("{file}: reading failed at byte {byte}: {message}; try again, or copy the file first")]
-    CannotRead { file: String, byte: u64, message: String },
-
-    /// A file whose format has to be held in memory as a whole, and that is too large for it.
-    #[error("{file}: {bytes} bytes, but this format is read whole and {limit} is the limit; convert it to MCAP")]
-    TooLarge { file: String, bytes: u64, limit: u64 },
-
     /// A file that cannot be read at all.
-    #[error("{file}: not a readable {format} file: {message}")]
-    NotReadable { file: String, format: &'static str, message: String },
+    #[error(transparent)]
+    File(#[from] FileError),
 
     /// A loss where none is accepted (strict reading).
     #[error("{0}; read without strict mode to take what is left")]

@@ -1,10 +1,11 @@
 //! The header line of a CSV file: where the mapped columns are.
 
+use bags::suggest;
+
 use crate::cell::bare;
 use crate::error::RecordingError;
 use crate::mapping::FileMapping;
 use crate::samples::Found;
-use crate::suggest;
 use crate::units::{Unit, parse_unit};
 
 /// The header, and what is below it.

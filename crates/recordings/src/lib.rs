@@ -1,6 +1,6 @@
-//! Recordings in SI units: readers, mappings and what could not be read.
+#![doc = include_str!("../README.md")]
 //!
-//! The crate knows nothing of robots or simulation and opens no file: it is given names and bytes.
+//! # The entrances
 //!
 //! ```text
 //! file names --Mapping::group--> runs --bytes--> read --> Read { recording, losses, .. }
@@ -11,56 +11,66 @@
 //! * [`read`] turns the files of one run into a [`Recording`] and the list of what it lost on the way; [`read_from`] does
 //!   so from anything that can be read and searched, so that bags need not fit into memory.
 //! * [`survey_from`] measures instead: quality and content of each channel, and what is inside bags, in one pass and in
-//!   memory that does not grow.
-//! * [`pieces_from`] gives a run of any length piece by piece.
-//! * [`contents`] tells what a bag holds and [`table_contents`] what a table does, [`messages`] gives each message, [`FieldReader`] the fields of each.
+//!   memory that does not grow. [`pieces_from`] gives a run of any length piece by piece.
+//! * [`contents`] tells what a bag holds and [`table_contents`] what a table does.
 //! * [`Quality`] is what can be measured of a channel without knowing what it means: rate, gaps, jumps, saturation ...
-//! * [`Fingerprint`] tells the same data in another file.
+//!   [`Fingerprint`] tells the same data in another file.
 //! * [`write_csv`], [`write_mcap`] and [`write_parquet`] are the way back; the built-in mapping `lacuna` reads all three.
 //!
-//! ```
-//! use recordings::{Input, Mapping, ReadOptions, Signal, read};
+//! # Where what lies
 //!
-//! let mapping = Mapping::built_in("skid-steer-columns")?;
-//! let bytes = b"time_s,gyro_z_rad_s\n0.00,\n0.01,0.25\n";
-//! let run = read(&mapping, "run_1", &[Input { name: "run_1.csv", bytes }], &ReadOptions::default())?;
-//! let gyro = run.recording.require(Signal::GyroZ)?;
-//! assert_eq!(gyro.t_ns(), [10_000_000]);
-//! assert_eq!(gyro.values(), [0.25]);
-//! assert!(run.losses.is_empty());
-//! # Ok::<(), recordings::RecordingError>(())
-//! ```
+//! * `input`: what a caller gives. `read`: the entrance. `group`: which files make a run. `mapping*`: column to signal, unit
+//!   and sign; `mapping_toml` reads them, `mapping_built_in` holds those that come along. `units`: conversion at the border.
+//! * Readers. `table/*`: CSV, blocks of lines parsed beside each other and taken in order, by `header` and `cell`. `parquet`.
+//!   `topics`: messages of the crate `bags` against a mapping.
+//! * `row` is one line, message or row of any of them; `samples` makes rows samples, which `column_samples` keeps and
+//!   `column_meter` measures: `column` says what both can. `survey` and `pieces` are the entrances for these.
+//! * `table_contents`, with `table_guess` and `column_survey`: what a table holds that no mapping fits.
+//! * `signal`, `channel`, `recording`: what comes out. `quality/*`: what can be measured of a channel. `fingerprint`.
+//! * `write`, `write_mcap`, `write_parquet`: files that read back; `described`: what they say of themselves.
+//! * `error`; `spot`: a place in a text that somebody wrote.
+//!
+//! # What is written by hand, and why
+//!
+//! * Plain decimals (`cell`): nearly every cell of a table is one, and a single exact division reads it faster
+//!   than a general parser does, to the same bits (a test); all others go to `fast-float2`. Stamps are read as whole
+//!   nanoseconds, which no parser of floating-point numbers keeps.
+//! * Lines of CSV (`table/*`): `csv` reads one after the other, and an open quote would swallow the rest of the file; here
+//!   blocks are parsed on all cores, and a quote costs its row. Header lines and guesses go through `csv`.
+//! * Sorting by digits (`quality/robust`): the time of a survey is that of its sorting.
+//!
+//! # Adding a format of tables
+//!
+//! A file that makes its rows [`samples`](read), as `parquet.rs` does, and one row in the list of formats of `bags`
+//! (`format.rs`: ending, first bytes). The compiler then names the `match`es that call a reader: `read.rs`, and
+//! `table_contents.rs` for what is inside where no mapping fits. A format of bags: see that crate; nothing changes here.
 
-mod bag;
 mod cell;
 mod channel;
 mod column;
 mod column_meter;
 mod column_samples;
 mod column_survey;
-mod contents;
 mod described;
 mod error;
-mod fields;
 mod fingerprint;
 mod group;
 mod header;
-mod header_stamps;
-mod loss;
+mod input;
 mod mapping;
+mod mapping_built_in;
 mod mapping_raw;
 mod mapping_text;
 mod mapping_toml;
 mod parquet;
 mod pieces;
-mod place;
 mod quality;
 mod read;
 mod recording;
+mod row;
 mod samples;
 mod signal;
 mod spot;
-pub mod suggest;
 mod survey;
 mod table;
 mod table_contents;
@@ -71,24 +81,24 @@ mod write;
 mod write_mcap;
 mod write_parquet;
 
-pub use bag::{LARGEST_IN_MEMORY, LARGEST_RECORD, Message, Passed, ReadSeek, Topic, messages};
+pub use bags::{
+    Contents, Delay, Drift, Field, FileError, Format, HeaderStamps, Loss, LossKind, Message, Place, ReadSeek, Topic,
+    TopicContents, contents, contents_of_beginning, messages, suggest,
+};
 pub use channel::{Attributes, Channel};
 pub use column_survey::{ColumnContents, TimeLike, UnitBy};
-pub use contents::{Contents, TopicContents, contents, contents_of_beginning};
 pub use error::RecordingError;
-pub use fields::{Field, FieldReader};
 pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
 pub use group::{Group, GroupFile, Grouping};
-pub use header_stamps::{Delay, Drift, HeaderStamps};
-pub use loss::{Loss, LossKind};
-pub use mapping::{BUILT_IN_MAPPINGS, ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
+pub use input::{Input, Opened, Policy, ReadOptions};
+pub use mapping::{ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
+pub use mapping_built_in::BUILT_IN_MAPPINGS;
 pub use pieces::{Passage, pieces_from};
-pub use place::Place;
 pub use quality::{
     At, Extreme, Finding, FindingKind, Gaps, Grid, Quality, QualityMeter, Severity, Stretch, Tally, Timing, Values,
     Wrap,
 };
-pub use read::{Input, Opened, Policy, Read, ReadOptions, Source, UnusedColumn, read, read_from};
+pub use read::{Read, Source, UnusedColumn, read, read_from};
 pub use recording::{Clock, Recording};
 pub use signal::Signal;
 pub use spot::Spot;

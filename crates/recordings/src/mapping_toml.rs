@@ -1,15 +1,14 @@
 //! Reading a mapping from TOML: every complaint names the file, the place and the key.
 
+use bags::{Format, LOG_TIME, suggest};
 use toml::Spanned;
 
 use crate::channel::Attributes;
 use crate::error::RecordingError;
-use crate::fields::LOG_TIME;
-use crate::mapping::{BAG_PATTERN, ColumnMapping, FileMapping, Mapping, TimeMapping};
+use crate::mapping::{ColumnMapping, FileMapping, Mapping, TimeMapping};
 use crate::mapping_raw::{Kind, RawFile, RawMapping, RawSignal, RawTime};
 use crate::mapping_text::Text;
 use crate::signal::Signal;
-use crate::suggest;
 use crate::units::Unit;
 
 /// Nanoseconds in a second.
@@ -47,7 +46,7 @@ impl Text<'_> {
         let topic = raw.topic.map(Spanned::into_inner);
         let (pattern_at, pattern) = match raw.pattern {
             Some(pattern) => (pattern.span().start, pattern.into_inner()),
-            None if topic.is_some() => (topic_at.unwrap_or(time_at), BAG_PATTERN.to_owned()),
+            None if topic.is_some() => (topic_at.unwrap_or(time_at), Format::bag_pattern()),
             None => {
                 let message = "give the files' names, such as \"*.csv\", or the `topic` of a bag";
                 return Err(self.value(time_at, "pattern", message));

@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use bags::{Cell, FileError, Loss, Place, suggest};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row as ParquetRow};
 use parquet::schema::types::Type;
@@ -14,13 +15,10 @@ use crate::column::{Column, Keep};
 use crate::column_survey::ColumnSurvey;
 use crate::described::Described;
 use crate::error::RecordingError;
-use crate::fields::Cell;
-use crate::loss::Loss;
+use crate::input::Policy;
 use crate::mapping::FileMapping;
-use crate::place::Place;
-use crate::read::Policy;
-use crate::samples::{Found, Row, Samples};
-use crate::suggest;
+use crate::row::{self, Row, shown};
+use crate::samples::{Found, Samples};
 
 /// What a table gave.
 pub(crate) struct Table<K> {
@@ -60,7 +58,7 @@ pub(crate) fn read_rows<K: Keep>(
     clock: usize,
     losses: &mut Vec<Loss>,
 ) -> Result<Table<K::Kept>, RecordingError> {
-    let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
+    let refuse = |message: String| refused(name, message);
     let read = AssertUnwindSafe(|| {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
         let metadata = reader.metadata().file_metadata();
@@ -90,7 +88,7 @@ pub(crate) fn read_rows<K: Keep>(
 
 /// Looks at every cell; the columns and the number of rows.
 pub(crate) fn survey(name: &str, bytes: Vec<u8>) -> Result<(Vec<ColumnSurvey>, u64), RecordingError> {
-    let refuse = |message: String| RecordingError::NotReadable { file: name.to_owned(), format: "Parquet", message };
+    let refuse = |message: String| refused(name, message);
     let read = AssertUnwindSafe(|| {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
         let fields = reader.metadata().file_metadata().schema().get_fields();
@@ -102,14 +100,19 @@ pub(crate) fn survey(name: &str, bytes: Vec<u8>) -> Result<(Vec<ColumnSurvey>, u
             for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
                 let cell = cell(field);
                 column.ns_per_unit = cell.and_then(|(_, ns_per_unit)| ns_per_unit).or(column.ns_per_unit);
-                let number = cell.map_or(Err(CellError::NotANumber), |(cell, _)| cell.number());
-                column.look(number, || crate::samples::shown(field.to_string().trim_matches('"')));
+                let number = cell.map_or(Err(CellError::NotANumber), |(cell, _)| row::number(cell));
+                column.look(number, || shown(field.to_string().trim_matches('"')));
             }
             rows += 1;
         }
         Ok((columns, rows))
     });
     catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
+}
+
+/// A file that cannot be read, and why.
+fn refused(name: &str, message: String) -> RecordingError {
+    FileError::NotReadable { file: name.to_owned(), format: "Parquet", message }.into()
 }
 
 /// The columns that are read, in the order of the file, and where they are among these.
@@ -193,16 +196,16 @@ fn cell(field: &Field) -> Option<(Cell, Option<i64>)> {
 
 impl Row for TableRow {
     fn number(&self, position: usize) -> Result<Option<f64>, CellError> {
-        self.cell(position).ok_or(CellError::NotANumber)?.0.number()
+        row::number(self.cell(position).ok_or(CellError::NotANumber)?.0)
     }
 
     fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError> {
         let (cell, own) = self.cell(position).ok_or(CellError::NotANumber)?;
-        cell.instant_ns(own.unwrap_or(ns_per_unit))
+        row::instant_ns(cell, own.unwrap_or(ns_per_unit))
     }
 
     fn text(&self, position: usize) -> String {
-        crate::samples::shown(self.field(position).map(ToString::to_string).unwrap_or_default().trim_matches('"'))
+        shown(self.field(position).map(ToString::to_string).unwrap_or_default().trim_matches('"'))
     }
 
     fn place(&self) -> u64 {

@@ -3,13 +3,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use bags::Loss;
+
 use crate::channel::{Attributes, Channel};
 use crate::column::{Keep, SORTED_WITHIN_NS};
 use crate::column_samples::ColumnSamples;
 use crate::error::RecordingError;
-use crate::loss::Loss;
+use crate::input::{Opened, ReadOptions};
 use crate::mapping::{ColumnMapping, Mapping};
-use crate::read::{Gathered, Opened, ReadOptions, Source, UnusedColumn, gather};
+use crate::read::{Gathered, Source, UnusedColumn, gather};
 use crate::recording::{Clock, Recording};
 use crate::signal::Signal;
 
@@ -153,7 +155,8 @@ mod tests {
     use std::io::Cursor;
 
     use super::*;
-    use crate::read::{Input, read};
+    use crate::input::Input;
+    use crate::read::read;
 
     /// A quarter of an hour of two columns, one of them with gaps; late rows, and an hour in which nothing is recorded.
     fn table() -> String {

@@ -3,65 +3,19 @@
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
-use crate::bag::{Format, ReadSeek, head, read_whole, refuse_large};
+use bags::{Contents, Format, LOG_TIME, Loss, LossKind, Place, ReadSeek, Stored, head, read_whole, refuse_large};
+
 use crate::column::{Column, Keep};
 use crate::column_samples::ColumnSamples;
-use crate::contents::Contents;
 use crate::described::settle;
 use crate::error::RecordingError;
-use crate::fields::LOG_TIME;
 use crate::group::parts;
-use crate::loss::{Loss, LossKind};
+use crate::input::{Input, Opened, Policy, ReadOptions};
 use crate::mapping::{FileMapping, Mapping, base_name};
 use crate::parquet;
-use crate::place::Place;
 use crate::recording::{Clock, Recording};
 use crate::table;
 use crate::topics::read_bags;
-
-/// A file as the caller gives it: its name and its bytes.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// Name or path; its last part is matched against the mapping's patterns.
-    pub name: &'a str,
-    /// Contents.
-    pub bytes: &'a [u8],
-}
-
-/// A file as the caller opened it.
-pub struct Opened<'a> {
-    /// Name or path; its last part is matched against the mapping's patterns.
-    pub name: &'a str,
-    /// Where its bytes come from.
-    pub source: &'a mut dyn ReadSeek,
-}
-
-impl std::fmt::Debug for Opened<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Opened").field("name", &self.name).finish_non_exhaustive()
-    }
-}
-
-/// What to do with input that is not as it should be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Policy {
-    /// Everything that would be a loss inside a file is an error.
-    Strict,
-    /// Skip rows with a wrong field count, an empty time or a repeated stamp and count them; sort rows that are up to a
-    /// second late and count them; refuse text in numbers, numbers that are not finite, a negative magnitude and time
-    /// that runs backwards by more.
-    #[default]
-    Normal,
-    /// Skip and count all of these; only what leaves nothing to read is an error.
-    Tolerant,
-}
-
-/// How to read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ReadOptions {
-    /// What to do with bad rows and cells.
-    pub policy: Policy,
-}
 
 /// A file that went into a recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -209,17 +163,15 @@ impl<K: Keep> Gathering<'_, K> {
         let (name, file, clock) = (input.name, &self.mapping.files[entry], so_far.clocks.len());
         let (keep, mapping) = ((self.keep, self.policy), &self.mapping.name);
         let own_clock = Clock { name: name.to_owned(), nominal_rate_hz: file.time.rate_hz };
-        let format = Format::of(name, &head(name, &mut *input.source)?);
-        let mut whole = match format {
-            Format::Parquet | Format::Zstd => Some(read_whole(name, &mut *input.source)?),
-            _ => None,
+        let stored = Stored::of(name, &head(name, &mut *input.source)?);
+        let mut whole = match stored {
+            Stored::As(Format::Parquet) | Stored::Compressed => {
+                Some(read_whole(name, &mut *input.source)?.unbroken(name)?)
+            }
+            Stored::As(Format::Csv | Format::Mcap | Format::Sqlite) => None,
         };
-        if whole.as_ref().is_some_and(|whole| whole.broken_at.is_some()) {
-            let message = "the compressed file is damaged or cut off".to_owned();
-            return Err(RecordingError::NotReadable { file: name.to_owned(), format: "zstd", message });
-        }
         let (unused, bytes, sha256) = match whole.take() {
-            Some(whole) if Format::of(name, &whole.bytes) == Format::Parquet => {
+            Some(whole) if Stored::of(name, &whole.bytes) == Stored::As(Format::Parquet) => {
                 let table = parquet::read_rows(keep, name, whole.bytes, file, mapping, clock, &mut so_far.losses)?;
                 if file.self_describing {
                     let described = parquet::described(table.columns, &table.about);

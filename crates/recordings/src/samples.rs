@@ -1,31 +1,19 @@
 //! Rows become samples: the one way in which CSV lines, messages of a topic and rows of Parquet do.
 
+use bags::{HEADER_STAMP, Ledger, Loss, LossKind, Place, in_words};
+
 use crate::cell::CellError;
 use crate::column::{Column, Keep, SORTED_WITHIN_NS};
 use crate::error::RecordingError;
-use crate::fields::HEADER_STAMP;
-use crate::loss::{Ledger, LossKind, in_words};
+use crate::input::Policy;
 use crate::mapping::{ColumnMapping, TimeMapping};
-use crate::place::Place;
-use crate::read::Policy;
+use crate::row::Row;
 
 /// A mapped column and where it is in a row.
 #[derive(Clone, Copy)]
 pub(crate) struct Found<'a> {
     pub(crate) position: usize,
     pub(crate) mapped: &'a ColumnMapping,
-}
-
-/// One row: cells by position.
-pub(crate) trait Row {
-    /// The number in a cell; `None` for an empty one.
-    fn number(&self, position: usize) -> Result<Option<f64>, CellError>;
-    /// The instant in a cell whose unit is `ns_per_unit` nanoseconds; `None` for an empty one.
-    fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError>;
-    /// A cell as a message shows it.
-    fn text(&self, position: usize) -> String;
-    /// Where the row is, asked only for messages.
-    fn place(&self) -> u64;
 }
 
 /// What a table is read by, and the samples read so far.
@@ -128,7 +116,7 @@ impl<'a, K: Keep> Samples<'a, K> {
     pub(crate) fn finish(
         mut self,
         clock: usize,
-        losses: &mut Vec<crate::Loss>,
+        losses: &mut Vec<Loss>,
     ) -> Result<Vec<Column<K::Kept>>, RecordingError> {
         let (mut columns, mut empty) = (Vec::new(), Vec::new());
         for (found, samples) in self.columns.iter().zip(std::mem::take(&mut self.kept)) {
@@ -252,17 +240,6 @@ impl<'a, K: Keep> Samples<'a, K> {
         let column = self.time.column.as_deref();
         column.map_or_else(|| "(row number)".to_owned(), |column| format!("{}{column}", self.prefix))
     }
-}
-
-/// Text as a message shows it: its first characters, none that a terminal would obey.
-pub(crate) fn shown(text: &str) -> String {
-    /// Characters shown.
-    const SHOWN: usize = 40;
-    let mut shown: String = text.chars().take(SHOWN).flat_map(char::escape_debug).collect();
-    if text.chars().count() > SHOWN {
-        shown.push('…');
-    }
-    shown
 }
 
 fn seconds(ns: i64) -> f64 {

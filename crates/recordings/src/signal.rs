@@ -1,6 +1,7 @@
 //! The closed vocabulary of signals that a diagnosis can use.
 
-use crate::suggest;
+use bags::suggest;
+
 use crate::units::Unit;
 
 /// Declares the enum, its names and units in one place, so that a new signal is one line.

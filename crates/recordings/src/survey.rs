@@ -1,15 +1,16 @@
 //! The files of one run, measured instead of kept.
 
+use bags::{Contents, Loss};
+
 use crate::channel::Attributes;
 use crate::column::Column;
 use crate::column_meter::{ColumnMeter, Measured};
-use crate::contents::Contents;
 use crate::error::RecordingError;
 use crate::fingerprint::Fingerprint;
-use crate::loss::Loss;
+use crate::input::{Opened, ReadOptions};
 use crate::mapping::Mapping;
 use crate::quality::Quality;
-use crate::read::{Gathered, Opened, ReadOptions, Source, UnusedColumn, gather};
+use crate::read::{Gathered, Source, UnusedColumn, gather};
 use crate::recording::{Clock, refuse_twice};
 use crate::signal::Signal;
 

@@ -2,16 +2,16 @@
 
 use std::io::{Cursor, Read, SeekFrom};
 
+use bags::{FileError, Format, LARGEST_RECORD, ReadSeek, Stored, cannot_read, head, read_whole};
 use csv::ByteRecord;
 use sha2::{Digest, Sha256};
 
-use crate::bag::{Format, LARGEST_RECORD, ReadSeek, cannot_read, head, hexadecimal, read_whole};
 use crate::cell;
 use crate::column_survey::{ColumnContents, ColumnSurvey};
 use crate::error::RecordingError;
 use crate::header::{head_line, split};
 use crate::parquet;
-use crate::samples::shown;
+use crate::row::shown;
 use crate::table_guess::{is_headless, written};
 
 /// Bytes at the start of a CSV file that delimiter and decimal sign are guessed by.
@@ -73,30 +73,25 @@ impl TableContents {
 /// # Ok::<(), recordings::RecordingError>(())
 /// ```
 pub fn table_contents(name: &str, source: &mut dyn ReadSeek) -> Result<TableContents, RecordingError> {
-    let refuse = |format, message: &str| {
-        Err(RecordingError::NotReadable { file: name.to_owned(), format, message: message.to_owned() })
+    let stored = Stored::of(name, &head(name, source)?);
+    let whole = match stored {
+        Stored::As(Format::Csv) => return text(name, source),
+        Stored::As(Format::Parquet) | Stored::Compressed => read_whole(name, source)?.unbroken(name)?,
+        Stored::As(Format::Mcap | Format::Sqlite) => {
+            let (file, message) = (name.to_owned(), "it is a bag".to_owned());
+            return Err(FileError::NotReadable { file, format: "table", message }.into());
+        }
     };
-    let mut whole = None;
-    match Format::of(name, &head(name, source)?) {
-        Format::Other => {}
-        Format::Mcap | Format::Sqlite => return refuse("table", "it is a bag"),
-        Format::Parquet | Format::Zstd => whole = Some(read_whole(name, source)?),
-    }
-    if let Some(whole) = whole {
-        if whole.broken_at.is_some() {
-            return refuse("zstd", "the compressed file is damaged or cut off");
-        }
-        if Format::of("", &whole.bytes) == Format::Parquet {
-            let (columns, rows) = parquet::survey(name, whole.bytes)?;
-            let columns = columns.into_iter().map(ColumnSurvey::finish).collect();
-            let (format, bytes, sha256) = (TableFormat::Parquet, whole.file_bytes, whole.sha256);
-            return Ok(TableContents { format, columns, rows, misfits: 0, headless: false, bytes, sha256 });
-        }
-        let mut table = text(name, &mut Cursor::new(whole.bytes))?;
-        (table.bytes, table.sha256) = (whole.file_bytes, whole.sha256);
-        return Ok(table);
-    }
-    text(name, source)
+    let mut table = if Stored::of("", &whole.bytes) == Stored::As(Format::Parquet) {
+        let (columns, rows) = parquet::survey(name, whole.bytes)?;
+        let columns = columns.into_iter().map(ColumnSurvey::finish).collect();
+        let (format, sha256) = (TableFormat::Parquet, String::new());
+        TableContents { format, columns, rows, misfits: 0, headless: false, bytes: 0, sha256 }
+    } else {
+        text(name, &mut Cursor::new(whole.bytes))?
+    };
+    (table.bytes, table.sha256) = (whole.file_bytes, whole.sha256);
+    Ok(table)
 }
 
 /// The same of CSV.
@@ -126,7 +121,7 @@ fn text(name: &str, source: &mut dyn ReadSeek) -> Result<TableContents, Recordin
             Ok(false) => break,
             Err(error) => {
                 let byte = error.position().map_or(0, csv::Position::byte);
-                return Err(failed(byte, &std::io::Error::other(error)));
+                return Err(failed(byte, &std::io::Error::other(error)).into());
             }
         }
         if !below_header {
@@ -150,7 +145,7 @@ fn text(name: &str, source: &mut dyn ReadSeek) -> Result<TableContents, Recordin
     }
     let format = TableFormat::Csv { delimiter, decimal_comma };
     let columns = columns.into_iter().map(ColumnSurvey::finish).collect();
-    let (bytes, sha256) = (hashed.bytes, hexadecimal(&hashed.sha256.finalize()));
+    let (bytes, sha256) = (hashed.bytes, hex::encode(hashed.sha256.finalize()));
     Ok(TableContents { format, columns, rows, misfits, headless, bytes, sha256 })
 }
 

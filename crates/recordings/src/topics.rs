@@ -2,18 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use crate::bag::{Message, Passed, Topic, messages};
+use bags::{
+    Cell, Contents, FieldError, FieldReader, Inside, LOG_TIME, Loss, LossKind, Message, Passed, Place, Topic, in_words,
+    messages, suggest,
+};
+
+use crate::cell::CellError;
 use crate::column::{Column, Keep};
-use crate::contents::{Contents, Inside};
 use crate::described::Described;
 use crate::error::RecordingError;
-use crate::fields::{Cell, LOG_TIME, MessageRow, Reader, Trouble};
-use crate::loss::{Loss, LossKind, in_words};
+use crate::input::{Opened, Policy};
 use crate::mapping::FileMapping;
-use crate::place::Place;
-use crate::read::{Opened, Policy};
+use crate::row::{self, Row};
 use crate::samples::{Found, Samples};
-use crate::suggest;
 
 /// One topic that is wanted.
 struct Wanted<'a, K> {
@@ -41,7 +42,7 @@ enum Met {
 
 /// Reads the wanted fields of one topic of one bag.
 struct TopicReader {
-    reader: Reader,
+    reader: FieldReader,
     /// The time is the log's, put behind the fields.
     log_time: bool,
 }
@@ -196,18 +197,19 @@ impl<'a, K: Keep> Wanted<'a, K> {
         let reader = loop {
             let mut fields: Vec<&str> = columns.iter().map(|column| column.column.as_str()).collect();
             fields.extend((!log_time).then_some(time));
-            match Reader::new(message.topic, &fields) {
+            match FieldReader::new(message.topic, &fields) {
                 Ok(reader) => break reader,
-                Err(Trouble::Field(index, _)) if columns.get(index).is_some_and(|column| column.optional) => {
+                Err(FieldError::Field { index, .. }) if columns.get(index).is_some_and(|column| column.optional) => {
                     columns.remove(index);
                 }
-                Err(Trouble::Field(index, what)) => {
-                    let (topic, field) = (self.topic.to_owned(), fields[index].to_owned());
-                    return Err(RecordingError::BadField { file: name.to_owned(), topic, field, message: what });
+                Err(FieldError::Field { field, message, .. }) => {
+                    let topic = self.topic.to_owned();
+                    return Err(RecordingError::BadField { file: name.to_owned(), topic, field, message });
                 }
-                Err(Trouble::Topic(what)) => {
+                Err(trouble) => {
                     let (topic, message_type) = (self.topic.to_owned(), message.topic.message_type.clone());
-                    return Err(RecordingError::BadTopic { file: name.to_owned(), topic, message_type, message: what });
+                    let message = trouble.to_string();
+                    return Err(RecordingError::BadTopic { file: name.to_owned(), topic, message_type, message });
                 }
             }
         };
@@ -227,5 +229,34 @@ impl<'a, K: Keep> Wanted<'a, K> {
             self.samples = Some(samples.of_topic(self.topic));
         }
         Ok(TopicReader { reader, log_time })
+    }
+}
+
+/// One message as a row: its fields in the order in which they were asked for.
+struct MessageRow<'a> {
+    cells: &'a [Cell],
+    /// Number of the message in its topic, from 1.
+    number: u64,
+}
+
+impl Row for MessageRow<'_> {
+    fn number(&self, position: usize) -> Result<Option<f64>, CellError> {
+        row::number(self.cells[position])
+    }
+
+    fn instant_ns(&self, position: usize, ns_per_unit: i64) -> Result<Option<i64>, CellError> {
+        row::instant_ns(self.cells[position], ns_per_unit)
+    }
+
+    fn text(&self, position: usize) -> String {
+        match self.cells[position] {
+            Cell::Gap => String::new(),
+            Cell::Real(value) => value.to_string(),
+            Cell::Whole(value) => value.to_string(),
+        }
+    }
+
+    fn place(&self) -> u64 {
+        self.number
     }
 }

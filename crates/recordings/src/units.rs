@@ -165,7 +165,7 @@ pub fn parse_unit(name: &str) -> Option<Scale> {
 /// What to write instead of an unknown unit name.
 pub(crate) fn unit_hint(name: &str) -> String {
     let known: Vec<&str> = NAMES.iter().map(|&(known, ..)| known).collect();
-    crate::suggest::hint(&plain(name), &known)
+    bags::suggest::hint(&plain(name), &known)
 }
 
 /// The name without what people write differently.

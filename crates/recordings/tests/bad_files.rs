@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use recordings::{Input, Mapping, ReadOptions, messages, read};
+use recordings::{FileError, Input, Mapping, ReadOptions, messages, read};
 
 /// File, and words that the error or the first loss must hold.
 const MANIFEST: &[(&str, &str)] = &[
@@ -46,7 +46,7 @@ fn told(name: &str, bytes: &[u8]) -> String {
         let read = read(&mapping, "bad", &[Input { name, bytes }], &ReadOptions::default());
         return read.map_or_else(|error| error.to_string(), |read| format!("{:?}", read.losses));
     }
-    match messages(name, &mut Cursor::new(bytes), &mut |_| Ok(())) {
+    match messages(name, &mut Cursor::new(bytes), &mut |_| Ok::<(), FileError>(())) {
         Err(error) => error.to_string(),
         Ok(passed) => passed.losses.first().map_or("nothing".to_owned(), ToString::to_string),
     }

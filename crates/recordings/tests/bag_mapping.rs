@@ -1,5 +1,6 @@
 //! Mappings of topics: clocks, parts, optional fields, stamps in disorder, and what is said when something is missing.
 
+#[path = "../../bags/tests/common/mod.rs"]
 mod common;
 
 use std::io::Cursor;

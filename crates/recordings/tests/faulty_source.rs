@@ -1,11 +1,12 @@
 //! A source whose n-th read or search fails, for every n.
 
+#[path = "../../bags/tests/common/mod.rs"]
 mod common;
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
 use common::{Bag, keep, messages};
-use recordings::{Mapping, Opened, ReadOptions, RecordingError, read_from};
+use recordings::{FileError, Mapping, Opened, ReadOptions, RecordingError, read_from};
 
 /// Gives short reads, and fails one call of all.
 struct Faulty {
@@ -48,7 +49,7 @@ fn fail_everywhere(bytes: &[u8], read: impl Fn(&mut Faulty) -> Result<(), Record
         }
         let error = result.expect_err("a failed read must not pass");
         assert!(
-            matches!(&error, RecordingError::CannotRead { message, .. } if message == "the disk is gone"),
+            matches!(&error, RecordingError::File(FileError::CannotRead { message, .. }) if message == "the disk is gone"),
             "{error}"
         );
     }
@@ -62,7 +63,7 @@ fn no_failed_read_of_a_bag_passes() {
             let mut kept = Vec::new();
             let passed = recordings::messages("a.mcap", source, &mut |message| {
                 kept.push(keep(&message));
-                Ok(())
+                Ok::<(), RecordingError>(())
             })?;
             assert_eq!((kept, passed.losses), (messages(20), vec![]));
             Ok(())

@@ -1,5 +1,6 @@
 //! Header stamps: those that nobody set are no instants, and the others are measured against the log times.
 
+#[path = "../../bags/tests/common/mod.rs"]
 mod common;
 
 use std::io::Cursor;

@@ -5,9 +5,8 @@ use std::collections::HashMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-use recordings::{
-    Channel, FieldReader, Mapping, Opened, Policy, Read, ReadOptions, Signal, Topic, contents, messages, read_from,
-};
+use bags::{Cell, FieldReader, FileError};
+use recordings::{Channel, Mapping, Opened, Policy, Read, ReadOptions, Signal, Topic, contents, messages, read_from};
 
 /// Radians of a Kobuki wheel in one tick of its encoder, as its maker's driver has it: metres per tick over the radius.
 const RADIANS_PER_TICK: f64 = 8.529_209_049_773_756e-5 / WHEEL_RADIUS;
@@ -265,10 +264,10 @@ fn built_in_definitions_decode_as_those_in_the_bags() {
             [topic, &bare].map(|topic| FieldReader::new(topic, &paths).unwrap())
         });
         let values = own.read(message.bytes).unwrap();
-        assert!(values.iter().any(Option::is_some));
+        assert!(values.iter().any(|value| *value != Cell::Gap));
         assert_eq!(Some(values), built_in.read(message.bytes));
         compared += 1;
-        Ok(())
+        Ok::<(), FileError>(())
     })
     .unwrap();
     assert_eq!((compared, readers.len()), (6521, 4));

@@ -1,11 +1,12 @@
 //! rosbag2's sqlite3 files: whole, compressed, old, cut and flipped.
 
+#[path = "../../bags/tests/common/mod.rs"]
 mod common;
 
 use std::io::Cursor;
 
 use common::{Kept, WHEEL, keep, wheel};
-use recordings::{LossKind, Mapping, Opened, ReadOptions, RecordingError, Signal, messages, read_from};
+use recordings::{FileError, LossKind, Mapping, Opened, ReadOptions, RecordingError, Signal, messages, read_from};
 use rusqlite::Connection;
 
 /// A bag as rosbag2 writes it, `count` messages on `/wheel` and one topic without any.
@@ -50,7 +51,7 @@ fn read(name: &str, bytes: &[u8]) -> Result<(Vec<Kept>, Kinds), RecordingError> 
     let mut kept = Vec::new();
     let passed = messages(name, &mut Cursor::new(bytes), &mut |message| {
         kept.push(keep(&message));
-        Ok(())
+        Ok::<(), RecordingError>(())
     })?;
     Ok((kept, passed.losses.iter().map(|loss| (loss.kind, loss.count)).collect()))
 }
@@ -110,7 +111,7 @@ fn every_cut_is_told() {
     let mut partly = 0;
     for end in (0..bytes.len()).step_by(7) {
         match read("a.db3", &bytes[..end]) {
-            Err(RecordingError::NotReadable { .. }) => {}
+            Err(RecordingError::File(FileError::NotReadable { .. })) => {}
             Err(other) => panic!("{end}: {other}"),
             Ok((kept, losses)) => {
                 assert!(kept.iter().all(|message| original.contains(message)), "{end}");

@@ -1,5 +1,6 @@
 //! A survey finds what reading finds that keeps all samples, and what is inside bags, by one pass.
 
+#[path = "../../bags/tests/common/mod.rs"]
 mod common;
 
 use std::fmt::Write as _;

@@ -3,6 +3,7 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use serde_json::json;
 
+use crate::role::Role;
 use crate::thin;
 
 /// About so many points per line are kept: peaks stay visible, and pages of many lines small.
@@ -20,7 +21,7 @@ pub struct Line {
     /// Drawn dashed.
     pub dashed: bool,
     /// Drawn in the colour of what it stands for, if it is one of these.
-    pub role: Option<crate::figure::Role>,
+    pub role: Option<Role>,
     /// Drawn as points, each with its interval, instead of a line; one for each point, or none.
     pub intervals: Vec<[f64; 2]>,
 }

@@ -3,23 +3,9 @@
 use serde::Serialize;
 
 use crate::chart::Chart;
-use crate::page::Cell;
+use crate::table::Cell;
 
-/// What a line or a bar stands for. It has one colour on all pages.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Role {
-    /// What was measured.
-    Recorded,
-    /// The simulation as it is.
-    Before,
-    /// The simulation with its constants re-tuned, without any effect.
-    Retuned,
-    /// The simulation with what was named.
-    After,
-    /// The best wrong correction.
-    Placebo,
-}
+pub use crate::role::Role;
 
 /// A chart with all that is told about it.
 #[derive(Debug, Clone)]

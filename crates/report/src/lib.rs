@@ -1,8 +1,14 @@
 //! Pages and pictures of diagnoses and experiments.
+//!
+//! Markup is written by hand, in `page`, `table` and `shell` and three small places: no template engine, because a page is
+//! put together by calls of [`page::Page`] whose methods escape every text that they are given, so that templates would
+//! hold little more than single elements. Tests give it markup, by hand and from files, and find none of it in the page.
 
 pub mod chart;
 pub mod diagnosis_page;
 mod drawing;
+mod escape;
+mod facts;
 pub mod figure;
 pub mod fleet;
 pub mod manoeuvre;
@@ -10,6 +16,7 @@ pub mod page;
 pub mod picture;
 pub mod reliability;
 pub mod reproduction;
+mod role;
 mod shell;
 pub mod slopes;
 mod table;

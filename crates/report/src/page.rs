@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::chart::Chart;
+use crate::escape::escape;
 use crate::figure::{Drawing, Figure};
 use crate::shell;
 use crate::table::table;
@@ -199,22 +200,6 @@ impl Page {
         // Writing to a string cannot fail.
         let _ = self.body.write_fmt(text);
     }
-}
-
-/// Text that is safe in HTML, also inside quoted attributes.
-pub fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out += "&amp;",
-            '<' => out += "&lt;",
-            '>' => out += "&gt;",
-            '"' => out += "&quot;",
-            '\'' => out += "&#39;",
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]

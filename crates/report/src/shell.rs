@@ -3,7 +3,7 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 use sha2::{Digest, Sha256};
 
-use crate::page::escape;
+use crate::escape::escape;
 
 const STYLE: &str = include_str!("web/page.css");
 /// First the theme, last what draws: they share one scope.

@@ -1,6 +1,6 @@
 //! Tables of pages.
 
-use crate::page::escape;
+use crate::escape::escape;
 
 /// How a table cell is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -28,7 +28,7 @@ pub(super) fn thinned(piece: &Recording) -> Result<Recording, RecordingError> {
         let thin = Channel::new(channel.signal(), channel.clock(), t_ns, values)?;
         Ok(thin.with_attributes(channel.attributes()).with_column(channel.column()))
     });
-    Recording::new(piece.name(), piece.clocks().to_vec(), channels.collect::<Result<_, _>>()?)
+    Recording::new(piece.name(), piece.clocks().to_vec(), channels.collect::<Result<_, RecordingError>>()?)
 }
 
 fn stands(channel: &Channel) -> Stands {

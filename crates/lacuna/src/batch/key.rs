@@ -30,17 +30,13 @@ impl Parts {
     }
 
     fn finish(self) -> String {
-        hexadecimal(&self.0.finalize())
+        hex::encode(self.0.finalize())
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
 }
 
 /// SHA-256 of a text.
 pub(crate) fn of_text(text: &str) -> String {
-    hexadecimal(&Sha256::digest(text.as_bytes()))
+    hex::encode(Sha256::digest(text.as_bytes()))
 }
 
 /// SHA-256 of a file, which need not fit into memory.
@@ -58,7 +54,7 @@ fn of_file(path: &Path) -> io::Result<String> {
     }
     let mut hasher = Hasher(Sha256::new());
     io::copy(&mut File::open(path)?, &mut hasher)?;
-    Ok(hexadecimal(&hasher.0.finalize()))
+    Ok(hex::encode(hasher.0.finalize()))
 }
 
 /// Adds files by their names and bytes. Where they lie does not matter; that one is not there does.

@@ -4,13 +4,10 @@ use std::fs::File;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use recordings::{ColumnContents, RecordingError, TableContents, TableFormat, table_contents};
+use recordings::{ColumnContents, Format, RecordingError, TableContents, TableFormat, table_contents};
 use serde_json::{Value, json};
 
 use crate::{inputs, skeleton};
-
-/// Endings of files that are tables.
-const TABLES: [&str; 4] = [".csv", ".tsv", ".txt", ".parquet"];
 
 /// The tables among files and in folders, and what is inside.
 pub(super) fn look(paths: &[PathBuf]) -> Result<Vec<(String, TableContents)>> {
@@ -23,7 +20,7 @@ pub(super) fn look(paths: &[PathBuf]) -> Result<Vec<(String, TableContents)>> {
         }
     }
     let names = files.iter().map(|file| file.display().to_string());
-    let tables = names.filter(|name| TABLES.iter().any(|end| name.to_ascii_lowercase().ends_with(end)));
+    let tables = names.filter(|name| Format::of_name(name).is_some_and(|format| !format.is_bag()));
     let inside = |name: String| {
         let mut file = File::open(&name).with_context(|| format!("cannot read '{name}'"))?;
         let contents = table_contents(&name, &mut file)?;

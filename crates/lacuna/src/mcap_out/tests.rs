@@ -70,7 +70,7 @@ fn read_back(bytes: &[u8]) -> BTreeMap<String, Vec<(i64, Value)>> {
         last = message.log_time_ns;
         let value = serde_json::from_slice(message.bytes).expect("JSON");
         out.entry(message.topic.name.clone()).or_default().push((message.log_time_ns, value));
-        Ok(())
+        Ok::<(), recordings::FileError>(())
     });
     assert!(passed.expect("a readable file").losses.is_empty());
     out

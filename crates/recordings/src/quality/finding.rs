@@ -103,18 +103,20 @@ impl Findings {
     }
 }
 
-/// Everything worth telling of a channel, the worst first.
-pub(super) fn findings(quality: &Quality, unit: &str) -> Vec<Finding> {
-    let mut found = Findings(Vec::new());
-    if quality.timing.samples == 0 {
-        found.add(FindingKind::Empty, Severity::Serious, 0.0, None, "no sample".to_owned());
-        return found.0;
+impl Quality {
+    /// What is worth telling, the worst first; `unit` is the channel's, for the sentences.
+    pub fn findings(&self, unit: &str) -> Vec<Finding> {
+        let mut found = Findings(Vec::new());
+        if self.timing.samples == 0 {
+            found.add(FindingKind::Empty, Severity::Serious, 0.0, None, "no sample".to_owned());
+            return found.0;
+        }
+        of_stamps(self, &mut found);
+        of_values(self, unit, &mut found);
+        of_shape(self, unit, &mut found);
+        found.0.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+        found.0
     }
-    of_stamps(quality, &mut found);
-    of_values(quality, unit, &mut found);
-    of_shape(quality, unit, &mut found);
-    found.0.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    found.0
 }
 
 fn of_stamps(quality: &Quality, found: &mut Findings) {

@@ -6,9 +6,9 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
+use bags::{LARGEST_RECORD, ReadSeek, cannot_read};
 use sha2::{Digest, Sha256};
 
-use crate::bag::{LARGEST_RECORD, ReadSeek, cannot_read, hexadecimal};
 use crate::error::RecordingError;
 
 /// Bytes of a block, about: long enough to be worth handing to a thread, short enough that a dozen of them are little.
@@ -79,7 +79,7 @@ impl<'s> Blocks<'s> {
             }
             if block.len() > LARGEST_RECORD {
                 let message = format!("a line is longer than {LARGEST_RECORD} bytes: this is no table");
-                return Err(cannot_read(self.name, self.read, &std::io::Error::other(message)));
+                return Err(cannot_read(self.name, self.read, &std::io::Error::other(message)).into());
             }
         }
         Ok(Some(block).filter(|block| !block.is_empty()))
@@ -94,7 +94,7 @@ impl<'s> Blocks<'s> {
     ) -> Result<Passed, RecordingError> {
         if self.ended {
             take(&first, parse(&first))?;
-            return Ok(Passed { bytes: self.read, sha256: hexadecimal(&Sha256::digest(first.bytes.as_slice())) });
+            return Ok(Passed { bytes: self.read, sha256: hex::encode(Sha256::digest(first.bytes.as_slice())) });
         }
         let (hash, hashed) = sync_channel::<Block>(ON_THEIR_WAY);
         let (ask, asked) = sync_channel::<(Block, SyncSender<T>)>(ON_THEIR_WAY);
@@ -138,7 +138,7 @@ fn hash_all(blocks: &Receiver<Block>) -> String {
     for block in blocks {
         sum.update(block.bytes.as_slice());
     }
-    hexadecimal(&sum.finalize())
+    hex::encode(sum.finalize())
 }
 
 /// Parses until nobody can ask any more.
@@ -184,7 +184,7 @@ mod tests {
             let text = lines.join(&format!(",{end}"));
             let (taken, told) = passed(text.as_bytes());
             assert!(taken == text.as_bytes());
-            assert_eq!((told.bytes, told.sha256), (text.len() as u64, hexadecimal(&Sha256::digest(text.as_bytes()))));
+            assert_eq!((told.bytes, told.sha256), (text.len() as u64, hex::encode(Sha256::digest(text.as_bytes()))));
         }
         let (taken, told) = passed(b"");
         assert_eq!((taken.len(), told.bytes), (0, 0));

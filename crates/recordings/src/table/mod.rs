@@ -5,15 +5,15 @@ mod parse;
 
 use std::sync::Arc;
 
-use crate::bag::ReadSeek;
+use bags::{Loss, LossKind, Place, ReadSeek};
+
 use crate::column::{Column, Keep};
 use crate::error::RecordingError;
 use crate::header::Header;
-use crate::loss::{Loss, LossKind};
+use crate::input::Policy;
 use crate::mapping::FileMapping;
-use crate::place::Place;
-use crate::read::Policy;
-use crate::samples::{Row, Samples};
+use crate::row::Row;
+use crate::samples::Samples;
 use blocks::{Block, Blocks};
 use parse::{Layout, Line, Parsed};
 

@@ -3,7 +3,7 @@
 use super::blocks::Block;
 use crate::cell::{self, CellError};
 use crate::header::Header;
-use crate::samples::{Row, shown};
+use crate::row::{Row, shown};
 
 /// A number that stands for an empty cell: a NaN, which no cell gives.
 const GAP: f64 = f64::from_bits(0x7ff8_0000_0000_0001);

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use verdict::{Cause, Diagnosis};
 
-use crate::page::{Page, escape};
+use crate::escape::escape;
+use crate::page::Page;
 use crate::words::{is_no_cause, probability, size_in_words as size, where_and_when};
 
 /// Causes that are shown at once; "nothing" and "not in the catalogue" are always.

@@ -1,12 +1,11 @@
 //! The verdict, and the picture that convinces.
 
-use std::fmt::Write;
-
 use verdict::{Compared, Diagnosis, FreeRun, Trace};
 
 use super::recordings::{plot, rms};
+use crate::facts::Facts;
 use crate::figure::{Drawing, Figure};
-use crate::page::{Cell, Page, escape};
+use crate::page::{Cell, Page};
 use crate::words::{
     is_no_cause, number, percent, probability, quantities, quantity_and_unit, size_in_words as size, verdict,
     where_and_when,
@@ -60,29 +59,19 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
 
 /// The figures that one would repeat to a colleague.
 fn facts(d: &Diagnosis) -> String {
-    let mut out = "<dl class=\"facts\">\n".to_owned();
-    let mut fact = |class: &str, name: &str, value: &str, more: &str| {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "<div class=\"{class}\"><dt>{}</dt><dd>{}<small>{}</small></dd></div>",
-            escape(name),
-            escape(value),
-            escape(more)
-        );
-    };
+    let mut facts = Facts::default();
     let likely: Vec<_> = d.ranked.iter().filter(|c| c.probability > LIKELY).take(CAUSES).collect();
     for c in if likely.is_empty() { d.ranked.iter().take(1).collect() } else { likely } {
         let [value, interval] = size(c);
         let p = format!("probability {}", probability(c.probability));
         if value.is_empty() || is_no_cause(c) {
-            fact("", &c.name, &probability(c.probability), "probability");
+            facts.add("", &c.name, &probability(c.probability), "probability");
         } else {
             let class = d.indistinguishable.iter().find(|class| class.len() > 1 && class.contains(&c.effect));
             let class = class.map_or_else(String::new, |l| format!("not to be told from {} others", l.len() - 1));
             let parts = [p, interval, where_and_when(c), class];
             let parts: Vec<String> = parts.into_iter().filter(|s| !s.is_empty()).collect();
-            fact("", &c.name, &value, &parts.join(", "));
+            facts.add("", &c.name, &value, &parts.join(", "));
         }
     }
     if let Some(q) = quantities(&d.free_runs).first() {
@@ -98,13 +87,13 @@ fn facts(d: &Diagnosis) -> String {
             number(retuned)
         );
         if before > 0.0 {
-            fact("after", &format!("error of the {name}"), &percent(after / before), &more);
+            facts.add("after", &format!("error of the {name}"), &percent(after / before), &more);
         }
     }
     if let Some(share) = d.unexplained {
-        fact("before", "still unexplained", &format!("{:.0} %", 100.0 * share), "of the mismatch");
+        facts.add("before", "still unexplained", &format!("{:.0} %", 100.0 * share), "of the mismatch");
     }
-    out + "</dl>\n"
+    facts.markup()
 }
 
 /// The signal whose simulation is worst, beside what is left after the correction.

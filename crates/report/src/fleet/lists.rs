@@ -1,7 +1,7 @@
 //! Recordings without an answer.
 
+use super::seen::{Seen, Told};
 use super::series::{Fleet, day, natural};
-use super::{Seen, Told};
 use crate::page::{Cell, Page};
 
 /// Recordings that are listed.

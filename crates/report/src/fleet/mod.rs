@@ -4,73 +4,16 @@ mod charts;
 mod lists;
 mod overview;
 mod robots;
+mod seen;
 mod series;
 mod since;
 mod trend;
 
 use crate::page::Page;
 
+pub use seen::{Named, Seen, Told};
 pub use since::{Change, Since, since};
 pub use trend::{Trend, trend};
-
-/// One recording of one robot.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Seen {
-    /// Its name.
-    pub id: String,
-    /// Which vehicle.
-    pub robot: String,
-    /// When it was recorded, ms since 1970.
-    pub date: Option<i64>,
-    /// What was found.
-    pub told: Told,
-}
-
-/// What was found in a recording.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub enum Told {
-    /// Nothing is missing.
-    #[default]
-    NoMismatch,
-    /// These effects.
-    Explained(Vec<Named>),
-    /// Something that is not in the catalogue.
-    Unknown,
-    /// No answer is permitted, for this reason.
-    Withheld(String),
-    /// It could not be diagnosed, for this reason.
-    Failed(String),
-}
-
-impl Told {
-    /// Whether it says that there is, or is not, a mismatch.
-    fn is_answer(&self) -> bool {
-        !matches!(self, Self::Withheld(_) | Self::Failed(_))
-    }
-
-    fn is_mismatch(&self) -> bool {
-        matches!(self, Self::Explained(_) | Self::Unknown)
-    }
-}
-
-/// An effect that a recording was found to have.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Named {
-    /// Effect id.
-    pub effect: String,
-    /// Name for people, with its side.
-    pub name: String,
-    /// `left` or `right`, when it sits on one side.
-    pub side: Option<String>,
-    /// Probability.
-    pub probability: f64,
-    /// Size in `unit`.
-    pub magnitude: Option<f64>,
-    /// Its 90 % interval.
-    pub interval: Option<[f64; 2]>,
-    /// Unit of the size.
-    pub unit: String,
-}
 
 /// The page of a fleet. Recordings may come in any order; `program` is what diagnosed them.
 pub fn render(seen: &[Seen], program: &str) -> String {

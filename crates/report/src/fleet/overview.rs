@@ -1,15 +1,14 @@
 //! The fleet at a glance.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
-
-use inference::robust::median;
 
 use super::Told;
 use super::series::{Fleet, day};
+use crate::facts::Facts;
 use crate::figure::{Drawing, Figure, Interval, Intervals};
-use crate::page::{Cell, Page, escape};
+use crate::page::{Cell, Page};
 use crate::words::number;
+use inference::robust::median;
 
 /// Effects that are compared over robots.
 const COMPARED: usize = 6;
@@ -48,34 +47,29 @@ pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
 }
 
 fn facts(all: &Fleet<'_>) -> String {
-    let mut out = "<dl class=\"facts\">\n".to_owned();
-    let mut fact = |class: &str, name: &str, value: &str, more: &str| {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "<div class=\"{class}\"><dt>{}</dt><dd>{}<small>{}</small></dd></div>",
-            escape(name),
-            escape(value),
-            escape(more)
-        );
-    };
+    let mut facts = Facts::default();
     let dates = || all.seen.iter().filter_map(|s| s.date);
     let span = match (dates().min(), dates().max()) {
         (Some(from), Some(to)) => format!("{} to {}", day(Some(from)), day(Some(to))),
         _ => "no dates".to_owned(),
     };
-    fact("", "recordings", &all.seen.len().to_string(), &span);
-    fact("", "robots", &all.robots.len().to_string(), "");
+    facts.add("", "recordings", &all.seen.len().to_string(), &span);
+    facts.add("", "robots", &all.robots.len().to_string(), "");
     let answers = all.count(Told::is_answer);
     let mismatches = all.count(Told::is_mismatch);
     let share = if answers > 0 { 100.0 * mismatches as f64 / answers as f64 } else { 0.0 };
     let unknown = all.count(|t| matches!(t, Told::Unknown));
     let more = format!("{mismatches} of {answers} answers, {unknown} of them unknown");
-    fact("before", "with a mismatch", &format!("{share:.0} %"), &more);
+    facts.add("before", "with a mismatch", &format!("{share:.0} %"), &more);
     let withheld = all.count(|t| matches!(t, Told::Withheld(_)));
     let failed = all.count(|t| matches!(t, Told::Failed(_)));
-    fact("", "without an answer", &(withheld + failed).to_string(), &format!("{failed} failed, {withheld} withheld"));
-    out + "</dl>\n"
+    facts.add(
+        "",
+        "without an answer",
+        &(withheld + failed).to_string(),
+        &format!("{failed} failed, {withheld} withheld"),
+    );
+    facts.markup()
 }
 
 /// Which effect, in how many robots; and how robots differ by it.

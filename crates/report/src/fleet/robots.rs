@@ -1,7 +1,7 @@
 //! Robots by effects: what is there, how large, since when.
 
-use super::Told;
 use super::charts::since_in_words;
+use super::seen::Told;
 use super::series::{Fleet, RobotSeen, Series, day};
 use crate::page::{Cell, Page, Tone};
 use crate::words::{number, probability};

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use chrono::DateTime;
 
+use super::seen::{Named, Seen, Told};
 use super::since::{Since, since};
 use super::trend::{Trend, trend};
-use super::{Named, Seen, Told};
 
 /// Milliseconds of a day.
 const DAY_MS: f64 = 86_400_000.0;
