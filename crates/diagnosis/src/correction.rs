@@ -96,7 +96,7 @@ impl EffectAt {
     /// # Errors
     /// When the catalogue has none of this id.
     pub fn in_catalogue(&self) -> Result<&'static dyn Effect<f64>, DiagnosisError> {
-        let found = effects::catalogue::<f64>().into_iter().find(|e| e.card().id == self.effect);
+        let found = effects::catalogue::<f64>().into_iter().find(|e| e.spec().id == self.effect);
         found.ok_or_else(|| DiagnosisError::NoSuchEffect { id: self.effect.clone() })
     }
 
@@ -106,7 +106,7 @@ impl EffectAt {
     /// When the effect or a parameter is not in the catalogue, or a value is not finite.
     pub fn active(&self, drive: &str) -> Result<Active<f64>, DiagnosisError> {
         let effect = self.in_catalogue()?;
-        let parameters = effect.card().parameters;
+        let parameters = effect.spec().parameters;
         let mut values: Vec<f64> = parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
         for (name, value) in &self.values {
             let at = parameters.iter().position(|p| p.name == name).filter(|_| value.is_finite());

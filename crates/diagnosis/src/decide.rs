@@ -54,11 +54,11 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         let e = &effects[at..at + n];
         at += n;
         let disc = if v.place == Place::Disc { 3 } else { 0 };
-        sum += PER_EFFECT + v.card().rarity + PER_SHAPE * (n - disc - 1) as f64;
+        sum += PER_EFFECT + v.spec().rarity + PER_SHAPE * (n - disc - 1) as f64;
         sum += if v.place == Place::Disc { DISC } else { 0.0 };
         sum += if onsets.iter().any(Option::is_some) { ONSET } else { 0.0 };
         sum += if i > 0 { SECOND } else { 0.0 };
-        let interest = v.card().interest;
+        let interest = v.spec().interest;
         if interest > 0.0 {
             let short = (interest / v.magnitude(e).abs().max(1e-12)).ln().max(0.0) / SIZE_WIDTH;
             sum += 0.5 * short * short;

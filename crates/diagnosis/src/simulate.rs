@@ -107,8 +107,8 @@ impl Stretch<'_> {
 fn wide_dose(stretches: &[Stretch<'_>; WIDTH], d: usize, part: Option<usize>) -> Option<Active<Wide>> {
     let doses: [&Dose; WIDTH] = from_fn(|i| &stretches[i].body.doses[d]);
     let first = doses[0];
-    let id = first.effect.card().id;
-    let effect = effects::catalogue::<Wide>().into_iter().find(|e| e.card().id == id)?;
+    let id = first.effect.spec().id;
+    let effect = effects::catalogue::<Wide>().into_iter().find(|e| e.spec().id == id)?;
     let values: Vec<Wide> = (0..first.values.len()).map(|v| Lanes(doses.map(|d| d.values[v]))).collect();
     let times: [[f64; 2]; WIDTH] = from_fn(|i| stretches[i].times(doses[i], part));
     let disc = first.presence.disc.map(|same| {

@@ -1,6 +1,7 @@
 //! Sentences for people.
 
-use robot_model::Card;
+use catalogue::answer::{NONE, UNKNOWN};
+use robot_model::EffectSpec;
 
 use crate::hypothesis::{Place, Variant};
 use crate::locate;
@@ -24,12 +25,12 @@ pub(crate) fn fault(f: &Fault) -> String {
 }
 
 /// Unit of an effect's magnitude: that of its first strength.
-pub(crate) fn unit(card: &Card) -> &'static str {
+pub(crate) fn unit(card: &EffectSpec) -> &'static str {
     card.strengths().next().map_or("-", |i| card.parameters[i].unit)
 }
 
 pub(crate) fn variant(v: &Variant) -> String {
-    let card = v.card();
+    let card = v.spec();
     let mut out = card.name.to_owned();
     if let Some(a) = v.axis {
         out = format!("{out}, along {}", card.axes[a]);
@@ -58,7 +59,7 @@ pub(crate) fn quantity(c: &Cause) -> String {
 /// The answer in sentences, the most important one first.
 pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     let mut out = Vec::new();
-    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != "none" && c.effect != "unknown").collect();
+    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
         Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
         Verdict::Unknown => {
@@ -91,7 +92,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     for class in &d.indistinguishable {
         out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
     }
-    let unknown = d.ranked.iter().find(|c| c.effect == "unknown").map_or(0.0, |c| c.probability);
+    let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);
     if d.verdict == Verdict::Explained && unknown > 0.5 {
         out.push(format!(
             "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."
@@ -105,5 +106,5 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
 
 /// The drive that reveals an effect best.
 pub(crate) fn revealed_by(id: &str) -> Option<&'static str> {
-    robot_model::effects::catalogue::<f64>().iter().map(|e| e.card()).find(|c| c.id == id).map(|c| c.revealed_by)
+    robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.id == id).map(|c| c.revealed_by)
 }

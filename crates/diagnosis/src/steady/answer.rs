@@ -1,5 +1,7 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
+use catalogue::answer::{NONE, UNKNOWN};
+
 use crate::hypothesis::Place;
 use crate::steady::name::{Named, Naming};
 use crate::steady::words::{clocks, sentences};
@@ -55,15 +57,15 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     for e in singles_first {
         let p = weight(e.score) / sum;
         for part in 0..e.parts.len() {
-            match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
+            match causes.iter_mut().find(|c| c.effect == e.parts[part].spec().id) {
                 Some(c) => c.probability += p,
                 None => causes.push(cause(e, part, p)),
             }
         }
     }
     causes.retain(|c| c.probability > LISTED);
-    causes.push(Cause::plain("none", "nothing is missing", none));
-    causes.push(Cause::plain("unknown", "something that is not in the catalogue", unknown));
+    causes.push(Cause::plain(NONE.id, NONE.name, none));
+    causes.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
     causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     out.ranked = causes;
     let named = 1.0 - none - unknown;
@@ -99,7 +101,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
 
 fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
-    let card = variant.card();
+    let card = variant.spec();
     let (values, sigma) = e.of(part);
     let parameters = variant
         .free(1.0)

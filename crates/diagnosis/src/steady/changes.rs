@@ -3,6 +3,7 @@
 //! From currents alone: the straight load as a piecewise constant course ([`level`](super::level)). With all three
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
+use robot_model::effects::{grade, rolling_resistance};
 use serde::{Deserialize, Serialize};
 
 use crate::verdict::Word;
@@ -62,8 +63,9 @@ pub struct Hidden {
     pub interval: [f64; 2],
 }
 
-pub(super) const GRADE: Word = Word::Borrowed("grade");
-pub(super) const ROLLING: Word = Word::Borrowed("rolling_resistance");
+/// Ids of the effects that change the straight load.
+pub(super) const GRADE: Word = Word::Borrowed(grade::SPEC.id);
+pub(super) const ROLLING: Word = Word::Borrowed(rolling_resistance::SPEC.id);
 
 /// Rows that show the same change are at most this far apart, s.
 pub(super) const APART: f64 = 8.0;

@@ -46,7 +46,7 @@ impl Named {
     }
 
     pub(crate) fn ids(&self) -> Vec<&'static str> {
-        self.parts.iter().map(|v| v.card().id).collect()
+        self.parts.iter().map(|v| v.spec().id).collect()
     }
 }
 
@@ -160,7 +160,7 @@ impl<'a> Comparison<'a> {
     fn plausible(&self, v: &Variant, f: &Free) -> f64 {
         let r = &self.model;
         let torque = r.mass * r.gravity * r.wheel_radius / MEDIUM_ROBOT[1];
-        let size = match f.parameter.map_or("-", |i| v.card().parameters[i].unit) {
+        let size = match f.parameter.map_or("-", |i| v.spec().parameters[i].unit) {
             "kg" | "N" => r.mass / MEDIUM_ROBOT[0],
             "m" => 2.0 * r.half_wheelbase / MEDIUM_ROBOT[2],
             unit if unit.starts_with("N m") => torque,
@@ -177,7 +177,7 @@ impl<'a> Comparison<'a> {
     /// Gauss–Newton on the free values of one or two effects from their neutral values (or from `start`).
     pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
         let free: Vec<_> = parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
-        let neutral = |v: &Variant, f: &Free| f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
+        let neutral = |v: &Variant, f: &Free| f.parameter.map_or(f.usual, |i| v.spec().parameters[i].neutral);
         let mut e: Vec<f64> = free.iter().map(|(v, f)| neutral(v, f)).collect();
         if let Some(s) = start {
             e[..s.len()].copy_from_slice(s);
@@ -248,7 +248,7 @@ impl<'a> Comparison<'a> {
                 break;
             }
         }
-        let paid = occam + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
+        let paid = occam + parts.iter().map(|v| PER_EFFECT + v.spec().rarity).sum::<f64>();
         let score = 0.5 * self.quadratic(&self.plain, &self.plain) - left - paid;
         Some(Named { parts: parts.to_vec(), values: e, sigma, score })
     }
@@ -274,7 +274,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
-        .filter(|v| v.card().parameters.iter().all(|p| p.role != Role::Shape))
+        .filter(|v| v.spec().parameters.iter().all(|p| p.role != Role::Shape))
         .collect();
     let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
     best_first(&mut singles);
@@ -287,7 +287,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
     }
     let tasks: Vec<(&Named, Variant)> = firsts
         .iter()
-        .flat_map(|f| able.iter().filter(|v| v.card().id != f.parts[0].card().id).map(|v| (*f, *v)))
+        .flat_map(|f| able.iter().filter(|v| v.spec().id != f.parts[0].spec().id).map(|v| (*f, *v)))
         .collect();
     let pairs: Vec<Named> =
         tasks.par_iter().filter_map(|(f, v)| comparison.fit(&[f.parts[0], *v], Some(&f.values))).collect();
