@@ -2,7 +2,7 @@
 
 use robot_model::effect::MAX_PARAMETERS;
 use robot_model::effect::export::Way;
-use robot_model::{Active, Effect, Kind, Plant, Presence, effects};
+use robot_model::{Active, Effect, Kind, Plant, Presence, State, effects};
 
 use crate::battery::{H, at_rest, instant, linear_strengths, moving, numbers_of};
 use crate::common::{Causality, distance, robot, run};
@@ -42,7 +42,8 @@ fn sensor_faults_show_in_the_readings_unless_their_specification_says_why_not() 
     let readings = |active: &[Active<f64>]| {
         let robot = robot();
         let plant = Plant::new(&robot, active, H);
-        let mut shown = plant.readings(&moving()[0]);
+        // Everything moves, so that a scale or a turned axis shows too.
+        let mut shown = plant.readings(&State { specific: [0.5, -0.2], ..moving()[0] });
         plant.sense(&mut shown);
         shown
     };
