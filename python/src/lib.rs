@@ -58,7 +58,6 @@ mod _lacuna {
     ///     ``lacuna effects --json`` writes.
     #[pyfunction]
     fn effects(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        let cards = lacuna::cards::cards().into_iter().map(lacuna::cards::as_json).collect::<Vec<_>>();
-        super::told::python(py, &serde_json::Value::from(cards))
+        super::told::python(py, &serde_json::Value::from(lacuna::cards::effects_json()))
     }
 }

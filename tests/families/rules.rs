@@ -53,7 +53,7 @@ pub(crate) fn nothing_is_claimed_but(d: &Diagnosis, right: &[EffectId]) {
 /// No physics but these is claimed; what is said about sensors is free.
 pub(crate) fn no_physics_is_claimed_but(d: &Diagnosis, right: &[EffectId]) {
     let of_sensors =
-        |id: &str| effects::catalogue::<f64>().iter().any(|e| e.card().id == id && e.card().kind == Kind::Sensor);
+        |id: &str| effects::catalogue::<f64>().iter().any(|e| e.spec().id == id && e.spec().kind == Kind::Sensor);
     claims(d, right, |id| !of_sensors(id));
 }
 

@@ -11,6 +11,7 @@ mod book;
 mod child;
 mod compare;
 mod document;
+mod effect;
 mod evidence;
 mod examples;
 mod growth;
@@ -42,6 +43,8 @@ enum Command {
     Evidence(evidence::Args),
     /// Run exported models in MuJoCo on held-out inputs and compare with the truth.
     Mujoco(mujoco::Args),
+    /// Write the file of a new effect, to be filled with its law.
+    Effect(effect::Args),
     /// Build the documentation as a book that opens offline.
     Book(book::Args),
     /// Ask whether it pays to follow the advice on the next drive.
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
         Command::Blind(args) => blind::run(&args),
         Command::Evidence(args) => evidence::run(&args),
         Command::Mujoco(args) => mujoco::run(&args),
+        Command::Effect(args) => effect::run(&args),
         Command::Book(args) => book::run(&args),
         Command::Next(args) => next::run(&args),
         Command::Bag(args) => bag::run(&args),

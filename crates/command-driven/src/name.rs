@@ -5,6 +5,8 @@ use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
 
 use crate::identify::{Identified, Simulated};
 use crate::search::{Evidence, Part, Trial, sigmas};
+use catalogue::answer::{NONE, UNKNOWN};
+use catalogue::{CauseSpec, command_driven as cause};
 use inference::evidence::{logistic, none_of};
 use inference::robust::NINETY;
 
@@ -38,11 +40,23 @@ pub(crate) fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]
         .collect()
 }
 
-/// A cause, what it is called, its elements in causal order.
-const CAUSES: [(&str, &str, &[Element]); 9] = [
+/// How the size of a cause comes from its fitted constants.
+#[derive(Clone, Copy)]
+enum Size {
+    /// Its first constant.
+    First,
+    /// Its first constant times the nominal track.
+    TimesTrack,
+    /// The first constant; of a second-order lag the delay 2 ζ / ω.
+    Lag,
+    /// What the wheels do otherwise than commanded.
+    WheelError,
+}
+
+/// A cause, its elements and its size, in causal order.
+const CAUSES: [(&CauseSpec, &[Element], Size); 9] = [
     (
-        "drive_command",
-        "the drive's controller does not hold the command: gains, limits, ramps",
+        &cause::DRIVE_COMMAND,
         &[
             Element::Gain,
             Element::TurnLimit,
@@ -51,15 +65,16 @@ const CAUSES: [(&str, &str, &[Element]); 9] = [
             Element::Ramp,
             Element::SideGain,
         ],
+        Size::WheelError,
     ),
-    ("transport_delay", "dead time from command to wheel", &[Element::DeadTime]),
-    ("motor_lag", "lag of the wheels' speed control", &[Element::Lag]),
-    ("effective_track", "effective track: the body turns otherwise than the track says", &[Element::Track]),
-    ("rolling_radius", "rolling radius, or a longitudinal slip that is always there", &[Element::Radius]),
-    ("turning_slip", "forward speed lost in turns", &[Element::TurnSlip]),
-    ("turn_centre_offset", "centre of rotation away from the pose sensor", &[Element::Offset]),
-    ("body_lag", "body (or pose sensor) late behind the wheels", &[Element::BodyLag]),
-    ("wheel_radius_mismatch", "wheels of one side of another radius", &[Element::SideRadius]),
+    (&cause::DEAD_TIME, &[Element::DeadTime], Size::First),
+    (&cause::LAG, &[Element::Lag], Size::Lag),
+    (&cause::EFFECTIVE_TRACK, &[Element::Track], Size::TimesTrack),
+    (&cause::ROLLING_RADIUS, &[Element::Radius], Size::First),
+    (&cause::TURN_SLIP, &[Element::TurnSlip], Size::First),
+    (&cause::TURN_CENTRE_OFFSET, &[Element::Offset], Size::First),
+    (&cause::BODY_LAG, &[Element::BodyLag], Size::First),
+    (&cause::SIDE_RADIUS, &[Element::SideRadius], Size::First),
 ];
 /// Causes below this probability are not listed: what left-out windows say nothing about keeps the 0.05 of its prior.
 const LISTED: f64 = 0.1;
@@ -70,41 +85,40 @@ const SURE: f64 = 0.999;
 pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off_error: f64, track: f64) -> Vec<Cause> {
     let mut out = Vec::new();
     let mut present = Vec::new();
-    for (effect, name, elements) in CAUSES {
+    for (spec, elements, size) in CAUSES {
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let p = own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         present.push(p);
         if p < LISTED {
             continue;
         }
-        let mut cause = Cause::plain(effect, name, p);
+
+        let mut cause = Cause::plain(spec.id, spec.name, p);
         let of: Vec<&Parameter> = parameters.iter().filter(|q| elements.contains(&q.element)).collect();
         cause.parameters = of.iter().map(|q| (q.id.to_string(), estimate(q))).collect();
-        match of.as_slice() {
-            [] => {}
-            _ if effect == "drive_command" => {
-                // The size of a controller that does something else is what the wheels do otherwise.
-                (cause.magnitude, cause.sigma, cause.unit) = (Some(off), Some(off_error), "rad/s".into());
-            }
-            [w, z] if effect == "motor_lag" => {
+        match (size, of.as_slice()) {
+            (_, []) => {}
+            (Size::WheelError, _) => (cause.magnitude, cause.sigma) = (Some(off), Some(off_error)),
+            (Size::Lag, [w, z]) => {
                 // A second-order lag is late by 2 ζ / ω.
                 let lag = 2.0 * z.value / w.value;
                 let relative = |q: &Parameter| q.half_width.map(|h| h / NINETY / q.value);
-                let sigma = relative(w).zip(relative(z)).map(|(a, b)| lag * a.hypot(b));
-                (cause.magnitude, cause.sigma, cause.unit) = (Some(lag), sigma, "s".into());
+                cause.magnitude = Some(lag);
+                cause.sigma = relative(w).zip(relative(z)).map(|(a, b)| lag * a.hypot(b));
             }
-            [q, ..] => {
-                let (factor, unit) =
-                    if effect == "effective_track" { (track, "m".into()) } else { (1.0, q.unit.clone()) };
+            (_, [q, ..]) => {
+                let factor = if matches!(size, Size::TimesTrack) { track } else { 1.0 };
                 cause.magnitude = Some(factor * q.value);
                 cause.sigma = q.half_width.map(|h| factor * h / NINETY);
-                cause.unit = unit;
             }
+        }
+        if cause.magnitude.is_some() {
+            cause.unit = spec.unit.into();
         }
         out.push(cause);
     }
-    out.push(Cause::plain("none", "nothing is missing", none_of(present)));
-    out.push(Cause::plain("unknown", "something that is not in the catalogue", 0.0));
+    out.push(Cause::plain(NONE.id, NONE.name, none_of(present)));
+    out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, 0.0));
     out.sort_by(|a, b| b.probability.min(SURE).total_cmp(&a.probability.min(SURE)));
     out
 }
@@ -125,4 +139,38 @@ pub(crate) fn simulated(base: &Simulated) -> [&[f64]; 2] {
         (verdict::DRIVE_CONSTANTS.len(), verdict::GROUND_CONSTANTS.len())
     );
     [&base.drive.x, &base.ground.x]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn causes_are_those_of_the_catalogue_and_every_element_belongs_to_one() {
+        let ids = CAUSES.map(|(spec, ..)| spec.id);
+        assert_eq!(ids, cause::ALL.map(|spec| spec.id));
+        let mut elements: Vec<Element> = CAUSES.iter().flat_map(|(_, elements, _)| elements.iter().copied()).collect();
+        elements.sort_unstable();
+        let last = Element::SideRadius as usize;
+        assert_eq!(elements.iter().map(|e| *e as usize).collect::<Vec<_>>(), (0..=last).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_size_that_is_a_constant_has_the_unit_of_that_constant() {
+        let all = || verdict::DRIVE_CONSTANTS.iter().chain(&verdict::GROUND_CONSTANTS);
+        for (spec, _, size) in CAUSES {
+            let id = match spec.id {
+                "rolling_radius" => "radius_factor",
+                "transport_delay" => "dead_time",
+                "turn_centre_offset" => "centre_offset",
+                "turning_slip" => "turn_slip",
+                "wheel_radius_mismatch" => "side_radius",
+                own => own,
+            };
+            if matches!(size, Size::First) {
+                let constant = all().find(|c| c.id == id).unwrap_or_else(|| panic!("no constant {id}"));
+                assert_eq!(constant.unit, spec.unit, "{id}");
+            }
+        }
+    }
 }

@@ -45,7 +45,7 @@ impl Corrected for Correction {
 /// # Errors
 /// When the catalogue has none of this id.
 pub fn in_catalogue(at: &EffectAt) -> Result<&'static dyn Effect<f64>, DiagnosisError> {
-    let found = effects::catalogue::<f64>().into_iter().find(|e| e.card().id == at.effect);
+    let found = effects::catalogue::<f64>().into_iter().find(|e| e.spec().id == at.effect);
     found.ok_or_else(|| DiagnosisError::NoSuchEffect { id: at.effect.clone() })
 }
 
@@ -55,7 +55,7 @@ pub fn in_catalogue(at: &EffectAt) -> Result<&'static dyn Effect<f64>, Diagnosis
 /// When the effect or a parameter is not in the catalogue, or a value is not finite.
 pub fn active(at: &EffectAt, drive: &str) -> Result<Active<f64>, DiagnosisError> {
     let effect = in_catalogue(at)?;
-    let parameters = effect.card().parameters;
+    let parameters = effect.spec().parameters;
     let mut values: Vec<f64> = parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
     for (name, value) in &at.values {
         let index = parameters.iter().position(|p| p.name == name).filter(|_| value.is_finite());

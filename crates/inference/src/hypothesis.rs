@@ -2,7 +2,7 @@
 
 use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
-use robot_model::{Active, Card, Effect, effects};
+use robot_model::{Active, Effect, EffectSpec, effects};
 
 use verdict::{EffectAt, Side};
 
@@ -66,15 +66,15 @@ pub type Onsets = Vec<Option<f64>>;
 
 impl Variant {
     /// The card of the effect.
-    pub fn card(&self) -> &'static Card {
-        self.effect.card()
+    pub fn spec(&self) -> &'static EffectSpec {
+        self.effect.spec()
     }
 
     /// Name for people and files: effect, side, axis, place.
     pub fn label(&self) -> String {
-        let mut out = self.card().id.to_owned();
+        let mut out = self.spec().id.to_owned();
         if let Some(a) = self.axis {
-            out = format!("{out} ({})", self.card().axes[a]);
+            out = format!("{out} ({})", self.spec().axes[a]);
         }
         match self.place {
             Place::Whole => {}
@@ -87,13 +87,13 @@ impl Variant {
 
     /// Indices of the strengths that are free here.
     pub fn strengths(&self) -> Vec<usize> {
-        let all: Vec<usize> = self.card().strengths().collect();
+        let all: Vec<usize> = self.spec().strengths().collect();
         self.axis.map_or(all.clone(), |a| vec![all[a]])
     }
 
     /// Everything a fit may change, strengths first, then shapes, then the disc.
     pub fn free(&self, largest_torque: f64) -> Vec<Free> {
-        let card = self.card();
+        let card = self.spec();
         let mut out = Vec::new();
         for role in [false, true] {
             for (i, p) in card.parameters.iter().enumerate() {
@@ -116,7 +116,7 @@ impl Variant {
 
     /// The doses of run `run` at the free values `e`.
     pub fn dose(&self, e: &[f64], onset: Option<f64>) -> Dose {
-        let card = self.card();
+        let card = self.spec();
         let mut values: Vec<f64> = card.parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
         let mut presence = Presence::default();
         let mut disc = Vec::new();
@@ -138,7 +138,7 @@ impl Variant {
 
     /// The same for files: by name, with onsets by recording.
     pub fn at(&self, e: &[f64], onsets: &Onsets, recordings: &[&str]) -> EffectAt {
-        let card = self.card();
+        let card = self.spec();
         let mut out = EffectAt { effect: card.id.to_owned(), ..EffectAt::default() };
         let mut disc = Vec::new();
         for (f, &v) in self.free(1.0).iter().zip(e) {
@@ -180,7 +180,7 @@ impl Variant {
 pub fn variants(pose: bool) -> Vec<Variant> {
     let mut out = Vec::new();
     for effect in effects::catalogue::<f64>() {
-        let card = effect.card();
+        let card = effect.spec();
         let of_gyro = matches!(card.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
         if card.redundancy != Redundancy::None && (pose || !of_gyro) {
             continue;
@@ -188,16 +188,16 @@ pub fn variants(pose: bool) -> Vec<Variant> {
         let axes: Vec<Option<usize>> =
             if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
         for axis in axes {
-            let wears = card.wears;
-            if wears.side {
+            let scopes = card.scopes;
+            if scopes.side {
                 out.extend((0..2).map(|s| Variant { effect, axis, place: Place::Side(s) }));
-            } else if wears.everywhere {
+            } else if scopes.everywhere {
                 out.push(Variant { effect, axis, place: Place::Whole });
             }
-            if wears.onset {
+            if scopes.onset {
                 out.push(Variant { effect, axis, place: Place::Onset });
             }
-            if wears.disc {
+            if scopes.disc {
                 out.push(Variant { effect, axis, place: Place::Disc });
             }
         }

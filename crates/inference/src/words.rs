@@ -1,6 +1,6 @@
 //! Names and numbers for people.
 
-use robot_model::Card;
+use robot_model::EffectSpec;
 use verdict::Cause;
 
 use crate::hypothesis::{Place, Variant};
@@ -17,13 +17,13 @@ pub fn named(name: &str, on: Option<usize>) -> String {
 }
 
 /// Unit of an effect's magnitude: that of its first strength.
-pub fn unit(card: &Card) -> &'static str {
+pub fn unit(card: &EffectSpec) -> &'static str {
     card.strengths().next().map_or("-", |i| card.parameters[i].unit)
 }
 
 /// Name of an effect in one of its forms: with axis, side and place.
 pub fn variant(v: &Variant) -> String {
-    let card = v.card();
+    let card = v.spec();
     let mut out = card.name.to_owned();
     if let Some(a) = v.axis {
         out = format!("{out}, along {}", card.axes[a]);
@@ -51,5 +51,5 @@ pub fn quantity(c: &Cause) -> String {
 
 /// The drive that reveals an effect best.
 pub fn revealed_by(id: &str) -> Option<&'static str> {
-    robot_model::effects::catalogue::<f64>().iter().map(|e| e.card()).find(|c| c.id == id).map(|c| c.revealed_by)
+    robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.id == id).map(|c| c.revealed_by)
 }

@@ -1,25 +1,20 @@
-//! The catalogue of effects, for programs.
+//! The catalogue of effects and causes, for programs.
 
-use robot_model::Card;
-use robot_model::effects::catalogue;
+use catalogue::CauseSpec;
+use robot_model::EffectSpec;
 use serde_json::{Value, json};
 
-/// Version of the JSON of cards.
+/// Version of the JSON of the catalogue.
 pub const FORMAT: u32 = 1;
 
-/// The cards of all effects.
-pub fn cards() -> Vec<&'static Card> {
-    catalogue::<f64>().iter().map(|e| e.card()).collect()
+/// All effects as JSON.
+pub fn effects_json() -> Vec<Value> {
+    catalogue::effects().map(effect_json).collect()
 }
 
-/// The forms in which the diagnosis looks for an effect.
-pub fn wears(card: &Card) -> Vec<&'static str> {
-    card.wears.forms().collect()
-}
-
-/// A card as JSON.
-pub fn as_json(card: &Card) -> Value {
-    let parameters: Vec<Value> = card
+/// An effect as JSON.
+pub fn effect_json(spec: &EffectSpec) -> Value {
+    let parameters: Vec<Value> = spec
         .parameters
         .iter()
         .map(|p| {
@@ -30,9 +25,18 @@ pub fn as_json(card: &Card) -> Value {
         })
         .collect();
     json!({
-        "id": card.id, "name": card.name, "kind": card.kind.name(), "law": card.law, "seen": card.seen,
-        "parameters": parameters, "signed": card.signed, "axes": card.axes, "looked_for": wears(card),
-        "redundancy": card.redundancy.shows_in(), "interest": card.interest, "revealed_by": card.revealed_by,
-        "resembles": card.resembles, "source": card.source,
+        "id": spec.id, "name": spec.name, "kind": spec.kind.name(), "law": spec.law, "seen": spec.seen,
+        "parameters": parameters, "signed": spec.signed, "axes": spec.axes, "looked_for": spec.scopes.forms().collect::<Vec<_>>(),
+        "redundancy": spec.redundancy.shows_in(), "interest": spec.interest, "revealed_by": spec.revealed_by,
+        "resembles": spec.resembles, "source": spec.source,
+    })
+}
+
+/// A cause without a law in a plant as JSON.
+pub fn cause_json(cause: &CauseSpec) -> Value {
+    json!({
+        "id": cause.id, "name": cause.name, "robots": cause.robots, "meaning": cause.meaning, "size": cause.size,
+        "unit": cause.unit, "recognised": cause.recognised, "revealed_by": cause.revealed_by,
+        "resembles": cause.resembles,
     })
 }

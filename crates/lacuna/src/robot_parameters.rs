@@ -257,7 +257,7 @@ impl File {
 fn nearest(error: &DiagnosisError) -> String {
     match error {
         DiagnosisError::NoSuchEffect { id } => {
-            let known: Vec<&str> = robot_model::effects::catalogue::<f64>().iter().map(|e| e.card().id).collect();
+            let known: Vec<&str> = robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec().id).collect();
             match suggest::nearest(id, known) {
                 Some(name) => format!("there is no effect `{id}`; did you mean `{name}`?"),
                 None => format!("there is no effect `{id}`; `lacuna effects` lists them"),

@@ -46,6 +46,24 @@ fn effects_lists_what_explain_explains() {
 }
 
 #[test]
+fn every_name_that_a_verdict_can_contain_is_listed_and_explained() {
+    let bench = Bench::new();
+    let list = bench.run(&["effects"]).out();
+    let json: Value = serde_json::from_str(&bench.run(&["effects", "--json", "-"]).out()).unwrap();
+    let known = |key: &str| json[key].as_array().unwrap().iter().map(|c| c["id"].as_str().unwrap()).collect::<Vec<_>>();
+    let ids = [known("effects"), known("causes")].concat();
+    for name in catalogue::names() {
+        assert!(list.lines().any(|line| line.split_whitespace().next() == Some(name)), "{name} is not listed");
+        assert!(ids.contains(&name), "{name} is not in the JSON");
+        let told = bench.run(&["explain", name]);
+        assert_eq!((told.code(), told.err().as_str()), (Some(0), ""), "{name}");
+        assert!(told.out().contains(&format!("({name})")), "{}", told.out());
+    }
+    let both = bench.run(&["explain", "motor_lag"]).out();
+    assert!(both.contains("lag of the wheels' speed control") && both.contains("current loop"), "{both}");
+}
+
+#[test]
 fn an_unknown_effect_suggests_the_nearest() {
     let run = Bench::new().run(&["explain", "paylod"]);
     assert_eq!(run.code(), Some(2));

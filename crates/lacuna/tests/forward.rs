@@ -38,6 +38,24 @@ fn a_corrected_robot_file_predicts_what_the_diagnosis_predicted() {
 }
 
 #[test]
+fn simulate_says_which_effects_of_a_robot_file_it_cannot_show() {
+    let bench = Bench::new();
+    let with = |effect: &str, value: &str| {
+        bench.write("robot.toml", &format!("{ROBOT}\n[[effects]]\neffect = \"{effect}\"\nvalues = {{ {value} }}\n"));
+        bench.run(&["simulate", "robot.toml", "case/recordings/run_1.csv"])
+    };
+    let shown = with("gyro_bias", "b = 0.05");
+    assert_eq!((shown.code(), shown.err().as_str()), (Some(0), ""));
+    let late = with("clock_offset", "IMU = 0.1");
+    assert_eq!(late.code(), Some(0));
+    assert!(
+        late.err().starts_with("warning: effect 'clock_offset'") && late.err().contains("one clock"),
+        "{}",
+        late.err()
+    );
+}
+
+#[test]
 fn exports_hold_the_effect_and_nothing_is_written_over() {
     let bench = Bench::new();
     let loaded = format!("{ROBOT}\n[[effects]]\neffect = \"payload\"\nvalues = {{ mass = 10.0 }}\n");

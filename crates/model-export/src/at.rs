@@ -1,13 +1,14 @@
 //! An effect at values, as the translations read it.
 
 use inference::DiagnosisError;
-use robot_model::Effect;
-use robot_model::effect::{Card, MAX_PARAMETERS, Values};
+use robot_model::effect::export::{Engine, Way, When};
+use robot_model::effect::{EffectSpec, MAX_PARAMETERS, Values};
+use robot_model::{Active, Effect, Presence};
 use verdict::{EffectAt, Side};
 
 use crate::number::number;
 
-/// An effect at values in the order of its card.
+/// An effect at values in the order of its specification.
 pub(crate) struct At<'a> {
     of: &'a EffectAt,
     effect: &'static dyn Effect<f64>,
@@ -21,14 +22,35 @@ impl<'a> At<'a> {
         inference::active(of, "")?;
         let effect = inference::in_catalogue(of)?;
         let mut values = [0.0; MAX_PARAMETERS];
-        for (value, p) in values.iter_mut().zip(effect.card().parameters) {
+        for (value, p) in values.iter_mut().zip(effect.spec().parameters) {
             *value = of.values.get(p.name).copied().unwrap_or(p.neutral);
         }
         Ok(Self { of, effect, values })
     }
 
-    pub(crate) fn card(&self) -> &'static Card {
-        self.effect.card()
+    pub(crate) fn spec(&self) -> &'static EffectSpec {
+        self.effect.spec()
+    }
+
+    /// How an engine gets the effect at these values.
+    pub(crate) fn way(&self, engine: Engine) -> Way {
+        let export = &self.spec().export;
+        let holds = |when| match when {
+            When::AtPlace => self.of.place.is_some(),
+            When::Negative => self.values.iter().any(|value| *value < 0.0),
+        };
+        let mut exceptions = export.exceptions.iter();
+        let exception = exceptions.find(|e| e.engine.is_none_or(|of| of == engine) && holds(e.when));
+        match (exception, export.way(engine)) {
+            (Some(exception), Way::Held(_)) => Way::Added(exception.why),
+            (_, way) => way,
+        }
+    }
+
+    /// The effect on the sides that have it, always and at any place.
+    pub(crate) fn active(&self) -> Active<f64> {
+        let side = self.of.side.map(|side| side as usize);
+        Active::new(self.effect, &self.values, Presence { side, ..Presence::default() })
     }
 
     pub(crate) fn law(&self) -> &'static dyn Effect<f64> {
@@ -37,11 +59,6 @@ impl<'a> At<'a> {
 
     pub(crate) fn values(&self) -> &Values<f64> {
         &self.values
-    }
-
-    /// A value as text.
-    pub(crate) fn text(&self, index: usize) -> String {
-        number(self.values[index])
     }
 
     /// Which sides have it.

@@ -25,7 +25,7 @@ pub(crate) struct Grip {
 
 /// The four wheels.
 pub(crate) fn grips(v: &Vehicle) -> [Grip; 4] {
-    let (r, w) = (&v.robot, &v.world);
+    let (r, w) = (&v.robot, &v.coefficients);
     let stance = Stance::new(r.mass, r.gravity, r.half_wheelbase, r.half_track, r.com);
     std::array::from_fn(|i| {
         let even = stance.static_load[i];

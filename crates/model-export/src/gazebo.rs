@@ -17,13 +17,14 @@ pub(crate) const LYING: f64 = FRAC_PI_2;
 pub(crate) fn slip_plugin(v: &Vehicle, grips: &[Grip; 4]) -> Element {
     let wheel = |i: usize| {
         let compliance = |friction: f64| [grips[i].compliance * grips[i].adhesion / friction.max(1e-3)];
-        let [along, across] = [v.world.lateral[i], v.world.traction[i]].map(|k| compliance(grips[i].adhesion * k));
+        let [along, across] =
+            [v.coefficients.lateral[i], v.coefficients.traction[i]].map(|k| compliance(grips[i].adhesion * k));
         element("wheel")
             .with("link_name", WHEELS[i])
             .value("slip_compliance_lateral", &along)
             .value("slip_compliance_longitudinal", &across)
             .value("wheel_normal_force", &[grips[i].load])
-            .value("wheel_radius", &[v.world.radius[i]])
+            .value("wheel_radius", &[v.coefficients.radius[i]])
     };
     element("plugin")
         .with("filename", "gz-sim-wheel-slip-system")

@@ -1,12 +1,17 @@
 //! A robot and the effects that its simulation lacks, as models of other simulators: MJCF (MuJoCo), URDF and SDF (Gazebo).
 //!
 //! What an engine has a law for becomes a value in the model. What it has no law for becomes a residual: a few lines that
-//! say which force to add, or which reading to change, with the numbers in them and the reason. [`way`] says which is
-//! which, for every effect of the catalogue and every engine.
+//! say which force to add, or which reading to change, with the numbers in them and the reason. Every effect says in its
+//! own file which is which (`robot_model::effect::Export`); this crate only reads it.
+//!
+//! From the bottom up: `number` and `xml`; `model` (what is exported); `at` (an effect at values), `origin` (where values
+//! come from), `vehicle`, `contact`, `inertia` and `residual` (what writers read); `translate` (effects into a vehicle);
+//! `added`, `gazebo`, `mjcf`, `urdf`, `sdf` (writers); `export` (one model for one engine).
 
+mod added;
 mod at;
 mod contact;
-mod engine;
+mod export;
 mod gazebo;
 mod inertia;
 mod mjcf;
@@ -15,14 +20,14 @@ mod number;
 mod origin;
 mod residual;
 mod sdf;
-mod table;
+mod translate;
 mod urdf;
 mod vehicle;
 mod xml;
 
-pub use engine::{Engine, Way};
 pub use model::{ExportError, Exported, Model};
-pub use table::way;
+pub use robot_model::effect::export::{Engine, Way};
+pub use translate::way;
 
 #[cfg(test)]
 mod tests;

@@ -4,11 +4,6 @@ use inference::DiagnosisError;
 use robot_model::Robot;
 use verdict::{Cause, EffectAt};
 
-use crate::engine::Engine;
-use crate::residual::Residual;
-use crate::vehicle::Vehicle;
-use crate::{mjcf, sdf, urdf};
-
 /// A robot with the effects that are to be part of its simulation.
 #[derive(Debug, Clone, Copy)]
 pub struct Model<'a> {
@@ -45,27 +40,7 @@ pub enum ExportError {
     /// A robot that cannot be, with its effects.
     #[error("the robot with its effects cannot exist: {0}; correct the values of the effects")]
     Robot(#[from] robot_model::ModelError),
-    /// An effect of the catalogue that has no translation.
-    #[error("effect '{0}' has no translation yet; leave it out")]
-    NoTranslation(&'static str),
     /// XML that could not be written.
     #[error("the model could not be written as XML: {0}")]
     Xml(#[from] std::io::Error),
-}
-
-impl Model<'_> {
-    /// The model for an engine.
-    ///
-    /// # Errors
-    /// An effect or value that the catalogue does not have, or a robot that cannot be.
-    pub fn export(&self, engine: Engine) -> Result<Exported, ExportError> {
-        let vehicle = Vehicle::new(self, engine)?;
-        let text = match engine {
-            Engine::Mjcf => mjcf::document(self, &vehicle)?,
-            Engine::Urdf => urdf::document(self, &vehicle)?,
-            Engine::Sdf => sdf::document(self, &vehicle)?,
-        };
-        let residual = (engine == Engine::Mjcf).then(|| crate::residual::python(self.name, &vehicle)).flatten();
-        Ok(Exported { text, residual, notes: vehicle.residuals.iter().map(Residual::note).collect() })
-    }
 }

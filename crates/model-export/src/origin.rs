@@ -2,27 +2,13 @@
 
 use inference::robust::NINETY;
 use robot_model::Robot;
-use robot_model::effect::{Card, Parameter};
+use robot_model::effect::export::{Section, Way};
+use robot_model::effect::{EffectSpec, Parameter};
 use verdict::Cause;
 
 use crate::at::At;
-use crate::engine::Way;
 use crate::model::Model;
 use crate::number::number;
-
-/// A part of a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Section {
-    /// Masses.
-    Body,
-    /// Joints of the wheels, belts, shape of the wheels.
-    Wheels,
-    /// Contacts, gravity.
-    Ground,
-    /// From command to torque.
-    Drive,
-    Sensors,
-}
 
 /// Reads a constant.
 type Read = fn(&Robot<f64>) -> f64;
@@ -76,29 +62,29 @@ pub(crate) fn of_effect(at: &At<'_>, causes: &[Cause], way: Way) -> String {
 
 /// An effect with its values and their intervals.
 pub(crate) fn described(at: &At<'_>, causes: &[Cause]) -> String {
-    let card = at.card();
-    let cause = causes.iter().find(|c| c.effect == card.id && c.side.as_deref() == at.side_name());
-    let values: Vec<String> = card
+    let spec = at.spec();
+    let cause = causes.iter().find(|c| c.effect == spec.id && c.side.as_deref() == at.side_name());
+    let values: Vec<String> = spec
         .parameters
         .iter()
         .enumerate()
         // A number at which nothing changes says nothing.
-        .filter(|(i, p)| at.values()[*i] != p.neutral || card.parameters.len() == 1)
-        .map(|(i, p)| parameter(card, p, at.values()[i], cause))
+        .filter(|(i, p)| at.values()[*i] != p.neutral || spec.parameters.len() == 1)
+        .map(|(i, p)| parameter(spec, p, at.values()[i], cause))
         .collect();
     let side = at.side_name().map(|s| format!(", {s}")).unwrap_or_default();
     let place = at
         .place()
         .map_or_else(String::new, |[x, y, r]| format!(", within {} m of ({}, {}) m", number(r), number(x), number(y)));
-    format!("{} ({}){side}{place}: {}", card.id, card.name, values.join(", "))
+    format!("{} ({}){side}{place}: {}", spec.id, spec.name, values.join(", "))
 }
 
-fn parameter(card: &Card, p: &Parameter, value: f64, cause: Option<&Cause>) -> String {
+fn parameter(spec: &EffectSpec, p: &Parameter, value: f64, cause: Option<&Cause>) -> String {
     let unit = if p.unit == "-" { String::new() } else { format!(" {}", p.unit) };
     let sigma = cause.and_then(|c| {
         // Where an effect has one number, its cause may know it as the magnitude only.
         let known = c.parameters.get(p.name).and_then(|e| e.sigma);
-        known.or_else(|| c.sigma.filter(|_| card.parameters.len() == 1))
+        known.or_else(|| c.sigma.filter(|_| spec.parameters.len() == 1))
     });
     let interval = sigma.map_or_else(String::new, |s| {
         format!(" (90 %: {} to {})", number(value - NINETY * s), number(value + NINETY * s))

@@ -2,14 +2,14 @@
 
 use std::io;
 
+use robot_model::effect::export::{Engine, Section};
+
+use crate::added;
 use crate::contact::{SIDES, WHEELS, grips};
-use crate::engine::Engine;
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
 use crate::number::{number, numbers};
-use crate::origin::Section;
-use crate::residual;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
@@ -27,7 +27,7 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         .value("gravity", &v.gravity())
         .child(ground(v))
         .child(robot(model, v));
-    residual::comments(element("sdf").with("version", "1.11").child(world), v, Engine::Sdf).document(vec![format!(
+    added::comments(element("sdf").with("version", "1.11").child(world), v, Engine::Sdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
          the middle of the wheels. The rear wheel joints take the torque of a side.",
         model.name
@@ -50,7 +50,7 @@ fn ground(v: &Vehicle) -> Element {
     let plane = element("geometry").child(element("plane").leaf("normal", "0 0 1").leaf("size", "200 200"));
     let floor =
         element("collision").with("name", "floor").child(plane).child(friction(ANY_FRICTION, ANY_FRICTION, None));
-    let mu = v.world.adhesion[0];
+    let mu = v.coefficients.adhesion[0];
     let discs = v.patches.iter().enumerate().map(|(i, [x, y, radius, left])| {
         let shape = element("cylinder").value("radius", &[*radius]).value("length", &[DISC]);
         element("collision")
@@ -121,7 +121,7 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let part = &parts.wheels[i];
     let [along, across] = grips(v)[i].friction;
     let shape = |kind: &'static str| {
-        let cylinder = element("cylinder").value("radius", &[v.world.radius[i]]).value("length", &[WIDTH]);
+        let cylinder = element("cylinder").value("radius", &[v.coefficients.radius[i]]).value("length", &[WIDTH]);
         element(kind)
             .with("name", kind)
             .leaf("pose", pose(shape_place(v, i), [LYING, 0.0, 0.0]))

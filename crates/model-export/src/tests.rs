@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use robot_model::effects::catalogue;
-use robot_model::{Card, Robot, paper};
+use robot_model::{EffectSpec, Robot, paper};
 use verdict::{EffectAt, Side};
 
 use crate::at::At;
 use crate::inertia::Parts;
-use crate::vehicle::Vehicle;
+use crate::translate::vehicle;
 use crate::{Engine, Exported, Model, Way, way};
 
 fn robot() -> Robot<f64> {
@@ -20,10 +20,10 @@ fn robot() -> Robot<f64> {
 }
 
 /// An effect at a small size that no robot refuses.
-fn at(card: &Card, side: Option<Side>) -> EffectAt {
+fn at(spec: &EffectSpec, side: Option<Side>) -> EffectAt {
     let value = |p: &robot_model::Parameter| if p.name == "T_b" || p.name == "T_max" { 1.5 } else { p.probes[0] };
-    let values: BTreeMap<String, f64> = card.parameters.iter().map(|p| (p.name.to_owned(), value(p))).collect();
-    EffectAt { effect: card.id.to_owned(), values, side: side.filter(|_| card.wears.side), ..EffectAt::default() }
+    let values: BTreeMap<String, f64> = spec.parameters.iter().map(|p| (p.name.to_owned(), value(p))).collect();
+    EffectAt { effect: spec.id.to_owned(), values, side: side.filter(|_| spec.scopes.side), ..EffectAt::default() }
 }
 
 fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported {
@@ -35,24 +35,25 @@ fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported 
 fn every_effect_of_the_catalogue_is_translated_for_every_engine() {
     let robot = robot();
     for effect in catalogue::<f64>() {
-        let card = effect.card();
+        let spec = effect.spec();
         for engine in Engine::ALL {
             let plain = export(&robot, &[], engine);
-            let with = export(&robot, &[at(card, Some(Side::Left))], engine);
-            let way = way(engine, card.id).unwrap_or_else(|| panic!("{} has no translation", card.id));
-            assert!(with.text.contains(card.id), "{}: {} does not name it", card.id, engine.name());
+            let with = export(&robot, &[at(spec, Some(Side::Left))], engine);
+            let way = way(engine, spec.id).unwrap_or_else(|| panic!("{} has no translation", spec.id));
+            assert!(with.text.contains(spec.id), "{}: {} does not name it", spec.id, engine.name());
             // Without comments: a held effect changes the model itself, another one leaves it as it is.
             let changed = bare(&with.text) != bare(&plain.text);
-            assert_eq!(changed, matches!(way, Way::Held(_)), "{} in {}", card.id, engine.name());
-            assert_eq!(with.notes.len() > plain.notes.len(), !changed && !is_drive(card, engine), "{}", card.id);
-            assert!(is_well_formed(&with.text), "{}", card.id);
+            assert_eq!(changed, matches!(way, Way::Held(_)), "{} in {}", spec.id, engine.name());
+            assert_eq!(with.notes.len() > plain.notes.len(), !changed && !is_drive(spec, engine), "{}", spec.id);
+            assert!(is_well_formed(&with.text), "{}", spec.id);
+            assert!(!with.text.contains('{'), "{}: a number is missing in {}", spec.id, engine.name());
         }
     }
 }
 
 /// Constants of the drive have one residual for all of them where the engine has no drive.
-fn is_drive(card: &Card, engine: Engine) -> bool {
-    engine != Engine::Mjcf && ["motor_lag", "transport_delay", "torque_constant"].contains(&card.id)
+fn is_drive(spec: &EffectSpec, engine: Engine) -> bool {
+    engine != Engine::Mjcf && ["motor_lag", "transport_delay", "torque_constant"].contains(&spec.id)
 }
 
 fn bare(xml: &str) -> String {
@@ -77,13 +78,13 @@ fn text(node: roxmltree::Node<'_, '_>, child: &str) -> f64 {
 #[test]
 fn masses_and_inertias_sum_up_to_those_of_the_robot() {
     let robot = robot();
-    let payload = catalogue::<f64>().into_iter().find(|e| e.card().id == "payload").expect("payload");
-    let load = at(payload.card(), None);
+    let payload = catalogue::<f64>().into_iter().find(|e| e.spec().id == "payload").expect("payload");
+    let load = at(payload.spec(), None);
     let model = Model { name: "tested", robot: &robot, effects: &[load], before: None, causes: &[] };
     let mut expected = robot;
     payload.robot(At::new(&model.effects[0]).expect("values").values(), &mut expected);
     for engine in Engine::ALL {
-        let v = Vehicle::new(&model, engine).expect("a vehicle");
+        let v = vehicle(&model, engine).expect("a vehicle");
         let total = Parts::new(&v, engine != Engine::Mjcf).total();
         approx(total.mass, expected.mass);
         approx(total.inertia[2], expected.yaw_inertia);
@@ -116,7 +117,7 @@ fn approx(a: f64, b: f64) {
 
 #[test]
 fn urdf_is_read_by_a_parser_of_urdf() {
-    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.card(), Some(Side::Right))).collect();
+    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.spec(), Some(Side::Right))).collect();
     let text = export(&robot(), &all, Engine::Urdf).text;
     let read = urdf_rs::read_from_string(&text).expect("URDF");
     let links: Vec<&str> = read.links.iter().map(|l| l.name.as_str()).collect();
@@ -133,7 +134,7 @@ fn urdf_is_read_by_a_parser_of_urdf() {
 
 #[test]
 fn sdf_joints_join_links_that_are_there_and_every_link_of_the_robot_weighs() {
-    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.card(), Some(Side::Left))).collect();
+    let all: Vec<EffectAt> = catalogue::<f64>().iter().map(|e| at(e.spec(), Some(Side::Left))).collect();
     let text_of = export(&robot(), &all, Engine::Sdf).text;
     let document = roxmltree::Document::parse(&text_of).expect("XML");
     let robot = document.descendants().find(|n| n.attribute("name") == Some("tested")).expect("the robot");

@@ -2,13 +2,13 @@
 
 use std::io;
 
+use robot_model::effect::export::{Engine, Section};
+
+use crate::added;
 use crate::contact::{SIDES, WHEELS, grips};
-use crate::engine::Engine;
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
-use crate::origin::Section;
-use crate::residual;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
@@ -47,7 +47,7 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         );
     }
     root = root.child(element("gazebo").child(slip_plugin(v, &all)));
-    residual::comments(root, v, Engine::Urdf).document(vec![format!(
+    added::comments(root, v, Engine::Urdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
          the middle of the wheels. The rear wheel joints take the torque of a side.",
         model.name
@@ -86,9 +86,9 @@ fn chassis(v: &Vehicle, parts: &Parts) -> Element {
 
 fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let shape = |name: &'static str| {
-        element(name)
-            .child(origin(shape_place(v, i), [LYING, 0.0, 0.0]))
-            .child(element("geometry").child(element("cylinder").num("radius", v.world.radius[i]).num("length", WIDTH)))
+        element(name).child(origin(shape_place(v, i), [LYING, 0.0, 0.0])).child(
+            element("geometry").child(element("cylinder").num("radius", v.coefficients.radius[i]).num("length", WIDTH)),
+        )
     };
     let part = &parts.wheels[i];
     element("link")

@@ -10,7 +10,7 @@ const MARKS: [&str; 2] = ["<!-- table -->\n", "<!-- end of table -->\n"];
 fn table() -> String {
     let mut out = String::from("| effect | MJCF | URDF | SDF |\n| --- | --- | --- | --- |\n");
     for effect in catalogue::<f64>() {
-        let id = effect.card().id;
+        let id = effect.spec().id;
         let cell = |engine| match way(engine, id) {
             Some(Way::Held(value)) => value.to_owned(),
             Some(Way::Added(why)) => format!("*added*: {why}"),

@@ -76,15 +76,15 @@ fn every_effect_loads_and_drives_in_mujoco() {
     let Some(python) = python() else { return };
     let robot = robot();
     for effect in catalogue::<f64>() {
-        let card = effect.card();
+        let spec = effect.spec();
         let value = |p: &robot_model::Parameter| if p.probes[0] > 0.0 && p.neutral > 1e6 { 1.5 } else { p.probes[0] };
-        let values: BTreeMap<String, f64> = card.parameters.iter().map(|p| (p.name.to_owned(), value(p))).collect();
-        let side = card.wears.side.then_some(Side::Left);
-        let at = EffectAt { effect: card.id.to_owned(), values, side, ..EffectAt::default() };
+        let values: BTreeMap<String, f64> = spec.parameters.iter().map(|p| (p.name.to_owned(), value(p))).collect();
+        let side = spec.scopes.side.then_some(Side::Left);
+        let at = EffectAt { effect: spec.id.to_owned(), values, side, ..EffectAt::default() };
         let [mass, left, right, yaw] = driven(&python, &robot, &[at], [4.0, 4.0]);
-        let grown = if card.id == "payload" { 2.0 } else { 0.0 };
-        assert!((mass - robot.mass - grown).abs() < 1e-3, "{}: {mass} kg", card.id);
-        assert!(left > 0.5 && right > 0.5 && yaw.abs() < 2.0, "{}: {left} {right} rad/s, {yaw} rad/s", card.id);
+        let grown = if spec.id == "payload" { 2.0 } else { 0.0 };
+        assert!((mass - robot.mass - grown).abs() < 1e-3, "{}: {mass} kg", spec.id);
+        assert!(left > 0.5 && right > 0.5 && yaw.abs() < 2.0, "{}: {left} {right} rad/s, {yaw} rad/s", spec.id);
     }
 }
 

@@ -1,6 +1,6 @@
 //! An effect at work: values and presence.
 
-use crate::effect::{Effect, Kind, MAX_PARAMETERS, Readings, Situation, Values, World};
+use crate::effect::{Coefficients, Effect, Kind, MAX_PARAMETERS, OperatingPoint, Readings, Values};
 use crate::presence::Presence;
 use crate::scalar::{Scalar, real};
 
@@ -16,13 +16,13 @@ pub struct Active<T: Scalar> {
 }
 
 impl<T: Scalar> Active<T> {
-    /// An effect at `values` (the card's order; missing ones at their neutral value), present where `presence` says.
+    /// An effect at `values` (the order of its specification; missing ones at their neutral value), present where `presence` says.
     pub fn new(effect: &'static dyn Effect<T>, values: &[T], presence: Presence<T>) -> Self {
         let mut v = [T::zero(); MAX_PARAMETERS];
-        for (i, p) in effect.card().parameters.iter().enumerate().take(MAX_PARAMETERS) {
+        for (i, p) in effect.spec().parameters.iter().enumerate().take(MAX_PARAMETERS) {
             v[i] = values.get(i).copied().unwrap_or_else(|| real(p.neutral));
         }
-        let senses = effect.card().kind == Kind::Sensor;
+        let senses = effect.spec().kind == Kind::Sensor;
         Self { effect, values: v, presence, unlimited: presence.is_unlimited(), senses }
     }
 
@@ -30,14 +30,15 @@ impl<T: Scalar> Active<T> {
         &self.values
     }
 
+    /// Changes the coefficients of an instant, as far as the effect is present.
     #[inline(always)]
-    pub(crate) fn act(&self, at: &Situation<T>, world: &mut World<T>) {
+    pub fn apply(&self, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
         if self.unlimited {
-            self.effect.act(self.values(), at, world);
+            self.effect.apply(self.values(), at, c);
         } else {
-            let mut changed = *world;
-            self.effect.act(self.values(), at, &mut changed);
-            world.blend(&changed, self.presence.at(at));
+            let mut changed = *c;
+            self.effect.apply(self.values(), at, &mut changed);
+            c.blend(&changed, self.presence.at(at));
         }
     }
 

@@ -31,7 +31,7 @@ pub mod effects {
 
 pub use ::scalar::Lanes;
 pub use active::Active;
-pub use effect::{Card, Effect, Kind, Parameter, Readings, Role, Situation, World};
+pub use effect::{Coefficients, Effect, EffectSpec, Kind, OperatingPoint, Parameter, Readings, Role};
 pub use error::ModelError;
 pub use plant::Plant;
 pub use presence::{Disc, Presence};

@@ -3,7 +3,7 @@
 
 use crate::active::Active;
 use crate::contact::{Stance, combined};
-use crate::effect::{Readings, Situation, World};
+use crate::effect::{Coefficients, OperatingPoint, Readings};
 use crate::robot::{Drive, Robot};
 use crate::scalar::{Scalar, bell, real, smooth_sign};
 use crate::state::State;
@@ -17,7 +17,7 @@ const STRIBECK_SPEED: f64 = 0.6;
 pub struct Plant<'a, T: Scalar> {
     robot: Robot<T>,
     stance: Stance<T>,
-    world: World<T>,
+    coefficients: Coefficients<T>,
     active: &'a [Active<T>],
     step: T,
     keep: [T; 2],
@@ -43,7 +43,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
         let keep = [decay(robot.drive.lag), decay(robot.drive.extra_lag)];
         Self {
             stance: robot.stance(),
-            world: robot.world(),
+            coefficients: robot.coefficients(),
             inverse_mass: T::one() / robot.mass,
             inverse_yaw_inertia: T::one() / robot.yaw_inertia,
             robot,
@@ -101,9 +101,8 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     #[inline(always)]
-    fn situation(&self, s: &State<T>, torque: [T; 2]) -> Situation<T> {
-        let r = &self.robot;
-        Situation {
+    fn operating_point(&self, s: &State<T>, torque: [T; 2]) -> OperatingPoint<T> {
+        OperatingPoint {
             time: s.time,
             position: s.position,
             heading: s.heading,
@@ -111,20 +110,17 @@ impl<'a, T: Scalar> Plant<'a, T> {
             yaw_rate: s.yaw_rate,
             wheel_speed: s.wheel_speed,
             wheel_angle: s.wheel_angle,
-            mass: r.mass,
-            gravity: r.gravity,
-            hitch: [r.hitch_x - r.com[0], -r.com[1]],
-            half_base: [r.half_wheelbase, r.half_track],
             torque,
+            ..self.robot.at_rest()
         }
     }
 
-    /// Lets the active effects change the world of an instant, in place: it is large, and this is the hot path.
+    /// Lets the active effects change the coefficients of an instant, in place: it is large, and this is the hot path.
     #[inline(always)]
-    fn change(&self, s: &State<T>, torque: [T; 2], world: &mut World<T>) {
-        let at = self.situation(s, torque);
+    fn change(&self, s: &State<T>, torque: [T; 2], c: &mut Coefficients<T>) {
+        let at = self.operating_point(s, torque);
         for a in self.active {
-            a.act(&at, world);
+            a.apply(&at, c);
         }
     }
 
@@ -135,37 +131,37 @@ impl<'a, T: Scalar> Plant<'a, T> {
 
     /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
     #[inline(always)]
-    fn contacts(&self, s: &State<T>, world: &World<T>) -> Contacts<T> {
+    fn contacts(&self, s: &State<T>, c: &Coefficients<T>) -> Contacts<T> {
         let speed = Self::speeds(s);
         let rest2 = self.robot.rest_speed * self.robot.rest_speed;
         let mut k = [[T::zero(); 2]; 4];
         let mut stiffness = [T::zero(); 4];
         for i in 0..4 {
             let [x, y] = self.stance.wheel[i];
-            let rim = speed[i] * world.radius[i];
+            let rim = speed[i] * c.radius[i];
             let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
-            let (per_speed, stiff) = combined(slip, rim * rim + rest2, world.slip_at_peak[i], self.robot.sliding_share);
-            let mu = world.adhesion[i] * per_speed;
-            k[i] = [mu * slip[0] * world.traction[i], mu * slip[1] * world.lateral[i]];
-            stiffness[i] = world.adhesion[i] * stiff * world.traction[i];
+            let (per_speed, stiff) = combined(slip, rim * rim + rest2, c.slip_at_peak[i], self.robot.sliding_share);
+            let mu = c.adhesion[i] * per_speed;
+            k[i] = [mu * slip[0] * c.traction[i], mu * slip[1] * c.lateral[i]];
+            stiffness[i] = c.adhesion[i] * stiff * c.traction[i];
         }
-        let balance = self.stance.settle_twisted(&k, world.twist);
+        let balance = self.stance.settle_twisted(&k, c.twist);
         let mut rolling = [T::zero(); 4];
         for i in 0..4 {
             stiffness[i] *= balance.load[i];
-            rolling[i] = world.rolling[i] * balance.load[i] * world.radius[i];
+            rolling[i] = c.rolling[i] * balance.load[i] * c.radius[i];
         }
         Contacts { force: balance.force, stiffness, rolling }
     }
 
     /// Torque of a side's drivetrain friction at wheel speed `w`, without rolling resistance.
     #[inline(always)]
-    fn friction(world: &World<T>, j: usize, w: T, sign: T) -> T {
-        let mut dry = world.coulomb[j];
-        if world.stribeck[j] != T::zero() {
-            dry += world.stribeck[j] * bell(w * real(1.0 / STRIBECK_SPEED));
+    fn friction(c: &Coefficients<T>, j: usize, w: T, sign: T) -> T {
+        let mut dry = c.coulomb[j];
+        if c.stribeck[j] != T::zero() {
+            dry += c.stribeck[j] * bell(w * real(1.0 / STRIBECK_SPEED));
         }
-        dry * sign + world.viscous[j] * w
+        dry * sign + c.viscous[j] * w
     }
 
     /// One step of a torque-driven robot: `command` is held over the step.
@@ -183,29 +179,29 @@ impl<'a, T: Scalar> Plant<'a, T> {
     pub fn step_under(&self, s: &mut State<T>, torque: [T; 2]) {
         let (h, half) = (self.step, real::<T>(0.5));
         let mut changed;
-        let world = if self.active.is_empty() {
-            &self.world
+        let c = if self.active.is_empty() {
+            &self.coefficients
         } else {
-            changed = self.world;
+            changed = self.coefficients;
             self.change(s, torque, &mut changed);
             &changed
         };
-        let Contacts { mut force, stiffness, rolling } = self.contacts(s, world);
+        let Contacts { mut force, stiffness, rolling } = self.contacts(s, c);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
         for j in 0..2 {
             let mut inertia = [jw, jw + jm];
-            let mut impulse = [T::zero(), h * (torque[j] + world.torque[j])];
+            let mut impulse = [T::zero(), h * (torque[j] + c.torque[j])];
             let mut ahead = [T::zero(); 2];
             let speed = [s.front_speed[j], s.wheel_speed[j]];
             for n in 0..2 {
                 let i = j + 2 * n;
-                let radius = world.radius[i];
+                let radius = c.radius[i];
                 let sign = smooth_sign(speed[n] * real(1.0 / FRICTION_REST));
                 ahead[n] = h * (s.rate[0] - s.rate[2] * self.stance.wheel[i][1]);
                 let stiff = h * radius * stiffness[i];
                 inertia[n] += stiff * radius;
                 // Bearings: each wheel bears half of its side's drivetrain friction, as in Eq. 8 of the paper.
-                let drag = rolling[i] * sign + half * Self::friction(world, j, speed[n], sign);
+                let drag = rolling[i] * sign + half * Self::friction(c, j, speed[n], sign);
                 impulse[n] += stiff * ahead[n] - h * (radius * force[i][0] + drag);
             }
             // The belt's impulse that keeps both wheels at one speed, or as much of it as the belt passes.
@@ -214,18 +210,18 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let inverse = T::one() / (both * sum);
             let per_inertia = [inertia[1] * sum * inverse, inertia[0] * sum * inverse];
             let gap = speed[1] - speed[0] + impulse[1] * per_inertia[1] - impulse[0] * per_inertia[0];
-            let most = world.belt_limit[j] * h;
+            let most = c.belt_limit[j] * h;
             let belt = (gap * both * both * inverse).max(-most).min(most);
             let change = [(impulse[0] + belt) * per_inertia[0], (impulse[1] - belt) * per_inertia[1]];
             for n in 0..2 {
                 let i = j + 2 * n;
-                force[i][0] += stiffness[i] * (world.radius[i] * change[n] - ahead[n]);
+                force[i][0] += stiffness[i] * (c.radius[i] * change[n] - ahead[n]);
             }
             s.front_speed[j] = speed[0] + change[0];
             s.wheel_speed[j] = speed[1] + change[1];
             s.wheel_angle[j] += h * s.wheel_speed[j];
         }
-        self.move_body(s, &force, world);
+        self.move_body(s, &force, c);
     }
 
     /// One step of a speed-driven robot: the wheels turn at `speed` and change it at `rate`;
@@ -235,33 +231,33 @@ impl<'a, T: Scalar> Plant<'a, T> {
         s.wheel_speed = speed;
         s.front_speed = speed;
         let mut changed;
-        let world = if self.active.is_empty() {
-            &self.world
+        let c = if self.active.is_empty() {
+            &self.coefficients
         } else {
-            changed = self.world;
+            changed = self.coefficients;
             self.change(s, s.needed.map(|t| t * self.robot.drive.gain), &mut changed);
             &changed
         };
-        let Contacts { force, rolling, .. } = self.contacts(s, world);
+        let Contacts { force, rolling, .. } = self.contacts(s, c);
         let inertia = self.robot.wheel_inertia * real(2.0) + self.robot.motor_inertia;
         for j in 0..2 {
             let sign = smooth_sign(speed[j] * real(1.0 / FRICTION_REST));
-            s.needed[j] = inertia * rate[j] + Self::friction(world, j, speed[j], sign);
+            s.needed[j] = inertia * rate[j] + Self::friction(c, j, speed[j], sign);
             for i in [j, j + 2] {
-                s.needed[j] += rolling[i] * sign + world.radius[i] * force[i][0];
+                s.needed[j] += rolling[i] * sign + c.radius[i] * force[i][0];
             }
-            s.needed[j] = (s.needed[j] - world.torque[j]) / self.robot.drive.gain;
+            s.needed[j] = (s.needed[j] - c.torque[j]) / self.robot.drive.gain;
             s.wheel_angle[j] += h * speed[j];
         }
-        self.move_body(s, &force, world);
+        self.move_body(s, &force, c);
     }
 
     #[inline(always)]
-    fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], world: &World<T>) {
+    fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], c: &Coefficients<T>) {
         let (h, half) = (self.step, real::<T>(0.5));
-        let mut total = world.force;
+        let mut total = c.force;
         let mut ground = [T::zero(); 2];
-        let mut moment = world.moment;
+        let mut moment = c.moment;
         for (f, [x, y]) in force.iter().zip(self.stance.wheel) {
             ground[0] += f[0];
             ground[1] += f[1];
@@ -272,8 +268,8 @@ impl<'a, T: Scalar> Plant<'a, T> {
         let w = s.yaw_rate;
         s.specific = [total[0] * self.inverse_mass, total[1] * self.inverse_mass];
         s.rate = [
-            s.specific[0] + world.tilt[0] + w * s.velocity[1],
-            s.specific[1] + world.tilt[1] - w * s.velocity[0],
+            s.specific[0] + c.tilt[0] + w * s.velocity[1],
+            s.specific[1] + c.tilt[1] - w * s.velocity[0],
             moment * self.inverse_yaw_inertia,
         ];
         s.yaw_rate += h * s.rate[2];

@@ -1,6 +1,6 @@
-//! Where and when an effect is present: wrappers that any force may wear.
+//! Where and when an effect is present: a limit that any law may be given.
 
-use crate::effect::{Situation, World};
+use crate::effect::{Coefficients, OperatingPoint};
 use crate::scalar::{Scalar, real, smooth_sign};
 
 /// A disc on the ground.
@@ -43,7 +43,7 @@ impl<T: Scalar> Presence<T> {
 
     /// Share of the effect under each wheel, 0 to 1.
     #[inline(always)]
-    pub fn at(&self, at: &Situation<T>) -> [T; 4] {
+    pub fn at(&self, at: &OperatingPoint<T>) -> [T; 4] {
         let (zero, one) = (T::zero(), T::one());
         let now = at.time.if_less(self.from, zero, at.time.if_less(self.until, one, zero));
         let mut share = [now; 4];
@@ -67,7 +67,7 @@ impl<T: Scalar> Presence<T> {
     }
 }
 
-impl<T: Scalar> World<T> {
+impl<T: Scalar> Coefficients<T> {
     /// Takes `share` of what `other` changes, wheel by wheel; sides and the body take the mean of their wheels.
     #[inline(always)]
     pub(crate) fn blend(&mut self, other: &Self, share: [T; 4]) {
@@ -90,7 +90,7 @@ impl<T: Scalar> World<T> {
             mix(&mut self.torque[i], other.torque[i], side[i]);
             mix(&mut self.force[i], other.force[i], body);
             mix(&mut self.tilt[i], other.tilt[i], body);
-            // A limit does not average: it is worn whole or not at all.
+            // A limit does not average: it holds whole or not at all.
             self.belt_limit[i] = half.if_less(side[i], other.belt_limit[i], self.belt_limit[i]);
         }
         mix(&mut self.moment, other.moment, body);

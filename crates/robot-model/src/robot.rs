@@ -3,7 +3,7 @@
 use nalgebra::RealField;
 
 use crate::contact::Stance;
-use crate::effect::World;
+use crate::effect::{Coefficients, OperatingPoint};
 use crate::error::{ModelError, finite, not_negative, positive, within};
 use crate::paper;
 use crate::scalar::{Scalar, real};
@@ -167,9 +167,28 @@ impl<T: Scalar> Robot<T> {
         Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
     }
 
+    /// The operating point of the robot at rest at the origin.
+    #[inline(always)]
+    pub fn at_rest(&self) -> OperatingPoint<T> {
+        OperatingPoint {
+            time: T::zero(),
+            position: [T::zero(); 2],
+            heading: [T::one(), T::zero()],
+            velocity: [T::zero(); 2],
+            yaw_rate: T::zero(),
+            wheel_speed: [T::zero(); 2],
+            wheel_angle: [T::zero(); 2],
+            mass: self.mass,
+            gravity: self.gravity,
+            hitch: [self.hitch_x - self.com[0], -self.com[1]],
+            half_base: [self.half_wheelbase, self.half_track],
+            torque: [T::zero(); 2],
+        }
+    }
+
     /// What every instant begins with before effects change it.
-    pub(crate) fn world(&self) -> World<T> {
-        World {
+    pub fn coefficients(&self) -> Coefficients<T> {
+        Coefficients {
             adhesion: [self.adhesion; 4],
             slip_at_peak: [self.slip_at_peak; 4],
             lateral: [self.lateral_factor; 4],

@@ -40,7 +40,7 @@ fn wide(list: [Presence<f64>; N]) -> Presence<Lanes<N>> {
 
 fn values(effect: &dyn Effect<f64>, i: usize) -> [f64; MAX_PARAMETERS] {
     let mut out = [0.0; MAX_PARAMETERS];
-    for (v, p) in out.iter_mut().zip(effect.card().parameters) {
+    for (v, p) in out.iter_mut().zip(effect.spec().parameters) {
         let probe = p.probes.get(p.probes.len() / 2).copied().unwrap_or(p.neutral);
         *v = probe * (1.0 + 0.2 * i as f64);
     }
@@ -79,7 +79,7 @@ fn every_lane_has_the_bits_of_a_plant_of_its_own() {
                 }
                 let mut seen = plant.readings(&alone);
                 plant.sense(&mut seen);
-                let id = effect.card().id;
+                let id = effect.spec().id;
                 let bits = |x: [f64; 2]| x.map(f64::to_bits);
                 let lane = |x: [Lanes<N>; 2]| x.map(|x| x.0[i].to_bits());
                 assert!(alone.position[0].is_finite() && alone.position[0] != 0.0, "{id} {kind} {i}");

@@ -116,7 +116,7 @@ fn an_effect_acts_only_where_and_when_it_is_present() {
     for causality in BOTH {
         let nominal = run(&robot(), &[], causality, (State::default(), 2.0, H), |_, _| ());
         for (effect, values) in cases {
-            let id = effect.card().id;
+            let id = effect.spec().id;
             // A belt passes no torque that anyone would miss when the wheels' speeds are imposed.
             let matters = id != "belt_loss" || causality == Causality::Torque;
             let everywhere = end(effect, values, whole, causality);
@@ -146,14 +146,14 @@ fn an_effect_that_is_always_there_is_one_without_limits() {
     let disc = Some(Disc { centre: [0.0, 0.0], radius: 50.0 });
     for causality in BOTH {
         for effect in effects::catalogue::<f64>() {
-            let probes: Vec<f64> = effect.card().parameters.iter().map(|p| p.probes[0]).collect();
+            let probes: Vec<f64> = effect.spec().parameters.iter().map(|p| p.probes[0]).collect();
             let end = |presence| {
                 let active = [Active::new(effect, &probes, presence)];
                 run(&robot(), &active, causality, (State::default(), 2.0, H), |_, _| ())
             };
             for presence in [Presence { disc, ..whole }, Presence { from: 0.0, until: 2.0, ..whole }] {
                 let d = distance(&end(presence), &end(whole));
-                assert!(d < 1e-9, "{} {presence:?}: {d:e}", effect.card().id);
+                assert!(d < 1e-9, "{} {presence:?}: {d:e}", effect.spec().id);
             }
         }
     }

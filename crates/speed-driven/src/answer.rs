@@ -3,6 +3,7 @@
 use crate::name::{Named, Naming};
 use crate::words::{clocks, sentences};
 use crate::{SpeedRun, SteadyCase};
+use catalogue::answer::{NONE, UNKNOWN};
 use inference::evidence::{is_within_odds, probabilities};
 use inference::hypothesis::Place;
 use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
@@ -52,15 +53,15 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     let (singles, pairs): (Vec<_>, Vec<_>) = effects.iter().zip(of_effects).partition(|(e, _)| e.parts.len() == 1);
     for (e, &p) in singles.into_iter().chain(pairs) {
         for part in 0..e.parts.len() {
-            match causes.iter_mut().find(|c| c.effect == e.parts[part].card().id) {
+            match causes.iter_mut().find(|c| c.effect == e.parts[part].spec().id) {
                 Some(c) => c.probability += p,
                 None => causes.push(cause(e, part, p)),
             }
         }
     }
     causes.retain(|c| c.probability > LISTED);
-    causes.push(Cause::plain("none", "nothing is missing", none));
-    causes.push(Cause::plain("unknown", "something that is not in the catalogue", unknown));
+    causes.push(Cause::plain(NONE.id, NONE.name, none));
+    causes.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
     causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     out.ranked = causes;
     let named = 1.0 - none - unknown;
@@ -98,7 +99,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
 
 fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
-    let card = variant.card();
+    let card = variant.spec();
     let (values, sigma) = e.of(part);
     let parameters = variant
         .free(1.0)

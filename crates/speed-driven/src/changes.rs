@@ -12,10 +12,12 @@ use crate::run::SpeedRun;
 use crate::slopes::slopes;
 use crate::straight::{Reading, readings};
 use inference::robust::median;
+use robot_model::effects::{grade, rolling_resistance};
 use verdict::{Changes, Hidden, Word};
 
-pub(super) const GRADE: Word = Word::Borrowed("grade");
-pub(super) const ROLLING: Word = Word::Borrowed("rolling_resistance");
+/// Ids of the effects that change the straight load.
+pub(super) const GRADE: Word = Word::Borrowed(grade::SPEC.id);
+pub(super) const ROLLING: Word = Word::Borrowed(rolling_resistance::SPEC.id);
 
 /// Rows that show the same change are at most this far apart, s.
 pub(super) const APART: f64 = 8.0;

@@ -5,6 +5,7 @@
 //! drive follows its set speeds with a lag. Unsigned currents show what drives and nothing of what brakes.
 
 use inference::least_squares::{Constant, Loss, Residuals, Settings};
+use robot_model::effect::LoadTerm;
 
 use crate::run::SpeedRun;
 
@@ -31,12 +32,12 @@ impl Law {
 
     /// Id of the effect it stands for.
     pub(crate) fn effect(self) -> &'static str {
-        match self {
-            Self::Turning => "turning_resistance",
-            Self::Speed => "viscous_friction",
-            Self::Drift => "thermal_drift",
-            Self::Pull => "constant_pull",
-        }
+        catalogue::of_load_term(match self {
+            Self::Turning => LoadTerm::Turning,
+            Self::Speed => LoadTerm::Speed,
+            Self::Drift => LoadTerm::Drift,
+            Self::Pull => LoadTerm::Pull,
+        })
     }
 }
 
@@ -152,4 +153,16 @@ fn recorded(run: &SpeedRun, i: usize, side: usize) -> f64 {
 pub(crate) fn error(rows: &[[f64; 2]], run: &SpeedRun, from: usize) -> f64 {
     let squares = (from..run.time.len()).flat_map(|i| [0, 1].map(|j| (rows[i][j] - recorded(run, i, j)).powi(2)));
     (squares.sum::<f64>() / (2 * (run.time.len() - from)).max(1) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Law;
+
+    #[test]
+    fn every_law_stands_for_an_effect_of_the_catalogue() {
+        for law in Law::PLACEBOS.into_iter().chain([Law::Turning]) {
+            assert!(catalogue::find(law.effect()).is_some_and(|entry| entry.effect.is_some()), "{law:?}");
+        }
+    }
 }

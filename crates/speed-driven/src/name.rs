@@ -49,7 +49,7 @@ impl Named {
     }
 
     pub(crate) fn ids(&self) -> Vec<&'static str> {
-        self.parts.iter().map(|v| v.card().id).collect()
+        self.parts.iter().map(|v| v.spec().id).collect()
     }
 }
 
@@ -169,7 +169,7 @@ impl<'a> Comparison<'a> {
     fn plausible(&self, v: &Variant, f: &Free) -> f64 {
         let r = &self.model;
         let torque = r.mass * r.gravity * r.wheel_radius / MEDIUM_ROBOT[1];
-        let size = match f.parameter.map_or("-", |i| v.card().parameters[i].unit) {
+        let size = match f.parameter.map_or("-", |i| v.spec().parameters[i].unit) {
             "kg" | "N" => r.mass / MEDIUM_ROBOT[0],
             "m" => 2.0 * r.half_wheelbase / MEDIUM_ROBOT[2],
             unit if unit.starts_with("N m") => torque,
@@ -195,7 +195,7 @@ impl<'a> Comparison<'a> {
         let free: Vec<(&Variant, Free)> =
             parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
         let constant = |(i, (v, f)): (usize, &(&Variant, Free))| {
-            let neutral = f.parameter.map_or(f.usual, |i| v.card().parameters[i].neutral);
+            let neutral = f.parameter.map_or(f.usual, |i| v.spec().parameters[i].neutral);
             let begin = start.and_then(|s| s.get(i)).copied().unwrap_or(neutral);
             let width = self.plausible(v, f);
             let constant = Constant::new(begin.clamp(f.bounds[0], f.bounds[1]), f.unit);
@@ -221,7 +221,7 @@ impl<'a> Comparison<'a> {
         }
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
-        let paid = fitted.occam() + parts.iter().map(|v| PER_EFFECT + v.card().rarity).sum::<f64>();
+        let paid = fitted.occam() + parts.iter().map(|v| PER_EFFECT + v.spec().rarity).sum::<f64>();
         let score = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost - paid;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
         Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score })
@@ -253,7 +253,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
-        .filter(|v| v.card().parameters.iter().all(|p| p.role != Role::Shape))
+        .filter(|v| v.spec().parameters.iter().all(|p| p.role != Role::Shape))
         .collect();
     let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
     best_first(&mut singles);
@@ -266,7 +266,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
     }
     let tasks: Vec<(&Named, Variant)> = firsts
         .iter()
-        .flat_map(|f| able.iter().filter(|v| v.card().id != f.parts[0].card().id).map(|v| (*f, *v)))
+        .flat_map(|f| able.iter().filter(|v| v.spec().id != f.parts[0].spec().id).map(|v| (*f, *v)))
         .collect();
     let pairs: Vec<Named> =
         tasks.par_iter().filter_map(|(f, v)| comparison.fit(&[f.parts[0], *v], Some(&f.values))).collect();

@@ -2,6 +2,7 @@
 
 use crate::{Alignment, UNNAMED_STRAIGHT};
 use inference::words::{quantity, revealed_by};
+use robot_model::effect::LoadTerm;
 use verdict::{
     ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
 };
@@ -131,13 +132,13 @@ fn moment([a, b]: [f64; 2]) -> String {
     if b - a < MOMENT { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
 }
 
+/// What a sentence calls the term of the load that an effect stands for.
+fn term_name(effect: &str) -> Option<&'static str> {
+    catalogue::find(effect)?.effect?.load_term.map(LoadTerm::name)
+}
+
 fn change(c: &LoadChange) -> String {
-    let name = |id| match id {
-        "grade" => "slope",
-        "rolling_resistance" => "rolling resistance",
-        other => other,
-    };
-    let causes: Vec<&str> = c.causes.iter().map(|id| name(id.as_ref())).collect();
+    let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
     let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
     let size = if c.bound {
         format!("at least {:.1}° {way}", c.slope.abs())

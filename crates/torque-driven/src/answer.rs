@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use catalogue::answer::{NONE, UNKNOWN};
 use faer::Mat;
 use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
@@ -52,7 +53,7 @@ impl Judged<'_> {
         let mut by_effect: BTreeMap<&str, (f64, &Scored, usize)> = BTreeMap::new();
         for s in &self.decision.scored {
             for (i, (v, _)) in s.trial.hypothesis.parts.iter().enumerate() {
-                let slot = by_effect.entry(v.card().id).or_insert((0.0, s, i));
+                let slot = by_effect.entry(v.spec().id).or_insert((0.0, s, i));
                 slot.0 += s.probability;
             }
         }
@@ -76,9 +77,9 @@ impl Judged<'_> {
             });
         }
         let none = if fault { self.decision.none * (1.0 - SURE) } else { self.decision.none };
-        out.push(Cause::plain("none", "nothing is missing", none));
-        out.push(Cause::plain("unknown", "something that is not in the catalogue", self.decision.unknown));
-        out.retain(|c| c.probability >= LISTED || c.effect == "none" || c.effect == "unknown");
+        out.push(Cause::plain(NONE.id, NONE.name, none));
+        out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, self.decision.unknown));
+        out.retain(|c| c.probability >= LISTED || c.effect == NONE.id || c.effect == UNKNOWN.id);
         out.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(a.effect.cmp(&b.effect)));
         out
     }
@@ -90,7 +91,7 @@ impl Judged<'_> {
         let free = variant.free(self.problem.largest_torque);
         let e = &trial.fitted.point.effects[before..before + free.len()];
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
-        let card = variant.card();
+        let card = variant.spec();
         let strengths = variant.strengths().len();
         let mut place = None;
         let mut of_disc = ["x", "y", "radius"].into_iter();
@@ -314,7 +315,7 @@ impl Judged<'_> {
             .fold(0.0, f64::max);
         let rivals: Vec<String> = ranked
             .iter()
-            .filter(|c| c.effect != "none" && c.effect != "unknown" && !members.contains(&c.effect.as_str()))
+            .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
             .filter(|c| c.probability > RIVAL * best && c.probability < SURE)
             .map(|c| c.effect.clone())
             .collect();

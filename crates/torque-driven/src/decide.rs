@@ -56,11 +56,11 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         let e = &effects[at..at + n];
         at += n;
         let disc = if v.place == Place::Disc { 3 } else { 0 };
-        sum += PER_EFFECT + v.card().rarity + PER_SHAPE * (n - disc - 1) as f64;
+        sum += PER_EFFECT + v.spec().rarity + PER_SHAPE * (n - disc - 1) as f64;
         sum += if v.place == Place::Disc { DISC } else { 0.0 };
         sum += if onsets.iter().any(Option::is_some) { ONSET } else { 0.0 };
         sum += if i > 0 { SECOND } else { 0.0 };
-        sum += penalty_of_smallness(v.magnitude(e), v.card().interest, SIZE_WIDTH);
+        sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, SIZE_WIDTH);
     }
     sum
 }
@@ -135,7 +135,7 @@ mod tests {
 
     /// A fit of an effect everywhere that gained so many nats, without having been fitted.
     fn gained(problem: &Problem<'_>, retuned: &Fitted, id: &str, gain: f64) -> Trial {
-        let form = problem.variants().into_iter().find(|v| v.card().id == id && v.place == Place::Whole);
+        let form = problem.variants().into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
         let hypothesis = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
         let effects = hypothesis.free(problem.largest_torque).iter().map(|f| f.usual).collect();
         let mut fitted = retuned.clone();

@@ -50,7 +50,7 @@ impl Hypothesis {
 
     /// Its effects, in order.
     pub(crate) fn ids(&self) -> Vec<&'static str> {
-        self.parts.iter().map(|(v, _)| v.card().id).collect()
+        self.parts.iter().map(|(v, _)| v.spec().id).collect()
     }
 
     pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {

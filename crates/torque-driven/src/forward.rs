@@ -258,9 +258,9 @@ mod tests {
         let with = |effect: &str, value: f64| {
             let card = robot_model::effects::catalogue::<f64>()
                 .into_iter()
-                .find(|e| e.card().id == effect)
+                .find(|e| e.spec().id == effect)
                 .expect("known")
-                .card();
+                .spec();
             let values = [(card.parameters[0].name.to_owned(), value)].into();
             let correction = Correction {
                 effects: vec![EffectAt { effect: effect.to_owned(), values, ..EffectAt::default() }],

@@ -77,7 +77,7 @@ mod tests {
         let robot = robot();
         let viscous = inference::hypothesis::variants(true)
             .into_iter()
-            .find(|v| v.card().id == "viscous_friction")
+            .find(|v| v.spec().id == "viscous_friction")
             .expect("in the catalogue");
         let dose: Vec<Dose> = vec![viscous.dose(&[friction], None)];
         let cut_of = |doses: &[Dose], seconds| cut(&driven(&robot, doses, seconds), &cutting());

@@ -145,7 +145,7 @@ mod tests {
     use testing::robot;
 
     fn scored(p: &Problem<'_>, id: &str, score: f64) -> Scored {
-        let form = p.variants().into_iter().find(|v| v.card().id == id && v.place == Place::Whole);
+        let form = p.variants().into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
         let h = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
         let effects = h.free(p.largest_torque).iter().map(|f| f.usual).collect();
         let fitted = p.begin(&h, Point { effects, ..p.origin() }, None);

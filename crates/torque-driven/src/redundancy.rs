@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use robot_model::effect::Redundancy;
-use robot_model::{Card, effects};
+use robot_model::{EffectSpec, effects};
 
 use crate::motion::GyroError;
 use crate::run::Run;
@@ -23,7 +23,7 @@ mod wheels;
 /// A sensor fault found by redundancy.
 #[derive(Debug, Clone)]
 pub(crate) struct Fault {
-    pub(crate) card: &'static Card,
+    pub(crate) card: &'static EffectSpec,
     /// Which number of the card it is.
     pub(crate) parameter: usize,
     /// In the unit of the card, with sign.
@@ -54,9 +54,9 @@ pub(crate) struct Redundant {
 }
 
 /// The effect that a redundancy shows; of several that look the same in it, the commonest.
-fn card(kind: Redundancy) -> Option<&'static Card> {
+fn card(kind: Redundancy) -> Option<&'static EffectSpec> {
     let all = effects::catalogue::<f64>();
-    let alike = all.iter().map(|e| e.card()).filter(|c| c.redundancy == kind);
+    let alike = all.iter().map(|e| e.spec()).filter(|c| c.redundancy == kind);
     alike.min_by(|a, b| a.rarity.total_cmp(&b.rarity))
 }
 

@@ -23,7 +23,7 @@ struct Probe {
 
 /// A strength at `size` (or a shaped strength at its probe), shapes as usual, everywhere or on its side.
 fn probe_dose(variant: &Variant, free: &[Free], index: usize, size: f64) -> Dose {
-    let mut values: Vec<f64> = variant.card().parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+    let mut values: Vec<f64> = variant.spec().parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
     if let Some(i) = free[index].parameter {
         values[i] = size;
     }
@@ -37,7 +37,7 @@ fn probe_dose(variant: &Variant, free: &[Free], index: usize, size: f64) -> Dose
 /// Sizes at which a free value is probed.
 fn probes(variant: &Variant, free: &Free) -> Vec<f64> {
     let Some(i) = free.parameter else { return Vec::new() };
-    let p = &variant.card().parameters[i];
+    let p = &variant.spec().parameters[i];
     if p.role == Role::Shape {
         return Vec::new();
     }
@@ -68,7 +68,7 @@ pub(crate) fn screen(
         }
     }
     // Local forms of the same effect share their part lanes.
-    let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].card().id).collect();
+    let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].spec().id).collect();
     part_of.dedup();
     part_of.sort_unstable();
     part_of.dedup();
@@ -77,7 +77,7 @@ pub(crate) fn screen(
         .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(largest), p.index, p.size), None))
         .collect();
     for id in &part_of {
-        let Some(&v) = locals.iter().find(|&&v| variants[v].card().id == *id) else { continue };
+        let Some(&v) = locals.iter().find(|&&v| variants[v].spec().id == *id) else { continue };
         let (variant, free) = (&variants[v], variants[v].free(largest));
         doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
     }
@@ -100,7 +100,7 @@ pub(crate) fn screen(
     let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
     for (n, id) in part_of.iter().enumerate() {
         let parts = &raw[list.len() + n * PARTS..list.len() + (n + 1) * PARTS];
-        for &v in locals.iter().filter(|&&v| variants[v].card().id == *id) {
+        for &v in locals.iter().filter(|&&v| variants[v].spec().id == *id) {
             let found = match variants[v].place {
                 Place::Disc => local::disc(&ground, &variants[v], parts),
                 _ => local::onset(&ground, &variants[v], parts),
@@ -123,7 +123,7 @@ fn whole(ground: &Ground<'_>, variants: &[Variant], list: &[Probe], raw: &[Respo
         }
         let free = variant.free(problem.largest_torque);
         let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
-        let best = if variant.card().is_linear() && mine.len() > 1 {
+        let best = if variant.spec().is_linear() && mine.len() > 1 {
             let (a, b) = (select(&a, &mine), Mat::from_fn(mine.len(), 1, |i, _| b[(mine[i], 0)]));
             evidence(&a, &b).map(|(value, x, _)| {
                 for (&i, x) in mine.iter().zip(x) {
@@ -133,8 +133,8 @@ fn whole(ground: &Ground<'_>, variants: &[Variant], list: &[Probe], raw: &[Respo
             })
         } else {
             let tries = mine.iter().filter_map(|&i| {
-                let (value, x) = single(a[(i, i)], b[(i, 0)], variant.card().signed)?;
-                let size = if variant.card().is_linear() { x * list[i].size } else { list[i].size };
+                let (value, x) = single(a[(i, i)], b[(i, 0)], variant.spec().signed)?;
+                let size = if variant.spec().is_linear() { x * list[i].size } else { list[i].size };
                 Some((value, list[i].index, size))
             });
             tries.max_by(|x, y| x.0.total_cmp(&y.0)).map(|(value, index, size)| {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use robot_model::Card;
+use robot_model::EffectSpec;
 
 use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
@@ -32,7 +32,7 @@ struct Places([usize; 2]);
 
 impl Places {
     /// Takes a place for `card`, if one is left.
-    fn take(&mut self, card: &Card) -> bool {
+    fn take(&mut self, card: &EffectSpec) -> bool {
         let left = &mut self.0[usize::from(card.rarity > 0.0)];
         let free = *left > 0;
         *left -= usize::from(free);
@@ -44,7 +44,7 @@ impl Places {
 fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
     let mut out: Vec<&Candidate> = Vec::new();
     for c in candidates {
-        if !out.iter().any(|o| o.variant.card().id == c.variant.card().id) {
+        if !out.iter().any(|o| o.variant.spec().id == c.variant.spec().id) {
             out.push(c);
         }
     }
@@ -60,16 +60,16 @@ fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
     for i in 0..a.len().max(b.len()) {
         for list in [&a, &b] {
             if let Some(c) = list.get(i)
-                && !ids.contains(&c.variant.card().id)
-                && places.take(c.variant.card())
+                && !ids.contains(&c.variant.spec().id)
+                && places.take(c.variant.spec())
             {
-                ids.push(c.variant.card().id);
+                ids.push(c.variant.spec().id);
                 out.push((*c).clone());
                 // Its next best form (other side, axis, place) in the same ranking.
                 let ranking = if std::ptr::eq(list, &raw const a) { first } else { second };
                 let rival = ranking
                     .iter()
-                    .filter(|o| o.variant.card().id == c.variant.card().id && o.variant.label() != c.variant.label())
+                    .filter(|o| o.variant.spec().id == c.variant.spec().id && o.variant.label() != c.variant.label())
                     .find(|o| o.evidence > c.evidence - CLOSE);
                 out.extend(rival.cloned());
             }
@@ -150,9 +150,9 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         converge_members(problem, best, &mut singles);
     }
     let mut screened: Vec<(String, f64)> =
-        by_id(&first).iter().map(|c| (c.variant.card().id.to_owned(), c.evidence)).collect();
+        by_id(&first).iter().map(|c| (c.variant.spec().id.to_owned(), c.evidence)).collect();
     for c in by_id(&second) {
-        if let Some(s) = screened.iter_mut().find(|s| s.0 == c.variant.card().id) {
+        if let Some(s) = screened.iter_mut().find(|s| s.0 == c.variant.spec().id) {
             s.1 = s.1.max(c.evidence);
         }
     }
@@ -190,7 +190,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
     let mut ids: Vec<&'static str> = Vec::new();
     let mut firsts = Places(FIRSTS);
     for first in singles {
-        let card = first.hypothesis.parts[0].0.card();
+        let card = first.hypothesis.parts[0].0.spec();
         let id = card.id;
         // A rare effect that is no better than a common one is not worth a search of its own.
         let behind = card.rarity > 0.0 && !ids.is_empty();
@@ -203,8 +203,8 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         let partners = screen_beside(problem, &base, first);
         let mut places = Places(PARTNERS);
         let worth = partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE);
-        for p in worth.filter(|p| places.take(p.variant.card())) {
-            let known = out.iter().any(|t: &Trial| t.hypothesis.ids() == [p.variant.card().id, id]);
+        for p in worth.filter(|p| places.take(p.variant.spec())) {
+            let known = out.iter().any(|t: &Trial| t.hypothesis.ids() == [p.variant.spec().id, id]);
             if known {
                 continue;
             }
@@ -224,8 +224,8 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
 
 /// Partners of `first`, screened with it present at its fitted size.
 fn screen_beside(problem: &Problem<'_>, base: &Fitted, first: &Trial) -> Vec<Candidate> {
-    let id = first.hypothesis.parts[0].0.card().id;
-    let others: Vec<_> = problem.variants().into_iter().filter(|v| v.card().id != id).collect();
+    let id = first.hypothesis.parts[0].0.spec().id;
+    let others: Vec<_> = problem.variants().into_iter().filter(|v| v.spec().id != id).collect();
     let list = screen(problem, base, &others, &first.hypothesis);
     by_id(&list).into_iter().cloned().collect()
 }

@@ -56,7 +56,7 @@ mod tests {
         let robot = robot();
         let variant = variants(true)
             .into_iter()
-            .find(|v| v.place == Place::Disc && v.card().id == "rolling_resistance")
+            .find(|v| v.place == Place::Disc && v.spec().id == "rolling_resistance")
             .expect("rolling resistance may be local");
         let free = driven(&robot, &[], 8.0);
         // A disc on the way, well into the drive.

@@ -1,5 +1,6 @@
 //! Sentences for people.
 
+use catalogue::answer::{NONE, UNKNOWN};
 use inference::words::{named, quantity};
 
 use crate::locate;
@@ -16,7 +17,7 @@ pub(crate) fn fault(f: &Fault) -> String {
 /// The answer in sentences, the most important one first.
 pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     let mut out = Vec::new();
-    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != "none" && c.effect != "unknown").collect();
+    let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
         Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
         Verdict::Unknown => {
@@ -49,7 +50,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     for class in &d.indistinguishable {
         out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
     }
-    let unknown = d.ranked.iter().find(|c| c.effect == "unknown").map_or(0.0, |c| c.probability);
+    let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);
     if d.verdict == Verdict::Explained && unknown > 0.5 {
         out.push(format!(
             "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."

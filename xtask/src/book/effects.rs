@@ -1,9 +1,9 @@
-//! The catalogue of effects as a page, from the cards.
+//! The catalogue of effects and causes as a page.
 
 use std::fmt::Write as _;
 
-use robot_model::effects::catalogue;
-use robot_model::{Card, Kind};
+use catalogue::{CauseSpec, answer, command_driven};
+use robot_model::{EffectSpec, Kind};
 
 /// Kinds in the order of the page: kind, heading, what they have in common.
 const KINDS: [(Kind, &str, &str); 3] = [
@@ -14,67 +14,101 @@ const KINDS: [(Kind, &str, &str); 3] = [
 
 /// `docs/effects.md`.
 pub(super) fn page() -> String {
-    let cards: Vec<&Card> = catalogue::<f64>().iter().map(|effect| effect.card()).collect();
+    let effects: Vec<&EffectSpec> = catalogue::effects().collect();
     let mut out = format!(
         "# Effects\n\n\
-         Written by `cargo xtask book --docs` from the cards of the catalogue; do not edit. These {} effects are what a\n\
-         diagnosis can name; `lacuna explain EFFECT` tells the same at the command line. To add one:\n\
+         Written by `cargo xtask book --docs` from the catalogue; do not edit. These {} effects, the causes of\n\
+         [command-driven robots](#command-driven-robots) and [two answers](#answers-that-name-no-cause) are what a diagnosis\n\
+         can name; `lacuna explain NAME` tells the same at the command line. To add an effect:\n\
          [writing an effect](writing-an-effect.md).\n\n\
          Bounds are those within which a fit looks. \"Matters from\" is the size below which nobody would act.\n\n\
          | effect | name | kind |\n|---|---|---|\n",
-        cards.len()
+        effects.len()
     );
     for (kind, ..) in KINDS {
-        for card in cards.iter().filter(|card| card.kind == kind) {
-            put(&mut out, format_args!("| [`{0}`](#{0}) | {1} | {2} |\n", card.id, card.name, kind.name()));
+        for spec in effects.iter().filter(|spec| spec.kind == kind) {
+            put(&mut out, format_args!("| [`{0}`](#{0}) | {1} | {2} |\n", spec.id, spec.name, kind.name()));
         }
     }
     for (kind, heading, common) in KINDS {
         put(&mut out, format_args!("\n## {heading}\n\n{common}\n"));
-        for card in cards.iter().filter(|card| card.kind == kind) {
-            section(&mut out, card, &cards);
+        for spec in effects.iter().filter(|spec| spec.kind == kind) {
+            section(&mut out, spec, &effects);
         }
+    }
+
+    out += "\n## Command-driven robots\n\nNeither torques nor currents are known: elements of the way from command to wheel to ground.\n";
+    for cause in command_driven::ALL {
+        without_law(&mut out, cause, &effects);
+    }
+    out += "\n## Answers that name no cause\n";
+    for cause in answer::ALL {
+        without_law(&mut out, cause, &effects);
     }
     out
 }
 
-fn section(out: &mut String, card: &Card, cards: &[&Card]) {
+/// A cause that has no law in a plant. One whose name an effect has too gets no heading of its own: links lead there.
+fn without_law(out: &mut String, cause: &CauseSpec, effects: &[&EffectSpec]) {
+    if effects.iter().any(|effect| effect.id == cause.id) {
+        put(out, format_args!("\n**{0}**, of these robots, is [`{0}`](#{0}) seen from the command.\n", cause.id));
+    } else {
+        put(out, format_args!("\n### {}\n", cause.id));
+    }
+    put(out, format_args!("\n{}{}. {}\n\n", cause.name[..1].to_uppercase(), &cause.name[1..], cause.meaning));
+
+    let unit = if cause.unit == "-" { String::new() } else { format!(", {}", cause.unit) };
+    let lines = [
+        ("Size", if cause.size.is_empty() { String::new() } else { format!("{}{unit}", cause.size) }),
+        ("Recognised", cause.recognised.to_owned()),
+        ("Revealed by", cause.revealed_by.to_owned()),
+        ("Resembles", linked(cause.resembles, effects)),
+    ];
+    bullets(out, &lines);
+}
+
+/// What is known, one line each; what is empty is left out.
+fn bullets(out: &mut String, lines: &[(&str, String)]) {
+    for (what, text) in lines.iter().filter(|(_, text)| !text.is_empty()) {
+        put(out, format_args!("- {what}: {}\n", text.trim_end_matches('.')));
+    }
+}
+
+fn section(out: &mut String, spec: &EffectSpec, effects: &[&EffectSpec]) {
     put(
         out,
-        format_args!("\n### {}\n\n{}{}: `{}`\n\n", card.id, card.name[..1].to_uppercase(), &card.name[1..], card.law),
+        format_args!("\n### {}\n\n{}{}: `{}`\n\n", spec.id, spec.name[..1].to_uppercase(), &spec.name[1..], spec.law),
     );
     *out += "| number | unit | from | to | neutral | it is |\n|---|---|---:|---:|---:|---|\n";
-    for p in card.parameters {
+    for p in spec.parameters {
         let [low, high] = p.bounds;
         put(
             out,
             format_args!("| {} | {} | {low} | {high} | {} | {} |\n", p.name, p.counted_in(), p.neutral, p.role.name()),
         );
     }
-    let strength = card.strengths().next().map_or("-", |index| card.parameters[index].unit);
+    let strength = spec.strengths().next().map_or("-", |index| spec.parameters[index].unit);
     let unit = if strength == "-" { String::new() } else { format!(" {strength}") };
-    let interest = if card.interest > 0.0 { format!("{}{unit}", card.interest) } else { "any size".to_owned() };
-    let sign = if card.signed { ", of either sign" } else { "" };
-    let forms: Vec<&str> = card.wears.forms().collect();
+    let interest = if spec.interest > 0.0 { format!("{}{unit}", spec.interest) } else { "any size".to_owned() };
+    let sign = if spec.signed { ", of either sign" } else { "" };
+    let forms: Vec<&str> = spec.scopes.forms().collect();
     let lines = [
-        ("One sees", card.seen.to_owned()),
+        ("One sees", spec.seen.to_owned()),
         ("Looked for", forms.join("; ") + sign),
-        ("Axes", card.axes.join(", ")),
+        ("Axes", spec.axes.join(", ")),
         ("Matters from", interest),
-        ("Revealed by", card.revealed_by.to_owned()),
-        ("Resembles", linked(card.resembles, cards)),
-        ("Shows in", card.redundancy.shows_in().unwrap_or_default().to_owned()),
-        ("Source", card.source.to_owned()),
+        ("Revealed by", spec.revealed_by.to_owned()),
+        ("Resembles", linked(spec.resembles, effects)),
+        ("Shows in", spec.redundancy.shows_in().unwrap_or_default().to_owned()),
+        ("Source", spec.source.to_owned()),
     ];
     *out += "\n";
-    for (what, text) in lines.iter().filter(|(_, text)| !text.is_empty()) {
-        put(out, format_args!("- {what}: {}\n", text.trim_end_matches('.')));
-    }
+    bullets(out, &lines);
 }
 
 /// Ids of other effects become links to them.
-fn linked(text: &str, cards: &[&Card]) -> String {
-    let is_id = |word: &str| cards.iter().any(|card| card.id == word);
+fn linked(text: &str, effects: &[&EffectSpec]) -> String {
+    let is_id = |word: &str| effects.iter().any(|spec| spec.id == word);
     let words = text.split_inclusive(|c: char| !(c.is_alphanumeric() || c == '_'));
     let link = |part: &str| {
         let word = part.trim_end_matches(|c: char| !(c.is_alphanumeric() || c == '_'));
@@ -93,14 +127,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_page_in_the_repository_is_that_of_the_cards() {
+    fn the_page_in_the_repository_is_that_of_the_catalogue() {
         let there = std::fs::read_to_string(crate::output::docs("effects.md")).unwrap_or_default();
         assert!(there == page(), "docs/effects.md is stale: run `cargo xtask book --docs`");
     }
 
     #[test]
     fn other_effects_are_linked() {
-        let cards: Vec<&Card> = catalogue::<f64>().iter().map(|effect| effect.card()).collect();
-        assert_eq!(linked("grade, seen once; upgrade", &cards), "[`grade`](#grade), seen once; upgrade");
+        let effects: Vec<&EffectSpec> = catalogue::effects().collect();
+        assert_eq!(linked("grade, seen once; upgrade", &effects), "[`grade`](#grade), seen once; upgrade");
     }
 }

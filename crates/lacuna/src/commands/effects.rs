@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::Outcome;
 use crate::console::{emit, emit_json};
-use lacuna::cards::{FORMAT, as_json, cards};
+use lacuna::cards::{FORMAT, cause_json, effects_json};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
@@ -21,7 +21,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Write the cards as JSON to a file; `-` is standard output, instead of the table.
+    /// Write the catalogue as JSON to a file; `-` is standard output, instead of the table.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
 }
@@ -29,8 +29,11 @@ pub(crate) struct Args {
 /// Lists the effects.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     if let Some(target) = &args.json {
-        let all: Vec<Value> = cards().into_iter().map(as_json).collect();
-        emit_json(target, &json!({ "format": FORMAT, "program": Program::default(), "effects": all }))?;
+        let causes: Vec<Value> = catalogue::causes().map(cause_json).collect();
+        emit_json(
+            target,
+            &json!({ "format": FORMAT, "program": Program::default(), "effects": effects_json(), "causes": causes }),
+        )?;
     }
     if args.json.as_deref() != Some("-") {
         emit(&render())?;
@@ -39,20 +42,31 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn render() -> String {
-    let mut table = TextTable::new(&["effect", "name", "kind", "parameters", "revealed by"]);
-    for card in cards() {
-        let parameters: Vec<String> = card
+    let mut effects = TextTable::new(&["effect", "name", "kind", "parameters", "revealed by"]);
+    for spec in catalogue::effects() {
+        let parameters: Vec<String> = spec
             .parameters
             .iter()
             .map(|p| if p.unit == "-" { p.name.to_owned() } else { format!("{} ({})", p.name, p.unit) })
             .collect();
-        table.row([
-            card.id.to_owned(),
-            card.name.to_owned(),
-            card.kind.name().to_owned(),
+        effects.row([
+            spec.id.to_owned(),
+            spec.name.to_owned(),
+            spec.kind.name().to_owned(),
             parameters.join(", "),
-            card.revealed_by.to_owned(),
+            spec.revealed_by.to_owned(),
         ]);
     }
-    format!("{}\n`lacuna explain EFFECT` tells all about one.\n", table.render())
+
+    let mut causes = TextTable::new(&["cause", "name", "robots", "unit", "revealed by"]);
+    for cause in catalogue::causes() {
+        causes.row([cause.id, cause.name, cause.robots, cause.unit, cause.revealed_by].map(str::to_owned));
+    }
+
+    format!(
+        "{}\nCauses of command-driven robots, and answers that name no cause:\n\n{}\n`lacuna explain NAME` tells all about \
+         one.\n",
+        effects.render(),
+        causes.render()
+    )
 }

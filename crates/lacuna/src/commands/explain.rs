@@ -1,20 +1,22 @@
-//! `lacuna explain`: the whole card of one effect.
+//! `lacuna explain`: all that is known about a name that a verdict can contain.
 
 use anyhow::Result;
+use catalogue::{CauseSpec, Entry};
 use clap::Args as ClapArgs;
 use lacuna::suggest;
-use robot_model::Card;
-use serde_json::json;
+use robot_model::EffectSpec;
+use serde_json::{Value, json};
 
 use super::{Outcome, Usage};
 use crate::console::{emit, emit_json, heading};
-use lacuna::cards::{FORMAT, as_json, cards, wears};
+use lacuna::cards::{FORMAT, cause_json, effect_json};
 use lacuna::envelope::Program;
 use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna explain payload
+  lacuna explain effective_track
   lacuna explain gyro_bias --json -
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
@@ -23,55 +25,89 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// Id of the effect, as `lacuna effects` lists it.
+    /// Id of the effect or cause, as `lacuna effects` lists it.
     effect: String,
-    /// Write the card as JSON to a file; `-` is standard output, instead of the text.
+    /// Write it as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
 }
 
-/// Explains an effect.
+/// Explains an effect or a cause.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let cards = cards();
     let id = args.effect.to_lowercase().replace(['-', ' '], "_");
-    let Some(card) = cards.iter().find(|c| c.id == id) else {
-        let ids: Vec<&str> = cards.iter().map(|c| c.id).collect();
+    let Some(entry) = catalogue::find(&id) else {
+        let ids: Vec<&str> = catalogue::names().collect();
         let hint = suggest::hint(&id, &ids);
         return Err(Usage(format!("no effect is called `{}`; {hint}", args.effect)).into());
     };
+
     if let Some(target) = &args.json {
-        emit_json(target, &json!({ "format": FORMAT, "program": Program::default(), "effect": as_json(card) }))?;
+        emit_json(target, &as_json(&entry))?;
     }
     if args.json.as_deref() != Some("-") {
-        emit(&render(card))?;
+        let known = entry.effect.map(effect).into_iter().chain(entry.cause.map(cause));
+        emit(&known.collect::<Vec<_>>().join("\n"))?;
     }
     Ok(Outcome::Done)
 }
 
-fn render(card: &Card) -> String {
-    let mut out = heading(&format!("{} ({})", card.name, card.id));
-    let mut line = |key: &str, text: &str| {
-        if !text.is_empty() {
-            out += &format!("  {key:<13}{text}\n");
-        }
-    };
-    line("kind", card.kind.name());
-    line("law", card.law);
-    line("one sees", card.seen);
-    line("sign", if card.signed { "either" } else { "" });
-    line("axes", &card.axes.join(", "));
-    line("looked for", &wears(card).join("; "));
-    line("revealed by", card.revealed_by);
-    line("resembles", card.resembles);
-    line("shows in", card.redundancy.shows_in().unwrap_or_default());
-    let unit = card.strengths().next().map_or("-", |i| card.parameters[i].unit);
-    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
-    if card.interest > 0.0 {
-        line("matters from", &format!("{}{unit}", card.interest));
+fn as_json(entry: &Entry) -> Value {
+    let mut out = json!({ "format": FORMAT, "program": Program::default() });
+    if let Some(effect) = entry.effect {
+        out["effect"] = effect_json(effect);
     }
-    line("source", card.source);
+    if let Some(cause) = entry.cause {
+        out["cause"] = cause_json(cause);
+    }
+    out
+}
+
+/// A heading and what is known, line by line; what is empty is left out.
+fn lines(name: &str, id: &str, known: &[(&str, &str)]) -> String {
+    let known = known.iter().filter(|(_, text)| !text.is_empty());
+    known.fold(heading(&format!("{name} ({id})")), |out, (key, text)| out + &format!("  {key:<13}{text}\n"))
+}
+
+fn cause(spec: &CauseSpec) -> String {
+    lines(
+        spec.name,
+        spec.id,
+        &[
+            ("robots", spec.robots),
+            ("meaning", spec.meaning),
+            ("size", spec.size),
+            ("unit", if spec.size.is_empty() { "" } else { spec.unit }),
+            ("recognised", spec.recognised),
+            ("revealed by", spec.revealed_by),
+            ("resembles", spec.resembles),
+        ],
+    )
+}
+
+fn effect(spec: &EffectSpec) -> String {
+    let unit = spec.strengths().next().map_or("-", |i| spec.parameters[i].unit);
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let interest = if spec.interest > 0.0 { format!("{}{unit}", spec.interest) } else { String::new() };
+    let text = lines(
+        spec.name,
+        spec.id,
+        &[
+            ("kind", spec.kind.name()),
+            ("law", spec.law),
+            ("one sees", spec.seen),
+            ("sign", if spec.signed { "either" } else { "" }),
+            ("axes", &spec.axes.join(", ")),
+            ("looked for", &spec.scopes.forms().collect::<Vec<_>>().join("; ")),
+            ("revealed by", spec.revealed_by),
+            ("resembles", spec.resembles),
+            ("shows in", spec.redundancy.shows_in().unwrap_or_default()),
+            ("matters from", &interest),
+            ("source", spec.source),
+        ],
+    );
+
     let mut table = TextTable::new(&["parameter", "unit", ">lowest", ">highest", ">neutral", "role", "bounds in"]);
-    for p in card.parameters {
+    for p in spec.parameters {
         table.row([
             p.name.to_owned(),
             p.unit.to_owned(),
@@ -82,5 +118,5 @@ fn render(card: &Card) -> String {
             p.counted_in().to_owned(),
         ]);
     }
-    out + "\n" + &table.render()
+    text + "\n" + &table.render()
 }

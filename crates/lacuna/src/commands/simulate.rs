@@ -8,10 +8,11 @@ use lacuna::case_folder::{self, file_names};
 use lacuna::envelope::Program;
 use lacuna::simulated::simulated;
 use recordings::write_csv;
+use robot_model::effect::export::Way;
 use serde_json::json;
 
 use super::{Outcome, Reader, only, sources};
-use crate::console::{emit, emit_json};
+use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,6 +52,13 @@ pub(crate) struct Args {
 /// Simulates a drive.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot(&args.robot)?;
+    // What a simulated recording cannot show is said instead of silently left out.
+    for effect in &robot.effects {
+        let spec = catalogue::find(&effect.effect).and_then(|entry| entry.effect);
+        if let Some(Way::Added(why)) = spec.map(|spec| spec.export.robot_file) {
+            warning(&format!("effect '{}' of the robot file is not in the simulated drive: {why}", effect.effect));
+        }
+    }
     let (loaded, _) = args.reader.load(&args.recording)?;
     let read = only(&loaded)?;
     let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;

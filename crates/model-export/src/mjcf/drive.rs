@@ -1,9 +1,10 @@
 //! Belts and drives in MJCF.
 
-use super::STEP;
+use robot_model::effect::export::Section;
+
+use super::step::STEP;
 use crate::contact::SIDES;
 use crate::number::number;
-use crate::origin::Section;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
@@ -78,7 +79,7 @@ pub(super) fn actuators(v: &Vehicle) -> Element {
         motor
     };
     let out = element("actuator").comments(v.comments(Section::Drive)).children((0..2).map(motor));
-    if v.world.force[0] == 0.0 {
+    if v.coefficients.force[0] == 0.0 {
         return out;
     }
     out.comments(["A constant force at the hitch; it takes no command.".to_owned()]).child(
@@ -88,6 +89,6 @@ pub(super) fn actuators(v: &Vehicle) -> Element {
             .with("gear", "1 0 0 0 0 0")
             .with("gainprm", "0")
             .with("biastype", "affine")
-            .num("biasprm", v.world.force[0]),
+            .num("biasprm", v.coefficients.force[0]),
     )
 }

@@ -2,22 +2,23 @@
 
 use std::io;
 
+use robot_model::effect::export::{Engine, Section};
+
+use crate::added;
 use crate::contact::WHEELS;
-use crate::engine::Engine;
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
 use crate::number::number;
-use crate::origin::Section;
-use crate::residual;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
 mod contact;
 mod drive;
 mod sensors;
+mod step;
 
-/// Integration step, s: halving it changed free runs by less than 1 % of their distance from the planar plant.
-pub(crate) const STEP: f64 = 0.001;
+use step::STEP;
+
 /// Density of a medium in which nothing but the sphere of the drag feels anything, kg/m³.
 const THIN: f64 = 1e-6;
 /// Radius of that sphere, m.
@@ -45,7 +46,7 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         )
         .child(contact::pairs(v, &parts));
     let root = drive::couplings(root, v).child(drive::actuators(v)).child(sensors::sensors(v));
-    residual::comments(root, v, Engine::Mjcf).document(vec![heading(model)])
+    added::comments(root, v, Engine::Mjcf).document(vec![heading(model)])
 }
 
 fn heading(model: &Model<'_>) -> String {
@@ -83,7 +84,7 @@ fn chassis(v: &Vehicle, parts: &Parts) -> Element {
                 .nums("pos", &[0.0, 0.0, r.wheel_radius]),
         ))
         .children(sensors::sites(v));
-    if v.world.force[0] != 0.0 {
+    if v.coefficients.force[0] != 0.0 {
         body = body.child(site("hitch", [r.hitch_x, 0.0, r.com[2]]));
     }
     if v.drag != 0.0 {
@@ -114,7 +115,7 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let shape = element("geom")
         .with("name", WHEELS[i])
         .with("type", "capsule")
-        .with("size", format!("{} {}", number(v.world.radius[i]), number(contact::HALF_WIDTH)))
+        .with("size", format!("{} {}", number(v.coefficients.radius[i]), number(contact::HALF_WIDTH)))
         .with("zaxis", "0 1 0")
         .nums("pos", &[sine, 0.0, -cosine]);
     let mut joint = element("joint")

@@ -1,9 +1,10 @@
 //! Sensors in MJCF.
 
-use super::STEP;
+use robot_model::effect::export::Section;
+
+use super::step::STEP;
 use crate::contact::SIDES;
 use crate::number::number;
-use crate::origin::Section;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 

@@ -1,35 +1,31 @@
 //! Dead band of the transmission.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
+use crate::effect::export::Way;
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
 /// no torque within ±d, beyond it T − d sign T
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "backlash_dead_zone",
     name: "dead band of the transmission",
-    kind: Kind::Command,
     law: "no torque within ±d, beyond it T − d sign T",
     seen: "Ignores small torques.",
-    parameters: &[
-        Parameter { name: "d", unit: "N m", role: Role::Shaped, bounds: [0.0, 20.0], neutral: 0.0, probes: &[0.15, 0.4], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    parameters: &[Parameter::shaped("d", "N m", [0.0, 20.0], 0.0, &[0.15, 0.4])],
     interest: 0.08,
-    rarity: 0.0,
     revealed_by: "slow drives with small torques of both signs",
     resembles: "Coulomb friction as long as torque and motion have the same sign",
     source: "dead zone",
+    export: Export { mjcf: Way::Added("actuators have no dead band"), ..Export::DRIVE },
+    ..EffectSpec::COMMAND
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
     fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {

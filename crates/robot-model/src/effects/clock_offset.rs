@@ -1,34 +1,49 @@
 //! Clock of a sensor that runs late.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, WHOLE};
+use crate::effect::export::{Carrier, Engine, Exception, Residual, Way, When};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Redundancy};
 use crate::scalar::Scalar;
 
 /// y_shown(t) = y(t − τ)
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "clock_offset",
     name: "clock offset between sensors",
-    kind: Kind::Sensor,
     law: "y_shown(t) = y(t − τ)",
     seen: "Samples of the IMU or of the pose are written later (earlier) than they were taken.",
     parameters: &[
-        Parameter { name: "IMU", unit: "s", role: Role::Strength, bounds: [-1.0, 1.0], neutral: 0.0, probes: &[0.03], scale: Scale::Own },
-        Parameter { name: "pose", unit: "s", role: Role::Strength, bounds: [-1.0, 1.0], neutral: 0.0, probes: &[0.03], scale: Scale::Own },
+        Parameter::strength("IMU", "s", [-1.0, 1.0], &[0.03]),
+        Parameter::strength("pose", "s", [-1.0, 1.0], &[0.03]),
     ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
     redundancy: Redundancy::Delay,
     interest: 0.015,
     rarity: 3.0,
     revealed_by: "quick turns both ways",
     resembles: "motor_lag and transport_delay, which delay the wheels too",
     source: "sensor model",
+    export: Export {
+        mjcf: Way::Held("delay of the sensors"),
+        sdf: Way::Added("all its sensors share one clock"),
+        robot_file: Way::Added("a simulated recording has one clock"),
+        carrier: Carrier::SensorDelay,
+        residual: Residual::Words(
+            "Shift the samples in time: write IMU samples {0} s and pose samples {1} s \
+            after they were taken (before, where negative).",
+        ),
+        exceptions: &[Exception {
+            engine: Some(Engine::Mjcf),
+            when: When::Negative,
+            why: "a sensor cannot show what has not happened yet",
+        }],
+        ..Export::SENSOR
+    },
+    ..EffectSpec::SENSOR
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 }

@@ -1,41 +1,54 @@
 //! Torque of one side that ripples with the wheel angle.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, Values, World};
+use crate::effect::export::{Residual, Section, Way};
+use crate::effect::{
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
+};
 use crate::scalar::Scalar;
 
 /// T = T_c cos θ + T_s sin θ on one side, once per turn of the wheel
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "drivetrain_ripple",
     name: "torque ripple of one drivetrain",
-    kind: Kind::Physics,
     law: "T = T_c cos θ + T_s sin θ on one side, once per turn of the wheel",
-    seen: "The torque ripples once per turn of the wheel, also at crawling speed, and hardly moves the robot when fast.",
+    seen: "The torque ripples once per turn of the wheel, also at crawling speed, and hardly \
+        moves the robot when fast.",
     parameters: &[
-        Parameter { name: "cosine", unit: "N m", role: Role::Strength, bounds: [-10.0, 10.0], neutral: 0.0, probes: &[0.2], scale: Scale::Own },
-        Parameter { name: "sine", unit: "N m", role: Role::Strength, bounds: [-10.0, 10.0], neutral: 0.0, probes: &[0.2], scale: Scale::Own },
+        Parameter::strength("cosine", "N m", [-10.0, 10.0], &[0.2]),
+        Parameter::strength("sine", "N m", [-10.0, 10.0], &[0.2]),
     ],
-    signed: false,
-    axes: &[],
-    wears: ONE_SIDE,
-    redundancy: Redundancy::None,
+    scopes: Scopes::ONE_SIDE,
     interest: 0.15,
     rarity: 6.0,
     revealed_by: "slow steady straight driving, then fast",
-    resembles: "wheel_eccentricity, which ripples with the speed instead: the commoner of the two; stiction at crawling speed",
-    source: "first harmonic of a torque that is periodic in the angle; Holtz & Springob 1996, IEEE Trans. Ind. Electron. 43(2)",
+    resembles: "wheel_eccentricity, which ripples with the speed instead: the commoner of the \
+        two; stiction at crawling speed",
+    source: "first harmonic of a torque that is periodic in the angle; Holtz & Springob 1996, \
+        IEEE Trans. Ind. Electron. 43(2)",
+    export: Export {
+        section: Section::Wheels,
+        residual: Residual::Force(&[
+            "for j in {sides}:",
+            "    torque[j] += {0} * cos(angle[j]) + {1} * sin(angle[j])",
+        ]),
+        ..Export::ADDED_BY_HAND
+            .everywhere(Way::Added("torques of a joint do not depend on its angle in this way"))
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
-    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
+    fn apply(&self, v: &Values<T>, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
         for j in 0..2 {
-            let (s, c) = at.wheel_angle[j].sin_cos();
-            w.torque[j] += v[0] * c + v[1] * s;
+            let (sin, cos) = at.wheel_angle[j].sin_cos();
+            c.torque[j] += v[0] * cos + v[1] * sin;
         }
     }
 }

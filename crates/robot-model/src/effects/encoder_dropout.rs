@@ -1,33 +1,40 @@
 //! Encoder dropout on one side.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale};
+use crate::effect::export::{Residual, Way};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Redundancy, Scopes};
 use crate::scalar::Scalar;
 
 /// wheel angle frozen for short bursts, then right again
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "encoder_dropout",
     name: "encoder dropout on one side",
-    kind: Kind::Sensor,
     law: "wheel angle frozen for short bursts, then right again",
     seen: "The wheel seems to stop and jump while the robot drives on.",
-    parameters: &[
-        Parameter { name: "share of rows", unit: "-", role: Role::Strength, bounds: [0.0, 1.0], neutral: 0.0, probes: &[0.05], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: ONE_SIDE,
+    parameters: &[Parameter::strength("share of rows", "-", [0.0, 1.0], &[0.05])],
+    scopes: Scopes::ONE_SIDE,
     redundancy: Redundancy::FrozenAngle,
     interest: 0.008,
-    rarity: 0.0,
     revealed_by: "any drive",
     resembles: "slipping wheel: but the angle jumps back",
     source: "sensor model",
+    export: Export {
+        mjcf: Way::Added("its sensors lose nothing"),
+        sdf: Way::Added("its sensors lose nothing"),
+        robot_file: Way::Added("a simulated wheel angle has no bursts of loss"),
+        residual: Residual::Words(
+            "Freeze the {side} wheel angle in short bursts that together take a share \
+            of {0} of the time; the wheel itself turns on.",
+        ),
+        ..Export::SENSOR
+    },
+    ..EffectSpec::SENSOR
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 }

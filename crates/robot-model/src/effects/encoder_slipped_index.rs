@@ -1,33 +1,42 @@
 //! Encoder of one side whose angle jumps.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale};
+use crate::effect::export::{Residual, Way};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Redundancy, Scopes};
 use crate::scalar::Scalar;
 
 /// the wheel angle jumps within a row and stays there
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "encoder_slipped_index",
     name: "slipped encoder index on one side",
-    kind: Kind::Sensor,
     law: "the wheel angle jumps within a row and stays there",
     seen: "The wheel seems to jump while the robot drives on steadily.",
-    parameters: &[
-        Parameter { name: "jump", unit: "rad", role: Role::Strength, bounds: [-10.0, 10.0], neutral: 0.0, probes: &[0.3], scale: Scale::Own },
-    ],
+    parameters: &[Parameter::strength("jump", "rad", [-10.0, 10.0], &[0.3])],
     signed: true,
-    axes: &[],
-    wears: ONE_SIDE,
+    scopes: Scopes::ONE_SIDE,
     redundancy: Redundancy::JumpingAngle,
     interest: 0.05,
     rarity: 3.0,
     revealed_by: "any drive",
     resembles: "encoder_dropout: but there the angle stands still before it jumps",
     source: "sensor model; disc slipped on its shaft, or counts lost at the index",
+    export: Export {
+        mjcf: Way::Added("its sensors lose nothing"),
+        sdf: Way::Added("its sensors lose nothing"),
+        robot_file: Way::Added("a simulated wheel angle has no instant at which it slips"),
+        residual: Residual::Words(
+            "Add {0} rad to the {side} wheel angle from the instant at which it slips; \
+            the wheel itself turns on.",
+        ),
+        ..Export::SENSOR
+    },
+    ..EffectSpec::SENSOR
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 }

@@ -1,34 +1,37 @@
 //! Gyro scale error.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Readings, Redundancy, Role, Scale, Values, WHOLE};
+use crate::effect::export::{Residual, Way};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Readings, Redundancy, Values};
 use crate::scalar::Scalar;
 
 /// ω_gyro = (1 + s) ω
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "gyro_scale",
     name: "gyro scale error",
-    kind: Kind::Sensor,
     law: "ω_gyro = (1 + s) ω",
     seen: "The gyro turns more (less) than the robot, in proportion.",
-    parameters: &[
-        Parameter { name: "s", unit: "-", role: Role::Strength, bounds: [-0.5, 0.5], neutral: 0.0, probes: &[0.02], scale: Scale::Own },
-    ],
+    parameters: &[Parameter::strength("s", "-", [-0.5, 0.5], &[0.02])],
     signed: true,
-    axes: &[],
-    wears: WHOLE,
     redundancy: Redundancy::GyroGain,
     interest: 0.015,
-    rarity: 0.0,
     revealed_by: "several full turns both ways",
     resembles: "effective track: only a second heading sensor tells",
     source: "sensor model",
+    export: Export {
+        mjcf: Way::Added("its sensors have no gain"),
+        sdf: Way::Added("its sensors have no gain"),
+        residual: Residual::Reading(&["y[\"gyro\"] *= 1.0 + {0}"]),
+        ..Export::SENSOR
+    },
+    ..EffectSpec::SENSOR
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
     fn sense(&self, v: &Values<T>, y: &mut Readings<T>) {

@@ -1,35 +1,35 @@
 //! Extra mass.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
+use crate::effect::export::{Carrier, Way};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
 use crate::robot::Robot;
 use crate::scalar::{Scalar, real};
 
 /// m + Δm, I_z + 0.03 m² Δm, carried 80 mm above the centre of mass
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "payload",
     name: "extra mass",
-    kind: Kind::Physics,
     law: "m + Δm, I_z + 0.03 m² Δm, carried 80 mm above the centre of mass",
     seen: "Accelerates more slowly, rolls and scrubs harder; coasts further.",
-    parameters: &[
-        Parameter { name: "mass", unit: "kg", role: Role::Strength, bounds: [0.0, 200.0], neutral: 0.0, probes: &[2.0], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    parameters: &[Parameter::strength("mass", "kg", [0.0, 200.0], &[2.0])],
     interest: 1.0,
-    rarity: 0.0,
     revealed_by: "hard acceleration and braking, then spins both ways",
     resembles: "torque_constant on level ground; motor inertia in straight drives",
     source: "rigid body mechanics",
+    export: Export {
+        carrier: Carrier::OwnBody,
+        ..Export::BY_CONSTANTS
+            .everywhere(Way::Held("mass, height and inertia of a body of its own, payload"))
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
     fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {

@@ -1,41 +1,51 @@
 //! Quadratic drag.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
+use crate::effect::export::{Carrier, Residual, Way};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
 use crate::scalar::{Scalar, real};
 
 /// F = −c v |v|
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "quadratic_drag",
     name: "quadratic drag",
-    kind: Kind::Physics,
     law: "F = −c v |v|",
     seen: "Costs more the faster it drives, hardly anything in spins.",
-    parameters: &[
-        Parameter { name: "c", unit: "N s²/m²", role: Role::Strength, bounds: [0.0, 200.0], neutral: 0.0, probes: &[4.0], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    parameters: &[Parameter::strength("c", "N s²/m²", [0.0, 200.0], &[4.0])],
     interest: 1.6,
-    rarity: 0.0,
     revealed_by: "straight drives at three speeds",
     resembles: "viscous_friction over a narrow range of speed",
     source: "fluid drag",
+    export: Export {
+        mjcf: Way::Held(
+            "blunt drag of a sphere at the centre of mass, in a medium too thin for \
+            anything else",
+        ),
+        urdf: Way::Added("it has no medium, and Gazebo's drags differ by axis"),
+        sdf: Way::Added("its drags differ by axis"),
+        carrier: Carrier::Drag,
+        residual: Residual::Force(&[
+            "speed = hypot(v[0], v[1])",
+            "force[0] -= {0} * speed * v[0]",
+            "force[1] -= {0} * speed * v[1]",
+        ]),
+        ..Export::ADDED_BY_HAND
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
-    fn act(&self, v: &Values<T>, at: &Situation<T>, w: &mut World<T>) {
+    fn apply(&self, v: &Values<T>, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
         let [x, y] = at.velocity;
         // At rest the square root has no derivative, the drag has.
         let speed = (x * x + y * y).max(real(1e-20)).sqrt();
-        w.force[0] -= v[0] * speed * x;
-        w.force[1] -= v[0] * speed * y;
+        c.force[0] -= v[0] * speed * x;
+        c.force[1] -= v[0] * speed * y;
     }
 }

@@ -1,38 +1,38 @@
 //! Stiction (Stribeck friction).
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
+use crate::effect::export::{Section, Way};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
 use crate::scalar::Scalar;
 
 /// T = Ts exp(−(ω/ωs)²) sign ω on each side
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "stiction",
     name: "stiction (Stribeck friction)",
-    kind: Kind::Physics,
     law: "T = Ts exp(−(ω/ωs)²) sign ω on each side",
     seen: "Sticks at rest and jumps when it breaks loose; nothing at speed.",
-    parameters: &[
-        Parameter { name: "Ts", unit: "N m", role: Role::Strength, bounds: [0.0, 20.0], neutral: 0.0, probes: &[0.4], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    parameters: &[Parameter::strength("Ts", "N m", [0.0, 20.0], &[0.4])],
     interest: 0.4,
-    rarity: 0.0,
     revealed_by: "slow starts, stops and reversals",
     resembles: "backlash_dead_zone near rest",
     source: "Armstrong-Hélouvry et al. 1994, Automatica 30(7)",
+    export: Export {
+        section: Section::Wheels,
+        ..Export::BY_CONSTANTS
+            .everywhere(Way::Added("dry friction of a joint does not rise towards rest"))
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
-    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
-        for t in &mut w.stribeck {
+    fn apply(&self, v: &Values<T>, _at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
+        for t in &mut c.stribeck {
             *t += v[0];
         }
     }

@@ -1,35 +1,32 @@
 //! Torque constant.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
+use crate::effect::export::Way;
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
 /// T = (1 + κ) T_logged on both sides
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "torque_constant",
     name: "torque constant",
-    kind: Kind::Command,
     law: "T = (1 + κ) T_logged on both sides",
     seen: "Everything takes less (more) current than it should, in the same proportion.",
-    parameters: &[
-        Parameter { name: "κ", unit: "-", role: Role::Strength, bounds: [-0.8, 2.0], neutral: 0.0, probes: &[-0.08], scale: Scale::Own },
-    ],
+    parameters: &[Parameter::strength("κ", "-", [-0.8, 2.0], &[-0.08])],
     signed: true,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
     interest: 0.045,
-    rarity: 0.0,
     revealed_by: "hard acceleration of the unloaded robot",
     resembles: "payload together with friction: exact if all are unknown",
     source: "motor equation",
+    export: Export { mjcf: Way::Held("gain of the actuators"), ..Export::DRIVE },
+    ..EffectSpec::COMMAND
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
     fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {

@@ -1,35 +1,31 @@
 //! Transport delay.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Values, WHOLE};
+use crate::effect::export::Way;
+use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
 /// T(t) = T_logged(t − d)
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "transport_delay",
     name: "transport delay",
-    kind: Kind::Command,
     law: "T(t) = T_logged(t − d)",
     seen: "Does everything right, but later.",
-    parameters: &[
-        Parameter { name: "d", unit: "s", role: Role::Shaped, bounds: [0.0, 0.5], neutral: 0.0, probes: &[0.04, 0.09], scale: Scale::Own },
-    ],
-    signed: false,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    parameters: &[Parameter::shaped("d", "s", [0.0, 0.5], 0.0, &[0.04, 0.09])],
     interest: 0.03,
-    rarity: 0.0,
     revealed_by: "steps of torque",
     resembles: "motor_lag in slow drives; clock offset of the recording",
     source: "pure delay",
+    export: Export { mjcf: Way::Held("delay of the actuators"), ..Export::DRIVE },
+    ..EffectSpec::COMMAND
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
     fn robot(&self, v: &Values<T>, r: &mut Robot<T>) {

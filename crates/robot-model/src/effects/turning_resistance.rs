@@ -1,38 +1,44 @@
 //! Turning (lateral scrub) resistance.
 
-use crate::effect::{Card, Effect, Kind, Parameter, Redundancy, Role, Scale, Situation, Values, WHOLE, World};
+use crate::effect::export::{Section, Way};
+use crate::effect::{
+    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, Values,
+};
 use crate::scalar::Scalar;
 
 /// lateral adhesion times (1 + σ)
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "turning_resistance",
     name: "turning (lateral scrub) resistance",
-    kind: Kind::Physics,
     law: "lateral adhesion times (1 + σ)",
     seen: "Turning costs more (less), straight driving the same.",
-    parameters: &[
-        Parameter { name: "σ", unit: "-", role: Role::Strength, bounds: [-0.9, 3.0], neutral: 0.0, probes: &[-0.1], scale: Scale::Own },
-    ],
+    parameters: &[Parameter::strength("σ", "-", [-0.9, 3.0], &[-0.1])],
     signed: true,
-    axes: &[],
-    wears: WHOLE,
-    redundancy: Redundancy::None,
+    load_term: Some(LoadTerm::Turning),
     interest: 0.08,
-    rarity: 0.0,
     revealed_by: "spins both ways at two speeds",
     resembles: "adhesion_patch in turns; yaw inertia in fast turns",
     source: "Kozłowski & Pazderski 2004, Int. J. Appl. Math. Comput. Sci. 14(4)",
+    export: Export {
+        section: Section::Ground,
+        mjcf: Way::Held("friction of the contacts along the axles"),
+        urdf: Way::Held("mu1 of the wheels, in gazebo tags"),
+        sdf: Way::Held("mu of the wheels' surfaces"),
+        ..Export::BY_CONSTANTS
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
-    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
-        for k in &mut w.lateral {
+    fn apply(&self, v: &Values<T>, _at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
+        for k in &mut c.lateral {
             *k *= T::one() + v[0];
         }
     }

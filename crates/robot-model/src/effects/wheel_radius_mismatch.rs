@@ -1,38 +1,41 @@
 //! Wheels of one side of another radius.
 
-use crate::effect::{Card, Effect, Kind, ONE_SIDE, Parameter, Redundancy, Role, Scale, Situation, Values, World};
+use crate::effect::export::{Section, Way};
+use crate::effect::{
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
+};
 use crate::scalar::Scalar;
 
 /// r (1 + ρ) on one side
 pub struct Law;
 
-const CARD: Card = Card {
+/// What is known about it.
+pub const SPEC: EffectSpec = EffectSpec {
     id: "wheel_radius_mismatch",
     name: "wheels of one side of another radius",
-    kind: Kind::Physics,
     law: "r (1 + ρ) on one side",
     seen: "Drifts to one side in proportion to the distance.",
-    parameters: &[
-        Parameter { name: "ρ", unit: "-", role: Role::Strength, bounds: [-0.3, 0.3], neutral: 0.0, probes: &[0.015], scale: Scale::Own },
-    ],
+    parameters: &[Parameter::strength("ρ", "-", [-0.3, 0.3], &[0.015])],
     signed: true,
-    axes: &[],
-    wears: ONE_SIDE,
-    redundancy: Redundancy::None,
+    scopes: Scopes::ONE_SIDE,
     interest: 0.012,
-    rarity: 0.0,
     revealed_by: "a long straight drive both ways",
     resembles: "com_offset to the side; encoder scale",
     source: "Borenstein & Feng 1996, IEEE Trans. Robot. Autom. 12(6)",
+    export: Export {
+        section: Section::Wheels,
+        ..Export::BY_CONSTANTS.everywhere(Way::Held("radius of the wheels of that side"))
+    },
+    ..EffectSpec::PHYSICS
 };
 
 impl<T: Scalar> Effect<T> for Law {
-    fn card(&self) -> &'static Card {
-        &CARD
+    fn spec(&self) -> &'static EffectSpec {
+        &SPEC
     }
 
-    fn act(&self, v: &Values<T>, _at: &Situation<T>, w: &mut World<T>) {
-        for r in &mut w.radius {
+    fn apply(&self, v: &Values<T>, _at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
+        for r in &mut c.radius {
             *r *= T::one() + v[0];
         }
     }

@@ -1,7 +1,7 @@
 //! What the tests of this battery share.
 
-use robot_model::effect::Wears;
-use robot_model::{Card, Disc, Presence, Scalar, Situation, State, World, effects, real};
+use robot_model::effect::Scopes;
+use robot_model::{Coefficients, Disc, EffectSpec, OperatingPoint, Presence, Scalar, State, effects, real};
 
 pub(crate) const H: f64 = 1e-3;
 
@@ -9,36 +9,36 @@ pub(crate) fn at_rest<T: Scalar>(duration: f64) -> (State<T>, f64, f64) {
     (State::default(), duration, H)
 }
 
-/// A presence for each way in which an effect may be worn; discs and onsets are met during the drive.
-pub(crate) fn worn<T: Scalar>(wears: Wears) -> Vec<Presence<T>> {
+/// A presence for each way to which an effect may be limited; discs and onsets are met during the drive.
+pub(crate) fn presences<T: Scalar>(scopes: Scopes) -> Vec<Presence<T>> {
     let always = Presence::default();
     let mut all = vec![always];
-    if wears.onset {
+    if scopes.onset {
         all.push(Presence { from: real(0.7), until: real(1.4), ..always });
     }
-    if wears.disc {
+    if scopes.disc {
         all.push(Presence { disc: Some(Disc { centre: [real(0.3), real(0.1)], radius: real(0.3) }), ..always });
     }
-    if wears.side {
+    if scopes.side {
         all.extend([0, 1].map(|side| Presence { side: Some(side), ..always }));
     }
     all
 }
 
-/// All ways at once, whatever the card says: a wrapper must not change what is neutral.
-pub(crate) const ANY: Wears = Wears { everywhere: true, onset: true, disc: true, side: true };
+/// All ways at once, whatever the specification says: a limit must not change what is neutral.
+pub(crate) const ANY: Scopes = Scopes { everywhere: true, onset: true, disc: true, side: true };
 
 /// A sane part of a parameter's bounds, for limits that stand for "none".
 pub(crate) fn sane(p: &robot_model::Parameter) -> [f64; 2] {
     p.bounds.map(|b| b.clamp(-1e3, 1e3))
 }
 
-pub(crate) fn linear_strengths() -> impl Iterator<Item = (usize, usize, &'static Card)> {
+pub(crate) fn linear_strengths() -> impl Iterator<Item = (usize, usize, &'static EffectSpec)> {
     effects::catalogue::<f64>()
         .into_iter()
         .enumerate()
-        .filter(|(_, e)| e.card().is_linear())
-        .flat_map(|(i, e)| e.card().strengths().map(move |k| (i, k, e.card())))
+        .filter(|(_, e)| e.spec().is_linear())
+        .flat_map(|(i, e)| e.spec().strengths().map(move |k| (i, k, e.spec())))
 }
 
 /// States at which every smooth law is active: driving and turning, slow, and sliding sideways.
@@ -64,8 +64,8 @@ pub(crate) fn moving() -> [State<f64>; 3] {
 }
 
 /// A robot that drives askew, and an instant of its surroundings.
-pub(crate) fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
-    let at = Situation {
+pub(crate) fn instant(heading: f64) -> (OperatingPoint<f64>, Coefficients<f64>) {
+    let at = OperatingPoint {
         time: 3.0,
         position: [1.0, -2.0],
         heading: [heading.cos(), heading.sin()],
@@ -79,7 +79,7 @@ pub(crate) fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
         half_base: [0.17, 0.2],
         torque: [1.0, -1.5],
     };
-    let world = World {
+    let coefficients = Coefficients {
         adhesion: [0.7; 4],
         slip_at_peak: [0.12; 4],
         lateral: [0.9; 4],
@@ -96,12 +96,13 @@ pub(crate) fn instant(heading: f64) -> (Situation<f64>, World<f64>) {
         moment: 0.0,
         tilt: [0.0; 2],
     };
-    (at, world)
+    (at, coefficients)
 }
 
-pub(crate) fn world_numbers(w: &World<f64>) -> Vec<f64> {
-    let World { adhesion, slip_at_peak, lateral, rolling, radius, coulomb, viscous, stribeck, .. } = *w;
-    let World { traction, twist, torque, belt_limit, force, moment, tilt, .. } = *w;
+/// All numbers of an instant, in a fixed order.
+pub(crate) fn numbers_of(c: &Coefficients<f64>) -> Vec<f64> {
+    let Coefficients { adhesion, slip_at_peak, lateral, rolling, radius, coulomb, viscous, stribeck, .. } = *c;
+    let Coefficients { traction, twist, torque, belt_limit, force, moment, tilt, .. } = *c;
     let wheels = [adhesion, slip_at_peak, lateral, rolling, radius, traction].into_iter().flatten();
     let sides = [coulomb, viscous, stribeck, torque, belt_limit, force, tilt].into_iter().flatten();
     wheels.chain(sides).chain([moment, twist]).collect()

@@ -50,13 +50,13 @@ fn advance<T: Scalar>(
 /// Largest difference of the dual derivative from a central difference, relative to the largest derivative.
 fn derivative_error(index: usize, parameter: usize, share: f64, start: &State<f64>, how: (Causality, usize)) -> f64 {
     let (plain, duals) = (effects::catalogue::<f64>()[index], effects::catalogue::<Dual64>()[index]);
-    let card = plain.card();
+    let spec = plain.spec();
     let mut values: Vec<f64> =
-        card.parameters.iter().map(|p| if p.role == Role::Shape { p.neutral } else { share * p.probes[0] }).collect();
+        spec.parameters.iter().map(|p| if p.role == Role::Shape { p.neutral } else { share * p.probes[0] }).collect();
     let mut exact: Vec<Dual64> = values.iter().map(|v| Dual64::from_re(*v)).collect();
     exact[parameter].eps = 1.0;
     let exact = advance(duals, &exact, Presence::default(), dual(start), how);
-    let (at, d) = (values[parameter], 1e-3 * card.parameters[parameter].probes[0].abs());
+    let (at, d) = (values[parameter], 1e-3 * spec.parameters[parameter].probes[0].abs());
     let mut side = |x: f64| {
         values[parameter] = x;
         advance(plain, &values, Presence::default(), *start, how)
@@ -69,7 +69,7 @@ fn derivative_error(index: usize, parameter: usize, share: f64, start: &State<f6
 
 #[test]
 fn dual_derivatives_equal_central_differences() {
-    for (effect, parameter, card) in linear_strengths() {
+    for (effect, parameter, spec) in linear_strengths() {
         for causality in BOTH {
             for (n, start) in moving().iter().enumerate() {
                 // Over many steps a central difference may straddle a kink, where one branch of a law meets the next.
@@ -78,7 +78,7 @@ fn dual_derivatives_equal_central_differences() {
                     assert!(
                         error < bound,
                         "{} {parameter}, state {n}, {causality:?}, {steps} steps: {error:e}",
-                        card.id
+                        spec.id
                     );
                 }
             }
@@ -88,16 +88,16 @@ fn dual_derivatives_equal_central_differences() {
 
 #[test]
 fn dual_derivatives_exist_from_rest() {
-    for (effect, parameter, card) in linear_strengths() {
+    for (effect, parameter, spec) in linear_strengths() {
         for causality in BOTH {
-            let mut values = vec![Dual64::from_re(0.0); card.parameters.len()];
-            for (v, p) in values.iter_mut().zip(card.parameters) {
+            let mut values = vec![Dual64::from_re(0.0); spec.parameters.len()];
+            for (v, p) in values.iter_mut().zip(spec.parameters) {
                 *v = Dual64::from_re(p.neutral);
             }
             values[parameter].eps = 1.0;
             let law = effects::catalogue::<Dual64>()[effect];
             let end = advance(law, &values, Presence::default(), State::default(), (causality, 500));
-            assert!(end.iter().all(|x| x.re.is_finite() && x.eps.is_finite()), "{} {causality:?}: {end:?}", card.id);
+            assert!(end.iter().all(|x| x.re.is_finite() && x.eps.is_finite()), "{} {causality:?}: {end:?}", spec.id);
         }
     }
 }
@@ -114,9 +114,9 @@ proptest! {
         speed_driven: bool,
     ) {
         let all: Vec<_> = linear_strengths().collect();
-        let (effect, parameter, card) = all[pick % all.len()];
+        let (effect, parameter, spec) = all[pick % all.len()];
         let how = (BOTH[usize::from(speed_driven)], 1);
         let error = derivative_error(effect, parameter, share, &moving()[state], how);
-        prop_assert!(error < 1e-5, "{} {parameter}: {error:e}", card.id);
+        prop_assert!(error < 1e-5, "{} {parameter}: {error:e}", spec.id);
     }
 }

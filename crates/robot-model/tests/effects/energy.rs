@@ -2,7 +2,7 @@
 
 use robot_model::{Active, Plant, Robot, State, effects};
 
-use crate::battery::{H, worn};
+use crate::battery::{H, presences};
 use crate::common::robot;
 
 fn kinetic(r: &Robot<f64>, s: &State<f64>) -> f64 {
@@ -32,12 +32,12 @@ fn friction_never_adds_energy_to_a_coasting_robot() {
     let r = robot();
     let mut bad = Vec::new();
     let mut seen = 0;
-    for effect in effects::catalogue::<f64>().into_iter().filter(|e| PASSIVE.contains(&e.card().id)) {
+    for effect in effects::catalogue::<f64>().into_iter().filter(|e| PASSIVE.contains(&e.spec().id)) {
         seen += 1;
-        let p = &effect.card().parameters[0];
+        let p = &effect.spec().parameters[0];
         for strength in [p.probes[0], 5.0 * p.probes[0], p.bounds[1]] {
             for (velocity, yaw_rate) in [([1.5, 0.0], 0.0), ([0.0, 0.0], 4.0), ([-0.8, 0.0], 2.0), ([0.0, 0.5], 0.0)] {
-                for presence in worn(effect.card().wears) {
+                for presence in presences(effect.spec().scopes) {
                     let active = [Active::new(effect, &[strength], presence)];
                     let plant = Plant::new(&r, &active, H);
                     let mut s = State { yaw_rate, ..State::default() };
@@ -53,7 +53,7 @@ fn friction_never_adds_energy_to_a_coasting_robot() {
                         // At the upper bound friction reverses a slow wheel within a step of 1 ms.
                         let allowed = if strength == p.bounds[1] { 2e-5 } else { 1e-14 };
                         if now - before > allowed * start {
-                            let (id, rise) = (effect.card().id, (now - before) / start);
+                            let (id, rise) = (effect.spec().id, (now - before) / start);
                             bad.push(format!(
                                 "{id} = {strength}, {presence:?}: {rise:.1e} in step {k}, from {velocity:?} {yaw_rate}"
                             ));

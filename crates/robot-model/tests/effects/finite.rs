@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use robot_model::{Active, Effect, Presence, effects};
 
-use crate::battery::{at_rest, sane, worn};
+use crate::battery::{at_rest, presences, sane};
 use crate::common::{BOTH, numbers, robot, run};
 
 /// Drives with `values` and tells what went wrong.
@@ -23,25 +23,29 @@ fn stays_finite(effect: &'static dyn Effect<f64>, values: &[f64], presence: Pres
         let finite = numbers(&last).iter().all(|x| x.is_finite());
         let unit = last.heading[0].hypot(last.heading[1]);
         if !finite || worst > 30.0 || (unit - 1.0).abs() > 1e-3 {
-            return Err(format!("{causality:?}: {} {values:?}: {worst}, heading {unit}", effect.card().id));
+            return Err(format!("{causality:?}: {} {values:?}: {worst}, heading {unit}", effect.spec().id));
         }
     }
     Ok(())
 }
 
-#[test]
-fn runs_stay_finite_at_every_corner_of_the_bounds() {
+/// What goes wrong at the corners of an effect's bounds.
+pub(crate) fn failures_at_corners(effect: &'static dyn Effect<f64>) -> Vec<String> {
+    let parameters = effect.spec().parameters;
     let mut bad = Vec::new();
-    for effect in effects::catalogue::<f64>() {
-        let parameters = effect.card().parameters;
-        for corner in 0..1_usize << parameters.len() {
-            let values: Vec<f64> =
-                parameters.iter().enumerate().map(|(i, p)| sane(p)[usize::from(corner >> i & 1 == 1)]).collect();
-            for presence in worn(effect.card().wears) {
-                bad.extend(stays_finite(effect, &values, presence).err());
-            }
+    for corner in 0..1_usize << parameters.len() {
+        let values: Vec<f64> =
+            parameters.iter().enumerate().map(|(i, p)| sane(p)[usize::from(corner >> i & 1 == 1)]).collect();
+        for presence in presences(effect.spec().scopes) {
+            bad.extend(stays_finite(effect, &values, presence).err());
         }
     }
+    bad
+}
+
+#[test]
+fn runs_stay_finite_at_every_corner_of_the_bounds() {
+    let bad: Vec<String> = effects::catalogue::<f64>().into_iter().flat_map(failures_at_corners).collect();
     assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
@@ -56,11 +60,11 @@ proptest! {
         wear in 0_usize..5,
     ) {
         let effect = effects::catalogue::<f64>()[index];
-        let values: Vec<f64> = effect.card().parameters.iter().zip(place).map(|(p, x)| {
+        let values: Vec<f64> = effect.spec().parameters.iter().zip(place).map(|(p, x)| {
             let [low, high] = sane(p);
             low + x * (high - low)
         }).collect();
-        let presences = worn(effect.card().wears);
+        let presences = presences(effect.spec().scopes);
         let outcome = stays_finite(effect, &values, presences[wear % presences.len()]);
         prop_assert!(outcome.is_ok(), "{outcome:?}");
     }

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use robot_model::{Active, Disc, Parameter, Plant, Presence, Robot, State, effects};
 
-use crate::battery::{ANY, H, worn};
+use crate::battery::{ANY, H, presences};
 use crate::common::{BOTH, Causality, distance, robot};
 
 /// Effects whose sign tells one diagonal from the other.
@@ -58,13 +58,13 @@ proptest! {
     ) {
         let causality = BOTH[usize::from(speed_driven)];
         let effect = effects::catalogue::<f64>()[index];
-        let card = effect.card();
-        let values: Vec<f64> = card.parameters.iter().map(|p| p.neutral.min(1e3) * (1.0 - size) + size * p.probes[0]).collect();
+        let spec = effect.spec();
+        let values: Vec<f64> = spec.parameters.iter().map(|p| p.neutral.min(1e3) * (1.0 - size) + size * p.probes[0]).collect();
         // Components across the robot are named after their axis.
-        let across = card.parameters.iter().zip(&values);
-        let turned = |p: &Parameter| p.name.ends_with('y') || DIAGONAL.contains(&card.id);
+        let across = spec.parameters.iter().zip(&values);
+        let turned = |p: &Parameter| p.name.ends_with('y') || DIAGONAL.contains(&spec.id);
         let mirrored_values: Vec<f64> = across.map(|(p, v)| if turned(p) { -v } else { *v }).collect();
-        let presences = worn::<f64>(ANY);
+        let presences = presences::<f64>(ANY);
         let presence = presences[wear.min(presences.len() - 1)];
         let mirrored_presence = Presence {
             side: presence.side.map(|s| 1 - s),
@@ -80,6 +80,6 @@ proptest! {
         let one = drive(&r, &[Active::new(effect, &values, presence)], causality, &commands);
         let other = drive(&m, &[Active::new(effect, &mirrored_values, mirrored_presence)], causality, &mirrored_commands);
         let d = distance(&mirrored_state(&one), &other);
-        prop_assert!(d < 1e-8, "{}: {d:e}", card.id);
+        prop_assert!(d < 1e-8, "{}: {d:e}", spec.id);
     }
 }

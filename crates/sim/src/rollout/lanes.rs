@@ -20,8 +20,8 @@ pub fn effect<const N: usize>(
     values: [&[f64]; N],
     presence: [Presence<f64>; N],
 ) -> Option<Active<Lanes<N>>> {
-    let id = effect.card().id;
-    let law = effects::catalogue::<Lanes<N>>().into_iter().find(|e| e.card().id == id)?;
+    let id = effect.spec().id;
+    let law = effects::catalogue::<Lanes<N>>().into_iter().find(|e| e.spec().id == id)?;
     let values: Vec<Lanes<N>> = (0..values[0].len()).map(|v| Lanes(values.map(|lane| lane[v]))).collect();
 
     let disc = presence[0].disc.map(|first| {

@@ -284,12 +284,12 @@ fn a_grid_rounds_or_keeps_below_and_never_has_no_step() {
 fn an_effect_outside_the_catalogue_has_no_lanes() {
     struct Own;
     impl robot_model::Effect<f64> for Own {
-        fn card(&self) -> &'static robot_model::Card {
-            static CARD: std::sync::LazyLock<robot_model::Card> = std::sync::LazyLock::new(|| robot_model::Card {
+        fn spec(&self) -> &'static robot_model::EffectSpec {
+            static SPEC: std::sync::LazyLock<robot_model::EffectSpec> = std::sync::LazyLock::new(|| robot_model::EffectSpec {
                 id: "own",
-                ..*robot_model::Effect::<f64>::card(&free_spin::Law)
+                ..*robot_model::Effect::<f64>::spec(&free_spin::Law)
             });
-            &CARD
+            &SPEC
         }
     }
     assert!(lanes::effect::<2>(&Own, [&[1.0]; 2], [Presence::default(); 2]).is_none());

@@ -279,7 +279,7 @@ mod tests {
     /// The network for drives of the robot with this much viscous friction that nobody names.
     fn network(viscous: f64) -> Option<ResidualModel> {
         let effect =
-            effects::catalogue::<f64>().into_iter().find(|e| e.card().id == "viscous_friction").expect("known");
+            effects::catalogue::<f64>().into_iter().find(|e| e.spec().id == "viscous_friction").expect("known");
         let doses = [Dose { effect, values: vec![viscous], presence: Presence::default() }];
         let runs: Vec<_> = [20.0, 16.0, 12.0].map(|seconds| driven(&robot(), &doses, seconds)).into();
         let cuts: Vec<Cut> = runs.iter().map(|r| cut(r, &cutting())).collect();

@@ -34,7 +34,7 @@ fn drives(seed: usize, count: usize, doses: &[Dose]) -> Vec<Run> {
 }
 
 fn brake(side: usize, torque: f64, from: f64) -> Dose {
-    let effect = effects::catalogue::<f64>().into_iter().find(|e| e.card().id == "coulomb_side").expect("known");
+    let effect = effects::catalogue::<f64>().into_iter().find(|e| e.spec().id == "coulomb_side").expect("known");
     Dose { effect, values: vec![torque], presence: Presence { side: Some(side), from, ..Presence::default() } }
 }
 

@@ -196,7 +196,7 @@ mod tests {
     use testing::robot;
 
     pub(super) fn brake(side: usize, torque: f64) -> Dose {
-        let effect = effects::catalogue::<f64>().into_iter().find(|e| e.card().id == "coulomb_side").expect("known");
+        let effect = effects::catalogue::<f64>().into_iter().find(|e| e.spec().id == "coulomb_side").expect("known");
         Dose { effect, values: vec![torque], presence: Presence { side: Some(side), ..Presence::default() } }
     }
 

@@ -95,7 +95,7 @@ fn further(information: &Mat<f64>, h: &Hypothesis, free: &[Free], fitted: &[f64]
     let mut at = 0;
     for (v, _) in &h.parts {
         let (f, i) = (&free[at], NUISANCES + at);
-        let neutral = f.parameter.map_or(0.0, |p| v.card().parameters[p].neutral);
+        let neutral = f.parameter.map_or(0.0, |p| v.spec().parameters[p].neutral);
         let sigma = covariance[(i, i)].max(0.0).sqrt().min(1.0) * f.unit;
         out[at] = (fitted[at] + sigma.copysign(fitted[at] - neutral)).clamp(f.bounds[0], f.bounds[1]);
         at += v.free(1.0).len();

@@ -25,7 +25,7 @@ fn straight(robot: &Robot<f64>) -> Cut {
 }
 
 fn form(id: &str) -> Variant {
-    variants(true).into_iter().find(|v| v.card().id == id && v.place == Place::Whole).expect("in the catalogue")
+    variants(true).into_iter().find(|v| v.spec().id == id && v.place == Place::Whole).expect("in the catalogue")
 }
 
 /// Rivals of equal probability: nothing, and these effects at these sizes.

@@ -4,7 +4,7 @@
 //! wheel is believed. What differs and turns with the robot is the accelerometer's; what stays fixed in the world is
 //! the slope of the ground, which accelerometers do not see.
 
-use robot_model::Card;
+use robot_model::EffectSpec;
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, beyond, least_squares};
@@ -69,7 +69,7 @@ fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
 pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], out: &mut Vec<Fault>) {
     let of = |runs: &[Run], gyro| runs.iter().map(|r| errors(r, gyro)).collect::<Vec<_>>();
     let (here, there) = (of(runs, gyro[0]), of(references, gyro[1]));
-    let mut tell = |card: &'static Card, parameter: usize, i: usize| {
+    let mut tell = |card: &'static EffectSpec, parameter: usize, i: usize| {
         let pick = |all: &[[Option<Measured>; 3]]| all.iter().map(|e| e[i]).collect::<Vec<_>>();
         if let Some(d) = beyond(&pick(&here), &pick(&there), card.interest).filter(|d| d.is_told(card.interest)) {
             out.push(Fault { card, parameter, magnitude: d.value, sigma: d.sigma, side: None });
@@ -144,7 +144,7 @@ mod tests {
             (&effects::quadratic_drag::Law, &[10.0]),
             (&effects::turning_resistance::Law, &[0.4]),
         ] {
-            assert!(told(effect, values).is_empty(), "{}: {:?}", effect.card().id, told(effect, values));
+            assert!(told(effect, values).is_empty(), "{}: {:?}", effect.spec().id, told(effect, values));
         }
     }
 

@@ -178,7 +178,7 @@ mod tests {
         ] {
             let dose = Dose { effect, values: values.to_vec(), presence: Presence::default() };
             let found = check(&runs(&[dose]), &runs(&[])).faults;
-            assert!(found.is_empty(), "{}: {found:?}", effect.card().id);
+            assert!(found.is_empty(), "{}: {found:?}", effect.spec().id);
         }
     }
 }

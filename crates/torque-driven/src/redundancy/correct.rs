@@ -92,7 +92,7 @@ mod tests {
     }
 
     fn fault(kind: Redundancy, parameter: usize, magnitude: f64, side: Option<usize>) -> Redundant {
-        let card = effects::catalogue::<f64>().iter().map(|e| e.card()).find(|c| c.redundancy == kind).expect("a card");
+        let card = effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.redundancy == kind).expect("a card");
         Redundant { faults: vec![Fault { card, parameter, magnitude, sigma: 0.0, side }], ..Redundant::default() }
     }
 

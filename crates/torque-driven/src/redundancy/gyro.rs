@@ -1,6 +1,6 @@
 //! The gyro against the pose heading: zero and gain.
 
-use robot_model::Card;
+use robot_model::EffectSpec;
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, alone, beyond, least_squares};
@@ -48,7 +48,7 @@ fn found(runs: &[Run]) -> Found {
 }
 
 /// The error over all runs, if it matters and is sure.
-fn pooled(card: &Card, runs: &[Option<Measured>]) -> Option<Measured> {
+fn pooled(card: &EffectSpec, runs: &[Option<Measured>]) -> Option<Measured> {
     alone(runs, card.interest).filter(|m| m.is_told(card.interest))
 }
 

@@ -68,7 +68,7 @@ impl Naming {
 
 /// Whether an effect changes only what a sensor says.
 fn is_sensor(effect: &str) -> bool {
-    catalogue::<f64>().iter().any(|e| e.card().id == effect && e.card().kind == Place::Sensor)
+    catalogue::<f64>().iter().any(|e| e.spec().id == effect && e.spec().kind == Place::Sensor)
 }
 
 #[cfg(test)]

@@ -1,101 +1,6 @@
-//! What an effect is: a card for people and up to three places in which it changes the plant.
+//! The specification of an effect: all that is known about it besides its law, as plain data.
 
-use crate::robot::Robot;
-use crate::scalar::Scalar;
-
-/// One physical phenomenon, or one fault of a sensor, that a simulation may lack.
-///
-/// At the neutral value of its strengths an effect changes nothing, bit for bit.
-/// `values` are in the order of the card's parameters.
-pub trait Effect<T: Scalar>: Sync {
-    /// What people and the diagnosis need to know about it.
-    fn card(&self) -> &'static Card;
-    /// Changes constants of the robot.
-    fn robot(&self, _values: &Values<T>, _robot: &mut Robot<T>) {}
-    /// Changes the forces of an instant.
-    fn act(&self, _values: &Values<T>, _at: &Situation<T>, _world: &mut World<T>) {}
-    /// Changes what the sensors show; of a one-sided effect, that side alone is taken.
-    fn sense(&self, _values: &Values<T>, _readings: &mut Readings<T>) {}
-}
-
-/// The state of the robot that a force may depend on.
-#[derive(Debug, Clone, Copy)]
-pub struct Situation<T> {
-    /// Time since the start of the recording, s.
-    pub time: T,
-    /// Geometric centre on the ground, m.
-    pub position: [T; 2],
-    /// Cosine and sine of the yaw angle.
-    pub heading: [T; 2],
-    /// Velocity of the centre of mass in body axes, m/s.
-    pub velocity: [T; 2],
-    /// Yaw rate, rad/s.
-    pub yaw_rate: T,
-    /// Speed of the driven wheel of each side, rad/s.
-    pub wheel_speed: [T; 2],
-    /// Angle of the driven wheel of each side, rad.
-    pub wheel_angle: [T; 2],
-    /// Mass of the robot, kg.
-    pub mass: T,
-    /// Gravity, m/s².
-    pub gravity: T,
-    /// Hitch from the centre of mass in body axes, m.
-    pub hitch: [T; 2],
-    /// Wheel positions from the geometric centre in body axes, m.
-    pub half_base: [T; 2],
-    /// Torque that the drive of each side delivers, N m; of a speed-driven robot, that of the step before.
-    pub torque: [T; 2],
-}
-
-/// What the ground, the drivetrain and the surroundings do at an instant.
-#[derive(Debug, Clone, Copy)]
-pub struct World<T> {
-    /// Peak adhesion under each wheel.
-    pub adhesion: [T; 4],
-    /// Slip ratio at the peak of the adhesion of each wheel.
-    pub slip_at_peak: [T; 4],
-    /// Lateral over longitudinal adhesion of each wheel.
-    pub lateral: [T; 4],
-    /// Rolling resistance coefficient of each wheel.
-    pub rolling: [T; 4],
-    /// Effective radius of each wheel, m.
-    pub radius: [T; 4],
-    /// Share of its longitudinal force that the ground takes from each wheel.
-    pub traction: [T; 4],
-    /// Load that moves from the front left and rear right wheel to the other two, each, N.
-    pub twist: T,
-    /// Dry friction of each side's drivetrain, N m.
-    pub coulomb: [T; 2],
-    /// Viscous friction of each side's drivetrain, N m s/rad.
-    pub viscous: [T; 2],
-    /// Rise of the dry friction towards rest on each side, N m.
-    pub stribeck: [T; 2],
-    /// Torque at each side's driven wheel beside what the drive delivers, N m.
-    pub torque: [T; 2],
-    /// Largest torque that each side's belt passes to the front wheel, N m.
-    pub belt_limit: [T; 2],
-    /// Force on the centre of mass in body axes, N.
-    pub force: [T; 2],
-    /// Yaw moment on the body, N m.
-    pub moment: T,
-    /// Gravity's component in the ground plane in body axes, m/s²; accelerometers do not see it.
-    pub tilt: [T; 2],
-}
-
-/// What ideal sensors at the geometric centre show.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Readings<T> {
-    /// Speed of the encoder wheel of each side, rad/s.
-    pub wheel_speed: [T; 2],
-    /// Yaw rate of the gyro, rad/s.
-    pub gyro: T,
-    /// Velocity in body axes, m/s.
-    pub velocity: [T; 2],
-    /// Specific force in body axes, m/s².
-    pub accel: [T; 2],
-    /// Torque that each side's drive must deliver, N m (speed-driven robots).
-    pub torque: [T; 2],
-}
+use crate::effect::Export;
 
 /// Where in the chain an effect sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,6 +66,33 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// A strength: zero is neutral; `probes` is one medium size.
+    pub const fn strength(name: &'static str, unit: &'static str, bounds: [f64; 2], probes: &'static [f64]) -> Self {
+        Self { name, unit, role: Role::Strength, bounds, neutral: 0.0, probes, scale: Scale::Own }
+    }
+
+    /// A strength whose response has a shape of its own: several probes.
+    pub const fn shaped(
+        name: &'static str,
+        unit: &'static str,
+        bounds: [f64; 2],
+        neutral: f64,
+        probes: &'static [f64],
+    ) -> Self {
+        Self { role: Role::Shaped, neutral, ..Self::strength(name, unit, bounds, probes) }
+    }
+
+    /// A shape: a fit starts at its usual value.
+    pub const fn shape(
+        name: &'static str,
+        unit: &'static str,
+        bounds: [f64; 2],
+        usual: f64,
+        probes: &'static [f64],
+    ) -> Self {
+        Self { role: Role::Shape, neutral: usual, ..Self::strength(name, unit, bounds, probes) }
+    }
+
     /// The unit that bounds and probes are counted in.
     pub const fn counted_in(&self) -> &'static str {
         match self.scale {
@@ -179,10 +111,10 @@ pub enum Scale {
     LargestTorque,
 }
 
-/// Presences that make sense for an effect beyond "always and everywhere".
+/// Where and when an effect may be present: each is one more candidate of the diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools, reason = "four questions that are answered one by one")]
-pub struct Wears {
+pub struct Scopes {
     /// Everywhere and always.
     pub everywhere: bool,
     /// From an instant on.
@@ -193,7 +125,14 @@ pub struct Wears {
     pub side: bool,
 }
 
-impl Wears {
+impl Scopes {
+    /// Always and everywhere on the whole robot.
+    pub const WHOLE: Self = Self { everywhere: true, onset: false, disc: false, side: false };
+    /// On one side of the robot.
+    pub const ONE_SIDE: Self = Self { side: true, ..Self::WHOLE };
+    /// Of the ground: everywhere, from an instant on, or at one place.
+    pub const GROUND: Self = Self { onset: true, disc: true, ..Self::WHOLE };
+
     /// The forms in which an effect is looked for, in words.
     pub fn forms(self) -> impl Iterator<Item = &'static str> {
         let all = [
@@ -202,14 +141,9 @@ impl Wears {
             (self.onset, "from an instant on"),
             (self.disc, "at one place on the ground"),
         ];
-        all.into_iter().filter(|(is_worn, _)| *is_worn).map(|(_, words)| words)
+        all.into_iter().filter(|(may_be, _)| *may_be).map(|(_, words)| words)
     }
 }
-
-/// Present always and everywhere on the whole robot.
-pub const WHOLE: Wears = Wears { everywhere: true, onset: false, disc: false, side: false };
-/// Present on one side of the robot.
-pub const ONE_SIDE: Wears = Wears { everywhere: true, onset: false, disc: false, side: true };
 
 /// A redundancy between sensors, free of any force law, in which a sensor fault shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -254,9 +188,43 @@ impl Redundancy {
     }
 }
 
-/// The card of an effect: all that is known about it besides its law.
+/// The term of the torque law of a speed-driven robot that an effect stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadTerm {
+    /// A share of the weight along the way, of either sign.
+    Slope,
+    /// Straight load against the motion.
+    Rolling,
+    /// Torque against turning.
+    Turning,
+    /// Grows with the speed.
+    Speed,
+    /// Drifts with time.
+    Drift,
+    /// The same force whatever the motion.
+    Pull,
+}
+
+impl LoadTerm {
+    /// In a word or two, for sentences.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Slope => "slope",
+            Self::Rolling => "rolling resistance",
+            Self::Turning => "turning resistance",
+            Self::Speed => "loads that grow with speed",
+            Self::Drift => "loads that drift with time",
+            Self::Pull => "constant pull",
+        }
+    }
+}
+
+/// The specification of an effect: all that is known about it besides its law.
+///
+/// A file states what is its own and takes the rest from [`EffectSpec::PHYSICS`], [`COMMAND`](EffectSpec::COMMAND) or
+/// [`SENSOR`](EffectSpec::SENSOR): `EffectSpec { id: "wind", .., ..EffectSpec::PHYSICS }`.
 #[derive(Debug, Clone, Copy)]
-pub struct Card {
+pub struct EffectSpec {
     /// Identifier, the file's name.
     pub id: &'static str,
     /// Name for people.
@@ -274,9 +242,11 @@ pub struct Card {
     /// The strengths are alternatives (axes), not components.
     pub axes: &'static [&'static str],
     /// Where and when it may be present.
-    pub wears: Wears,
+    pub scopes: Scopes,
     /// Sensor redundancy in which it shows, if any.
     pub redundancy: Redundancy,
+    /// Term of the torque law of a speed-driven robot that it stands for, if any.
+    pub load_term: Option<LoadTerm>,
     /// Size, in the unit of the magnitude, below which nobody would act; zero when any size matters.
     pub interest: f64,
     /// Penalty in nats because few robots have it: 0 for what most studies of such robots name, 3 for what some robots
@@ -288,9 +258,36 @@ pub struct Card {
     pub resembles: &'static str,
     /// Source of the law.
     pub source: &'static str,
+    /// How it is written to simulators.
+    pub export: Export,
 }
 
-impl Card {
+impl EffectSpec {
+    /// Forces on the robot or properties of its body, present always and everywhere, common, of one sign.
+    pub const PHYSICS: Self = Self {
+        id: "",
+        name: "",
+        kind: Kind::Physics,
+        law: "",
+        seen: "",
+        parameters: &[],
+        signed: false,
+        axes: &[],
+        scopes: Scopes::WHOLE,
+        redundancy: Redundancy::None,
+        load_term: None,
+        interest: 0.0,
+        rarity: 0.0,
+        revealed_by: "",
+        resembles: "",
+        source: "",
+        export: Export::ADDED_BY_HAND,
+    };
+    /// Between the logged command and the delivered torque; the rest as of [`EffectSpec::PHYSICS`].
+    pub const COMMAND: Self = Self { kind: Kind::Command, export: Export::DRIVE, ..Self::PHYSICS };
+    /// What a sensor shows; the rest as of [`EffectSpec::PHYSICS`].
+    pub const SENSOR: Self = Self { kind: Kind::Sensor, export: Export::SENSOR, ..Self::PHYSICS };
+
     /// Indices of the parameters that measure strength.
     pub fn strengths(&self) -> impl Iterator<Item = usize> + '_ {
         self.parameters.iter().enumerate().filter(|(_, p)| p.role != Role::Shape).map(|(i, _)| i)
@@ -301,9 +298,3 @@ impl Card {
         self.parameters.iter().all(|p| p.role != Role::Shaped)
     }
 }
-
-/// Most parameters an effect's law may have.
-pub const MAX_PARAMETERS: usize = 4;
-
-/// Values of an effect's parameters in the order of its card; what the card does not name is zero.
-pub type Values<T> = [T; MAX_PARAMETERS];

@@ -1,0 +1,62 @@
+//! Every name that a verdict can contain, with what is known about it.
+//!
+//! Two kinds of data meet here: the effects of the plants, each with its law in a file of `robot-model`, and causes that
+//! have no law in a plant: those of command-driven robots ([`command_driven`]), of which neither torques nor currents are
+//! known, and the answers that name no cause ([`answer`]). A name may be both: the lag of a motor is an effect of the
+//! torque-driven plant, and of a command-driven robot it is seen between command and wheel speed.
+
+use robot_model::Effect;
+use robot_model::effect::{EffectSpec, LoadTerm};
+use robot_model::effects::catalogue;
+
+pub mod answer;
+mod cause;
+pub mod command_driven;
+
+pub use cause::CauseSpec;
+
+/// What is known about a name.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry {
+    /// The name.
+    pub id: &'static str,
+    /// The effect of the plants.
+    pub effect: Option<&'static EffectSpec>,
+    /// The cause without a law in a plant.
+    pub cause: Option<&'static CauseSpec>,
+}
+
+/// The effects of the plants, by their ids.
+pub fn effects() -> impl Iterator<Item = &'static EffectSpec> {
+    catalogue::<f64>().into_iter().map(Effect::spec)
+}
+
+/// The causes that have no law in a plant: of command-driven robots in causal order, then the answers that name none.
+pub fn causes() -> impl Iterator<Item = &'static CauseSpec> {
+    command_driven::ALL.into_iter().chain(answer::ALL)
+}
+
+/// Every name once: effects first.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    let others = causes().map(|cause| cause.id).filter(|id| effects().all(|effect| effect.id != *id));
+    effects().map(|effect| effect.id).chain(others)
+}
+
+/// What is known about a name; `None` where no verdict can contain it.
+pub fn find(name: &str) -> Option<Entry> {
+    let effect = effects().find(|effect| effect.id == name);
+    let cause = causes().find(|cause| cause.id == name);
+    let id = effect.map(|effect| effect.id).or(cause.map(|cause| cause.id))?;
+    Some(Entry { id, effect, cause })
+}
+
+/// The effect that a term of the torque law of a speed-driven robot stands for; [`answer::UNKNOWN`]'s name where the
+/// catalogue has none.
+pub fn of_load_term(term: LoadTerm) -> &'static str {
+    effects().find(|effect| effect.load_term == Some(term)).map_or(answer::UNKNOWN.id, |effect| effect.id)
+}
+
+/// The README's example, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
