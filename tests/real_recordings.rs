@@ -5,9 +5,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use case_files::case_folder::{self, CaseFolder};
 use diagnosis::steady::{Quantity, Ratio};
 use diagnosis::{Diagnosis, Options, Verdict, diagnose, diagnose_steady};
-use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
 
 /// What lies beside the repository, or `None` after saying so.

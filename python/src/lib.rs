@@ -46,7 +46,7 @@ mod _lacuna {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         super::work::quiet_panics();
-        module.add("__version__", lacuna::envelope::Program::default().version)
+        module.add("__version__", case_files::envelope::Program::default().version)
     }
 
     /// The cards of all effects that a diagnosis can name.
@@ -58,7 +58,7 @@ mod _lacuna {
     ///     ``lacuna effects --json`` writes.
     #[pyfunction]
     fn effects(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        let cards = lacuna::cards::cards().into_iter().map(lacuna::cards::as_json).collect::<Vec<_>>();
+        let cards = robot_file::cards::cards().into_iter().map(robot_file::cards::as_json).collect::<Vec<_>>();
         super::told::python(py, &serde_json::Value::from(cards))
     }
 }

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
+use case_files::case_folder::{self, CaseFolder};
+use case_files::envelope::Envelope;
+use case_files::report_page;
 use diagnosis::next::Manoeuvre;
 use diagnosis::{Advice, Compared, Diagnosis, Options, Trace, Verdict, diagnose, diagnose_response, diagnose_steady};
 use examiner::{Content, EffectId, Setting, Settings, Severity, TyreLaw};
-use lacuna::case_folder::{self, CaseFolder};
-use lacuna::envelope::Envelope;
-use lacuna::report_page;
 use recordings::ReadOptions;
 use report::diagnosis_page::{Provenance, render};
 use report::fleet::{Named, Seen, Told};

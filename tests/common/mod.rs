@@ -4,8 +4,8 @@ use std::path::Path;
 
 use diagnosis::{Case, Diagnosis, HeldOut, Options, Run, diagnose};
 use examiner::{Content, DrawnCase, Setting, Settings, Severity, TyreLaw};
-use lacuna::RobotSpec;
 use recordings::{Input, Mapping, Policy, Read, ReadOptions, Recording, RecordingError};
+use robot_file::RobotSpec;
 
 /// A clear case of three references and three recordings.
 pub(crate) fn settings(content: Content, duration_s: f64, heldout: usize) -> Settings {

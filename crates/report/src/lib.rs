@@ -2,6 +2,7 @@
 
 pub mod chart;
 pub mod diagnosis_page;
+pub mod diagnosis_text;
 mod drawing;
 pub mod figure;
 pub mod fleet;
@@ -10,8 +11,10 @@ pub mod page;
 pub mod picture;
 pub mod reliability;
 pub mod reproduction;
+pub mod sections;
 mod shell;
 pub mod slopes;
 mod table;
+pub mod text_table;
 mod thin;
 pub mod words;

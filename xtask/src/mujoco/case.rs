@@ -5,19 +5,18 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
+use case_files::case_folder::CaseFolder;
+use case_files::envelope::Envelope;
 use diagnosis::HeldOut;
-use lacuna::case_folder::CaseFolder;
-use lacuna::envelope::Envelope;
 use model_export::{Engine, Way, way};
 use recordings::{Mapping, ReadOptions};
 use serde_json::{Value, json};
 
+use super::python;
 use crate::blind::layout::Layout;
 use crate::blind::seal::Seals;
 use crate::blind::truth::{self, Response};
 use crate::child;
-
-use super::python;
 
 /// Root mean square distance from the truth: wheel speed, rad/s, and yaw rate, rad/s.
 pub(super) type Distance = [f64; 2];

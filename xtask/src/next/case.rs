@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use case_files::case_folder::{self, CaseFolder};
 use diagnosis::{Advice, Diagnosis, Options, Verdict};
 use examiner::{Again, Course, Plan};
-use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
 use serde::Serialize;
 

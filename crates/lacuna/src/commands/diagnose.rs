@@ -2,17 +2,20 @@
 
 use std::path::PathBuf;
 
+use ::report::diagnosis_text;
 use anyhow::{Context, Result, bail};
+use case_files::case_folder::{self, CaseFolder};
+use case_files::envelope::Envelope;
+use case_files::long::Budget;
+use case_files::{predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use diagnosis::{Options, Verdict};
-use lacuna::case_folder::{self, CaseFolder};
-use lacuna::envelope::Envelope;
-use lacuna::long::Budget;
-use lacuna::{Causality, RobotSpec, diagnosis_text, mcap_out, predictions, which_mapping};
 use recordings::Mapping;
+use robot_file::{Causality, RobotSpec};
 
 use super::{Outcome, Reading, Usage, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
+use crate::mcap_out;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1,16 +1,16 @@
 //! `lacuna explain`: the whole card of one effect.
 
 use anyhow::Result;
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
-use lacuna::suggest;
+use recordings::suggest;
+use report::text_table::TextTable;
+use robot_file::cards::{FORMAT, as_json, cards, wears};
 use robot_model::Card;
 use serde_json::json;
 
 use super::{Outcome, Usage};
 use crate::console::{emit, emit_json, heading};
-use lacuna::cards::{FORMAT, as_json, cards, wears};
-use lacuna::envelope::Program;
-use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:

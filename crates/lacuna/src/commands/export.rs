@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use case_files::case_folder;
+use case_files::envelope::Envelope;
 use clap::{Args as ClapArgs, ValueEnum};
 use diagnosis::{Cause, Diagnosis, EffectAt, Verdict};
-use lacuna::envelope::Envelope;
-use lacuna::{Causality, RobotSpec, case_folder};
 use model_export::{Engine, Model};
+use robot_file::{Causality, RobotSpec};
 
 use super::{Outcome, Usage};
 use crate::console::{emit, warning};

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
 use diagnosis::next::{Manoeuvre, wheel_speeds};
 use diagnosis::{Advice, Options};
-use lacuna::envelope::Program;
-use lacuna::suggest::nearest;
-use lacuna::text_table::{TextTable, number};
+use recordings::suggest::nearest;
+use report::text_table::{TextTable, number};
 use robot_model::Robot;
 use serde_json::json;
 

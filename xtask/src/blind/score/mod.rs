@@ -1,9 +1,9 @@
 //! Compares the answer to a case with its truth.
 
 use anyhow::Result;
+use case_files::answers::{Told, ToldCause};
 use diagnosis::Verdict;
 use examiner::{Plan, Truth};
-use lacuna::answers::{Told, ToldCause};
 use serde::Serialize;
 
 use super::diagnose::{self, Record};

@@ -1,5 +1,5 @@
+use case_files::case_folder::{self, CaseFolder};
 use diagnosis::{Diagnosis, Verdict, diagnose_response};
-use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
 
 use super::*;
