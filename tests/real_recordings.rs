@@ -5,12 +5,16 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use case_files::case_folder;
 use diagnosis::diagnose;
 use inference::Options;
 use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
 use speed_driven::diagnose_steady;
+use speed_driven::diagnose_steady;
 use verdict::{Diagnosis, Verdict};
+use verdict::{Diagnosis, Verdict};
+use verdict::{Quantity, Ratio};
 use verdict::{Quantity, Ratio};
 
 /// What lies beside the repository, or `None` after saying so.

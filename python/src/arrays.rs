@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use lacuna::suggest;
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use recordings::suggest;
 use recordings::{Channel, Clock, Read, Recording, Signal, Source};
 use sha2::{Digest, Sha256};
 

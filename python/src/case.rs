@@ -4,12 +4,13 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail, ensure};
-use lacuna::case_folder::{self, CaseFolder};
-use lacuna::inputs::{self, Loaded};
-use lacuna::{RobotSpec, which_mapping};
+use case_files::case_folder::{self, CaseFolder};
+use case_files::inputs::{self, Loaded};
+use case_files::which_mapping;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use recordings::{Mapping, Policy, Read, ReadOptions};
+use robot_file::RobotSpec;
 
 use crate::arrays;
 use crate::error::LacunaError;

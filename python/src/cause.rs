@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use lacuna::answers::NINETY;
 use pyo3::prelude::*;
+use report::words::NINETY;
 
 /// One possible cause with what is known about it.
 ///

@@ -38,8 +38,9 @@ pub(crate) fn check<'py>(
     let found = work::run(py, move || {
         let listener = Listener::new(None);
         let (stage, bytes) = (|what: &str| listener.stage(what), |done, _| listener.read(done));
-        let request = lacuna::check::Request { paths: &paths, mapping: mapping.as_deref(), options };
-        let checked = lacuna::check::check(&request, &lacuna::check::Listener { stage: &stage, bytes: &bytes })?;
+        let request = case_files::check::Request { paths: &paths, mapping: mapping.as_deref(), options };
+        let checked =
+            case_files::check::check(&request, &case_files::check::Listener { stage: &stage, bytes: &bytes })?;
         Ok(checked.to_json())
     })?;
     told::python(py, &found)

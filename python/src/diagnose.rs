@@ -1,6 +1,6 @@
 //! From drives to a verdict.
 
-use lacuna::envelope::Envelope;
+use case_files::envelope::Envelope;
 use pyo3::prelude::*;
 
 use crate::case::{self, Part, RobotGiven};

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use lacuna::envelope::Envelope;
-use lacuna::{diagnosis_text, report_page};
+use case_files::envelope::Envelope;
+use case_files::report_page;
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
+use report::diagnosis_text;
 use report::words::{is_no_cause, probability, size, where_and_when};
 
 use crate::cause::Cause;

@@ -46,7 +46,7 @@ mod _lacuna {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         super::work::quiet_panics();
-        module.add("__version__", lacuna::envelope::Program::default().version)
+        module.add("__version__", case_files::envelope::Program::default().version)
     }
 
     /// The cards of all effects that a diagnosis can name.
@@ -58,6 +58,6 @@ mod _lacuna {
     ///     ``lacuna effects --json`` writes.
     #[pyfunction]
     fn effects(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        super::told::python(py, &serde_json::Value::from(lacuna::cards::effects_json()))
+        super::told::python(py, &serde_json::Value::from(robot_file::cards::effects_json()))
     }
 }

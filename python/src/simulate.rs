@@ -1,8 +1,8 @@
 //! A robot on the inputs of a drive.
 
 use anyhow::Context;
-use lacuna::case_folder::file_names;
-use lacuna::simulated::simulated;
+use case_files::case_folder::file_names;
+use case_files::simulated::simulated;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
+use case_files::case_folder;
 use command_driven::diagnose_response;
 use diagnosis::diagnose;
 use examiner::{Content, EffectId, Setting, Settings, Severity, TyreLaw};
@@ -17,7 +18,10 @@ use report::fleet::{Named, Seen, Told};
 use report::page::Page;
 use report::reproduction::{Signals, figures};
 use speed_driven::diagnose_steady;
+use speed_driven::diagnose_steady;
 use verdict::Manoeuvre;
+use verdict::Manoeuvre;
+use verdict::{Advice, Compared, Diagnosis, Trace, Verdict};
 use verdict::{Advice, Compared, Diagnosis, Trace, Verdict};
 
 /// A name that would do harm if it became markup.

@@ -1,7 +1,7 @@
 //! Tables that become a page, Markdown and plain text alike.
 
-use lacuna::text_table::TextTable;
 use report::page::{Cell, Page, Tone};
+use report::text_table::TextTable;
 
 /// A table with its heading.
 #[derive(Debug, Clone, Default)]
@@ -35,7 +35,7 @@ pub(crate) fn number(value: Option<f64>) -> String {
         None => "-".to_owned(),
         // Counts, and shares that are all or nothing.
         Some(x) if x.fract() == 0.0 && x.abs() < 1e6 => format!("{x:.0}"),
-        Some(x) => lacuna::text_table::number(x),
+        Some(x) => report::text_table::number(x),
     }
 }
 

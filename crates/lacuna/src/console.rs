@@ -13,8 +13,8 @@ mod excerpt;
 mod progress;
 
 pub(crate) use counted::Counted;
-pub(crate) use lacuna::sections::heading;
 pub(crate) use progress::{Progress, Stages};
+pub(crate) use report::sections::heading;
 
 /// Writes a result to standard output. A reader that has seen enough (`| head`) is no failure.
 pub(crate) fn emit(text: &str) -> Result<()> {

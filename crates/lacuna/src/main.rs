@@ -11,6 +11,7 @@ use clap::{Parser, Subcommand};
 
 mod commands;
 mod console;
+mod mcap_out;
 
 use commands::{
     Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, man, merge, next,

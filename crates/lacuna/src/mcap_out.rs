@@ -39,7 +39,7 @@ struct Message {
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn write(file: &Path, diagnosis: &Diagnosis) -> Result<()> {
+pub(crate) fn write(file: &Path, diagnosis: &Diagnosis) -> Result<()> {
     let save = |path: &Path, bytes: &[u8]| {
         std::fs::write(path, bytes).with_context(|| format!("cannot write '{}'", path.display()))
     };
@@ -48,7 +48,7 @@ pub fn write(file: &Path, diagnosis: &Diagnosis) -> Result<()> {
 }
 
 /// `out.layout.json` of `out.mcap`.
-pub fn layout_beside(file: &Path) -> PathBuf {
+pub(crate) fn layout_beside(file: &Path) -> PathBuf {
     file.with_extension("layout.json")
 }
 
@@ -56,7 +56,7 @@ pub fn layout_beside(file: &Path) -> PathBuf {
 ///
 /// # Errors
 /// None that a diagnosis could cause: those of the writer.
-pub fn bytes(diagnosis: &Diagnosis) -> Result<Vec<u8>> {
+pub(crate) fn bytes(diagnosis: &Diagnosis) -> Result<Vec<u8>> {
     let mut messages = messages::of(diagnosis);
     messages.sort_by_key(|message| message.log_time_ns);
     let mut file = Cursor::new(Vec::new());

@@ -108,6 +108,19 @@ fn a_negative_mass() {
 }
 
 #[test]
+fn what_is_wrong_is_said_once() {
+    let run = bench(&ROBOT.replace("40.0", "-40.0")).run(&["diagnose", "case"]);
+    let text = run.err();
+    let said = "error: case/robot.toml: line 5, column 1: parameter `mass` is -40, but it must be larger than zero; correct it";
+    assert_eq!(text.lines().next(), Some(said), "{text}");
+    let text = flat("0.18", "-0.18").err();
+    assert!(
+        text.contains("parameter `half_wheelbase_m` is -0.18, but it must be larger than zero; correct it\n"),
+        "{text}"
+    );
+}
+
+#[test]
 fn numbers_that_are_none() {
     bench(&ROBOT.replace("40.0", "nan")).refuses(&[FILE, "line 5", "`mass`", "finite"]);
     bench(&ROBOT.replace("40.0", "\"heavy\"")).refuses(&[FILE, "line 5", "heavy", "expected a number"]);

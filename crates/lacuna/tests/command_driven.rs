@@ -60,7 +60,7 @@ fn a_response_is_told_without_any_reference() {
     assert_eq!(signals, ["left wheel speed", "right wheel speed", "heading"]);
 
     // The corrected robot file forecasts what the diagnosis says that it forecasts.
-    let envelope = lacuna::envelope::Envelope::open(&bench.path("out.json")).unwrap();
+    let envelope = case_files::envelope::Envelope::open(&bench.path("out.json")).unwrap();
     let corrected = envelope.robot().unwrap().corrected(&envelope.diagnosis.correction).unwrap();
     bench.write("corrected.toml", &corrected.to_toml().unwrap());
     let args = ["predict", "case/robot.toml", "corrected.toml", "--drives", "case/heldout", "--json", "-"];

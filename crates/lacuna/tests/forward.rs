@@ -79,6 +79,32 @@ fn exports_hold_the_effect_and_nothing_is_written_over() {
 }
 
 #[test]
+fn faults_of_encoders_and_clocks_show_in_a_simulated_drive() {
+    let bench = Bench::new();
+    let faults = "\n[[effects]]\neffect = \"encoder_slipped_index\"\nvalues = { jump = 0.5 }\nside = \"left\"\n\
+        [[effects]]\neffect = \"clock_offset\"\nvalues = { IMU = 0.05 }\n";
+    bench.write("faulty.toml", &format!("{ROBOT}{faults}"));
+    let columns = |robot: &str| -> Value {
+        let run = bench.run(&["simulate", robot, "case/recordings/run_1.csv", "--json", "-"]);
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+        serde_json::from_str::<Value>(&run.out()).unwrap()["columns"].take()
+    };
+    let (plain, faulty) = (columns("case/robot.toml"), columns("faulty.toml"));
+    let changed: Vec<&String> = plain
+        .as_object()
+        .unwrap()
+        .iter()
+        .filter(|(name, values)| faulty[*name] != **values)
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(changed, ["wheel_angle_left_rad", "gyro_z_rad_s", "accel_x_m_s2", "accel_y_m_s2"]);
+
+    let command_driven = format!("{ROBOT}\n[[effects]]\neffect = \"payload\"\nvalues = {{ mass = 10.0 }}\n");
+    bench.write("command.toml", &command_driven.replace("torque-driven", "command-driven"));
+    bench.run(&["simulate", "command.toml", "case/recordings/run_1.csv"]).failed(&["`payload` cannot be applied"]);
+}
+
+#[test]
 fn a_simulated_drive_is_a_recording_like_any_other() {
     let bench = Bench::new();
     let run = bench.run(&["simulate", "case/robot.toml", "case/recordings/run_1.csv", "-o", "sim/plain.csv"]);

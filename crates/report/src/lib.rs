@@ -6,6 +6,7 @@
 
 pub mod chart;
 pub mod diagnosis_page;
+pub mod diagnosis_text;
 mod drawing;
 mod escape;
 mod facts;
@@ -17,8 +18,10 @@ pub mod picture;
 pub mod reliability;
 pub mod reproduction;
 mod role;
+pub mod sections;
 mod shell;
 pub mod slopes;
 mod table;
+pub mod text_table;
 mod thin;
 pub mod words;

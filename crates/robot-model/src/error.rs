@@ -1,66 +1,85 @@
 //! What can be wrong with a model's parameters.
 
+use core::fmt;
+
 /// A parameter that no robot can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// A quantity must be larger than zero.
-    #[error("{name} is {value}, but it must be larger than zero")]
-    NotPositive {
+    /// A number that a quantity cannot be.
+    #[error("{name} is {value}, but it must {must}")]
+    Value {
         /// Name of the quantity.
         name: &'static str,
         /// The value given.
         value: f64,
+        /// What it must do.
+        must: Must,
     },
-    /// A quantity must not be negative.
-    #[error("{name} is {value}, but it must not be negative")]
-    Negative {
-        /// Name of the quantity.
+    /// A constant that must be said was not.
+    #[error("{name} is missing; give it in {unit}")]
+    Missing {
+        /// Name of the constant.
         name: &'static str,
-        /// The value given.
-        value: f64,
+        /// Its unit.
+        unit: &'static str,
     },
-    /// A quantity must be a finite number.
-    #[error("{name} is {value}, but it must be a finite number")]
-    NotFinite {
-        /// Name of the quantity.
+    /// No constant has this name.
+    #[error("a robot has no constant `{name}`; `Robot::CONSTANTS` lists them")]
+    Unknown {
+        /// The name given.
         name: &'static str,
-        /// The value given.
-        value: f64,
     },
-    /// A quantity lies outside the range in which the model holds.
-    #[error("{name} is {value}, but it must lie between {low} and {high}")]
-    OutOfRange {
-        /// Name of the quantity.
-        name: &'static str,
-        /// The value given.
-        value: f64,
-        /// Smallest allowed value.
-        low: f64,
-        /// Largest allowed value.
-        high: f64,
-    },
+}
+
+/// What a quantity must do, to be that of a robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Must {
+    /// Be larger than zero.
+    BePositive,
+    /// Be zero or larger.
+    NotBeNegative,
+    /// Be neither NaN nor infinite.
+    BeFinite,
+    /// Lie in the interval in which the model holds, its ends included.
+    LieBetween(f64, f64),
+}
+
+impl fmt::Display for Must {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BePositive => f.write_str("be larger than zero"),
+            Self::NotBeNegative => f.write_str("not be negative"),
+            Self::BeFinite => f.write_str("be a finite number"),
+            Self::LieBetween(low, high) => write!(f, "lie between {low} and {high}"),
+        }
+    }
+}
+
+fn must(name: &'static str, value: f64, must: Must, holds: bool) -> Result<(), ModelError> {
+    if holds { Ok(()) } else { Err(ModelError::Value { name, value, must }) }
 }
 
 /// Refuses what is not finite and larger than zero.
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), ModelError> {
     finite(name, value)?;
-    if value > 0.0 { Ok(()) } else { Err(ModelError::NotPositive { name, value }) }
+    must(name, value, Must::BePositive, value > 0.0)
 }
 
 /// Refuses what is not finite or below zero.
 pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<(), ModelError> {
     finite(name, value)?;
-    if value >= 0.0 { Ok(()) } else { Err(ModelError::Negative { name, value }) }
+    must(name, value, Must::NotBeNegative, value >= 0.0)
 }
 
 /// Refuses NaN and the infinities.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<(), ModelError> {
-    if value.is_finite() { Ok(()) } else { Err(ModelError::NotFinite { name, value }) }
+    must(name, value, Must::BeFinite, value.is_finite())
 }
 
 /// Refuses what lies outside `low..=high`.
 pub(crate) fn within(name: &'static str, value: f64, low: f64, high: f64) -> Result<(), ModelError> {
     finite(name, value)?;
-    if value >= low && value <= high { Ok(()) } else { Err(ModelError::OutOfRange { name, value, low, high }) }
+    must(name, value, Must::LieBetween(low, high), value >= low && value <= high)
 }

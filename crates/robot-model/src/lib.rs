@@ -12,6 +12,7 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod active;
+pub mod constants;
 pub mod contact;
 pub mod effect;
 mod error;
@@ -31,8 +32,9 @@ pub mod effects {
 
 pub use ::scalar::Lanes;
 pub use active::Active;
+pub use constants::Constant;
 pub use effect::{Coefficients, Effect, EffectSpec, Kind, OperatingPoint, Parameter, Readings, Role};
-pub use error::ModelError;
+pub use error::{ModelError, Must};
 pub use plant::Plant;
 pub use presence::{Disc, Presence};
 pub use robot::Robot;

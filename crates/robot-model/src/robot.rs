@@ -2,9 +2,10 @@
 
 use nalgebra::RealField;
 
+use crate::constants::{NO_LIMIT, Usual};
 use crate::contact::Stance;
 use crate::effect::{Coefficients, OperatingPoint};
-use crate::error::{ModelError, finite, not_negative, positive, within};
+use crate::error::ModelError;
 use crate::paper;
 use crate::scalar::{Scalar, real};
 
@@ -72,51 +73,65 @@ pub struct Robot<T> {
 }
 
 impl<T: Scalar + RealField> Robot<T> {
+    /// A robot from constants by their names, as [`Robot::CONSTANTS`] lists them; those that are not given are usual.
+    /// Needed are nine: mass, inertias, height of the centre of mass, wheels, adhesion and rolling resistance.
+    ///
+    /// ```
+    /// use robot_model::{ModelError, Robot};
+    ///
+    /// let given = [
+    ///     ("mass", 75.0),
+    ///     ("yaw_inertia", 5.0),
+    ///     ("com_height", 0.2),
+    ///     ("wheelbase", 0.512),
+    ///     ("track", 0.5708),
+    ///     ("wheel_radius", 0.1651),
+    ///     ("wheel_inertia", 0.044),
+    ///     ("adhesion", 0.6),
+    ///     ("rolling_resistance", 0.03),
+    ///     ("coulomb", 3.0), // both sides
+    /// ];
+    /// let robot = Robot::from_constants(&given)?;
+    /// assert_eq!((robot.half_track, robot.coulomb, robot.gravity), (0.2854, [3.0, 3.0], 9.81));
+    ///
+    /// // The second entry of a name counts: a table of constants can be changed by adding to it.
+    /// let weightless = Robot::from_constants(&[&given[..], &[("mass", 0.0)]].concat());
+    /// assert_eq!(weightless.unwrap_err().to_string(), "mass is 0, but it must be larger than zero");
+    /// # Ok::<(), ModelError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A name that no constant has, one that must be given and is not, and a value that no robot can have.
+    pub fn from_constants(given: &[(&'static str, T)]) -> Result<Self, ModelError> {
+        if let Some((name, _)) = given.iter().find(|(name, _)| !Self::CONSTANTS.iter().any(|c| c.is_called(name))) {
+            return Err(ModelError::Unknown { name });
+        }
+        let find = |name: &str| given.iter().rev().find(|g| g.0 == name).map(|g| g.1);
+
+        let mut out = Self::blank();
+        for constant in Self::CONSTANTS {
+            let said = find(constant.id).or_else(|| constant.both.and_then(find));
+            let value = match (said, constant.usual) {
+                (Some(value), _) => value,
+                (None, Usual::Value(usual)) => real(usual),
+                (None, Usual::Unlimited) => real(NO_LIMIT),
+                (None, Usual::RearAxle) => -out.half_wheelbase,
+                (None, Usual::Needed) => {
+                    return Err(ModelError::Missing { name: constant.id, unit: constant.unit });
+                }
+            };
+            (constant.set)(&mut out, value);
+        }
+        out.checked()
+    }
+
     /// Checks every constant.
     ///
     /// # Errors
     /// The first constant that no robot can have.
     pub fn checked(self) -> Result<Self, ModelError> {
-        let f = |x: T| nalgebra::try_convert::<T, f64>(x).unwrap_or(f64::NAN);
-        for (name, x) in [
-            ("mass", self.mass),
-            ("yaw_inertia", self.yaw_inertia),
-            ("com_height", self.com[2]),
-            ("half_wheelbase", self.half_wheelbase),
-            ("half_track", self.half_track),
-            ("wheel_radius", self.wheel_radius),
-            ("wheel_inertia", self.wheel_inertia),
-            ("adhesion", self.adhesion),
-            ("slip_at_peak", self.slip_at_peak),
-            ("rest_speed", self.rest_speed),
-            ("lateral_factor", self.lateral_factor),
-            ("drive.gain", self.drive.gain),
-            ("drive.limit", self.drive.limit),
-            ("gravity", self.gravity),
-        ] {
-            positive(name, f(x))?;
-        }
-        for (name, x) in [
-            ("motor_inertia", self.motor_inertia),
-            ("rolling_resistance", self.rolling_resistance),
-            ("coulomb (left)", self.coulomb[0]),
-            ("coulomb (right)", self.coulomb[1]),
-            ("viscous (left)", self.viscous[0]),
-            ("viscous (right)", self.viscous[1]),
-            ("drive.lag", self.drive.lag),
-            ("drive.extra_lag", self.drive.extra_lag),
-            ("drive.dead_band", self.drive.dead_band),
-        ] {
-            not_negative(name, f(x))?;
-        }
-        let (a, b) = (f(self.half_wheelbase), f(self.half_track));
-        within("sliding_share", f(self.sliding_share), 0.0, 1.3)?;
-        within("com_x", f(self.com[0]), -a, a)?;
-        within("com_y", f(self.com[1]), -b, b)?;
-        // A re-tuning may make friction fall towards rest, or a lead of a small lag.
-        for (name, x) in [("hitch_x", self.hitch_x), ("stribeck", self.stribeck), ("drive.delay", self.drive.delay)] {
-            finite(name, f(x))?;
-        }
+        let robot = self.cast::<f64>();
+        Robot::CONSTANTS.iter().try_for_each(|constant| constant.check(&robot))?;
         Ok(self)
     }
 
@@ -128,35 +143,38 @@ impl<T: Scalar + RealField> Robot<T> {
 
 impl<U: Scalar> Robot<U> {
     /// A robot each of whose constants is made from the same constant of other robots: `make` gets what reads it.
-    pub fn assemble<T: Copy>(make: impl Fn(fn(&Robot<T>) -> T) -> U) -> Self {
+    pub fn assemble<T: Scalar>(make: impl Fn(fn(&Robot<T>) -> T) -> U) -> Self {
+        let mut out = Self::blank();
+        for (to, from) in Self::CONSTANTS.iter().zip(Robot::<T>::CONSTANTS) {
+            (to.set)(&mut out, make(from.get));
+        }
+        out
+    }
+
+    /// Every constant zero: what a robot is before any is set.
+    pub(crate) fn blank() -> Self {
+        let o = U::zero();
         Self {
-            mass: make(|r| r.mass),
-            yaw_inertia: make(|r| r.yaw_inertia),
-            com: [make(|r| r.com[0]), make(|r| r.com[1]), make(|r| r.com[2])],
-            half_wheelbase: make(|r| r.half_wheelbase),
-            half_track: make(|r| r.half_track),
-            wheel_radius: make(|r| r.wheel_radius),
-            wheel_inertia: make(|r| r.wheel_inertia),
-            motor_inertia: make(|r| r.motor_inertia),
-            adhesion: make(|r| r.adhesion),
-            slip_at_peak: make(|r| r.slip_at_peak),
-            sliding_share: make(|r| r.sliding_share),
-            rest_speed: make(|r| r.rest_speed),
-            lateral_factor: make(|r| r.lateral_factor),
-            rolling_resistance: make(|r| r.rolling_resistance),
-            coulomb: [make(|r| r.coulomb[0]), make(|r| r.coulomb[1])],
-            viscous: [make(|r| r.viscous[0]), make(|r| r.viscous[1])],
-            stribeck: make(|r| r.stribeck),
-            hitch_x: make(|r| r.hitch_x),
-            drive: Drive {
-                gain: make(|r| r.drive.gain),
-                lag: make(|r| r.drive.lag),
-                extra_lag: make(|r| r.drive.extra_lag),
-                delay: make(|r| r.drive.delay),
-                limit: make(|r| r.drive.limit),
-                dead_band: make(|r| r.drive.dead_band),
-            },
-            gravity: make(|r| r.gravity),
+            mass: o,
+            yaw_inertia: o,
+            com: [o; 3],
+            half_wheelbase: o,
+            half_track: o,
+            wheel_radius: o,
+            wheel_inertia: o,
+            motor_inertia: o,
+            adhesion: o,
+            slip_at_peak: o,
+            sliding_share: o,
+            rest_speed: o,
+            lateral_factor: o,
+            rolling_resistance: o,
+            coulomb: [o; 2],
+            viscous: [o; 2],
+            stribeck: o,
+            hitch_x: o,
+            drive: Drive { gain: o, lag: o, extra_lag: o, delay: o, limit: o, dead_band: o },
+            gravity: o,
         }
     }
 }

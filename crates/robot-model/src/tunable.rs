@@ -1,7 +1,7 @@
 //! The constants of a robot model that may be re-tuned: the nuisance parameters of a diagnosis.
 
 use crate::robot::Robot;
-use crate::scalar::{Scalar, real};
+use crate::scalar::Scalar;
 
 /// How a tuning acts on its constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,68 +13,68 @@ pub enum Tuning {
 }
 
 /// One constant of a robot model that the user does not know exactly.
-pub struct Tunable<T> {
+#[derive(Debug, Clone, Copy)]
+pub struct Tunable<T: Scalar> {
     /// Identifier, as in robot files.
     pub id: &'static str,
+    /// Place in vectors of tunings, from 0 without gaps: what was fitted before keeps its place.
+    pub order: usize,
     /// Factor or offset.
     pub tuning: Tuning,
     /// Unit of an offset; "-" of a factor.
     pub unit: &'static str,
     /// One sigma when the robot file says nothing: relative for a factor, in `unit` for an offset.
     pub sigma: f64,
+    /// Where this sigma comes from.
+    pub source: &'static str,
     /// Applies the tuning `δ`.
     pub apply: Apply<T>,
 }
 
 /// Time constant below which a lag goes on as a lead, s.
-const LEAST_LAG: f64 = 1e-3;
+pub(crate) const LEAST_LAG: f64 = 1e-3;
 
 /// Number of tunable constants.
-pub const COUNT: usize = 17;
+pub const COUNT: usize = count();
 
 /// Applies a tuning to a robot.
-type Apply<T> = fn(&mut Robot<T>, T);
+pub type Apply<T> = fn(&mut Robot<T>, T);
 
-fn factor<T>(id: &'static str, sigma: f64, apply: Apply<T>) -> Tunable<T> {
-    Tunable { id, tuning: Tuning::Factor, unit: "-", sigma, apply }
-}
-
-fn offset<T>(id: &'static str, unit: &'static str, sigma: f64, apply: Apply<T>) -> Tunable<T> {
-    Tunable { id, tuning: Tuning::Offset, unit, sigma, apply }
-}
-
-/// All tunable constants.
-///
-/// The last three are model discrepancies: without them contact compliance reads as a motor lag, friction near rest
-/// as stiction, and sliding wheels as other ground. The lag is an offset because as a factor it could absorb a true additional lag.
+/// All tunable constants, each at its place.
 pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
-    [
-        factor("adhesion", 0.10, |r, d| r.adhesion *= d.exp()),
-        factor("slip_at_peak", 0.6, |r, d| r.slip_at_peak *= d.exp()),
-        factor("rolling_resistance", 0.13, |r, d| r.rolling_resistance *= d.exp()),
-        factor("coulomb_left", 0.14, |r, d| r.coulomb[0] *= d.exp()),
-        factor("coulomb_right", 0.14, |r, d| r.coulomb[1] *= d.exp()),
-        factor("viscous", 0.13, |r, d| {
-            r.viscous[0] *= d.exp();
-            r.viscous[1] *= d.exp();
-        }),
-        factor("yaw_inertia", 0.06, |r, d| r.yaw_inertia *= d.exp()),
-        offset("com_x", "m", 0.004, |r, d| r.com[0] += d),
-        offset("com_y", "m", 0.004, |r, d| r.com[1] += d),
-        factor("lateral_factor", 0.15, |r, d| r.lateral_factor *= d.exp()),
-        factor("motor_inertia", 0.06, |r, d| r.motor_inertia *= d.exp()),
-        factor("torque_constant", 0.015, |r, d| r.drive.gain *= d.exp()),
-        factor("mass", 0.01, |r, d| r.mass *= d.exp()),
-        factor("com_height", 0.05, |r, d| r.com[2] *= d.exp()),
-        offset("motor_lag", "s", 0.012, |r, d| {
-            // Below zero a lag goes on as a lead: a small lag and a delay are the same to first order.
-            let (lag, least) = (r.drive.lag + d, real(LEAST_LAG));
-            r.drive.lag = lag.max(least);
-            r.drive.delay += (lag - least).min(T::zero());
-        }),
-        offset("stribeck", "N m", 0.12, |r, d| r.stribeck += d),
-        offset("sliding_share", "-", 0.1, |r, d| r.sliding_share = (r.sliding_share + d).max(T::zero()).min(real(1.3))),
-    ]
+    const { in_order::<T>() }
+}
+
+const fn count() -> usize {
+    let (table, mut count, mut row) = (Robot::<f64>::CONSTANTS, 0, 0);
+    while row < table.len() {
+        if table[row].tuning.is_some() {
+            count += 1;
+        }
+        row += 1;
+    }
+    count
+}
+
+/// Of a table in which two have one place, or a place is left out, does not compile.
+const fn in_order<T: Scalar>() -> [Tunable<T>; COUNT] {
+    let (table, mut out, mut row) = (Robot::<T>::CONSTANTS, [None; COUNT], 0);
+    while row < table.len() {
+        if let Some(tunable) = table[row].tuning {
+            assert!(out[tunable.order].is_none(), "two constants have the same place in vectors of tunings");
+            out[tunable.order] = Some(tunable);
+        }
+        row += 1;
+    }
+    let [Some(first), ..] = out else { panic!("no constant has the first place in vectors of tunings") };
+    let (mut all, mut place) = ([first; COUNT], 0);
+    while place < COUNT {
+        if let Some(tunable) = out[place] {
+            all[place] = tunable;
+        }
+        place += 1;
+    }
+    all
 }
 
 /// One sigma of every tunable constant when nothing better is known.

@@ -282,7 +282,7 @@ fn robots_that_cannot_exist_are_refused() {
         ("mass", |r| r.mass = -1.0),
         ("yaw_inertia", |r| r.yaw_inertia = 0.0),
         ("wheel_radius", |r| r.wheel_radius = f64::NAN),
-        ("coulomb (right)", |r| r.coulomb[1] = -0.1),
+        ("coulomb_right", |r| r.coulomb[1] = -0.1),
         ("com_x", |r| r.com[0] = 1.0),
         ("sliding_share", |r| r.sliding_share = 1.5),
     ];

@@ -1,6 +1,6 @@
 //! What both programs took, against what is asked.
 
-use lacuna::text_table::{TextTable, number};
+use report::text_table::{TextTable, number};
 use sim::statistics::median;
 
 use crate::child::Ended;

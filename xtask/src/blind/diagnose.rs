@@ -5,9 +5,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
+use case_files::answers::Told;
 use examiner::EffectId;
 use examiner::Plan;
-use lacuna::answers::Told;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

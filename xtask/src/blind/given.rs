@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use lacuna::answers::Told;
-use lacuna::{case_folder, predictions};
+use case_files::answers::Told;
+use case_files::{case_folder, predictions};
 use recordings::ReadOptions;
 
 use super::diagnose::vocabulary;

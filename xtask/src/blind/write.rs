@@ -1,9 +1,9 @@
 //! What a run leaves behind: files for machines, a page, Markdown, and a summary on standard output.
 
 use anyhow::Result;
-use lacuna::text_table::TextTable;
 use report::page::Page;
 use report::reliability;
+use report::text_table::TextTable;
 
 use super::layout::Layout;
 use super::score::{Row, bins};

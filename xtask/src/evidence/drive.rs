@@ -66,7 +66,7 @@ fn robot(table: &Table) -> Result<&'static str> {
 
 /// The files of a folder.
 fn files(folder: &Path) -> Result<Vec<PathBuf>> {
-    lacuna::inputs::list(folder)
+    case_files::inputs::list(folder)
 }
 
 /// Asks about one table; `others` are tables that may be fitted whole.

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
-use lacuna::which_mapping;
+use case_files::which_mapping;
 use recordings::Mapping;
 
 /// A recording and its files.

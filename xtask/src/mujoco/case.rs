@@ -11,13 +11,13 @@ use model_export::{Engine, Way, way};
 use recordings::{Mapping, ReadOptions};
 use serde_json::{Value, json};
 use torque_driven::HeldOut;
+use torque_driven::HeldOut;
 
+use super::python;
 use crate::blind::layout::Layout;
 use crate::blind::seal::Seals;
 use crate::blind::truth::{self, Response};
 use crate::child;
-
-use super::python;
 
 /// Root mean square distance from the truth: wheel speed, rad/s, and yaw rate, rad/s.
 pub(super) type Distance = [f64; 2];

@@ -5,11 +5,13 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use case_files::case_folder;
 use examiner::{Again, Course, Plan};
 use inference::Options;
 use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
 use serde::Serialize;
+use verdict::{Advice, Diagnosis, Verdict};
 use verdict::{Advice, Diagnosis, Verdict};
 
 use super::follow::{advised, by_lot, calm, of_menu};

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, bail, ensure};
+use case_files::envelope::Program;
+use case_files::long::Budget;
 use clap::Args as ClapArgs;
-use lacuna::batch::{self, Defaults, Event, Found, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
-use lacuna::envelope::Program;
-use lacuna::long::Budget;
+use fleet::{Defaults, Event, Found, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
 use serde_json::json;
 
 use super::diagnose::minutes;
-use super::{Outcome, Reading, Usage, fleet, listed, report};
+use super::{Outcome, Reading, Usage, listed, overview, report};
 use crate::console::{Counted, emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -93,7 +93,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         limit: args.limit,
     };
     let store = Store::create(&args.out)?;
-    let plan = batch::plan(units, &store, &settings)?;
+    let plan = fleet::plan(units, &store, &settings)?;
     let (before, to_do, left) = (plan.done_before, plan.to_do.len(), plan.left);
     let progress = Counted::new(to_do, verbose);
     let told = |event: &Event<'_>| match event {
@@ -106,23 +106,23 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             progress.one(&format!("{} {}: {what}", row.outcome.name(), row.id), *took);
         }
     };
-    let ran = batch::run(plan.to_do, &store, &settings, &told)?;
+    let ran = fleet::run(plan.to_do, &store, &settings, &told)?;
     drop(progress);
 
     let (mut overview, mut found) = (Overview::default(), Vec::new());
     store.write_table(&mut |row| {
         overview.add(row);
         if args.page.is_some() {
-            found.push(batch::seen(row));
+            found.push(fleet::seen(row));
         }
     })?;
     if let Some(target) = &args.page {
-        report::write_page(target, &batch::page(&found))?;
+        report::write_page(target, &fleet::page(&found))?;
     }
     // Other shards and earlier lists may have left rows in the same folder.
     let others = (overview.rows + left).saturating_sub(mine);
     if let Some(target) = &args.json {
-        let mut out = fleet::as_json(&overview);
+        let mut out = overview::as_json(&overview);
         out["format"] = json!(1);
         out["program"] = serde_json::to_value(Program::default())?;
         out["shard"] = json!(args.shard.to_string());
@@ -141,7 +141,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             text += &format!(", {left} left for another run");
         }
         text += "\n\nIn the table\n";
-        text += &fleet::as_text(&overview);
+        text += &overview::as_text(&overview);
         if others > 0 {
             text += &format!("\n{others} of them are of another shard, or of a list that was run before\n");
         }
@@ -171,13 +171,13 @@ fn find(args: &Args) -> Result<Found> {
     let defaults =
         Defaults { robot: args.robot.clone(), reference: args.reference.clone(), mapping: args.mapping.clone() };
     // What holds for all is looked at before any work is done.
-    defaults.robot.as_deref().map(lacuna::case_folder::robot).transpose()?;
-    defaults.mapping.as_deref().map(lacuna::case_folder::mapping).transpose()?;
+    defaults.robot.as_deref().map(case_files::case_folder::robot).transpose()?;
+    defaults.mapping.as_deref().map(case_files::case_folder::mapping).transpose()?;
     if args.input.is_file() {
-        return Ok(Found { units: batch::manifest(&args.input, &defaults)?, unread: Vec::new() });
+        return Ok(Found { units: fleet::manifest(&args.input, &defaults)?, unread: Vec::new() });
     }
     match &args.robot {
-        Some(robot) => batch::recordings_below(&args.input, robot, &defaults),
-        None => batch::cases_below(&args.input, args.mapping.as_deref()),
+        Some(robot) => fleet::recordings_below(&args.input, robot, &defaults),
+        None => fleet::cases_below(&args.input, args.mapping.as_deref()),
     }
 }

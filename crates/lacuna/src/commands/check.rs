@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use case_files::check::{Listener, Proposed, Request, check};
+use case_files::{propose, skeleton};
 use clap::Args as ClapArgs;
-use lacuna::check::{Listener, Proposed, Request, check};
-use lacuna::{propose, skeleton};
 use recordings::{Contents, TableContents};
 
 use super::{Outcome, Reading};

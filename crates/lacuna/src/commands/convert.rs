@@ -5,8 +5,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
-use lacuna::envelope::Program;
 use recordings::{Recording, lost_in_csv, write_csv, write_mcap, write_parquet};
 use serde_json::json;
 

@@ -1,14 +1,18 @@
 //! `lacuna diagnose`: names what a simulation lacks.
 
+use crate::mcap_out;
+use robot_file::Causality;
+use robot_file::RobotSpec;
 use std::path::PathBuf;
 
+use ::report::diagnosis_text;
 use anyhow::{Context, Result, bail};
+use case_files::case_folder::{self, CaseFolder};
+use case_files::envelope::Envelope;
+use case_files::long::Budget;
+use case_files::{predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::Options;
-use lacuna::case_folder::{self, CaseFolder};
-use lacuna::envelope::Envelope;
-use lacuna::long::Budget;
-use lacuna::{Causality, RobotSpec, diagnosis_text, mcap_out, predictions, which_mapping};
 use recordings::Mapping;
 use verdict::Verdict;
 

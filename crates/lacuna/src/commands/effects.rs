@@ -1,14 +1,16 @@
 //! `lacuna effects`: the catalogue at a glance.
 
 use anyhow::Result;
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
+use report::text_table::TextTable;
+use robot_file::cards::FORMAT;
+use robot_file::cards::cause_json;
+use robot_file::cards::effects_json;
 use serde_json::{Value, json};
 
 use super::Outcome;
 use crate::console::{emit, emit_json};
-use lacuna::cards::{FORMAT, cause_json, effects_json};
-use lacuna::envelope::Program;
-use lacuna::text_table::TextTable;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1,17 +1,18 @@
 //! `lacuna explain`: all that is known about a name that a verdict can contain.
 
-use anyhow::Result;
-use catalogue::{CauseSpec, Entry};
-use clap::Args as ClapArgs;
-use lacuna::suggest;
-use robot_model::EffectSpec;
-use serde_json::{Value, json};
-
 use super::{Outcome, Usage};
 use crate::console::{emit, emit_json, heading};
-use lacuna::cards::{FORMAT, cause_json, effect_json};
-use lacuna::envelope::Program;
-use lacuna::text_table::TextTable;
+use anyhow::Result;
+use case_files::envelope::Program;
+use catalogue::{CauseSpec, Entry};
+use clap::Args as ClapArgs;
+use recordings::suggest;
+use report::text_table::TextTable;
+use robot_file::cards::FORMAT;
+use robot_file::cards::cause_json;
+use robot_file::cards::effect_json;
+use robot_model::EffectSpec;
+use serde_json::{Value, json};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -1,11 +1,13 @@
 //! `lacuna export`: a diagnosed robot as a model of a simulator.
 
+use robot_file::Causality;
+use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use case_files::case_folder;
+use case_files::envelope::Envelope;
 use clap::{Args as ClapArgs, ValueEnum};
-use lacuna::envelope::Envelope;
-use lacuna::{Causality, RobotSpec, case_folder};
 use model_export::{Engine, Model};
 use verdict::{Cause, Diagnosis, EffectAt, Verdict};
 

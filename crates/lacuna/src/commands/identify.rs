@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use case_files::case_folder;
 use clap::Args as ClapArgs;
-use lacuna::case_folder;
 
 use super::{Outcome, Reader, only};
 use crate::console::{emit, emit_json};

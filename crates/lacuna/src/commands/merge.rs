@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
-use lacuna::batch::{Store, merge, page, seen};
-use lacuna::envelope::Program;
+use fleet::{Store, merge, page, seen};
 use serde_json::json;
 
-use super::{Outcome, fleet, report};
+use super::{Outcome, overview, report};
 use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     }
     let overview = &merged.overview;
     if let Some(target) = &args.json {
-        let mut out = fleet::as_json(overview);
+        let mut out = overview::as_json(overview);
         out["format"] = json!(1);
         out["program"] = serde_json::to_value(Program::default())?;
         out["twice"] = json!(merged.twice);
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     }
     if ![&args.json, &args.page].iter().any(|target| target.as_deref() == Some("-")) {
         let twice = if merged.twice > 0 { format!("{} given twice count once\n", merged.twice) } else { String::new() };
-        emit(&format!("{}{twice}\nTable: {}\n", fleet::as_text(overview), all.table().display()))?;
+        emit(&format!("{}{twice}\nTable: {}\n", overview::as_text(overview), all.table().display()))?;
     }
     Ok(if overview.failed + overview.lost > 0 { Outcome::InputLost } else { Outcome::Done })
 }

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+pub(crate) use ::report::sections::listed;
 use anyhow::{Result, bail};
+use case_files::case_folder::file_names;
+use case_files::envelope::SourceFile;
+use case_files::inputs::Loaded;
+use case_files::{inputs, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
-use lacuna::case_folder::file_names;
-use lacuna::envelope::SourceFile;
-use lacuna::inputs::Loaded;
-pub(crate) use lacuna::sections::listed;
-use lacuna::{inputs, which_mapping};
 use recordings::{Mapping, Policy, Read, ReadOptions, Source};
 
 pub(crate) mod batch;
@@ -19,11 +19,11 @@ pub(crate) mod diagnose;
 pub(crate) mod effects;
 pub(crate) mod explain;
 pub(crate) mod export;
-mod fleet;
 pub(crate) mod identify;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod next;
+mod overview;
 pub(crate) mod predict;
 pub(crate) mod report;
 pub(crate) mod screen;

@@ -1,13 +1,14 @@
 //! `lacuna next`: which drive would tell the remaining causes apart best.
 
+use recordings::suggest::nearest;
+use report::text_table::TextTable;
+use report::text_table::number;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use case_files::envelope::Program;
 use clap::Args as ClapArgs;
 use inference::Options;
-use lacuna::envelope::Program;
-use lacuna::suggest::nearest;
-use lacuna::text_table::{TextTable, number};
 use robot_model::Robot;
 use serde_json::json;
 use verdict::Advice;

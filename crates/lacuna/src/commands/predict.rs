@@ -1,15 +1,17 @@
 //! `lacuna predict`: robot files against drives that they have not seen.
 
+use report::text_table::TextTable;
+use robot_file::Causality;
+use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use case_files::case_folder::{self, file_names};
+use case_files::envelope::Program;
+use case_files::predictions;
 use clap::Args as ClapArgs;
 use command_driven::{ResponseRun, response_errors};
 use inference::Options;
-use lacuna::case_folder::{self, file_names};
-use lacuna::envelope::Program;
-use lacuna::text_table::TextTable;
-use lacuna::{Causality, RobotSpec, predictions};
 use recordings::{Read, Recording, Signal};
 use serde_json::{Value, json};
 use torque_driven::HeldOut;
@@ -179,7 +181,7 @@ fn as_text(robots: &[String], errors: &[Errors]) -> String {
         .chain(quantities.iter().map(|(quantity, _)| format!(">{quantity}")))
         .collect();
     let mut table = TextTable::new(&header.iter().map(String::as_str).collect::<Vec<_>>());
-    let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), lacuna::text_table::number);
+    let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), report::text_table::number);
     for e in errors {
         for (robot, rms) in robots.iter().zip(&e.of) {
             let of = |quantity: &String| rms.iter().find(|(q, _)| q == quantity).and_then(|(_, e)| *e);

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
+use case_files::envelope::Envelope;
+use case_files::report_page::page;
 use clap::Args as ClapArgs;
-use lacuna::envelope::Envelope;
-use lacuna::report_page::page;
 
 use super::Outcome;
 

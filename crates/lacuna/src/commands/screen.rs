@@ -1,12 +1,13 @@
 //! `lacuna screen`: passes once over recordings of any number and length, and tells which are unlike the references.
 
 use anyhow::Result;
+use case_files::envelope::Program;
+use case_files::long::{Budget, Screened};
 use clap::Args as ClapArgs;
 use diagnosis::long::Screen;
-use lacuna::envelope::Program;
-use lacuna::long::{Budget, Screened};
-use lacuna::sections::{heading, listed};
-use lacuna::text_table::TextTable;
+use report::sections::heading;
+use report::sections::listed;
+use report::text_table::TextTable;
 use serde_json::json;
 use verdict::ComparedWith;
 

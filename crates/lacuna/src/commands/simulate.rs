@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
+use case_files::case_folder::{self, file_names};
+use case_files::envelope::Program;
+use case_files::simulated::simulated;
 use clap::Args as ClapArgs;
-use lacuna::case_folder::{self, file_names};
-use lacuna::envelope::Program;
-use lacuna::simulated::simulated;
 use recordings::write_csv;
 use robot_model::effect::export::Way;
 use serde_json::json;

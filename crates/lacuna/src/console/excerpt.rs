@@ -3,8 +3,9 @@
 use std::fs;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
-use lacuna::{RobotFileError, TextError};
+use case_files::TextError;
 use recordings::{RecordingError, Spot};
+use robot_file::RobotFileError;
 
 /// An error with the place that it is about, where that lies in a text that somebody has written (TOML or JSON).
 pub(super) fn render(error: &anyhow::Error, sentence: &str) -> Option<String> {

@@ -101,7 +101,7 @@ impl Bench {
 pub fn reads_back(written: &str) {
     let file = tempfile::NamedTempFile::new().unwrap();
     fs::write(file.path(), written).unwrap();
-    let envelope = lacuna::envelope::Envelope::open(file.path()).unwrap();
+    let envelope = case_files::envelope::Envelope::open(file.path()).unwrap();
     envelope.robot().unwrap();
     let again = serde_json::to_value(&envelope).unwrap();
     assert!(again == serde_json::from_str::<serde_json::Value>(written).unwrap(), "not what was written");

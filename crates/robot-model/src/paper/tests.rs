@@ -1,7 +1,7 @@
 //! Force balances, symmetry and checks of the paper's plant.
 
 use super::{Belt, PaperRobot, Parameters, State, Tyre, Variant};
-use crate::{ModelError, Scalar, real};
+use crate::{ModelError, Must, Scalar, real};
 
 fn robot<T: Scalar>(p: &Parameters) -> PaperRobot<T> {
     PaperRobot::new(p).expect("the built-in sets are valid")
@@ -186,9 +186,9 @@ fn rest_stays_at_rest() {
 fn impossible_robots_are_refused_by_name() {
     let b = Parameters::SET_B;
     let negative = PaperRobot::<f64>::new(&Parameters { mass: -1.0, ..b });
-    assert_eq!(negative, Err(ModelError::NotPositive { name: "mass", value: -1.0 }));
+    assert_eq!(negative, Err(ModelError::Value { name: "mass", value: -1.0, must: Must::BePositive }));
     let outside = PaperRobot::<f64>::new(&Parameters { com_to_front_axle: 0.36, ..b });
-    assert!(matches!(outside, Err(ModelError::OutOfRange { .. })));
+    assert!(matches!(outside, Err(ModelError::Value { must: Must::LieBetween(..), .. })));
     assert!(robot::<f64>(&b).with_rolling_resistance(f64::NAN).is_err());
 }
 

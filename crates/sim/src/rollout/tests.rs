@@ -285,9 +285,8 @@ fn an_effect_outside_the_catalogue_has_no_lanes() {
     struct Own;
     impl robot_model::Effect<f64> for Own {
         fn spec(&self) -> &'static robot_model::EffectSpec {
-            static SPEC: std::sync::LazyLock<robot_model::EffectSpec> = std::sync::LazyLock::new(|| robot_model::EffectSpec {
-                id: "own",
-                ..*robot_model::Effect::<f64>::spec(&free_spin::Law)
+            static SPEC: std::sync::LazyLock<robot_model::EffectSpec> = std::sync::LazyLock::new(|| {
+                robot_model::EffectSpec { id: "own", ..*robot_model::Effect::<f64>::spec(&free_spin::Law) }
             });
             &SPEC
         }

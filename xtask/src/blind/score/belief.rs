@@ -1,6 +1,6 @@
 //! Whether probabilities are worth their name.
 
-use lacuna::answers::ToldCause;
+use case_files::answers::ToldCause;
 use serde::Serialize;
 
 /// The smallest set of answers must hold this share of the probability.

@@ -1,9 +1,10 @@
 //! Compares the answer to a case with its truth.
 
 use anyhow::Result;
+use case_files::answers::{Told, ToldCause};
 use examiner::{Plan, Truth};
-use lacuna::answers::{Told, ToldCause};
 use serde::Serialize;
+use verdict::Verdict;
 use verdict::Verdict;
 
 use super::diagnose::{self, Record};

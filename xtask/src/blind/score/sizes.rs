@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use case_files::answers::ToldCause;
 use examiner::{EffectTruth, Truth};
-use lacuna::answers::{NINETY, ToldCause};
+use report::words::NINETY;
 use serde::Serialize;
 
 use super::statistics::mean;

@@ -1,6 +1,6 @@
 //! Parts of answers for tests.
 
-use lacuna::answers::ToldCause;
+use case_files::answers::ToldCause;
 
 /// A cause of which only the probability is known.
 pub(super) fn cause(effect: &str, probability: f64) -> ToldCause {

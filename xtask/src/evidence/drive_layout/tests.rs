@@ -1,6 +1,8 @@
+use case_files::case_folder;
 use command_driven::diagnose_response;
 use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
+use verdict::{Diagnosis, Verdict};
 use verdict::{Diagnosis, Verdict};
 
 use super::*;

@@ -1,6 +1,6 @@
 //! An identification as JSON.
 
-use lacuna::envelope::Program;
+use case_files::envelope::Program;
 use serde_json::{Value, json};
 
 use super::Identification;

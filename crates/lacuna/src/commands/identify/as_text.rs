@@ -1,11 +1,12 @@
 //! An identification for people.
 
+use report::text_table::{TextTable, number};
+
 use super::Identification;
 use super::follow::{COMPARISONS, Errors, Indices, SETTLED};
 use super::lines::GAP_PERIODS;
 use crate::commands::listed;
 use crate::console::heading;
-use lacuna::text_table::{TextTable, number};
 
 const SIDES: [&str; 2] = ["left", "right"];
 

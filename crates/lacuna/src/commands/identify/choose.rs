@@ -1,8 +1,8 @@
 //! Which signals are the state and which the input.
 
 use anyhow::{Context, Result};
-use lacuna::{Causality, RobotSpec};
 use recordings::{Channel, Recording, Signal};
+use robot_file::{Causality, RobotSpec};
 
 /// Left and right channel.
 type Pair<'a> = [&'a Channel; 2];

@@ -1,9 +1,9 @@
 //! A recording as stretches of samples without a gap.
 
 use anyhow::{Context, Result, bail, ensure};
-use lacuna::RobotSpec;
-use lacuna::case_folder::file_names;
+use case_files::case_folder::file_names;
 use recordings::Read;
+use robot_file::RobotSpec;
 
 use super::choose::choose;
 use super::lines::{Line, longest_ns, period_ns};

@@ -1,0 +1,185 @@
+//! Answers in the form that the blind examiner's scorer reads.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use serde_json::{Value, json};
+use verdict::{Diagnosis, Verdict};
+
+use crate::predictions::save;
+
+/// What an answer is made of: a part of the JSON of a diagnosis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Told {
+    /// The kind of answer.
+    #[serde(with = "VerdictForm")]
+    pub verdict: Verdict,
+    /// Causes, "none" and "unknown" by probability.
+    pub ranked: Vec<ToldCause>,
+    /// Classes of effects that the recordings cannot tell apart.
+    #[serde(default)]
+    pub indistinguishable: Vec<Vec<String>>,
+}
+
+/// A cause in an answer.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct ToldCause {
+    /// Effect id, "none" or "unknown".
+    pub effect: String,
+    /// Probability that it is part of the truth.
+    pub probability: f64,
+    /// Size, signed.
+    pub magnitude: Option<f64>,
+    /// One sigma of the size.
+    #[serde(default)]
+    pub sigma: Option<f64>,
+    /// `left` or `right`, when it sits on one side.
+    pub side: Option<String>,
+    /// When it was present in each recording, s; `None` when it was there all the time.
+    pub intervals: Option<BTreeMap<String, Vec<[f64; 2]>>>,
+}
+
+/// How a diagnosis writes its verdict.
+#[derive(Deserialize)]
+#[serde(remote = "Verdict", rename_all = "snake_case")]
+enum VerdictForm {
+    Explained,
+    Unknown,
+    NoMismatch,
+    Withheld,
+}
+
+impl Told {
+    /// From a diagnosis at hand.
+    ///
+    /// # Errors
+    /// When a number of it that must be there is not finite.
+    pub fn of(diagnosis: &Diagnosis) -> Result<Self> {
+        serde_json::from_value(serde_json::to_value(diagnosis)?).context("a diagnosis that makes no answer")
+    }
+
+    /// From the text that `lacuna diagnose --json` writes.
+    ///
+    /// # Errors
+    /// When it is no such text.
+    pub fn read(json: &str) -> Result<Self> {
+        /// The envelope; what the diagnosis was made from does not matter here.
+        #[derive(Deserialize)]
+        struct Envelope {
+            diagnosis: Told,
+        }
+        let envelope: Envelope =
+            serde_json::from_str(json).context("this is not what `lacuna diagnose --json` writes")?;
+        Ok(envelope.diagnosis)
+    }
+
+    /// The same in the words of a vocabulary: a cause that it lacks is what it calls "unknown".
+    ///
+    /// The catalogue is larger than the vocabulary of a set of cases. If the first cause is not in the vocabulary, the verdict
+    /// is "unknown"; the likeliest such cause adds its probability to that of "unknown".
+    #[must_use]
+    pub fn within(mut self, vocabulary: &[String]) -> Self {
+        let foreign =
+            |c: &ToldCause| !["none", "unknown"].contains(&c.effect.as_str()) && !vocabulary.contains(&c.effect);
+        if self.ranked.first().is_some_and(foreign) && self.verdict == Verdict::Explained {
+            self.verdict = Verdict::Unknown;
+        }
+        let most = self.ranked.iter().filter(|c| foreign(c)).map(|c| c.probability).fold(0.0, f64::max);
+        self.ranked.retain(|c| !foreign(c));
+        match self.ranked.iter_mut().find(|c| c.effect == "unknown") {
+            Some(unknown) => unknown.probability = (unknown.probability + most).min(1.0),
+            None if most > 0.0 => self.ranked.push(ToldCause {
+                effect: "unknown".to_owned(),
+                probability: most,
+                magnitude: None,
+                sigma: None,
+                side: None,
+                intervals: None,
+            }),
+            None => {}
+        }
+        self.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        self
+    }
+
+    /// The verdict in the scorer's words.
+    pub fn verdict(&self) -> &'static str {
+        match self.verdict {
+            Verdict::Explained => "explained",
+            Verdict::Unknown => "unknown",
+            Verdict::NoMismatch | Verdict::Withheld => "no mismatch",
+        }
+    }
+
+    /// The answer as the scorer reads it.
+    fn form(&self, case: &str, seconds: f64) -> Value {
+        let ranked: Vec<Value> = self
+            .ranked
+            .iter()
+            .map(|c| {
+                json!({
+                    "effect": c.effect, "probability": c.probability, "magnitude": c.magnitude,
+                    "side": c.side, "interval_s": c.intervals,
+                })
+            })
+            .collect();
+        json!({ "case": case, "verdict": self.verdict(), "seconds": seconds, "ranked": ranked })
+    }
+
+    /// Writes `OUT/<case>.json`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, out: &Path, case: &str, seconds: f64) -> Result<()> {
+        fs::create_dir_all(out).with_context(|| format!("cannot create '{}'", out.display()))?;
+        save(&out.join(format!("{case}.json")), &serde_json::to_string_pretty(&self.form(case, seconds))?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use verdict::Verdict;
+
+    use super::Told;
+
+    #[test]
+    fn what_diagnose_writes_becomes_an_answer() {
+        let text = r#"{"format": 1, "diagnosis": {"verdict": "no_mismatch", "sentences": ["s"], "ranked": [
+            {"effect": "none", "probability": 0.75, "magnitude": null, "sigma": null, "side": null, "intervals": null},
+            {"effect": "grade", "probability": 0.25, "magnitude": -0.5, "sigma": 0.1, "side": "left",
+             "intervals": {"run_1": [[1.0, 2.0]]}}]}}"#;
+        let told = Told::read(text).expect("reads");
+        assert_eq!((told.verdict, told.verdict()), (Verdict::NoMismatch, "no mismatch"));
+        assert_eq!(told.ranked[1].sigma, Some(0.1));
+        let form = told.form("x", 2.5).to_string();
+        assert!(form.starts_with(r#"{"case":"x","verdict":"no mismatch","seconds":2.5,"ranked":[{"effect":"none","#));
+        assert!(form.ends_with(r#""magnitude":-0.5,"side":"left","interval_s":{"run_1":[[1.0,2.0]]}}]}"#));
+        assert!(Told::read("{}").is_err());
+    }
+
+    #[test]
+    fn a_cause_outside_the_vocabulary_is_unknown() {
+        let cause = |effect: &str, probability: f64| {
+            format!(
+                r#"{{"effect": "{effect}", "probability": {probability}, "magnitude": 1.0, "side": null, "intervals": null}}"#
+            )
+        };
+        let told = |causes: &[String]| {
+            let text = format!(
+                r#"{{"diagnosis": {{"verdict": "explained", "sentences": [], "ranked": [{}]}}}}"#,
+                causes.join(",")
+            );
+            Told::read(&text).expect("reads").within(&["grade".to_owned()])
+        };
+        let foreign = told(&[cause("battery_sag", 0.75), cause("grade", 0.5), cause("unknown", 0.125)]);
+        assert_eq!(foreign.verdict, Verdict::Unknown);
+        assert_eq!((foreign.ranked[0].effect.as_str(), foreign.ranked[0].probability), ("unknown", 0.875));
+        let beside = told(&[cause("grade", 0.75), cause("battery_sag", 0.25)]);
+        assert_eq!(beside.verdict, Verdict::Explained);
+        let names: Vec<&str> = beside.ranked.iter().map(|c| c.effect.as_str()).collect();
+        assert_eq!(names, ["grade", "unknown"]);
+    }
+}

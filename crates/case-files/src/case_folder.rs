@@ -1,0 +1,312 @@
+//! Cases: a robot, references, recordings, and perhaps held-out drives.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use inference::Options;
+use recordings::{Mapping, Read, ReadOptions};
+use robot_file::{Causality, RobotSpec};
+use verdict::{Advice, Coverage, Diagnosis};
+
+pub use crate::inputs::{Loaded, mapping, robot};
+use crate::long::Budget;
+
+/// Folders of a case with what belongs into them.
+const FOLDERS: [(&str, &str); 3] = [
+    ("reference", "drives in which the simulation was right"),
+    ("recordings", "drives in which it was not"),
+    ("heldout", "inputs whose response is to be predicted"),
+];
+
+/// Why there is no advice on the next drive for command-driven robots.
+const NO_ADVICE: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
+    steps, and which steps would tell more of them is not computed yet";
+
+/// The folders that a case may have.
+pub fn folders(case: &Path) -> [PathBuf; 3] {
+    FOLDERS.map(|(name, _)| case.join(name))
+}
+
+/// A case with what was lost in reading it.
+#[derive(Debug)]
+pub struct CaseFolder {
+    /// The robot.
+    pub robot: RobotSpec,
+    /// Recordings in which the simulation is right.
+    pub reference: Loaded,
+    /// Recordings in which it is not.
+    pub recordings: Loaded,
+    /// Inputs whose response is to be predicted.
+    pub held_out: Loaded,
+    /// Of long recordings and references, what they stand for, by the name of their folder.
+    pub coverage: BTreeMap<String, Coverage>,
+}
+
+impl CaseFolder {
+    /// Opens a case folder: `robot.json` or `robot.toml` (or `robot` given), `reference/`, `recordings/`, and
+    /// `heldout/` if it is there.
+    ///
+    /// # Errors
+    /// What is missing or cannot be read.
+    pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
+        let (robot, [reference, recordings, held_out]) = located(folder, robot_name)?;
+        Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
+    }
+
+    /// A case from files and folders: references, recordings, held-out drives.
+    ///
+    /// # Errors
+    /// What cannot be read, and a recording that is given twice.
+    pub fn from_paths(
+        robot: RobotSpec,
+        paths: [&[PathBuf]; 3],
+        mapping: &Mapping,
+        options: &ReadOptions,
+    ) -> Result<Self> {
+        Self::within(Budget::default(), robot, paths, mapping, options)
+    }
+
+    /// The same on a budget of recorded time.
+    ///
+    /// # Errors
+    /// As [`Self::from_paths`].
+    pub fn within(
+        budget: Budget,
+        robot: RobotSpec,
+        [reference, recordings, held_out]: [&[PathBuf]; 3],
+        mapping: &Mapping,
+        options: &ReadOptions,
+    ) -> Result<Self> {
+        let driven = robot.causality;
+        let perhaps = |paths: &[PathBuf], budget: Budget| -> Result<(Loaded, Option<Coverage>)> {
+            if paths.is_empty() {
+                Ok((Loaded::default(), None))
+            } else {
+                budget.load(mapping, paths, options, (driven, &[]))
+            }
+        };
+        let (reference, of_reference) = perhaps(reference, budget)?;
+        let (recordings, of_recordings) = budget.load(mapping, recordings, options, (driven, &reference.reads))?;
+        let (held_out, _) = perhaps(held_out, Budget::of_minutes(0.0))?;
+        let named = FOLDERS.iter().zip([of_reference, of_recordings]);
+        let coverage = named.filter_map(|((name, _), coverage)| Some(((*name).to_owned(), coverage?))).collect();
+        Ok(Self { coverage, ..Self::new(robot, [reference, recordings, held_out])? })
+    }
+
+    /// A case of what was read already: references, recordings, held-out drives.
+    ///
+    /// # Errors
+    /// A recording that is given twice.
+    pub fn new(robot: RobotSpec, [reference, recordings, held_out]: [Loaded; 3]) -> Result<Self> {
+        let case = Self { robot, reference, recordings, held_out, coverage: BTreeMap::new() };
+        case.refuse_twins()?;
+        Ok(case)
+    }
+
+    /// The three parts by the names of their folders.
+    pub fn parts(&self) -> [(&'static str, &Loaded); 3] {
+        let loaded = [&self.reference, &self.recordings, &self.held_out];
+        std::array::from_fn(|i| (FOLDERS[i].0, loaded[i]))
+    }
+
+    /// What was lost, in sentences.
+    pub fn lost(&self) -> Vec<String> {
+        self.parts().iter().flat_map(|(_, l)| l.lost()).collect()
+    }
+
+    /// Files and columns that were there and that nobody asked for, in sentences.
+    pub fn not_used(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        for (part, loaded) in self.parts() {
+            if !loaded.ignored.is_empty() {
+                out.push(format!("{part}: {}", loaded.ignored.join(", ")));
+            }
+            let unused = loaded.reads.iter().flat_map(|r| &r.unused);
+            let mut columns: Vec<&str> = unused.map(|u| u.column.as_str()).collect();
+            columns.sort_unstable();
+            columns.dedup();
+            if !columns.is_empty() {
+                out.push(format!("{part}: columns {}", columns.join(", ")));
+            }
+        }
+        out
+    }
+
+    /// Refuses a file whose bytes are those of another: it cannot be both right and wrong, and counts once.
+    ///
+    /// # Errors
+    /// Both names, and the parts that they were given for.
+    pub fn refuse_twins(&self) -> Result<()> {
+        let mut seen: HashMap<&str, (&str, &str)> = HashMap::new();
+        for (role, loaded) in self.parts() {
+            for source in &loaded.sources {
+                let Some((other, name)) = seen.insert(&source.sha256, (role, &source.name)) else {
+                    continue;
+                };
+                bail!(
+                    "'{name}' ({other}) and '{}' ({role}) are the same recording (SHA-256 {}...); \
+                     give it once, as what it is: reference = {}, recordings = {}, heldout = {}",
+                    source.name,
+                    &source.sha256[..12],
+                    FOLDERS[0].1,
+                    FOLDERS[1].1,
+                    FOLDERS[2].1
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// When a recording begins, s: later than zero for a stretch of a long one.
+    fn start_of(&self, name: &str) -> f64 {
+        let chosen = self.coverage.values().flat_map(|c| &c.chosen);
+        chosen.filter(|c| c.name == name).map(|c| c.interval[0]).next().unwrap_or_default()
+    }
+
+    /// The case as the diagnosis takes it, for a torque-driven robot.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed.
+    pub fn torque_driven(&self) -> Result<torque_driven::Case> {
+        let runs = |l: &Loaded| -> Result<Vec<torque_driven::Run>> {
+            l.reads
+                .iter()
+                .map(|r| {
+                    let run = torque_driven::Run::new(&r.recording).with_context(|| file_names(r))?;
+                    Ok(torque_driven::Run { from: self.start_of(r.recording.name()), ..run })
+                })
+                .collect()
+        };
+        let held_out = self
+            .held_out
+            .reads
+            .iter()
+            .map(|r| torque_driven::HeldOut::new(&r.recording).with_context(|| file_names(r)))
+            .collect::<Result<Vec<_>>>()?;
+        Ok(torque_driven::Case {
+            robot: self.robot.robot,
+            sigma: self.robot.sigma,
+            pose_sigma: self.robot.pose_sigma,
+            references: runs(&self.reference)?,
+            recordings: runs(&self.recordings)?,
+            held_out,
+        })
+    }
+}
+
+impl CaseFolder {
+    /// The case as the diagnosis takes it, for a speed-driven robot.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed, or a robot file without torque per current.
+    pub fn speed_driven(&self) -> Result<speed_driven::SteadyCase> {
+        let [torque_per_current, torque_sigma] = self.robot.torque_per_current.with_context(|| {
+            format!(
+                "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
+                self.robot.name
+            )
+        })?;
+        let radius = self.robot.robot.wheel_radius;
+        let runs = |l: &Loaded| -> Result<Vec<speed_driven::SpeedRun>> {
+            l.reads
+                .iter()
+                .map(|r| {
+                    speed_driven::SpeedRun::new(&r.recording, radius, torque_per_current).with_context(|| file_names(r))
+                })
+                .collect()
+        };
+        Ok(speed_driven::SteadyCase {
+            robot: self.robot.robot,
+            sigma: self.robot.sigma,
+            torque_sigma: torque_sigma / torque_per_current,
+            references: runs(&self.reference)?,
+            recordings: runs(&self.recordings)?,
+        })
+    }
+}
+
+impl CaseFolder {
+    /// The case as the diagnosis takes it, for a command-driven robot.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed.
+    pub fn command_driven(&self) -> Result<command_driven::ResponseCase> {
+        let runs = |l: &Loaded| -> Result<Vec<command_driven::ResponseRun>> {
+            l.reads
+                .iter()
+                .map(|r| command_driven::ResponseRun::new(&r.recording).with_context(|| file_names(r)))
+                .collect()
+        };
+        Ok(command_driven::ResponseCase {
+            robot: self.robot.robot,
+            references: runs(&self.reference)?,
+            recordings: runs(&self.recordings)?,
+            held_out: runs(&self.held_out)?,
+        })
+    }
+}
+
+impl CaseFolder {
+    /// Diagnoses the case by what drives its robot; `stage` is told what begins.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed, or that do not determine an answer.
+    pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
+        let mut out = match self.robot.causality {
+            Causality::TorqueDriven => diagnosis::diagnose(&self.torque_driven()?, options, stage)?,
+            Causality::SpeedDriven => speed_driven::diagnose_steady(&self.speed_driven()?, options, stage)?,
+            Causality::CommandDriven => {
+                let mut out = command_driven::diagnose_response(&self.command_driven()?, stage)?;
+                out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
+                out
+            }
+        };
+        out.rest_on(&self.coverage);
+        Ok(out)
+    }
+}
+
+/// The robot of a case folder (`robot.json` or `robot.toml`, or the one that is named) and its three parts, of which only
+/// the recordings must be there, and the references where the robot needs them.
+///
+/// # Errors
+/// What is missing.
+pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [Vec<PathBuf>; 3])> {
+    let shown = folder.display();
+    ensure!(
+        folder.is_dir(),
+        "there is no case folder '{shown}'; \
+         make one with robot.toml, reference/ and recordings/, or give files with --reference and --recordings"
+    );
+    let robot = match robot_name {
+        Some(name) => robot(name)?,
+        None => robot(&robot_of(folder)?.display().to_string())?,
+    };
+    for (name, what) in &FOLDERS[usize::from(!robot.causality.needs_references())..2] {
+        ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
+    }
+    Ok((robot, folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() })))
+}
+
+/// The files of a recording, for messages.
+pub fn file_names(read: &Read) -> String {
+    let names: Vec<&str> = read.sources.iter().map(|s| s.name.as_str()).collect();
+    names.join(" + ")
+}
+
+/// The robot file of a case folder.
+///
+/// # Errors
+/// When there is none, or both of TOML and JSON.
+pub fn robot_of(folder: &Path) -> Result<PathBuf> {
+    let found: Vec<PathBuf> =
+        ["robot.json", "robot.toml"].iter().map(|f| folder.join(f)).filter(|f| f.exists()).collect();
+    match found.as_slice() {
+        [one] => Ok(one.clone()),
+        [] => bail!("'{}' holds no robot.json or robot.toml; add one, or name a robot with --robot", folder.display()),
+        _ => {
+            bail!("'{}' holds both robot.json and robot.toml; keep one, or name a robot with --robot", folder.display())
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! A diagnosis with all that it was made from, as JSON: what `lacuna diagnose --json` writes and other commands read.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use inference::Options;
+use recordings::Spot;
+use robot_file::RobotSpec;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use verdict::Diagnosis;
+
+use crate::TextError;
+use crate::case_folder::CaseFolder;
+
+/// Version of this envelope; the diagnosis inside has its own.
+const FORMAT: u32 = 2;
+
+/// A diagnosis with all that it was made from. No clock and no machine in it: the same input gives the same text.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Envelope {
+    /// Version of this form.
+    pub format: u32,
+    /// What wrote it.
+    pub program: Program,
+    /// The robot file in the form of [`RobotSpec::to_json`].
+    pub robot: Value,
+    /// Mapping that read the recordings.
+    pub mapping: String,
+    /// Settings that were in force.
+    pub options: Settings,
+    /// Files by the part they play: reference, recordings, heldout.
+    pub sources: BTreeMap<String, Vec<SourceFile>>,
+    /// What was lost, in sentences.
+    pub lost: Vec<String>,
+    /// The same by kind, file and place.
+    pub losses: Vec<Lost>,
+    /// Files that no entry of the mapping fits.
+    pub unmatched_files: Vec<String>,
+    /// Other things in the folders.
+    pub ignored_files: Vec<String>,
+    /// Columns that the mapping does not use.
+    pub unused_columns: Vec<UnusedColumn>,
+    /// The answer.
+    pub diagnosis: Diagnosis,
+}
+
+/// A program and its version.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Program {
+    /// Name.
+    pub name: String,
+    /// Version.
+    pub version: String,
+}
+
+impl Default for Program {
+    /// This one.
+    fn default() -> Self {
+        Self { name: "lacuna".to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() }
+    }
+}
+
+/// Settings of a diagnosis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// What was done with bad rows and cells.
+    pub reading: String,
+    /// Integration step, s.
+    pub step_s: f64,
+    /// Length of a free run, s.
+    pub segment_s: f64,
+    /// Share of the log-likelihood that counts.
+    pub temper: f64,
+    /// Saturation of outliers.
+    pub kappa: f64,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SourceFile {
+    /// Name.
+    pub name: String,
+    /// Length.
+    pub bytes: usize,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+}
+
+/// Something that was lost in reading.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Lost {
+    /// What.
+    pub kind: String,
+    /// File.
+    pub file: String,
+    /// Column, where it was one.
+    pub column: Option<String>,
+    /// Where, in words.
+    pub place: String,
+    /// The first few places at which it happened.
+    pub lines: Vec<u64>,
+    /// How many.
+    pub count: usize,
+}
+
+/// A column that the mapping does not use.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct UnusedColumn {
+    /// File.
+    pub file: String,
+    /// Column.
+    pub column: String,
+}
+
+/// What any version of the envelope has.
+#[derive(Deserialize)]
+struct Version {
+    format: u32,
+    program: Program,
+}
+
+impl Version {
+    /// The one place that decides which formats are read.
+    fn ensure_readable(&self, name: &str) -> Result<()> {
+        let Self { format, program } = self;
+        ensure!(
+            *format == FORMAT,
+            "'{name}' holds a verdict of format {format}, written by {} {}, but this version reads format {FORMAT}: \
+             run `lacuna diagnose ... --json '{name}'` again on the same recordings",
+            program.name,
+            program.version
+        );
+        Ok(())
+    }
+}
+
+impl From<&recordings::Source> for SourceFile {
+    fn from(s: &recordings::Source) -> Self {
+        Self { name: s.name.clone(), bytes: s.bytes, sha256: s.sha256.clone() }
+    }
+}
+
+impl Envelope {
+    /// Packs a diagnosis with what it was made from.
+    ///
+    /// # Errors
+    /// When a number of the robot cannot be written.
+    pub fn new(
+        diagnosis: Diagnosis,
+        case: &CaseFolder,
+        options: &Options,
+        mapping: &str,
+        reading: &str,
+    ) -> Result<Self> {
+        let parts = case.parts();
+        let lost = |l: &recordings::Loss| Lost {
+            kind: format!("{:?}", l.kind),
+            file: l.file.clone(),
+            column: l.column.clone(),
+            place: l.place.to_string(),
+            lines: l.lines.clone(),
+            count: l.count,
+        };
+        let unused = parts.iter().flat_map(|(_, l)| &l.reads).flat_map(|r| &r.unused);
+        Ok(Self {
+            format: FORMAT,
+            program: Program::default(),
+            robot: case.robot.to_json()?,
+            mapping: mapping.to_owned(),
+            options: Settings {
+                reading: reading.to_owned(),
+                step_s: options.step,
+                segment_s: options.segment,
+                temper: options.temper,
+                kappa: options.kappa,
+            },
+            sources: parts
+                .iter()
+                .map(|(name, l)| ((*name).to_owned(), l.sources.iter().map(SourceFile::from).collect()))
+                .collect(),
+            lost: case.lost(),
+            losses: parts.iter().flat_map(|(_, l)| &l.losses).map(lost).collect(),
+            unmatched_files: parts.iter().flat_map(|(_, l)| l.unmatched.clone()).collect(),
+            ignored_files: parts.iter().flat_map(|(_, l)| l.ignored.clone()).collect(),
+            unused_columns: unused.map(|u| UnusedColumn { file: u.file.clone(), column: u.column.clone() }).collect(),
+            diagnosis,
+        })
+    }
+
+    /// Opens what `lacuna diagnose --json` wrote.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is no such file.
+    pub fn open(file: &Path) -> Result<Self> {
+        let shown = file.display();
+        let text = std::fs::read_to_string(file)
+            .with_context(|| format!("cannot read '{shown}'; `lacuna diagnose ... --json FILE` writes such a file"))?;
+        Self::parse(&shown.to_string(), &text)
+    }
+
+    /// Reads the text that `lacuna diagnose --json` writes; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// When it is no such text, or that of another version.
+    pub fn parse(name: &str, text: &str) -> Result<Self> {
+        let refused = |e: &serde_json::Error| {
+            let message = e.to_string();
+            let end = message.rfind(" at line ").unwrap_or(message.len());
+            TextError {
+                spot: Spot { file: name.to_owned(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
+                message: format!(
+                    "this is not what `lacuna diagnose --json` of version {} writes ({}); write it again",
+                    Program::default().version,
+                    &message[..end]
+                ),
+            }
+        };
+        if let Ok(version) = serde_json::from_str::<Version>(text) {
+            version.ensure_readable(name)?;
+        }
+        Ok(serde_json::from_str(text).map_err(|e| refused(&e))?)
+    }
+
+    /// The robot that was diagnosed, as its file had it.
+    ///
+    /// # Errors
+    /// When it is not what a robot file must be.
+    pub fn robot(&self) -> Result<RobotSpec> {
+        Ok(RobotSpec::parse("robot.json", &serde_json::to_string_pretty(&self.robot)?)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Envelope;
+
+    #[test]
+    fn a_verdict_of_another_format_is_refused_with_the_remedy() {
+        let text = r#"{ "format": 1, "program": { "name": "lacuna", "version": "0.0.9" }, "robot": {} }"#;
+        let error = Envelope::parse("old.json", text).expect_err("refused").to_string();
+        assert!(error.contains("'old.json' holds a verdict of format 1, written by lacuna 0.0.9"), "{error}");
+        assert!(error.contains("reads format 2: run `lacuna diagnose"), "{error}");
+    }
+}

@@ -1,0 +1,30 @@
+//! From files to a case, and from a verdict to files.
+//!
+//! ```text
+//! paths --inputs::load--> Loaded --CaseFolder--> torque_driven::Case --diagnosis::diagnose--> Diagnosis --Envelope--> JSON
+//! ```
+
+pub mod answers;
+pub mod case_folder;
+pub mod check;
+pub mod envelope;
+pub mod inputs;
+pub mod long;
+pub mod predictions;
+pub mod propose;
+#[cfg(feature = "page")]
+pub mod report_page;
+mod sensor_faults;
+pub mod simulated;
+pub mod skeleton;
+mod text_error;
+mod watched;
+pub mod which_mapping;
+
+pub use text_error::TextError;
+pub use watched::Watch;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

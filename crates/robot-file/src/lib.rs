@@ -1,0 +1,29 @@
+//! Robot files: the constants of a robot with unit, spread and source, the effects that its simulation is given, and how
+//! it answers commands. TOML or JSON, read and written.
+//!
+//! `keys`: what a file may say, from the table of constants of `robot-model`. `full`, `flat`: its two forms. `read`,
+//! `write`: between a file and a [`RobotSpec`]. `text`: where a key stands, for messages. [`cards`]: the effects that may
+//! stand in a file.
+
+pub mod cards;
+mod error;
+mod flat;
+mod full;
+mod keys;
+mod read;
+mod spec;
+mod text;
+mod write;
+
+use inference::DiagnosisError;
+use verdict::ResponseModel;
+use verdict::{Correction, EffectAt};
+
+pub use error::RobotFileError;
+pub use read::BUILT_IN;
+pub use spec::{Causality, RobotSpec};
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -1,0 +1,75 @@
+//! What a robot file says.
+
+use std::collections::BTreeMap;
+
+use inference::DiagnosisError;
+use robot_model::{Active, Robot};
+use serde::{Deserialize, Serialize};
+use verdict::EffectAt;
+use verdict::ResponseModel;
+
+/// What is imposed and what comes out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Causality {
+    /// Torque in; wheel speeds and body motion out.
+    TorqueDriven,
+    /// A drive imposes the wheel speeds; body motion and the torque that it takes come out.
+    SpeedDriven,
+    /// Wheel speeds are commanded; wheel speeds and body motion come out, no torque is known.
+    CommandDriven,
+}
+
+impl Causality {
+    /// As in a robot file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TorqueDriven => "torque-driven",
+            Self::SpeedDriven => "speed-driven",
+            Self::CommandDriven => "command-driven",
+        }
+    }
+
+    /// Whether a diagnosis needs drives in which the simulation was right: the others are compared with the robot file.
+    pub const fn needs_references(self) -> bool {
+        matches!(self, Self::TorqueDriven)
+    }
+}
+
+/// What a robot file says.
+#[derive(Debug, Clone)]
+pub struct RobotSpec {
+    /// Name of the robot.
+    pub name: String,
+    /// What it is, for people.
+    pub description: Option<String>,
+    /// Torque-driven, speed-driven or command-driven.
+    pub causality: Causality,
+    /// The model.
+    pub robot: Robot<f64>,
+    /// What its simulation is given beside these constants.
+    pub effects: Vec<EffectAt>,
+    /// Response to commands, of a command-driven robot; without one, the wheels do what is commanded.
+    pub response: Option<ResponseModel>,
+    /// Where each parameter comes from, by its name in robot files.
+    pub sources: BTreeMap<&'static str, String>,
+    /// One sigma of each tunable: relative for factors, absolute for offsets.
+    pub sigma: [f64; robot_model::tunable::COUNT],
+    /// Noise of the pose sensor, m.
+    pub pose_sigma: f64,
+    /// Torque at the wheels of a side per ampere, and its one sigma, when currents are recorded.
+    pub torque_per_current: Option<[f64; 2]>,
+}
+
+/// Noise of a pose sensor of which the robot file says nothing, m.
+pub(crate) const USUAL_POSE_SIGMA: f64 = 0.004;
+
+impl RobotSpec {
+    /// Its effects for the plant of a drive.
+    ///
+    /// # Errors
+    /// As [`inference::active`].
+    pub fn active(&self, drive: &str) -> Result<Vec<Active<f64>>, DiagnosisError> {
+        self.effects.iter().map(|e| inference::active(e, drive)).collect()
+    }
+}
