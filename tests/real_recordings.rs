@@ -1,41 +1,27 @@
 //! Real recordings: a Husky A200 on labelled ground, and a development case of the blind examiner.
 //!
-//! These data lie beside the repository; without them the tests say that they are skipped.
+//! These data lie beside the repository; without them the tests are ignored.
 
-use std::path::{Path, PathBuf};
+use speed_driven::diagnose_steady;
 use std::process::Command;
+use verdict::{Diagnosis, Verdict};
+use verdict::{Quantity, Ratio};
 
-use case_files::case_folder;
+use case_files::case_folder::{self, CaseFolder};
 use diagnosis::diagnose;
 use inference::Options;
-use lacuna::case_folder::{self, CaseFolder};
 use recordings::ReadOptions;
-use speed_driven::diagnose_steady;
-use speed_driven::diagnose_steady;
-use verdict::{Diagnosis, Verdict};
-use verdict::{Diagnosis, Verdict};
-use verdict::{Quantity, Ratio};
-use verdict::{Quantity, Ratio};
-
-/// What lies beside the repository, or `None` after saying so.
-fn beside(what: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(what);
-    if path.exists() {
-        return Some(path);
-    }
-    eprintln!("skipped: there is no ../shared/{what} beside the repository");
-    None
-}
+use skipping::{Outcome, Skipped, beside};
 
 /// The Husky's runs on a ground against those on the floor of a building.
-fn husky(ground: &str) -> Option<Diagnosis> {
+fn husky(ground: &str) -> Result<Diagnosis, Skipped> {
     let data = beside("data/husky-open")?;
     let mapping = case_folder::mapping("husky-open").expect("built in");
     let robot = case_folder::robot("husky-a200").expect("built in");
     let paths = [vec![data.join("FLOORING")], vec![data.join(ground)], vec![]];
     let case = CaseFolder::from_paths(robot, [&paths[0], &paths[1], &paths[2]], &mapping, &ReadOptions::default());
     let case = case.expect("readable").speed_driven().expect("speeds and currents");
-    Some(diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis"))
+    Ok(diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis"))
 }
 
 fn pooled(d: &Diagnosis, quantity: Quantity) -> &Ratio {
@@ -57,9 +43,8 @@ fn tells_its_limits(d: &Diagnosis) {
     assert!(!d.steady.as_ref().expect("loads").withheld.is_empty());
 }
 
-#[test]
-fn sandy_loam_loads_straight_driving() {
-    let Some(d) = husky("SANDY_LOAM") else { return };
+fn sandy_loam_loads_straight_driving() -> Outcome {
+    let d = husky("SANDY_LOAM")?;
     let straight = pooled(&d, Quantity::StraightLoad);
     assert!((straight.ratio - 2.05).abs() <= 0.25, "{straight:?}");
     let [low, high] = straight.interval;
@@ -71,11 +56,11 @@ fn sandy_loam_loads_straight_driving() {
         assert!(class.iter().any(|c| c == id), "{}", told(&d));
     }
     tells_its_limits(&d);
+    Ok(())
 }
 
-#[test]
-fn asphalt_loads_turning() {
-    let Some(d) = husky("ASPHALT") else { return };
+fn asphalt_loads_turning() -> Outcome {
+    let d = husky("ASPHALT")?;
     let turning = pooled(&d, Quantity::TurningLoad);
     assert!((turning.ratio - 1.65).abs() <= 0.35, "{turning:?}");
     assert!(turning.interval[0] > 1.0, "{turning:?}");
@@ -93,16 +78,15 @@ fn asphalt_loads_turning() {
     assert_ne!(named.effect, "viscous_friction", "{}", told(&d));
     assert!(!d.indistinguishable.iter().flatten().any(|id| id == "viscous_friction"), "{}", told(&d));
     tells_its_limits(&d);
+    Ok(())
 }
 
-#[test]
-fn a_development_case_of_the_blind_examiner_names_its_payload() {
-    let Some(archive) = beside("blind/dev/cases/d06.tar.gz") else { return };
+fn a_development_case_of_the_blind_examiner_names_its_payload() -> Outcome {
+    let archive = beside("blind/dev/cases/d06.tar.gz")?;
     let folder = tempfile::tempdir().expect("a folder");
     let unpacked = Command::new("tar").arg("-xzf").arg(&archive).arg("-C").arg(folder.path()).status();
     if !unpacked.is_ok_and(|s| s.success()) {
-        eprintln!("skipped: `tar` cannot unpack {}", archive.display());
-        return;
+        return Err(Skipped::because(format!("`tar` cannot unpack {}", archive.display())));
     }
     let mapping = case_folder::mapping("skid-steer-columns").expect("built in");
     let case = CaseFolder::open(&folder.path().join("d06"), None, &mapping, &ReadOptions::default());
@@ -113,4 +97,11 @@ fn a_development_case_of_the_blind_examiner_names_its_payload() {
     assert_eq!(d.ranked[0].effect, "payload", "{}", told(&d));
     assert!(d.ranked[0].magnitude.is_some_and(|kg| kg > 0.0), "{:?}", d.ranked[0]);
     assert_eq!(d.predictions.len(), case.held_out.reads.len());
+    Ok(())
 }
+
+skipping::tests![
+    sandy_loam_loads_straight_driving,
+    asphalt_loads_turning,
+    a_development_case_of_the_blind_examiner_names_its_payload,
+];

@@ -10,6 +10,7 @@ use headless_chrome::browser::tab::point::Point;
 use headless_chrome::protocol::cdp::{Emulation, Input, Network, Page, types::Event};
 use headless_chrome::{Browser, LaunchOptions, Tab};
 use serde_json::Value;
+use skipping::Skipped;
 use tempfile::TempDir;
 
 /// How long a page may take on a busy machine before it counts as failed.
@@ -20,11 +21,10 @@ pub(crate) struct Chrome {
 }
 
 impl Chrome {
-    /// The browser that there is, or `None` after saying so.
-    pub(crate) fn find() -> Option<Self> {
+    /// The browser that there is.
+    pub(crate) fn find() -> Result<Self, Skipped> {
         let Ok(path) = default_executable() else {
-            eprintln!("skipped: there is no Chromium on the path (nor in the variable CHROME)");
-            return None;
+            return Err(Skipped::because("there is no Chromium on the path, nor in the variable CHROME"));
         };
         let options = LaunchOptions::default_builder()
             .path(Some(path))
@@ -33,7 +33,7 @@ impl Chrome {
             .idle_browser_timeout(PATIENCE)
             .build()
             .expect("options");
-        Some(Self { browser: Browser::new(options).expect("Chromium starts") })
+        Ok(Self { browser: Browser::new(options).expect("Chromium starts") })
     }
 
     /// Opens a page and waits until its charts are drawn.

@@ -1,12 +1,13 @@
 //! The pages in a browser: nothing fails, nothing is fetched, cursors and zoom work, and everything can be read.
 //!
-//! Needs Chromium (`chromium` on the path, or the variable CHROME); without it the tests say that they are skipped.
+//! Needs Chromium (`chromium` on the path, or the variable CHROME); without it the tests are ignored.
 
 mod chrome;
 mod pages;
 
 use chrome::{Chrome, Shown};
 use serde_json::Value;
+use skipping::Outcome;
 
 /// Width, height of a screen and of a phone, px.
 const SCREEN: [u32; 2] = [1400, 900];
@@ -26,12 +27,11 @@ fn readable(shown: &Shown, name: &str) {
     assert!(wide.as_f64().is_some_and(|w| w <= 0.0), "{name}: {wide} px too wide");
 }
 
-#[test]
-fn every_page_opens_without_error_or_network_and_can_be_read() {
-    let Some(chrome) = Chrome::find() else { return };
-    for (name, html) in pages::all() {
+/// Every page opens without error or network and can be read, on a screen and on a phone, light and dark.
+fn opened(chrome: &Chrome, pages: Vec<(&str, String)>) {
+    for (name, html) in pages {
         for (what, size, dark) in [("1400", SCREEN, false), ("1400-dark", SCREEN, true), ("400", PHONE, false)] {
-            let shown = chrome.open(&name, &html, size, dark);
+            let shown = chrome.open(name, &html, size, dark);
             let name = format!("{name}-{what}");
             readable(&shown, &name);
             shown.screenshot(&name);
@@ -41,9 +41,19 @@ fn every_page_opens_without_error_or_network_and_can_be_read() {
     }
 }
 
-#[test]
-fn names_from_files_stay_text() {
-    let Some(chrome) = Chrome::find() else { return };
+fn every_page_opens_without_error_or_network_and_can_be_read() -> Outcome {
+    opened(&Chrome::find()?, pages::all());
+    Ok(())
+}
+
+fn the_page_of_a_real_robot_opens_without_error_or_network_and_can_be_read() -> Outcome {
+    let chrome = Chrome::find()?;
+    opened(&chrome, vec![("speed", pages::speed()?)]);
+    Ok(())
+}
+
+fn names_from_files_stay_text() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("hostile", &pages::long(), SCREEN, false);
     assert_eq!(shown.json("document.querySelectorAll('img, script[src], iframe').length"), 0);
     assert_eq!(shown.json("window.harm === undefined"), true);
@@ -51,11 +61,11 @@ fn names_from_files_stay_text() {
         shown.json("document.querySelector('h1').textContent").as_str().is_some_and(|t| t.contains(pages::HOSTILE))
     );
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
 
-#[test]
-fn the_page_of_a_fleet_keeps_names_as_text_and_draws_sizes_with_intervals() {
-    let Some(chrome) = Chrome::find() else { return };
+fn the_page_of_a_fleet_keeps_names_as_text_and_draws_sizes_with_intervals() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("fleet", &pages::fleet(), SCREEN, false);
     assert_eq!(shown.json("document.querySelectorAll('img, script[src], iframe').length"), 0);
     assert_eq!(shown.json("window.harm === undefined"), true);
@@ -64,11 +74,11 @@ fn the_page_of_a_fleet_keeps_names_as_text_and_draws_sizes_with_intervals() {
     let sized = "(l => l[0].intervals.length === l[0].y.length && l.length === 2)(specOf(p).lines)";
     assert_eq!(shown.json(&format!("{lines}.every(p => {sized})")), true, "sizes with intervals, and a line");
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
 
-#[test]
-fn the_cursor_shows_all_signals_in_all_plots_of_a_recording() {
-    let Some(chrome) = Chrome::find() else { return };
+fn the_cursor_shows_all_signals_in_all_plots_of_a_recording() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("cursor", &pages::long(), SCREEN, false);
     shown.json("scrollTo({ top: plots[0].getBoundingClientRect().top + scrollY - 100, behavior: 'instant' })");
     let [x, y] = shown.middle_of("plots[0]");
@@ -87,11 +97,11 @@ fn the_cursor_shows_all_signals_in_all_plots_of_a_recording() {
     );
     assert_eq!(shown.json("plots.find(p => specOf(p).kind === 'path').data.at(-1).x.length"), 1, "and on the ground");
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
 
-#[test]
-fn zooming_shows_more_points_in_all_plots_of_a_recording_and_no_peak_is_ever_lost() {
-    let Some(chrome) = Chrome::find() else { return };
+fn zooming_shows_more_points_in_all_plots_of_a_recording_and_no_peak_is_ever_lost() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("zoom", &pages::long(), SCREEN, false);
     let step = "(p => (p.data[0].x.at(-1) - p.data[0].x[0]) / p.data[0].x.length)(plots[0])";
     let count = shown.json("plots[0].data[0].x.length").as_f64().expect("a count");
@@ -115,11 +125,11 @@ fn zooming_shows_more_points_in_all_plots_of_a_recording_and_no_peak_is_ever_los
     shown.json("show(plots[0], null)");
     assert_eq!(shown.json("Math.max(...plots[0].data[0].y)"), pages::PEAK);
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
 
-#[test]
-fn the_keyboard_moves_the_cursor_and_zooms() {
-    let Some(chrome) = Chrome::find() else { return };
+fn the_keyboard_moves_the_cursor_and_zooms() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("keys", &pages::long(), SCREEN, false);
     shown.press("Tab");
     assert_eq!(shown.json("document.activeElement.className"), "skip", "the first stop skips the header");
@@ -140,11 +150,11 @@ fn the_keyboard_moves_the_cursor_and_zooms() {
     shown.press("0");
     shown.wait_for("plots[0].view == null");
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
 
-#[test]
-fn the_theme_can_be_chosen_and_paper_is_white() {
-    let Some(chrome) = Chrome::find() else { return };
+fn the_theme_can_be_chosen_and_paper_is_white() -> Outcome {
+    let chrome = Chrome::find()?;
     let shown = chrome.open("print", &pages::long(), SCREEN, true);
     let ink = "getComputedStyle(document.body).color + plots[0].layout.font.color";
     let dark = shown.json(ink);
@@ -159,4 +169,16 @@ fn the_theme_can_be_chosen_and_paper_is_white() {
     assert!(printed.is_string() && printed != dark, "{printed}");
     assert_eq!(shown.json(ink), dark, "and dark again afterwards");
     assert_eq!(shown.complaints(), Vec::<String>::new());
+    Ok(())
 }
+
+skipping::tests![
+    every_page_opens_without_error_or_network_and_can_be_read,
+    the_page_of_a_real_robot_opens_without_error_or_network_and_can_be_read,
+    names_from_files_stay_text,
+    the_page_of_a_fleet_keeps_names_as_text_and_draws_sizes_with_intervals,
+    the_cursor_shows_all_signals_in_all_plots_of_a_recording,
+    zooming_shows_more_points_in_all_plots_of_a_recording_and_no_peak_is_ever_lost,
+    the_keyboard_moves_the_cursor_and_zooms,
+    the_theme_can_be_chosen_and_paper_is_white,
+];

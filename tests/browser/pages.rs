@@ -4,25 +4,21 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use case_files::case_folder;
+use case_files::case_folder::{self, CaseFolder};
+use case_files::envelope::Envelope;
+use case_files::report_page;
 use command_driven::diagnose_response;
 use diagnosis::diagnose;
 use examiner::{Content, EffectId, Setting, Settings, Severity, TyreLaw};
 use inference::Options;
-use lacuna::case_folder::{self, CaseFolder};
-use lacuna::envelope::Envelope;
-use lacuna::report_page;
+use pages::page::Page;
+use pages::reproduction::{Signals, figures};
 use recordings::ReadOptions;
 use report::diagnosis_page::{Provenance, render};
 use report::fleet::{Named, Seen, Told};
-use report::page::Page;
-use report::reproduction::{Signals, figures};
+use skipping::{Skipped, beside};
 use speed_driven::diagnose_steady;
-use speed_driven::diagnose_steady;
-use verdict::Manoeuvre;
-use verdict::Manoeuvre;
-use verdict::{Advice, Compared, Diagnosis, Trace, Verdict};
-use verdict::{Advice, Compared, Diagnosis, Trace, Verdict};
+use verdict::{Advice, Compared, Diagnosis, Manoeuvre, Trace, Verdict};
 
 /// A name that would do harm if it became markup.
 pub(crate) const HOSTILE: &str = "</script><img src=x onerror=\"window.harm=1\">&\u{2028}";
@@ -31,17 +27,15 @@ pub(crate) const PEAK: f64 = 50.0;
 /// A gap, s.
 pub(crate) const GAP: [f64; 2] = [2000.0, 2030.0];
 
-/// All pages by name.
-pub(crate) fn all() -> Vec<(String, String)> {
-    let mut out = vec![
-        ("torque".to_owned(), torque()),
-        ("command".to_owned(), command()),
-        ("hour".to_owned(), long()),
-        ("reproduction".to_owned(), reproduction()),
-        ("fleet".to_owned(), fleet()),
-    ];
-    out.extend(speed().map(|page| ("speed".to_owned(), page)));
-    out
+/// All pages by name, but for that of a real robot.
+pub(crate) fn all() -> Vec<(&'static str, String)> {
+    vec![
+        ("torque", torque()),
+        ("command", command()),
+        ("hour", long()),
+        ("reproduction", reproduction()),
+        ("fleet", fleet()),
+    ]
 }
 
 fn packed(diagnosis: Diagnosis, case: &CaseFolder, mapping: &str) -> String {
@@ -109,12 +103,8 @@ fn command() -> String {
 }
 
 /// A real speed-driven robot on sand, where its recordings lie beside the repository.
-fn speed() -> Option<String> {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/husky-open");
-    if !data.exists() {
-        eprintln!("skipped: there is no ../shared/data/husky-open beside the repository");
-        return None;
-    }
+pub(crate) fn speed() -> Result<String, Skipped> {
+    let data = beside("data/husky-open")?;
     let mapping = case_folder::mapping("husky-open").expect("built in");
     let robot = case_folder::robot("husky-a200").expect("built in");
     let paths = [vec![data.join("FLOORING")], vec![data.join("SANDY_LOAM")], vec![]];
@@ -122,7 +112,7 @@ fn speed() -> Option<String> {
     let case = case.expect("readable");
     let d = diagnose_steady(&case.speed_driven().expect("speeds and currents"), &Options::default(), &|_| {})
         .expect("a diagnosis");
-    Some(packed(d, &case, "husky-open"))
+    Ok(packed(d, &case, "husky-open"))
 }
 
 /// An hour of recording with a gap, a peak, free runs of 2 s and names that would like to be markup.

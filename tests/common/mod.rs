@@ -5,8 +5,8 @@ use std::path::Path;
 use diagnosis::diagnose;
 use examiner::{Content, DrawnCase, Setting, Settings, Severity, TyreLaw};
 use inference::Options;
-use lacuna::RobotSpec;
 use recordings::{Input, Mapping, Policy, Read, ReadOptions, Recording, RecordingError};
+use robot_file::RobotSpec;
 use torque_driven::{Case, HeldOut, Run};
 use verdict::Diagnosis;
 

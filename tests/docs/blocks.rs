@@ -1,6 +1,7 @@
 //! The commands of a page with what they show.
 
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
+use skipping::Outcome;
 
 /// A `sh` block with the `text` blocks below it, or a file that the reader is to write (`file=NAME` behind its language).
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -90,8 +91,7 @@ fn commands(text: &str) -> Vec<String> {
     lines.filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
 }
 
-#[test]
-fn commands_are_found_with_what_they_show() {
+pub(crate) fn commands_are_found_with_what_they_show() -> Outcome {
     let page = "# A\n\n```sh,exit=3\nlacuna a \\\n  b   # why\n\nlacuna c\n```\n\n```text\none\n```\n\n```text\ntwo\n```\n\n\
                 ```toml\nx = 1\n```\n\n```text\nno output\n```\n\n```toml,file=a.toml\nx = 2\n```\n";
     let block = Block {
@@ -105,4 +105,5 @@ fn commands_are_found_with_what_they_show() {
     let found = of(page);
     assert_eq!((found.len(), &found[0]), (2, &block));
     assert_eq!(found[1].file, Some(("a.toml".to_owned(), "x = 2\n".to_owned())));
+    Ok(())
 }

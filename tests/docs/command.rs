@@ -1,5 +1,7 @@
 //! What a line of a `sh` block asks for.
 
+use skipping::Outcome;
+
 /// A command of the documentation.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Command {
@@ -48,8 +50,7 @@ impl Command {
     }
 }
 
-#[test]
-fn every_way_to_start_lacuna_is_the_same() {
+pub(crate) fn every_way_to_start_lacuna_is_the_same() -> Outcome {
     let expected = Ok(Command::Lacuna(vec!["explain".to_owned(), "a b".to_owned()], None));
     for start in ["lacuna", "target/release/lacuna", "cargo run --release -p lacuna --"] {
         assert_eq!(Command::parse(&format!("{start} explain 'a b'")), expected);
@@ -57,4 +58,5 @@ fn every_way_to_start_lacuna_is_the_same() {
     let into = Command::parse("lacuna man > lacuna.1");
     assert_eq!(into, Ok(Command::Lacuna(vec!["man".to_owned()], Some("lacuna.1".to_owned()))));
     assert!(Command::parse("rm -r x").is_err());
+    Ok(())
 }

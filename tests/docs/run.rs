@@ -7,13 +7,15 @@ use std::process::{self, Output};
 
 use crate::blocks::{self, Block};
 use crate::command::Command;
-use crate::stale::newer_source;
 use crate::{compare, root, shown};
+use harness::commands::ELSEWHERE;
+use harness::stale::newer_source;
 
 /// The programs that the documentation speaks of.
 pub(crate) struct Programs {
     lacuna: PathBuf,
     xtask: PathBuf,
+    proof: PathBuf,
 }
 
 impl Programs {
@@ -22,20 +24,33 @@ impl Programs {
         let this = std::env::current_exe().expect("this program");
         let profile = this.parent().and_then(Path::parent).expect("it lies in target/PROFILE/deps");
         let target = profile.parent().expect("it lies in target/PROFILE/deps");
-        let [lacuna, xtask] = ["lacuna", "xtask"].map(|name| profile.join(format!("{name}{EXE_SUFFIX}")));
-        // Tests of the whole workspace build both; cargo would build them anew, with the features of fewer packages.
-        if [&lacuna, &xtask].iter().all(|program| program.is_file() && newer_source(program).is_none()) {
-            return Self { lacuna, xtask };
+        let [lacuna, xtask, proof] =
+            ["lacuna", "xtask", "proof"].map(|name| profile.join(format!("{name}{EXE_SUFFIX}")));
+        // Tests of the whole workspace build all; cargo would build them anew, with the features of fewer packages.
+        if [&lacuna, &xtask, &proof].iter().all(|program| program.is_file() && newer_source(program).is_none()) {
+            return Self { lacuna, xtask, proof };
         }
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut build = process::Command::new(cargo);
-        build.args(["build", "--locked", "-p", "lacuna", "-p", "xtask", "--bins", "--target-dir"]).arg(target);
+        build
+            .args(["build", "--locked", "-p", "lacuna", "-p", "xtask", "-p", "proof", "--bins", "--target-dir"])
+            .arg(target);
         if profile.ends_with("release") {
             build.arg("--release");
         }
         let status = build.current_dir(root()).status().expect("cargo");
         assert!(status.success(), "the programs cannot be built");
-        Self { lacuna, xtask }
+        Self { lacuna, xtask, proof }
+    }
+
+    /// The program that knows a command of `cargo xtask`; `None` where tests of the workspace do not build it.
+    fn of(&self, args: &[String]) -> Option<&Path> {
+        let elsewhere = ELSEWHERE.iter().find(|command| args.first().is_some_and(|name| name == command.name));
+        match elsewhere.map(|command| command.package) {
+            None => Some(&self.xtask),
+            Some("proof") => Some(&self.proof),
+            Some(_) => None,
+        }
     }
 }
 
@@ -133,14 +148,17 @@ fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, 
             }
             // Drawing cases is quick; all else that xtask does takes minutes, or writes into the repository.
             Command::Xtask(args) if !only_checked && args.iter().any(|arg| arg == "--draw-only") => {
-                Some(start(&programs.xtask, scratch, &args))
+                Some(start(&programs.proof, scratch, &args))
             }
             Command::Lacuna(args, _) => {
                 check(&programs.lacuna, scratch, args, &place, line, told);
                 None
             }
             Command::Xtask(args) => {
-                check(&programs.xtask, scratch, args, &place, line, told);
+                match programs.of(&args) {
+                    Some(program) => check(program, scratch, args, &place, line, told),
+                    None => told.checked.push(format!("{place}: {line}")),
+                }
                 None
             }
             Command::Cargo { packages, tests } => {

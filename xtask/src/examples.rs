@@ -26,3 +26,8 @@ pub(crate) fn built(package: &str, name: &str) -> Result<PathBuf, String> {
     let error = text.lines().find(|line| line.starts_with("error")).unwrap_or("cargo did not say why");
     Err(format!("example '{name}' of {package} could not be built: {error}"))
 }
+
+/// The vector unit that `pulp` chose, in what the weak form's example prints.
+pub(crate) fn vector_unit(printed: &str) -> Option<String> {
+    printed.split_once("vector unit: ").map(|(_, unit)| unit.trim().to_owned())
+}

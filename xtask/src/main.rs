@@ -1,31 +1,28 @@
 //! Development commands: `cargo xtask COMMAND`.
+//!
+//! This program is light, so that the first command in a fresh clone builds no more than it needs. What needs the readers
+//! of recordings, the diagnosis or a generator of books is a package of its own, built and started when it is asked for.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use harness::{binary, child, document, exit_code, output};
 
-mod bag;
-mod binary;
-mod blind;
-mod book;
-mod child;
+mod browser;
+mod cold;
 mod compare;
-mod document;
 mod effect;
-mod evidence;
+mod elsewhere;
 mod examples;
 mod growth;
 mod instructions;
 mod learn;
-mod mujoco;
-mod next;
-mod output;
 mod reproduce;
-mod stale;
 
 /// Development commands of Lacuna.
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask")]
+#[command(name = "cargo xtask", subcommand_required = true, arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -37,49 +34,42 @@ enum Command {
     Reproduce(reproduce::Args),
     /// Compare adaptive laws on laps they have not seen: which keep what they learn.
     Learn(learn::Args),
-    /// Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders.
-    Blind(Box<blind::Args>),
-    /// Diagnose real recordings with the effect concealed, then open the witness.
-    Evidence(evidence::Args),
-    /// Run exported models in MuJoCo on held-out inputs and compare with the truth.
-    Mujoco(mujoco::Args),
-    /// Write the file of a new effect, to be filled with its law.
-    Effect(effect::Args),
-    /// Build the documentation as a book that opens offline.
-    Book(book::Args),
-    /// Ask whether it pays to follow the advice on the next drive.
-    Next(next::Args),
-    /// Measure time and memory of `lacuna check` on a large bag.
-    Bag(bag::Args),
     /// Measure our kernels beside C, SciPy, numba, PySINDy and MuJoCo.
     Compare(compare::Args),
     /// Measure what `lacuna` costs as recordings become longer and more, and with how many cores.
     Growth(growth::Args),
     /// Count instructions of the hot kernels and compare them with those on record.
     Instructions(instructions::Args),
+    /// Measure what a fresh clone costs: the first command, the program, the tests.
+    Cold(cold::Args),
+    /// Write the file of a new effect, to be filled with its law.
+    Effect(effect::Args),
+    /// Open the pages in a browser and test them there.
+    Browser,
 }
 
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    // `help NAME` is `NAME --help`, also for commands that live elsewhere.
+    let mut args: Vec<OsString> = std::env::args_os().collect();
+    if args.len() == 3 && args[1] == "help" {
+        args.swap(1, 2);
+        args[2] = "--help".into();
+    }
+
+    let matches = elsewhere::listed(Cli::command()).get_matches_from(args);
+    if let Some((command, rest)) = elsewhere::chosen(&matches) {
+        return elsewhere::run(command, &rest);
+    }
+
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    exit_code(match cli.command {
         Command::Reproduce(args) => reproduce::run(args),
         Command::Learn(args) => learn::run(args),
-        Command::Blind(args) => blind::run(&args),
-        Command::Evidence(args) => evidence::run(&args),
-        Command::Mujoco(args) => mujoco::run(&args),
-        Command::Effect(args) => effect::run(&args),
-        Command::Book(args) => book::run(&args),
-        Command::Next(args) => next::run(&args),
-        Command::Bag(args) => bag::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Growth(args) => growth::run(&args),
         Command::Instructions(args) => instructions::run(&args),
-    };
-    match outcome {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
-    }
+        Command::Cold(args) => cold::run(&args),
+        Command::Effect(args) => effect::run(&args),
+        Command::Browser => browser::run(),
+    })
 }

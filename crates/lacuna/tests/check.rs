@@ -2,8 +2,6 @@
 
 mod common;
 
-use std::path::Path;
-
 use common::{Bench, drive};
 use serde_json::Value;
 
@@ -174,46 +172,4 @@ fn a_file_that_is_there_is_kept_and_an_ending_must_say_the_format() {
     let run = bench.run(&["convert", RUN, "--out", "out.xlsx"]);
     assert_eq!(run.code(), Some(2));
     assert!(run.err().contains(".mcap, .parquet or .csv"), "{}", run.err());
-}
-
-#[test]
-fn bags_of_known_robots_are_mapped_by_themselves() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ros2-bags");
-    if !data.exists() {
-        eprintln!("SKIPPED: no recordings at {}", data.display());
-        return;
-    }
-    let bench = Bench::empty();
-    for (folder, mapping, signals) in [
-        ("kobuki_run_a_mcap", "kobuki-bag", 7),
-        ("kobuki_run_a_sqlite3", "kobuki-bag", 7),
-        ("husky_asphalt_00_mcap", "husky-bag", 10),
-    ] {
-        let (code, json) = check(&bench, &[&data.join(folder).display().to_string()]);
-        assert_eq!(code, Some(0));
-        assert_eq!(json["mapping"]["name"], mapping);
-        assert_eq!(json["recordings"][0]["channels"].as_array().map(Vec::len), Some(signals), "{json}");
-    }
-}
-
-#[test]
-fn a_proposed_mapping_reads_the_bag_it_was_proposed_for() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/ros2-bags/kobuki_run_a_mcap");
-    if !data.exists() {
-        eprintln!("SKIPPED: no recordings at {}", data.display());
-        return;
-    }
-    let (bench, data) = (Bench::empty(), data.display().to_string());
-    let run = bench.run(&["check", &data, "--write-mapping", "map.toml"]);
-    assert_eq!(run.code(), Some(0), "{}", run.err());
-    assert!(run.out().contains("effort taken for torques"), "{}", run.out());
-    let (code, json) = check(&bench, &[&data, "--mapping", "map.toml"]);
-    assert_eq!(code, Some(0), "{json}");
-    let signals: Vec<&str> =
-        json["recordings"][0]["channels"].as_array().unwrap().iter().map(|c| c["signal"].as_str().unwrap()).collect();
-    for signal in ["wheel_angle_left", "wheel_speed_right", "torque_left", "gyro_z"] {
-        assert!(signals.contains(&signal), "{signal}: {signals:?}");
-    }
-    let again = bench.run(&["check", &data, "--write-mapping", "map.toml"]);
-    assert!(again.code() == Some(1) && again.err().contains("there already"), "{}", again.err());
 }

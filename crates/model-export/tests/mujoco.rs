@@ -1,4 +1,4 @@
-//! Models in MuJoCo itself; skipped where there is no Python that has it.
+//! Models in MuJoCo itself; ignored where there is no Python that has it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,17 +7,16 @@ use std::process::Command;
 use model_export::{Engine, Model};
 use robot_model::effects::catalogue;
 use robot_model::{Plant, Robot, State, paper};
+use skipping::{Outcome, Skipped};
 use verdict::{EffectAt, Side};
 
 /// A Python with MuJoCo: the one that is named, or that of `cargo xtask mujoco`.
-fn python() -> Option<PathBuf> {
+fn python() -> Result<PathBuf, Skipped> {
     let made = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/mujoco/venv/bin/python");
     let python = std::env::var_os("LACUNA_MUJOCO_PYTHON").map_or(made, PathBuf::from);
     let there = Command::new(&python).args(["-c", "import mujoco"]).output().is_ok_and(|o| o.status.success());
-    if !there {
-        eprintln!("SKIPPED: no Python with MuJoCo; name one with LACUNA_MUJOCO_PYTHON, or run `cargo xtask mujoco`");
-    }
-    there.then_some(python)
+    let missing = "no Python with MuJoCo; name one with LACUNA_MUJOCO_PYTHON, or run `cargo xtask mujoco`";
+    if there { Ok(python) } else { Err(Skipped::because(missing)) }
 }
 
 fn robot() -> Robot<f64> {
@@ -71,9 +70,8 @@ fn driven(python: &Path, robot: &Robot<f64>, effects: &[EffectAt], torque: [f64;
     numbers.try_into().expect("four numbers")
 }
 
-#[test]
-fn every_effect_loads_and_drives_in_mujoco() {
-    let Some(python) = python() else { return };
+fn every_effect_loads_and_drives_in_mujoco() -> Outcome {
+    let python = python()?;
     let robot = robot();
     for effect in catalogue::<f64>() {
         let spec = effect.spec();
@@ -86,11 +84,11 @@ fn every_effect_loads_and_drives_in_mujoco() {
         assert!((mass - robot.mass - grown).abs() < 1e-3, "{}: {mass} kg", spec.id);
         assert!(left > 0.5 && right > 0.5 && yaw.abs() < 2.0, "{}: {left} {right} rad/s, {yaw} rad/s", spec.id);
     }
+    Ok(())
 }
 
-#[test]
-fn mujoco_drives_like_the_planar_plant() {
-    let Some(python) = python() else { return };
+fn mujoco_drives_like_the_planar_plant() -> Outcome {
+    let python = python()?;
     let robot = robot();
     for torque in [[3.0, 3.0], [8.0, 2.0], [8.0, -8.0]] {
         let [_, left, right, yaw] = driven(&python, &robot, &[], torque);
@@ -109,4 +107,7 @@ fn mujoco_drives_like_the_planar_plant() {
         let near = (yaw - s.yaw_rate).abs() < apart * s.yaw_rate.abs() + 0.02;
         assert!(near, "{torque:?}: {yaw} rad/s in MuJoCo, {} in the plant", s.yaw_rate);
     }
+    Ok(())
 }
+
+skipping::tests![every_effect_loads_and_drives_in_mujoco, mujoco_drives_like_the_planar_plant,];

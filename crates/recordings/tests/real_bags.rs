@@ -1,5 +1,5 @@
-//! The real bags that lie beside the workspace against the CSV that they came from, value for value; skipped, and said
-//! so, where they do not lie there.
+//! The real bags that lie beside the workspace against the CSV that they came from, value for value; ignored
+//! where they do not lie there.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use bags::{Cell, FieldReader, FileError};
 use recordings::{Channel, Mapping, Opened, Policy, Read, ReadOptions, Signal, Topic, contents, messages, read_from};
+use skipping::{Outcome, Skipped, beside};
 
 /// Radians of a Kobuki wheel in one tick of its encoder, as its maker's driver has it: metres per tick over the radius.
 const RADIANS_PER_TICK: f64 = 8.529_209_049_773_756e-5 / WHEEL_RADIUS;
@@ -15,13 +16,8 @@ const TRACK: f64 = 0.23;
 /// Start of the bags' stamps, ns.
 const START_NS: i64 = 1_700_000_000_000_000_000;
 
-fn data() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("SKIPPED: {} is not there", folder.display());
-    None
+fn data() -> Result<PathBuf, Skipped> {
+    beside("data")
 }
 
 fn read_bag(mapping: &Mapping, path: &Path) -> Read {
@@ -95,9 +91,8 @@ const KOBUKI: [&str; 3] = [
     "kobuki_run_a_mcap_zstd/kobuki_run_a_mcap_zstd.mcap",
 ];
 
-#[test]
-fn kobuki_wheels_currents_and_gyro_are_those_of_the_csv() {
-    let Some(data) = data() else { return };
+fn kobuki_wheels_currents_and_gyro_are_those_of_the_csv() -> Outcome {
+    let data = data()?;
     let core = columns(&data.join("kobuki/run-a/core.csv"));
     let imu = columns(&data.join("kobuki/run-a/imu.csv"));
     let mapping = Mapping::built_in("kobuki-bag").unwrap();
@@ -127,6 +122,7 @@ fn kobuki_wheels_currents_and_gyro_are_those_of_the_csv() {
         assert_same(channel(&read, Signal::GyroZ), &stamps(&imu["t"][..1896]), &imu["wz"][..1896]);
         assert_eq!(read.recording.clocks().len(), 1);
     }
+    Ok(())
 }
 
 /// Commands and odometry under other signals, for their numbers' sake.
@@ -157,9 +153,8 @@ wheel_angle_left = { column = "position[0]", unit = "rad" }
 wheel_angle_right = { column = "position[1]", unit = "rad" }
 "#;
 
-#[test]
-fn kobuki_commands_and_odometry_are_those_of_the_csv() {
-    let Some(data) = data() else { return };
+fn kobuki_commands_and_odometry_are_those_of_the_csv() -> Outcome {
+    let data = data()?;
     let core = columns(&data.join("kobuki/run-a/core.csv"));
     let commands = columns(&data.join("kobuki/run-a/cmd.csv"));
     let mapping = Mapping::parse("odometry", ODOMETRY).unwrap();
@@ -195,11 +190,11 @@ fn kobuki_commands_and_odometry_are_those_of_the_csv() {
             assert!((yaw - heading).sin().abs() < 1e-12, "{bag} {i}");
         }
     }
+    Ok(())
 }
 
-#[test]
-fn husky_speeds_currents_and_imu_are_those_of_the_csv() {
-    let Some(data) = data() else { return };
+fn husky_speeds_currents_and_imu_are_those_of_the_csv() -> Outcome {
+    let data = data()?;
     let drives = columns(&data.join("husky-open/ASPHALT/pro_00.csv"));
     let imu = columns(&data.join("husky-open/ASPHALT/imu_00.csv"));
     let mapping = Mapping::built_in("husky-bag").unwrap();
@@ -222,11 +217,11 @@ fn husky_speeds_currents_and_imu_are_those_of_the_csv() {
     assert_eq!(channel(&read, Signal::GyroZ).column(), "/imu/data.angular_velocity.z");
     let rates: Vec<_> = read.recording.clocks().iter().map(|clock| clock.nominal_rate_hz).collect();
     assert_eq!(rates, [Some(6.5), Some(100.0)]);
+    Ok(())
 }
 
-#[test]
-fn the_contents_are_those_that_the_bags_describe() {
-    let Some(data) = data() else { return };
+fn the_contents_are_those_that_the_bags_describe() -> Outcome {
+    let data = data()?;
     for bag in KOBUKI {
         let path = data.join("ros2-bags").join(bag);
         let inside = contents(bag, &mut File::open(&path).unwrap()).unwrap();
@@ -242,11 +237,11 @@ fn the_contents_are_those_that_the_bags_describe() {
         assert_eq!(paths, ["header.stamp", "position", "velocity", "effort"]);
         assert_eq!((fields[2].lengths, &fields[2].names[1]), (Some((2, 2)), &"wheel_right_joint".to_owned()));
     }
+    Ok(())
 }
 
-#[test]
-fn built_in_definitions_decode_as_those_in_the_bags() {
-    let Some(data) = data() else { return };
+fn built_in_definitions_decode_as_those_in_the_bags() -> Outcome {
+    let data = data()?;
     let path = data.join("ros2-bags").join(KOBUKI[1]);
     let inside = contents("kobuki", &mut File::open(&path).unwrap()).unwrap();
     let mut readers: HashMap<String, [FieldReader; 2]> = HashMap::new();
@@ -271,4 +266,13 @@ fn built_in_definitions_decode_as_those_in_the_bags() {
     })
     .unwrap();
     assert_eq!((compared, readers.len()), (6521, 4));
+    Ok(())
 }
+
+skipping::tests![
+    kobuki_wheels_currents_and_gyro_are_those_of_the_csv,
+    kobuki_commands_and_odometry_are_those_of_the_csv,
+    husky_speeds_currents_and_imu_are_those_of_the_csv,
+    the_contents_are_those_that_the_bags_describe,
+    built_in_definitions_decode_as_those_in_the_bags,
+];

@@ -1,17 +1,13 @@
-//! The Husky recordings that lie beside the workspace; skipped, and said so, where they do not.
+//! The Husky recordings that lie beside the workspace; ignored where they do not.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use recordings::{Input, LossKind, Mapping, Policy, Read, ReadOptions, Signal, read};
+use skipping::{Outcome, Skipped, beside};
 
-fn husky() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/husky-open");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("SKIPPED: {} is not there", folder.display());
-    None
+fn husky() -> Result<PathBuf, Skipped> {
+    beside("data/husky-open")
 }
 
 /// Every run of one ground.
@@ -30,9 +26,8 @@ fn runs(folder: &Path) -> Vec<Read> {
     sorted.groups.iter().map(read_group).collect()
 }
 
-#[test]
-fn every_husky_run_reads_whole_but_for_the_missing_imu() {
-    let Some(folder) = husky() else { return };
+fn every_husky_run_reads_whole_but_for_the_missing_imu() -> Outcome {
+    let folder = husky()?;
     for (ground, expected) in [("FLOORING", 5), ("ASPHALT", 4), ("SANDY_LOAM", 6)] {
         let runs = runs(&folder.join(ground));
         assert_eq!(runs.len(), expected, "{ground}");
@@ -56,4 +51,7 @@ fn every_husky_run_reads_whole_but_for_the_missing_imu() {
             assert!((seconds - other).abs() < 1.5, "{ground} {name}: {seconds} s, {other} s");
         }
     }
+    Ok(())
 }
+
+skipping::tests![every_husky_run_reads_whole_but_for_the_missing_imu,];

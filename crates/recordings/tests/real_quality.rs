@@ -1,10 +1,10 @@
-//! The defects that the descriptions of the recordings beside the workspace name are found; skipped, and said so,
+//! The defects that the descriptions of the recordings beside the workspace name are found; ignored
 //! where the recordings are not there.
 
 use std::fs;
-use std::path::Path;
 
 use recordings::{FindingKind, Fingerprint, Quality, Severity, group_by_content};
+use skipping::{Outcome, Skipped, beside};
 
 /// A CSV file as columns of numbers, an empty cell as NaN.
 struct Table {
@@ -13,13 +13,9 @@ struct Table {
 }
 
 impl Table {
-    /// The file below the folder of recordings, with some lines above the header; `None` where it is not there.
-    fn read(file: &str, delimiter: char, above: usize) -> Option<Self> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(file);
-        let Ok(text) = fs::read_to_string(&path) else {
-            eprintln!("SKIPPED: {} is not there", path.display());
-            return None;
-        };
+    /// The file below the folder of recordings, with some lines above the header.
+    fn read(file: &str, delimiter: char, above: usize) -> Result<Self, Skipped> {
+        let text = fs::read_to_string(beside(&format!("data/{file}"))?).unwrap();
         let mut lines = text.lines().skip(above);
         let names: Vec<String> = lines.next().unwrap().split(delimiter).map(str::to_owned).collect();
         let mut columns = vec![Vec::new(); names.len()];
@@ -28,7 +24,7 @@ impl Table {
                 column.push(cell.trim().parse().unwrap_or(f64::NAN));
             }
         }
-        Some(Self { names, columns })
+        Ok(Self { names, columns })
     }
 
     fn column(&self, name: &str) -> &[f64] {
@@ -54,10 +50,9 @@ fn near(value: f64, expected: f64, part: f64) -> bool {
     (value / expected - 1.0).abs() < part
 }
 
-#[test]
-fn kobuki_stamps_bursts_counters_and_steps() {
+fn kobuki_stamps_bursts_counters_and_steps() -> Outcome {
     for run in ["a", "b", "c", "d"] {
-        let Some(core) = Table::read(&format!("kobuki/run-{run}/core.csv"), ',', 0) else { return };
+        let core = Table::read(&format!("kobuki/run-{run}/core.csv"), ',', 0)?;
         // 50 Hz by the stamps; by the arrivals too, but in bursts.
         let stamped = core.quality("t", "left_encoder");
         assert!(near(stamped.timing.rate_hz().unwrap(), 50.0, 0.01), "{run}");
@@ -77,17 +72,17 @@ fn kobuki_stamps_bursts_counters_and_steps() {
         // Currents in whole steps of 10 mA.
         let current = core.quality("t", "left_current_10mA");
         assert_eq!(current.grid.map(|grid| (grid.step, grid.fit)), Some((1.0, 1.0)), "{run}");
-        let Some(imu) = Table::read(&format!("kobuki/run-{run}/imu.csv"), ',', 0) else { return };
+        let imu = Table::read(&format!("kobuki/run-{run}/imu.csv"), ',', 0)?;
         let gyro = imu.quality("t", "wz");
         assert!(near(gyro.grid.unwrap().step, 0.01_f64.to_radians(), 0.001), "{run}: {:?}", gyro.grid);
     }
+    Ok(())
 }
 
-#[test]
-fn husky_set_points_dead_bands_and_made_up_stamps() {
+fn husky_set_points_dead_bands_and_made_up_stamps() -> Outcome {
     let runs = ["FLOORING/pro_01", "FLOORING/pro_02", "ASPHALT/pro_00", "ASPHALT/pro_01", "SANDY_LOAM/pro_08"];
     for run in runs {
-        let Some(drive) = Table::read(&format!("husky-open/{run}.csv"), ',', 0) else { return };
+        let drive = Table::read(&format!("husky-open/{run}.csv"), ',', 0)?;
         for side in ["velL", "velR"] {
             let speed = drive.quality("time", side);
             let found = kinds(&speed);
@@ -104,26 +99,26 @@ fn husky_set_points_dead_bands_and_made_up_stamps() {
             let grid = drive.quality("time", side).grid.unwrap();
             assert!(near(grid.step, 0.13, 0.02), "{run} {side}: {grid:?}");
         }
-        let Some(imu) = Table::read(&format!("husky-open/{}.csv", run.replace("pro", "imu")), ',', 0) else { return };
+        let imu = Table::read(&format!("husky-open/{}.csv", run.replace("pro", "imu")), ',', 0)?;
         let shaken = imu.quality("time", "az");
         assert!(kinds(&shaken).contains(&FindingKind::ComputedStamps) && shaken.grid.is_none(), "{run}");
         assert!(near(shaken.timing.rate_hz().unwrap(), 100.0, 1e-6), "{run}");
     }
     // Exactly constant for tens of seconds.
-    let Some(drive) = Table::read("husky-open/SANDY_LOAM/pro_08.csv", ',', 0) else { return };
+    let drive = Table::read("husky-open/SANDY_LOAM/pro_08.csv", ',', 0)?;
     let (stretch, value) = drive.quality("time", "velL").values.longest_stuck.unwrap();
     assert!(near(stretch.seconds, 44.0, 0.01) && near(value, 80.0 / 127.0, 1e-6), "{stretch:?} {value}");
     // 0.00 A or at least 0.59 A, where zero is visited often enough to say so.
-    let Some(drive) = Table::read("husky-open/ASPHALT/pro_00.csv", ',', 0) else { return };
+    let drive = Table::read("husky-open/ASPHALT/pro_00.csv", ',', 0)?;
     for side in ["curL", "curR"] {
         assert_eq!(drive.quality("time", side).grid.unwrap().dead_band, Some(0.59), "{side}");
     }
+    Ok(())
 }
 
-#[test]
-fn drive_windows_restart_and_wheel_speeds_are_held() {
+fn drive_windows_restart_and_wheel_speeds_are_held() -> Outcome {
     for (robot, windows, held, step) in [("husky", 402, 0.5, 1e-6), ("warthog", 240, 0.8, 0.25_f64.to_radians())] {
-        let Some(table) = Table::read(&format!("drive-husky/{robot}.csv"), ',', 0) else { return };
+        let table = Table::read(&format!("drive-husky/{robot}.csv"), ',', 0)?;
         for side in ["wheel_left", "wheel_right"] {
             let speed = table.quality("t", side);
             assert_eq!(speed.timing.jumps_back.count, windows - 1, "{robot}: time restarts in every window");
@@ -136,12 +131,12 @@ fn drive_windows_restart_and_wheel_speeds_are_held() {
         let gyro = table.quality("t", "imu_yaw_rate");
         assert!(!kinds(&gyro).contains(&FindingKind::Held), "{robot}");
     }
+    Ok(())
 }
 
-#[test]
-fn robotino_steps_of_speed_and_current_and_uneven_periods() {
+fn robotino_steps_of_speed_and_current_and_uneven_periods() -> Outcome {
     for run in ["v10_dir000", "v20_dir090", "v30_dir210"] {
-        let Some(table) = Table::read(&format!("robotino-open/floor-a/{run}.csv"), ';', 2) else { return };
+        let table = Table::read(&format!("robotino-open/floor-a/{run}.csv"), ';', 2)?;
         let t_ns = table.stamps("t", 1e6);
         let quality = |name: &str| Quality::measure(&t_ns, table.column(name));
         let speed = quality("m1vel");
@@ -153,32 +148,42 @@ fn robotino_steps_of_speed_and_current_and_uneven_periods() {
             assert!(near(grid.step, 2.83, 0.002), "{run}: {grid:?}");
         }
     }
+    Ok(())
 }
 
-#[test]
-fn no_good_channel_is_called_bad() {
-    let Some(imu) = Table::read("husky-open/ASPHALT/imu_00.csv", ',', 0) else { return };
+fn no_good_channel_is_called_bad() -> Outcome {
+    let imu = Table::read("husky-open/ASPHALT/imu_00.csv", ',', 0)?;
     for name in ["wx", "wy", "wz", "ax", "ay", "az"] {
         let quality = imu.quality("time", name);
         assert!(quality.findings("").iter().all(|finding| finding.severity == Severity::Note), "{name}");
     }
+    Ok(())
 }
 
-#[test]
-fn each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole() {
+fn each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole() -> Outcome {
     let prints = |rows: std::ops::Range<usize>| {
         let of = |run| {
             let core = Table::read(&format!("kobuki/run-{run}/core.csv"), ',', 0)?;
             let t_ns = &core.stamps("t", 1e9)[rows.clone()];
             let names = ["left_encoder", "right_encoder", "left_pwm", "left_current_10mA", "battery_0p1V", "bumper"];
             let column = |name| Fingerprint::of_samples(t_ns, &core.column(name)[rows.clone()]);
-            Some(Fingerprint::union(names.map(column)))
+            Ok(Fingerprint::union(names.map(column)))
         };
-        ["a", "b", "c", "d"].map(of).into_iter().collect::<Option<Vec<_>>>()
+        ["a", "b", "c", "d"].map(of).into_iter().collect::<Result<Vec<_>, Skipped>>()
     };
-    let Some(mut all) = prints(0..3000) else { return };
-    let Some(parts) = prints(500..2000) else { return };
+    let mut all = prints(0..3000)?;
+    let parts = prints(500..2000)?;
     all.extend(parts);
     assert_eq!(group_by_content(&all), [[0, 4], [1, 5], [2, 6], [3, 7]]);
     assert!(all[0].shared(&all[1]) < 0.05 && all[2].shared(&all[6]) > 0.95);
+    Ok(())
 }
+
+skipping::tests![
+    kobuki_stamps_bursts_counters_and_steps,
+    husky_set_points_dead_bands_and_made_up_stamps,
+    drive_windows_restart_and_wheel_speeds_are_held,
+    robotino_steps_of_speed_and_current_and_uneven_periods,
+    no_good_channel_is_called_bad,
+    each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole,
+];

@@ -9,7 +9,7 @@ use crate::words::{free_runs as title_of_free_runs, is_no_cause, probability, si
 use verdict::{Advice, Cause, Diagnosis};
 
 use crate::sections::{heading, listed};
-use crate::text_table::{TextTable, number};
+use pages::text_table::{TextTable, number};
 
 mod where_and_when;
 

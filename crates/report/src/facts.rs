@@ -1,6 +1,6 @@
 //! The figures that stand large at the top of a page.
 
-use crate::escape::escape;
+use pages::escape::escape;
 
 /// A list of figures in the making.
 #[derive(Default)]

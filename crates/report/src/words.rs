@@ -4,21 +4,9 @@ use verdict::{Cause, Cell, Diagnosis, FreeRun, Span};
 
 pub use inference::robust::NINETY;
 
+pub use pages::text_table::number;
 /// Intervals shown per cause.
 const INTERVALS: usize = 3;
-
-/// A number with four digits that count, without an exponent where that is readable.
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".to_owned()
-    } else if (1e-4..1e5).contains(&size) {
-        let decimals = (3 - size.log10().floor() as i32).clamp(0, 7) as usize;
-        format!("{x:.decimals$}")
-    } else {
-        format!("{x:.2e}")
-    }
-}
 
 /// A probability; never quite nothing or certain.
 pub fn probability(p: f64) -> String {
@@ -148,16 +136,7 @@ pub(crate) fn verdict(d: &Diagnosis, most: usize) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{number, probability, quantity_and_unit};
-
-    #[test]
-    fn numbers_keep_four_digits() {
-        assert_eq!(number(0.012_345), "0.01235");
-        assert_eq!(number(1234.5), "1234");
-        assert_eq!(number(-2.0), "-2.000");
-        assert_eq!(number(0.0), "0");
-        assert_eq!(number(1.0e-7), "1.00e-7");
-    }
+    use super::{probability, quantity_and_unit};
 
     #[test]
     fn nothing_is_quite_certain() {

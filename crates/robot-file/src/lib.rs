@@ -16,8 +16,8 @@ mod text;
 mod write;
 
 use inference::DiagnosisError;
+use verdict::EffectAt;
 use verdict::ResponseModel;
-use verdict::{Correction, EffectAt};
 
 pub use error::RobotFileError;
 pub use read::BUILT_IN;

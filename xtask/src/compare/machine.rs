@@ -6,6 +6,8 @@ use std::thread::available_parallelism;
 
 use serde::{Deserialize, Serialize};
 
+use crate::examples;
+
 /// The machine, and what compiled and interpreted the programs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Machine {
@@ -23,14 +25,14 @@ pub(super) struct Machine {
 const UNKNOWN: &str = "unknown";
 
 impl Machine {
-    /// What this machine tells.
-    pub(super) fn read(python: Option<&Path>) -> Self {
+    /// What this machine tells, and the vector unit that `pulp` chose.
+    pub(super) fn read(python: Option<&Path>, vector_unit: Option<String>) -> Self {
         let or_unknown = |text: Option<String>| text.unwrap_or_else(|| UNKNOWN.into());
         Self {
             processor: or_unknown(std::fs::read_to_string("/proc/cpuinfo").ok().as_deref().and_then(processor)),
             cores: available_parallelism().map_or(0, usize::from),
             load: load().into_iter().collect(),
-            vector_unit: weak_form::vector_unit().into(),
+            vector_unit: or_unknown(vector_unit),
             rust: rust_version().unwrap_or_else(|| UNKNOWN.into()),
             c: or_unknown(first_line("gcc", "--version")),
             python: python.map_or_else(|| "none".into(), |p| or_unknown(super::python::versions(p))),
@@ -51,6 +53,13 @@ impl Machine {
             self.processor, self.cores, self.vector_unit, self.rust, self.c, self.python
         )
     }
+}
+
+/// The vector unit that `pulp` chooses on this machine, as the weak form's example tells it.
+pub(super) fn vector_unit() -> Option<String> {
+    let example = examples::built("weak-form", "kernel").ok()?;
+    let told = Command::new(example).args(["--rows", "100", "--rounds", "1"]).stdin(Stdio::null()).output().ok()?;
+    examples::vector_unit(&String::from_utf8(told.stdout).ok()?)
 }
 
 /// The processor's name in `/proc/cpuinfo`.

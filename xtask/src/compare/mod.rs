@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         Ok(_) if !scripts => Err("no row needs a Python".to_owned()),
         Ok(_) => python::ready(args.python.as_deref(), &target),
     };
-    let mut machine = Machine::read(python.as_deref().ok());
+    let mut machine = Machine::read(python.as_deref().ok(), machine::vector_unit());
     let bench = Bench::new(&rows, anchors, python, logs);
     let bar = output::progress(rows.len() as u64, "rows")?;
     let mut outcomes: Vec<Outcome> = Vec::new();
@@ -119,9 +119,7 @@ fn write(comparison: &Comparison, out: &std::path::Path, docs: bool) -> Result<(
     output::write(out, "compare.json", &serde_json::to_string_pretty(comparison)?)?;
     output::write(out, "summary.json", &serde_json::to_string_pretty(&tables::figures(&comparison.rows))?)?;
     if docs {
-        // The page has a title of its own, and tables stand below one of its headings.
-        let (_, below) = page.split_once("\n\n").context("a page without a title")?;
-        output::into_docs("performance.md", MARKS, &below.replace("\n## ", "\n### "))?;
+        output::into_docs("performance.md", MARKS, &output::below_title(&page)?)?;
     }
     Ok(())
 }
@@ -140,7 +138,7 @@ mod tests {
             outcome(Side::Failed("exit code 1".into()), Side::Absent).judged(Goal::Ours(2.5)),
             outcome(ran(&[7.0], "ms"), Side::Skipped("no Python".into())),
         ];
-        let comparison = Comparison { machine: Machine::read(None), rows };
+        let comparison = Comparison { machine: Machine::read(None, None), rows };
         let folder = tempfile::tempdir().expect("a folder");
         write(&comparison, folder.path(), false).expect("writes");
         let text = std::fs::read_to_string(folder.path().join("compare.json")).expect("a file");

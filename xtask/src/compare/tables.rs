@@ -1,6 +1,6 @@
 //! The comparison as tables and figures.
 
-use report::page::{Cell, Tone};
+use pages::page::{Cell, Tone};
 
 use super::outcome::{Outcome, Side, Spread};
 use super::table::ROWS;

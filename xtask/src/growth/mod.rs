@@ -145,9 +145,7 @@ fn tell(folder: &Path, sections: &[Section], docs: bool) -> Result<()> {
     let page = to_markdown("Growth", "", sections);
     output::write(folder, "growth.md", &page)?;
     if docs {
-        let (_, below) = page.split_once("\n\n").context("a page without a title")?;
-        let below = below.trim().replace("\n## ", "\n### ").replacen("## ", "### ", 1);
-        output::into_docs("performance.md", MARKS, &format!("{below}\n"))?;
+        output::into_docs("performance.md", MARKS, &output::below_title(&page)?)?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, ensure};
 
 use super::kernels::Kernel;
+use crate::examples;
 
 /// Whether valgrind can be started.
 pub(super) fn is_there() -> bool {
@@ -74,8 +75,8 @@ pub(super) fn per_step(kernel: &Kernel, program: &Path, folder: &Path) -> Result
 /// The vector unit that `pulp` takes in valgrind, as the weak form's example prints it.
 pub(super) fn vector_unit(weak_form: &Path, folder: &Path) -> Result<String> {
     let (_, printed) = count(weak_form, &["--rows", "100", "--rounds", "1"], folder)?;
-    let unit = printed.split_once("vector unit: ").map(|(_, unit)| unit.trim().to_owned());
-    unit.with_context(|| format!("the example of weak-form named no vector unit: '{}'", printed.trim()))
+    examples::vector_unit(&printed)
+        .with_context(|| format!("the example of weak-form named no vector unit: '{}'", printed.trim()))
 }
 
 #[cfg(test)]

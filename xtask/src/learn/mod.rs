@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use anyhow::Result;
-use report::page::Page;
+use pages::page::Page;
 use sim::learning::{Contender, Study, StudyRecipe, Tried};
 
 use crate::document::{to_markdown, to_page, to_text, wrapped};

@@ -1,6 +1,6 @@
 //! The tables of the study.
 
-use report::page::{Cell, Tone};
+use pages::page::{Cell, Tone};
 use robot_model::paper::Structured;
 use sim::learning::{Contender, HORIZONS, Score, Tried};
 
@@ -48,7 +48,7 @@ const ACTING: &str = "The same with the weights that act at the start, after fol
 
 fn row(tried: &Tried, cells: impl IntoIterator<Item = f64>) -> Vec<Cell> {
     let mut row: Vec<Cell> = vec![tried.contender.name().into()];
-    row.extend(cells.into_iter().map(|v| Cell::from(report::text_table::number(v))));
+    row.extend(cells.into_iter().map(|v| Cell::from(pages::text_table::number(v))));
     row
 }
 
@@ -158,7 +158,7 @@ fn constants(o: &Outcome) -> Option<Section> {
     for (i, name) in names.into_iter().enumerate() {
         let values = [truth[i], steady[0][i], steady[1][i], changing[0][i], changing[1][i]];
         let mut row: Vec<Cell> = vec![name.into()];
-        row.extend(values.map(|v| Cell::from(report::text_table::number(v))));
+        row.extend(values.map(|v| Cell::from(pages::text_table::number(v))));
         section.rows.push(row);
     }
     Some(section)

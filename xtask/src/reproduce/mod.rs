@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
-use report::page::Page;
-use report::reproduction::{Signals, figures};
+use pages::page::Page;
+use pages::reproduction::{Signals, figures};
 use sim::table1::{Check, Distribution, distributions, judge, typical};
 use sim::{Draw, Experiment, Recipe, RobotSet, Trajectory};
 

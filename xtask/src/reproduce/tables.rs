@@ -1,6 +1,6 @@
 //! The tables of the reproduction.
 
-use report::page::{Cell, Tone};
+use pages::page::{Cell, Tone};
 use sim::EVENTS;
 use sim::statistics::{self, share};
 use sim::table1::{Check, NAMES, PAPER, within};

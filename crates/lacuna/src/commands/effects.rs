@@ -3,7 +3,7 @@
 use anyhow::Result;
 use case_files::envelope::Program;
 use clap::Args as ClapArgs;
-use report::text_table::TextTable;
+use pages::text_table::TextTable;
 use robot_file::cards::FORMAT;
 use robot_file::cards::cause_json;
 use robot_file::cards::effects_json;

@@ -1,8 +1,8 @@
 //! `lacuna next`: which drive would tell the remaining causes apart best.
 
+use pages::text_table::TextTable;
+use pages::text_table::number;
 use recordings::suggest::nearest;
-use report::text_table::TextTable;
-use report::text_table::number;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};

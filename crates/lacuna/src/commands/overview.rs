@@ -1,7 +1,7 @@
 //! What is told of a fleet.
 
 use fleet::Overview;
-use report::text_table::TextTable;
+use pages::text_table::TextTable;
 use serde_json::{Value, json};
 
 use super::listed;

@@ -1,6 +1,6 @@
 //! `lacuna predict`: robot files against drives that they have not seen.
 
-use report::text_table::TextTable;
+use pages::text_table::TextTable;
 use robot_file::Causality;
 use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
@@ -181,7 +181,7 @@ fn as_text(robots: &[String], errors: &[Errors]) -> String {
         .chain(quantities.iter().map(|(quantity, _)| format!(">{quantity}")))
         .collect();
     let mut table = TextTable::new(&header.iter().map(String::as_str).collect::<Vec<_>>());
-    let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), report::text_table::number);
+    let number = |e: Option<f64>| e.map_or_else(|| "-".to_owned(), pages::text_table::number);
     for e in errors {
         for (robot, rms) in robots.iter().zip(&e.of) {
             let of = |quantity: &String| rms.iter().find(|(q, _)| q == quantity).and_then(|(_, e)| *e);

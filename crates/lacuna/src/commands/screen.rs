@@ -5,9 +5,9 @@ use case_files::envelope::Program;
 use case_files::long::{Budget, Screened};
 use clap::Args as ClapArgs;
 use diagnosis::long::Screen;
+use pages::text_table::TextTable;
 use report::sections::heading;
 use report::sections::listed;
-use report::text_table::TextTable;
 use serde_json::json;
 use verdict::ComparedWith;
 

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use verdict::{Cause, Diagnosis};
 
-use crate::escape::escape;
 use crate::page::Page;
 use crate::words::{is_no_cause, probability, size_in_words as size, where_and_when};
+use pages::escape::escape;
 
 /// Causes that are shown at once; "nothing" and "not in the catalogue" are always.
 const SHOWN: usize = 6;

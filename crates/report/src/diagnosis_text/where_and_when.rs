@@ -4,7 +4,7 @@ use crate::words::{borders, range};
 use verdict::{Cell, Diagnosis, ResidualTorque, Span};
 
 use crate::sections::heading;
-use crate::text_table::{TextTable, number};
+use pages::text_table::{TextTable, number};
 
 /// What cells are ranges of, in the order of the table.
 const AXES: [&str; 5] = ["speed", "turning", "slip", "heading", "place"];

@@ -1,8 +1,8 @@
 //! What was found, for people.
 
 use case_files::check::{Checked, Mapped, Proposed, Used};
+use pages::text_table::{TextTable, number};
 use recordings::{Contents, Field, Severity};
-use report::text_table::{TextTable, number};
 
 use super::{stamps, tables};
 use crate::commands::listed;

@@ -1,8 +1,8 @@
 //! What a table holds that no mapping fits, for people.
 
 use case_files::skeleton;
+use pages::text_table::{TextTable, number};
 use recordings::{ColumnContents, TableContents};
-use report::text_table::{TextTable, number};
 
 use crate::commands::listed;
 use crate::console::heading;

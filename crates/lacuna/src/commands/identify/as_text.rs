@@ -1,6 +1,6 @@
 //! An identification for people.
 
-use report::text_table::{TextTable, number};
+use pages::text_table::{TextTable, number};
 
 use super::Identification;
 use super::follow::{COMPARISONS, Errors, Indices, SETTLED};

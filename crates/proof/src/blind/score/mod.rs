@@ -1,0 +1,174 @@
+//! Compares the answer to a case with its truth.
+
+use anyhow::Result;
+use case_files::answers::{Told, ToldCause};
+use examiner::{Plan, Truth};
+use serde::Serialize;
+use verdict::Verdict;
+
+use super::diagnose::{self, Record};
+use super::layout::Layout;
+use super::seal::Seals;
+use super::truth;
+
+mod belief;
+mod calibration;
+mod heldout;
+mod naming;
+mod sizes;
+pub(super) mod statistics;
+#[cfg(test)]
+mod testing;
+
+pub(super) use belief::Belief;
+pub(super) use calibration::{bins, expected_error};
+pub(super) use heldout::HeldOut;
+pub(super) use naming::Naming;
+pub(super) use sizes::Part;
+
+/// Answers that are no effects.
+const NONE: &str = "none";
+const UNKNOWN: &str = "unknown";
+/// Effects that a person would look at.
+const FIRST: usize = 3;
+
+/// What is hidden in a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Kind {
+    /// Nothing.
+    Null,
+    /// One effect of the vocabulary.
+    Single,
+    /// Two of them.
+    Pair,
+    /// Something outside the vocabulary.
+    Outsider,
+}
+
+impl Kind {
+    pub(super) const ALL: [Self; 4] = [Self::Null, Self::Single, Self::Pair, Self::Outsider];
+
+    /// Its name for people, in the plural.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Null => "nothing hidden",
+            Self::Single => "singles",
+            Self::Pair => "pairs",
+            Self::Outsider => "outsiders",
+        }
+    }
+
+    fn of(truth: &Truth) -> Self {
+        match truth.effects.as_slice() {
+            [] => Self::Null,
+            _ if truth.verdict == UNKNOWN => Self::Outsider,
+            [_] => Self::Single,
+            _ => Self::Pair,
+        }
+    }
+
+    /// Whether effects of the vocabulary are hidden.
+    pub(super) fn in_catalogue(self) -> bool {
+        matches!(self, Self::Single | Self::Pair)
+    }
+}
+
+/// A case with all that is scored of it.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Row {
+    pub(super) case: String,
+    pub(super) kind: Kind,
+    /// Tyre law of the true robot.
+    pub(super) law: String,
+    pub(super) setting: String,
+    /// Severity of the first effect.
+    pub(super) severity: Option<u8>,
+    /// Whether the noise drowns an effect.
+    pub(super) below_noise: bool,
+    /// Ids of the hidden effects, or the kind of outsider.
+    pub(super) hidden: Vec<String>,
+    /// The verdict in the scorer's words; `None` if there is no answer.
+    pub(super) verdict: Option<&'static str>,
+    pub(super) naming: Naming,
+    pub(super) belief: Belief,
+    /// Each hidden effect of the vocabulary.
+    pub(super) parts: Vec<Part>,
+    pub(super) heldout: HeldOut,
+    /// By the clock.
+    pub(super) seconds: Option<f64>,
+    /// On a processor.
+    pub(super) processor_seconds: Option<f64>,
+    /// Bytes.
+    pub(super) peak_memory: Option<u64>,
+}
+
+/// An answer as far as it is scored; a case without one has no causes in it.
+#[derive(Debug, Clone, Copy)]
+struct Answer<'a> {
+    verdict: Option<Verdict>,
+    /// By falling probability.
+    ranked: &'a [&'a ToldCause],
+    classes: &'a [Vec<String>],
+}
+
+impl<'a> Answer<'a> {
+    /// Effects that it names, the most probable first.
+    fn named(self) -> Vec<&'a str> {
+        self.ranked.iter().map(|c| c.effect.as_str()).filter(|e| ![NONE, UNKNOWN].contains(e)).collect()
+    }
+}
+
+/// What the answer should be: ids of effects, "none" or "unknown".
+fn wanted(kind: Kind, truth: &Truth) -> Vec<&str> {
+    match kind {
+        Kind::Null => vec![NONE],
+        Kind::Outsider => vec![UNKNOWN],
+        Kind::Single | Kind::Pair => truth.effects.iter().map(|e| e.id.as_str()).collect(),
+    }
+}
+
+/// Opens the truth of a case and scores the answer to it, if there is one.
+pub(super) fn row(layout: &Layout, plan: &Plan, seals: &Seals, record: Option<&Record>) -> Result<Row> {
+    let name = &plan.name;
+    let opened = truth::open(layout, name, seals)?;
+    let told = record.map(|_| diagnose::told(&layout.diagnosis(name))).transpose()?;
+    let predictions = record.map(|_| layout.predictions(name));
+    let heldout = HeldOut::of(&opened, predictions.as_deref())?;
+    let row = scored(&opened.truth, plan.settings.duration_s, told.as_ref(), heldout);
+    Ok(Row {
+        seconds: record.map(|r| r.seconds),
+        processor_seconds: record.and_then(|r| r.processor_seconds),
+        peak_memory: record.and_then(|r| r.peak_memory),
+        ..row
+    })
+}
+
+fn scored(truth: &Truth, duration: f64, told: Option<&Told>, heldout: HeldOut) -> Row {
+    let kind = Kind::of(truth);
+    let mut ranked: Vec<&ToldCause> = told.iter().flat_map(|t| &t.ranked).collect();
+    ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    let answer = Answer {
+        verdict: told.map(|t| t.verdict),
+        ranked: &ranked,
+        classes: told.map_or(&[], |t| t.indistinguishable.as_slice()),
+    };
+    let wanted = wanted(kind, truth);
+    Row {
+        case: truth.case.clone(),
+        kind,
+        law: truth.generator.clone(),
+        setting: truth.setting.clone(),
+        severity: truth.effects.first().map(|e| e.severity),
+        below_noise: truth.below_noise,
+        hidden: truth.effects.iter().map(|e| e.kind.clone().unwrap_or_else(|| e.id.clone())).collect(),
+        verdict: told.map(Told::verdict),
+        naming: Naming::of(kind, &wanted, answer),
+        belief: Belief::of(&wanted, &ranked),
+        parts: if kind.in_catalogue() { sizes::parts(truth, duration, answer) } else { Vec::new() },
+        heldout,
+        seconds: None,
+        processor_seconds: None,
+        peak_memory: None,
+    }
+}
