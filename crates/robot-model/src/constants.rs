@@ -25,6 +25,13 @@ pub enum Bounds {
     BetweenWheels,
 }
 
+impl Bounds {
+    /// Whether other constants set them.
+    pub(crate) const fn is_relative(self) -> bool {
+        matches!(self, Self::BetweenAxles | Self::BetweenWheels)
+    }
+}
+
 /// What a constant is when nobody says it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Usual {

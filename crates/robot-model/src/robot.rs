@@ -131,7 +131,13 @@ impl<T: Scalar + RealField> Robot<T> {
     /// The first constant that no robot can have.
     pub fn checked(self) -> Result<Self, ModelError> {
         let robot = self.cast::<f64>();
-        Robot::CONSTANTS.iter().try_for_each(|constant| constant.check(&robot))?;
+        // A bound that another constant sets means something only once that one is as it must be.
+        for is_relative in [false, true] {
+            let rows = Robot::CONSTANTS.iter().filter(|constant| constant.bounds.is_relative() == is_relative);
+            for constant in rows {
+                constant.check(&robot)?;
+            }
+        }
         Ok(self)
     }
 

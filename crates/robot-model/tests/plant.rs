@@ -278,12 +278,13 @@ fn single_precision_follows_double_precision() {
 #[test]
 fn robots_that_cannot_exist_are_refused() {
     type Change = fn(&mut Robot<f64>);
-    let wrong: [(&str, Change); 6] = [
+    let wrong: [(&str, Change); 7] = [
         ("mass", |r| r.mass = -1.0),
         ("yaw_inertia", |r| r.yaw_inertia = 0.0),
         ("wheel_radius", |r| r.wheel_radius = f64::NAN),
         ("coulomb_right", |r| r.coulomb[1] = -0.1),
         ("com_x", |r| r.com[0] = 1.0),
+        ("wheelbase", |r| r.half_wheelbase = -0.17),
         ("sliding_share", |r| r.sliding_share = 1.5),
     ];
     assert!(robot().checked().is_ok());
