@@ -13,6 +13,8 @@
 //! What needs data that are no part of this repository is not run where they are not beside it: then the test is shown as
 //! ignored, though all else ran and held.
 
+#![expect(clippy::unnecessary_wraps, reason = "all tests have one type, also those that are never skipped")]
+
 mod blocks;
 mod command;
 mod compare;
