@@ -1,4 +1,12 @@
 //! One inference behind all kinds of robots.
+//!
+//! # Files
+//!
+//! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
+//! * `corrected`: a correction as a robot and effects that a plant takes.
+//! * `advice`, `entropy`: advice on the next drive, and expected information in bits.
+//! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
+//! * `linalg`: the little dense algebra, over faer; `words`: names and numbers for people.
 
 pub mod advice;
 mod corrected;

@@ -3,6 +3,16 @@
 //! What an engine has a law for becomes a value in the model. What it has no law for becomes a residual: a few lines that
 //! say which force to add, or which reading to change, with the numbers in them and the reason. [`way`] says which is
 //! which, for every effect of the catalogue and every engine.
+//!
+//! # Files
+//!
+//! * `model`: what goes in and what comes out; `export`: one model for one engine; `engine`: which
+//!   there are.
+//! * `translate`, `vehicle`, `at`: effects sorted into values of the model and lines to be added.
+//! * `inertia`, `contact`: parts and ground contact in the numbers that engines take.
+//! * `mjcf/*`, `urdf`, `sdf`, `gazebo`: the writers.
+//! * `residual`, `added`: what an engine does not hold, as lines with their numbers.
+//! * `origin`: where values come from, as comments; `xml`, `number`: text.
 
 mod at;
 mod contact;
@@ -26,3 +36,8 @@ pub use table::way;
 
 #[cfg(test)]
 mod tests;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
