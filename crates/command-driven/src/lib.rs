@@ -3,6 +3,16 @@
 //! The simulation says that the wheels do what is commanded and that the body rolls without slip on the nominal track.
 //! Two parts are fitted one after the other, command to wheel (`drive`) and wheel to body (`ground`); an
 //! element stays when it improves forecasts of 2 s windows that were left out of the fit, judged over command steps.
+//!
+//! # Files
+//!
+//! * `run`, `windows`: command, wheels and body on one grid; windows of 2 s and command steps.
+//! * `controller`, `drive`: from command to wheel, the law and its fit.
+//! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
+//! * `search`, `identify`: which elements improve forecasts of windows that were left out.
+//! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
+//! * `name`, `words`: elements as causes with intervals; sentences.
+//! * `model`: a fitted response as a model of its own, run forward.
 
 mod compare;
 mod controller;
@@ -34,6 +44,11 @@ use words::Told;
 
 pub use model::{response_errors, simulate_response};
 pub use run::ResponseRun;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
 
 /// A command-driven case.
 #[derive(Debug, Clone)]

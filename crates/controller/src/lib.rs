@@ -23,6 +23,13 @@
 //! assert!(controller.step(&at_rest, 1e-3).torque[0] > 0.0);
 //! # Ok::<(), controller::ControllerError>(())
 //! ```
+//!
+//! # Files
+//!
+//! * `path`: the desired motion: straight, one full circle, straight.
+//! * `kinematic`: the outer loop, from the error of the pose to a speed and a yaw rate.
+//! * `tracking`: the inner loop, a sliding variable per side and a network that learns the load.
+//! * `error`: what can be wrong with a path or with gains.
 #![no_std]
 
 mod error;
@@ -36,3 +43,8 @@ pub use error::ControllerError;
 pub use kinematic::{Command, Kinematic, Pose};
 pub use path::{Events, Loop, LoopPath, PathReference, Profile, Reference, Turn};
 pub use tracking::{Action, Gains, Tracking, WheelState};
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

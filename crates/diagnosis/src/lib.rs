@@ -5,8 +5,18 @@
 //! screened by [`long`].
 //!
 //! Pure functions: no files, no clock, no output.
+//!
+//! # Files
+//!
+//! * `long/*`: long recordings: screened once by weak form (`law`, `rows`, `thin`), of which the
+//!   minutes that differ most from the references are kept (`pool`) for a diagnosis.
 
 pub mod long;
 
 pub use inference::{Corrected, DiagnosisError, Options};
 pub use torque_driven::diagnose;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

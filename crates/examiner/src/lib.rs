@@ -1,4 +1,17 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `case`, `set`: one case from a seed, and sets of cases with a given mix.
+//! * `settings`: what a drawn case is to look like; `draw`: the robot, what it hides, its drives.
+//! * `effect`, `hidden`, `outsider`, `events`: what can be hidden, and what must be answered by
+//!   "unknown".
+//! * `plant`, `tyre`, `contact`, `motor`, `integrate`: the true robot and its laws.
+//! * `drive`, `course`, `run`, `sensors`: closed-loop drives and what sensors show of them.
+//! * `robot`, `robot_json`: the robot as its user knows it.
+//! * `free`, `measure`: how much a hidden effect matters, by free runs.
+//! * `csv`, `truth`: the files of a case, and what was hidden, for the scorer.
+//! * `random`: random numbers fixed by a path of keys; `error`: what can go wrong.
 
 mod case;
 mod contact;

@@ -42,6 +42,18 @@
 //! assert!(error.abs() < 0.02);
 //! # Ok::<(), identifier::IdentifierError>(())
 //! ```
+//!
+//! # Files
+//!
+//! * `law`: the identifier, and what an adaptive law must provide.
+//! * `midpoint`, `exponential`, `euler`: the schemes, each over one sample.
+//! * `projection`, `leak`: what may be put around any of them.
+//! * `certificate`: the Lyapunov balance of each step and the ledger of a run.
+//! * `least_squares`, `memory`, `retaining`: what is kept of the past.
+//! * `hurwitz`, `coupled`: a general matrix A; `lyapunov`: its equation, solved on a host (`std`).
+//! * `angle`: rows whose right-hand side is known; `field`: numbers that matrices are factorised
+//!   over.
+//! * `error`: what can be wrong with an identifier.
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -85,3 +97,8 @@ pub use midpoint::Midpoint;
 pub use nn_basis::{Lanes, Scalar};
 pub use projection::Projection;
 pub use retaining::Retaining;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -1,4 +1,15 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `least_squares/*`: the one solver: bounds, priors, robust losses, eliminated blocks.
+//! * `evidence`: from scores to probabilities, classes and credible sets.
+//! * `robust`: medians, quantiles, intervals; `algebra`: the little dense algebra, over faer.
+//! * `expected_information`, `advice`: which drive to record next, in bits.
+//! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
+//! * `corrected`: a correction as a robot and effects that a plant takes.
+//! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
+//! * `words`: names and numbers for people.
 
 #[cfg(feature = "solver")]
 pub mod advice;

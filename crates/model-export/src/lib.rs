@@ -31,3 +31,8 @@ pub use translate::way;
 
 #[cfg(test)]
 mod tests;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -21,6 +21,13 @@
 //! assert_eq!(phi[0], 0.5);
 //! # Ok::<(), nn_basis::BasisError>(())
 //! ```
+//!
+//! # Files
+//!
+//! * `activation`, `layer`: the function of a neuron, and the fixed first layer.
+//! * `net`: the second layer, whose weights adapt.
+//! * `constant`: the regressor without a network, for comparison.
+//! * `error`: what can be wrong with a basis.
 #![no_std]
 
 mod activation;
@@ -38,6 +45,11 @@ pub use layer::SigmoidLayer;
 pub use net::LinearNet;
 
 pub use scalar::{Lanes, Scalar, real};
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
 
 /// `Σ a_i b_i`, summed from the first entry on so that the result is the same everywhere.
 #[inline(always)]

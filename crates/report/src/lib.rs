@@ -3,6 +3,15 @@
 //! Markup is written by hand, in `pages` and three small places: no template engine, because a page is
 //! put together by calls of [`pages::page::Page`] whose methods escape every text that they are given, so that templates would
 //! hold little more than single elements. Tests give it markup, by hand and from files, and find none of it in the page.
+//!
+//! # Files
+//!
+//! * `diagnosis_page/*`: a diagnosis as a page, one file for each section; `diagnosis_text/*`: as text.
+//! * `fleet/*`: recordings of many robots as a page; `trend` and `since` are its statistics.
+//! * `picture`, `manoeuvre`, `slopes`, `reliability`: a verdict, the next drive, claims beside a
+//!   witness, and how often answers are right, each as SVG; `drawing`: what pictures share.
+//! * `words`: how numbers, causes, places and times are written, on the terminal too; `facts`, `sections`:
+//!   lists and headings.
 
 use pages::{chart, figure, page, thin};
 
@@ -17,3 +26,8 @@ pub mod reliability;
 pub mod sections;
 pub mod slopes;
 pub mod words;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

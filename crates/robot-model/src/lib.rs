@@ -9,6 +9,20 @@
 //!
 //! The crate needs neither the standard library nor an allocator, and is generic over the scalar:
 //! `f32`, `f64`, dual numbers for derivatives, or [`Lanes`] for several robots at once.
+//!
+//! # Files
+//!
+//! * `constants`: the table of constants; bounds, tuning and the keys of robot files follow from
+//!   its rows.
+//! * `robot`: the constants of a user's robot, checked; `tunable`: those that a fit may change.
+//! * `plant`: the step, torque-driven and speed-driven; `contact`: slip, tyre law, wheel loads.
+//! * `state`: what moves; `settle`: steady motion of a speed-driven robot.
+//! * `effect/*`: what an effect is: the trait, its specification, how engines get it.
+//! * `effects/*`: the catalogue, one file for each effect; the build script finds them.
+//! * `active`: an effect at values; `presence`: from an instant, in a disc, on one side.
+//! * `paper/*`: the robot of the paper, two variants, and its equation as a regressor.
+//! * `scalar`: functions of a number that only plants need; `error`: what can be wrong with a
+//!   model.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod active;

@@ -29,6 +29,14 @@
 //! let both = bump(Lanes([0.5, -2.0]));
 //! assert_eq!(both.0, [bump(0.5), bump(-2.0)]);
 //! ```
+//!
+//! # Files
+//!
+//! * `number`: what a number must be able to do; no order, so that lanes never disagree on a
+//!   branch.
+//! * `lanes`: several numbers side by side, each with the bits it has alone.
+//! * `elementary`: exp, tanh, sine and cosine in basic operations.
+//! * `double`, `single`, `dual`: the same for `f64`, `f32` and dual numbers.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod double;

@@ -3,6 +3,21 @@
 //! A drive imposes the wheel speeds; what it takes to do so is the output. Real recordings of this kind are slow,
 //! unsigned and on wandering clocks, so only steady stretches are compared: [`extract`](self) loads, compare them with
 //! the references', name the effects that could make the difference, and forecast recordings that were not used.
+//!
+//! # Files
+//!
+//! * `run`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
+//!   turns.
+//! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
+//! * `compare`: loads over those of the references.
+//! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
+//! * `answer`, `words`: probabilities, classes, limits; sentences.
+//! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
+//! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
+//! * `scrub`, `turning`, `standstill`: turning on other ground, turning without a gyro, a stuck
+//!   body.
+//! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
+//! * `next`: which steady loads would tell the remaining effects apart.
 
 mod answer;
 mod attitude;
@@ -45,6 +60,11 @@ pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming, UNNAMED_STRAIGHT};
 pub use run::{BodyRates, SpeedRun};
 use traces::Fits;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
 
 /// A speed-driven case.
 #[derive(Debug, Clone)]

@@ -1,4 +1,25 @@
 //! Diagnosis of robots whose drives are given torques.
+//!
+//! # Files
+//!
+//! * `diagnose`: the way of a case as one list of stages; `case`, `run`: what goes in.
+//! * `motion`, `smooth`, `windows`: what sensors say before any force law, and the segments of free
+//!   runs.
+//! * `redundancy/*`: sensor faults that two sensors show without any force law.
+//! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
+//! * `calibrate`, `gate`: constants and noise from the references, and the null score of each
+//!   reference.
+//! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
+//!   runs.
+//! * `search`, `fit`, `normal`, `trial`: refits of the finalists in free run; `disc`, `onset`:
+//!   place and time.
+//! * `decide`, `judged`, `visits`: from fits to probabilities.
+//! * `answer`, `words`: causes with sizes and intervals; sentences.
+//! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
+//! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
+//! * `forward`, `predict`: any drive simulated, and held-out drives forecast.
+//! * `next/*`: which drive would tell the rivals apart.
+//! * `output_error/*`: constants of a robot from recordings in free run.
 
 mod answer;
 mod calibrate;
@@ -39,3 +60,8 @@ pub use case::{Case, HeldOut, Restart};
 pub use diagnose::{Calibrated, diagnose};
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use run::Run;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -1,6 +1,17 @@
 //! What a diagnosis says: plain data that serde writes and reads, and nothing else.
 //!
 //! Engines fill it; pages, exports, the command line and Python read it. It depends on no engine.
+//!
+//! # Files
+//!
+//! * `diagnosis`: all that a diagnosis says; `cause`: a possible cause with probability and size.
+//! * `located`: where, when and how much; `trace`: recordings beside the simulation.
+//! * `free_run`: errors on recordings left out of a fit; `trial`: hypotheses that were fitted.
+//! * `correction`: the simulation as it should be; `prediction`: the response of a held-out drive.
+//! * `loads`: steady loads of speed-driven robots.
+//! * `response`, `response_constants`: the response of command-driven robots and its constants.
+//! * `advice`, `course`: which drive to record next, and a drive as wanted speeds.
+//! * `coverage`: which parts of long recordings a diagnosis rests on.
 
 mod advice;
 mod cause;
@@ -39,3 +50,8 @@ pub use response::{Alternative, Earned, Element, Parameter, Response, ResponseMo
 pub use response_constants::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseError};
 pub use trace::{Compared, Trace, instant, rounded};
 pub use trial::Trial;
+
+/// The README's snippet, run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -29,6 +29,15 @@
 //! assert!((law.coefficient(1, 0) + 0.5).abs() < 1e-9);
 //! # Ok::<(), weak_form::WeakFormError>(())
 //! ```
+//!
+//! # Files
+//!
+//! * `shape`: how many signals there are and what a window is.
+//! * `stream`: rows in, in any portions; windows and their Gram matrix out.
+//! * `kernel`: the three sums, in one order whatever the vector unit.
+//! * `aligned`: numbers that begin at a line of the cache.
+//! * `gram`, `ridge`: the matrix, and regression from it alone.
+//! * `error`: why there is no weak form.
 
 mod aligned;
 mod error;
