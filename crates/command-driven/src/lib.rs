@@ -153,26 +153,33 @@ fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> 
     let hold = case.recordings.iter().map(|r| r.hold).fold(0.0, f64::max);
     if hold > TELLING_HOLD {
         out.push(format!(
-            "wheel speeds hold one value for {hold:.2} s: dead time and lag together are up to {:.2} s too long",
+            "the recorded wheel speeds change every {hold:.2} s only: dead time and lag together \
+             may come out up to {:.2} s too long",
             0.5 * hold
         ));
     }
     if !has_position {
-        out.push("no position beside a heading: rolling radius and forward slip cannot be told".to_owned());
+        out.push(
+            "a heading but no position was recorded: rolling radius and forward slip cannot \
+                  be determined"
+                .to_owned(),
+        );
     }
     if case.references.is_empty() {
         out.push(
-            "no references: the simulation is \"wheels do what is commanded, no slip, nominal track\"; a command that was \
-             logged in other units than it was sent in shows as gains of the drive"
+            "no references were given: the simulation is taken as \"wheels do what is commanded, \
+             no slip, nominal track\"; a command logged in other units than it was sent in then \
+             appears as a gain of the drive"
                 .to_owned(),
         );
     }
     for p in r.parameters.iter().filter(|p| p.at_bound) {
-        out.push(format!("{} stopped at the end of what is sensible: {}", p.id, p.value));
+        out.push(format!("{} came out at the limit of its sensible range: {}", p.id, p.value));
     }
     out.push(
-        "no torque, no current: friction, mass and adhesion cannot be told; whether more is missing than was named is not \
-         judged, since the noise of wheels and pose is not known"
+        "no torque and no current are used: friction, mass and adhesion cannot be determined; \
+         whether more is missing than was named is not judged, since the noise of wheels and pose \
+         is not known"
             .to_owned(),
     );
     out

@@ -61,7 +61,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
                 slope_half: (NINETY * sigma).to_degrees(),
                 bound: false,
                 causes: vec![GRADE],
-                reason: "the gyro tilts with it".into(),
+                reason: "the gyro measures the tilt".into(),
             });
         }
     }

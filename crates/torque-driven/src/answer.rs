@@ -255,8 +255,8 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         if winner.is_some() && !worthwhile {
             limits.push(
-                "recordings that were left out are forecast no better with the correction: held-out drives are predicted \
-                 without it"
+                "the correction does not improve the forecasts of recordings left out of the fit: \
+                 held-out drives are predicted without it"
                     .to_owned(),
             );
         }
@@ -329,22 +329,30 @@ impl Judged<'_> {
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
             out.push(
-                "no pose: slip and places on the ground cannot be told, gyro faults cannot be told from turning"
+                "no pose was recorded: slip and places on the ground cannot be determined, and \
+                 gyro faults cannot be told from turning"
                     .to_owned(),
             );
         }
         if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
-            out.push("no gyro: turning is only known from the wheels".to_owned());
+            out.push("no gyro was recorded: turning is known from the wheels only".to_owned());
         }
         if runs().all(|r| r.accel[0].iter().all(Option::is_none)) {
-            out.push("no accelerometer: grade and pulls are told apart by the motion only".to_owned());
+            out.push(
+                "no accelerometer was recorded: slopes and pulls are told apart by the \
+                      motion only"
+                    .to_owned(),
+            );
         }
         let held: usize = runs().map(|r| r.held_torques).sum();
         if held > 0 {
-            out.push(format!("{held} torque samples were missing and took the value before them"));
+            out.push(format!(
+                "{held} torque samples were missing; each was replaced by the value \
+                              before it"
+            ));
         }
         if self.sensors.faults.iter().any(|f| f.card.redundancy == Redundancy::FrozenAngle) {
-            out.push("windows beside frozen encoder rows were left out".to_owned());
+            out.push("windows next to rows with a frozen encoder were left out".to_owned());
         }
         out
     }

@@ -54,5 +54,5 @@ fn render() -> String {
             card.revealed_by.to_owned(),
         ]);
     }
-    format!("{}\n`lacuna explain EFFECT` tells all about one.\n", table.render())
+    format!("{}\n`lacuna explain EFFECT` shows all about one.\n", table.render())
 }

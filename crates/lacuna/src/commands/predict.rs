@@ -92,8 +92,8 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
             "--out is for torque-driven robots; `lacuna simulate` writes what a command-driven robot does".to_owned()
         )),
         Causality::SpeedDriven => bail!(
-            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna simulate` tells the torque that \
-             their speeds take",
+            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna \
+             simulate` computes the torque that their speeds take",
             robots[0].name
         ),
     }

@@ -79,7 +79,13 @@ fn facts(d: &Diagnosis) -> String {
             fact("", &c.name, &probability(c.probability), "probability");
         } else {
             let class = d.indistinguishable.iter().find(|class| class.len() > 1 && class.contains(&c.effect));
-            let class = class.map_or_else(String::new, |l| format!("not to be told from {} others", l.len() - 1));
+            let class = class.map_or_else(String::new, |l| {
+                format!(
+                    "cannot be told from {} \
+                                                                    others",
+                    l.len() - 1
+                )
+            });
             let parts = [p, interval, where_and_when(c), class];
             let parts: Vec<String> = parts.into_iter().filter(|s| !s.is_empty()).collect();
             fact("", &c.name, &value, &parts.join(", "));
@@ -153,7 +159,11 @@ fn caption(trace: &Trace, channel: &Compared, spans: &[[f64; 2]], errors: &[Opti
         out.push("The fit of the correction has not seen this recording.".to_owned());
     }
     if trace.restarts.len() > 1 {
-        out.push("Where its line is broken, the simulation is set to the measured state.".to_owned());
+        out.push(
+            "Where its line is broken, the simulation starts again from the measured \
+                  state."
+                .to_owned(),
+        );
     }
     if !spans.is_empty() {
         let some: Vec<String> = spans.iter().take(SPANS).map(|[a, b]| format!("{a:.1} to {b:.1} s")).collect();

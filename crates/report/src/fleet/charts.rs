@@ -69,7 +69,7 @@ fn figure(s: &Series<'_>) -> Figure {
     let mut lines = vec![sizes];
     if let (Some(trend), Some(first), Some(last)) = (s.trend, shown.first(), shown.last()) {
         let x = [first[0], last[0]];
-        let name = if trend.is_told() { "trend" } else { "line, no trend told" };
+        let name = if trend.is_told() { "trend" } else { "line, no clear trend" };
         let line = Line::new(name, &x, &x.map(|x| trend.at(x + origin)));
         let role = Some(if trend.is_told() { Role::Before } else { Role::Placebo });
         lines.push(Line { role, ..line.dashed() });
@@ -112,7 +112,7 @@ fn trend_in_words(s: &Series<'_>) -> String {
         } else {
             "the sizes lie at one instant, or an interval is missing".to_owned()
         };
-        return format!("Whether it changes cannot be told: {why}.");
+        return format!("Whether it changes cannot be judged: {why}.");
     };
     let days = s.points.last().map_or(0.0, |p| p.x) - s.points.first().map_or(0.0, |p| p.x);
     let (factor, per) = match (s.dated, days > LONG_DAYS) {
@@ -126,7 +126,7 @@ fn trend_in_words(s: &Series<'_>) -> String {
     if trend.is_told() {
         format!("It {} by {told}.", if slope > 0.0 { "rises" } else { "falls" })
     } else {
-        format!("No trend can be told: {told}.")
+        format!("No clear trend: {told}.")
     }
 }
 
@@ -137,9 +137,9 @@ pub(super) fn since_in_words(s: &Series<'_>) -> String {
         one.map_or(String::new(), |one| if s.dated { day(one.date) } else { one.id.clone() })
     };
     match s.since {
-        Since::TooFew => format!("cannot be told from {} recordings", s.answers.len()),
+        Since::TooFew => format!("cannot be determined from {} recordings", s.answers.len()),
         Since::Always => "before the first recording: it is named in all".to_owned(),
-        Since::Unclear(p) => format!("cannot be told: a change has probability {p:.2}"),
+        Since::Unclear(p) => format!("cannot be determined: a change has probability {p:.2}"),
         Since::Changed(Change { came, first_after: [from, to], best, .. }) => {
             let verb = if came { "came" } else { "went" };
             // It came after the last recording without it.

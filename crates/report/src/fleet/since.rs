@@ -9,7 +9,7 @@ const TAILS: [f64; 2] = [0.05, 0.95];
 
 pub(super) const METHOD: &str = "Since when: the recordings of a robot in their order, each with or without the effect \
     named. One share throughout is compared with one share before and another after an instant (uniform priors for \
-    shares and instant, even odds for a change); a change is told where it is at least 0.95 probable, with the 90 % interval \
+    shares and instant, even odds for a change); a change is reported where it is at least 0.95 probable, with the 90 % interval \
     of its instant, which lies between two recordings.";
 
 /// What the order of recordings says.

@@ -145,7 +145,7 @@ fn the_page_says_who_differs_by_what_since_when_and_whether_it_grows() {
         "N m per day (90 %)",
         "came between 2026-02-12 and",
         "likeliest just before 2026-02-26",
-        "cannot be told from 3 recordings",
+        "cannot be determined from 3 recordings",
         "no &lt;b&gt;rows&lt;/b&gt;",
         "days after 2026-02-26",
         "1 failed, 0 withheld",

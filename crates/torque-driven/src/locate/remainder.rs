@@ -87,8 +87,8 @@ pub(crate) fn sentence(r: &Remainder) -> String {
     let driving = r.regime.as_ref().filter(|_| r.place.is_some()).map_or(String::new(), |regime| {
         let [from, until] = regime.range;
         let (word, limit) = if from > 0.0 { ("above", from) } else { ("below", until) };
-        let of = if regime.by == "turning" { "turning" } else { "speed" };
-        format!(" {word} {limit} {} of {of}", regime.unit)
+        let of = if regime.by == "turning" { "yaw rates" } else { "speeds" };
+        format!(" at {of} {word} {limit} {}", regime.unit)
     });
     format!("{:.0} % of the mismatch is still unexplained{place}{driving}.", 100.0 * r.share)
 }
