@@ -8,7 +8,7 @@ use verdict::Manoeuvre;
 const CALM: [[f64; 2]; 2] = [[0.12, 0.3], [0.15, 0.4]];
 /// Time of a calm ramp, s.
 const RAMP: f64 = 1.5;
-/// Time of a level of a profile at random, s, and of each ramp.
+/// Time of a level of a random profile, s, and of each ramp.
 const EACH: f64 = 1.5;
 const SHORT_RAMP: f64 = 0.7;
 
@@ -52,7 +52,7 @@ pub(super) fn advised(m: &Manoeuvre) -> Course {
     Course { start: Some(m.start), points: m.profile.clone(), torque_free: m.torque_free.clone() }
 }
 
-/// A drive of the menu at random: any whose recording can be added to the others, the searched one aside.
+/// A random drive of the menu: any whose recording can be added to the others, the searched one aside.
 pub(super) fn of_menu(menu: &[Manoeuvre], seed: u64) -> Option<&Manoeuvre> {
     let mut can: Vec<&Manoeuvre> = menu.iter().filter(|m| m.joins && !m.optimised).collect();
     // In an order that owes nothing to the advice.
@@ -61,7 +61,7 @@ pub(super) fn of_menu(menu: &[Manoeuvre], seed: u64) -> Option<&Manoeuvre> {
     can.get(at).copied()
 }
 
-/// A speed profile at random within what the menu reaches, begun where the menu begins.
+/// A random speed profile within what the menu reaches, begun where the menu begins.
 pub(super) fn by_lot(menu: &[Manoeuvre], seed: u64, seconds: f64) -> Option<Course> {
     let start = menu.iter().find(|m| m.joins)?.start;
     let all = || menu.iter().filter(|m| m.joins).flat_map(|m| &m.profile);
