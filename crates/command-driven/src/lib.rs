@@ -53,7 +53,7 @@ const LEAST_STEPS: usize = 2 * FOLDS;
 /// Wheel speeds that repeat for longer are worth telling, s.
 const TELLING_HOLD: f64 = 0.04;
 
-/// Diagnoses a command-driven case. `progress` is told the stage that begins.
+/// Diagnoses a command-driven case. `progress` is called with the stage that begins.
 ///
 /// # Errors
 /// When recordings are missing or hold too few command steps.

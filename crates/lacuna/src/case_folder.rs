@@ -245,7 +245,7 @@ impl CaseFolder {
 }
 
 impl CaseFolder {
-    /// Diagnoses the case by what drives its robot; `stage` is told what begins.
+    /// Diagnoses the case by what drives its robot; `stage` is called with what begins.
     ///
     /// # Errors
     /// Recordings without the signals that are needed, or that do not determine an answer.

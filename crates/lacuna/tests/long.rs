@@ -52,7 +52,7 @@ fn a_long_recording_is_screened_whole_and_diagnosed_on_its_budget() {
     assert_eq!(diagnosis["ranked"][0]["effect"], "payload", "{}", run.out());
     let coverage = &diagnosis["coverage"]["recordings"];
     assert_eq!((coverage["chosen"].as_array().unwrap().len(), &coverage["left_out"]), (3, &4.into()));
-    // What is told of a stretch is told in the time of its recording.
+    // What is said of a stretch is given in the time of its recording.
     let last = &diagnosis["traces"].as_array().unwrap().last().unwrap();
     let [from, until] = [0, 1].map(|i| coverage["chosen"][2]["interval"][i].as_f64().unwrap());
     for time in last["time"].as_array().unwrap() {

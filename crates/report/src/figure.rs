@@ -21,7 +21,7 @@ pub enum Role {
     Placebo,
 }
 
-/// A chart with all that is told about it.
+/// A chart with all that is reported about it.
 #[derive(Debug, Clone)]
 pub struct Figure {
     /// Heading above it; empty for none.

@@ -6,7 +6,7 @@ use crate::compare::NINETY;
 use crate::run::SpeedRun;
 use verdict::LoadChange;
 
-/// A slope that is told, degrees, and for how long at least, s.
+/// A slope that is reported, degrees, and for how long at least, s.
 const SLOPE: f64 = 1.6;
 const LEAST_SECONDS: f64 = 3.0;
 /// Gaps in the sight of a slope that do not end it, s.

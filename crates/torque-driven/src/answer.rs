@@ -1,4 +1,4 @@
-//! From a decision to what is told: kind of answer, causes with sizes and intervals, places, limits.
+//! From a decision to the verdict: kind of answer, causes with sizes and intervals, places, limits.
 
 use std::collections::BTreeMap;
 

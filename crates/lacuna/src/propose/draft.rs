@@ -125,7 +125,7 @@ impl Draft {
         Vec::new()
     }
 
-    /// Takes a signal that no topic has given yet; what has, is told.
+    /// Takes a signal that no topic has given yet; what has, is reported.
     fn take(&mut self, topic: &TopicContents, signal: &str) -> bool {
         if let Some(other) = self.taken.get(signal) {
             let known = self.repeated.iter_mut().find(|(name, from, _)| *name == topic.name && from == other);

@@ -13,7 +13,7 @@ const MOST: usize = 24;
 const POINTS: usize = 200;
 /// Rows of the numbers below a chart.
 const ROWS: usize = 50;
-/// Slopes of longer histories are told per 30 days.
+/// Slopes of longer histories are reported per 30 days.
 const LONG_DAYS: f64 = 60.0;
 
 /// Adds the section.

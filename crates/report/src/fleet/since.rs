@@ -2,7 +2,7 @@
 
 /// Fewer recordings than this tell no change.
 pub(super) const FEWEST: usize = 5;
-/// A change is told above this probability.
+/// A change is reported above this probability.
 const SURE: f64 = 0.95;
 /// Ends of the interval.
 const TAILS: [f64; 2] = [0.05, 0.95];
@@ -21,7 +21,7 @@ pub enum Since {
     Always,
     /// It came or went.
     Changed(Change),
-    /// No change is told; how probable one is.
+    /// No change is reported; how probable one is.
     Unclear(f64),
 }
 

@@ -113,7 +113,7 @@ fn named(magnitude: f64) -> Named {
     }
 }
 
-/// Recordings of a robot, one a week: healthy, then with an effect that grows.
+/// Recordings of a robot, one a week: fault-free, then with an effect that grows.
 fn worn(robot: &str, healthy: u32, ill: u32, growth: f64) -> Vec<Seen> {
     (0..healthy + ill)
         .map(|week| Seen {

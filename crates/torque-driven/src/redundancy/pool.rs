@@ -11,7 +11,7 @@ pub(super) struct Measured {
     pub(super) sigma: f64,
 }
 
-/// A difference is told when it exceeds so many sigma, and what matters.
+/// A difference is reported when it exceeds so many sigma, and what matters.
 const SURE: f64 = 4.0;
 /// Run-to-run spread that is expected beforehand, as a share of the size that matters, and how many runs that
 /// expectation is worth: three or four runs alone tell a spread badly.
@@ -49,7 +49,7 @@ pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured
     Some(Measured { value, sigma: spread.max(own) })
 }
 
-/// What the recordings show beyond the references, by medians; `None` when either determines nothing.
+/// How far the recordings differ from the references, by medians; `None` when either determines nothing.
 ///
 /// A run that does not determine the number to half the size that matters has no say.
 pub(super) fn beyond(
