@@ -1,12 +1,12 @@
 //! Recordings beside their forecasts from the commands, row by row; every window by a fit that left it out.
 
-use crate::compare::Four;
+use crate::compare::Comparison;
 use crate::ground::{Poses, misses};
 use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::windows::{Window, Windows};
 use verdict::{Compared, Trace, instant, rounded};
 
-/// Places of the simulation as it is, re-tuned and corrected among the four.
+/// Places of the simulation as it is, re-tuned and corrected among the comparison.
 const SHOWN: [usize; 3] = [0, 1, 2];
 
 /// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.
@@ -17,8 +17,8 @@ const POSE: f64 = 0.1;
 type Simulated = (Vec<Vec<[f64; 2]>>, Vec<Poses>);
 
 /// Every recording with what was simulated for it.
-pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, four: &Four) -> Vec<Trace> {
-    let three = SHOWN.map(|k| four.simulated_left_out(windows, k));
+pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, comparison: &Comparison) -> Vec<Trace> {
+    let three = SHOWN.map(|k| comparison.simulated_left_out(windows, k));
     let errors: Vec<Vec<f64>> = three.iter().map(|s| errors(windows, s)).collect();
     let left = errors[2].iter().sum::<f64>() / errors[2].len().max(1) as f64;
     let mut first = 0;

@@ -22,8 +22,8 @@ pub(crate) const fn element(e: Element) -> &'static str {
     }
 }
 
-/// Errors that the sentences tell: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
-pub(crate) struct Told {
+/// Errors that the sentences give: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
+pub(crate) struct Figures {
     pub(crate) wheel: [f64; 5],
     pub(crate) position: Option<[f64; 5]>,
     pub(crate) yaw: [f64; 5],
@@ -49,7 +49,7 @@ fn list(r: &Response, items: &[(&str, &str)]) -> Vec<String> {
     items.iter().filter_map(|(id, what)| find(r, id).map(|p| format!("{what} {}", value(p)))).collect()
 }
 
-pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, references: bool) -> Vec<String> {
+pub(crate) fn sentences(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
     if d.verdict == Verdict::NoMismatch {
         return vec![
             "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says."
@@ -60,7 +60,7 @@ pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, re
     let ground = r.parameters.iter().any(|p| !p.element.is_drive());
     let simulation = if references { "the references' response" } else { "the command" };
     let mut out = Vec::new();
-    let w = &told.wheel;
+    let w = &figures.wheel;
     if drive {
         out.push(format!(
             "The wheels do not do what is commanded, and neither slip nor friction explains it: \
@@ -87,7 +87,7 @@ pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, re
         );
     }
     let mut shares = Vec::new();
-    for (what, unit, e) in told.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &told.yaw)]) {
+    for (what, unit, e) in figures.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &figures.yaw)]) {
         shares.push(format!(
             "{what} {:.2} {unit} as simulated, {:.2} with track and radius re-tuned, {:.2} with the drive alone corrected, \
              {:.2} with both",

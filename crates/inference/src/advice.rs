@@ -37,11 +37,7 @@ pub fn nothing_to_split(advice: &Advice) -> Option<String> {
              much they narrow its size",
             one.name
         )),
-        _ if most < LEAST_BITS => Some(
-            "none of the candidate drives would tell these causes \
-                                        apart"
-                .to_owned(),
-        ),
+        _ if most < LEAST_BITS => Some("none of the candidate drives would tell these causes apart".to_owned()),
         _ => None,
     }
 }

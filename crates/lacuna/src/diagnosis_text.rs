@@ -45,8 +45,7 @@ pub fn render(d: &Diagnosis, lost: &[String], not_used: &[String], mapping: Opti
 fn next(advice: &Advice) -> String {
     let best = advice.best().map(|m| {
         format!(
-            "{}: expected to resolve {:.2} of the {:.2} bits of uncertainty about \
-                          the cause",
+            "{}: expected to resolve {:.2} of the {:.2} bits of uncertainty about the cause",
             m.name, m.expected_bits, advice.entropy_bits
         )
     });

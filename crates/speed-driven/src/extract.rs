@@ -191,11 +191,7 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let weights: Vec<f64> = pieces.iter().map(|p| p.iter().map(|&i| run.difference(i).powi(2)).sum()).collect();
     let effective = dd * dd / weights.iter().map(|w| w * w).sum::<f64>();
     if effective <= 1.5 {
-        return Err(refuse(
-            "only one short turn: its uncertainty cannot be estimated; record more \
-                           turns"
-                .to_owned(),
-        ));
+        return Err(refuse("only one short turn: its uncertainty cannot be estimated; record more turns".to_owned()));
     }
     let scatter: f64 = pieces
         .iter()

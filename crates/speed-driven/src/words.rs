@@ -14,11 +14,7 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
     match d.verdict {
         Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
         Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
-            out.push(
-                "No mismatch: the loads of steady driving need no cause that the simulation \
-                      lacks."
-                    .to_owned(),
-            );
+            out.push("No mismatch: the loads of steady driving need no cause that the simulation lacks.".to_owned());
         }
         Verdict::NoMismatch => {
             out.push(

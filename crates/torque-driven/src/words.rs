@@ -27,8 +27,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
             );
             if let Some(c) = causes.first() {
                 out.push(format!(
-                    "The nearest effect is {} ({}), but most of the mismatch remains \
-                                  with it.",
+                    "The nearest effect is {} ({}), but most of the mismatch remains with it.",
                     c.name,
                     quantity(c)
                 ));

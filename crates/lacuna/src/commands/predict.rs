@@ -25,10 +25,10 @@ Examples:
 
 Several robot files are compared on the same drives. The simulation runs freely
 and is set to the recorded state at rows that hold all of it (pose, body
-velocity, gyro, wheels), at most every --restart seconds. Errors are told where
+velocity, gyro, wheels), at most every --restart seconds. Errors are given where
 the drive also holds what was to be predicted. Command-driven robots are
 forecast from their commands in windows of 2 s. Of speed-driven robots no drive
-is forecast freely: `lacuna simulate` tells the torque that their speeds take.
+is forecast freely: `lacuna simulate` gives the torque that their speeds take.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 

@@ -21,9 +21,9 @@ Examples:
   lacuna screen case/ --json screened.json       every minute, with its figure
 
 Recordings are passed over once, minute by minute, in memory that does not grow.
-A law among drive, wheels, yaw rate and acceleration is learned from the
-references by weak form (without any, from the first minutes); `unlike` is the
-mean squared residual of a minute over what is usual where the law holds.
+Relations among drive, wheels, yaw rate and acceleration are learned from the
+references (without any, from the first minutes). `unlike` says how badly they
+fit a minute: its mean squared residual, divided by the usual one.
 It says where to look, not what is missing: that is for `lacuna diagnose`.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";

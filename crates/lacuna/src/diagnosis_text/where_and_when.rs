@@ -87,10 +87,7 @@ fn torque(d: &Diagnosis) -> String {
     }
     let certified =
         if all.iter().all(|t| t.certificate.holds) { "its error bound holds" } else { "its error bound DOES NOT HOLD" };
-    let title = format!(
-        "Torque that the model lacks (mean, by the online neural identifier; \
-                         {certified})"
-    );
+    let title = format!("Torque that the model lacks (mean, by the online neural identifier; {certified})");
     format!("\n{}{}", heading(&title), table.render())
 }
 

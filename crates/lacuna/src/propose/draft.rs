@@ -98,16 +98,12 @@ impl Draft {
             "PoseStamped" => {
                 self.plain(topic, &POSE, "x and y as they stand; the heading is a quaternion, which is not mapped")
             }
-            "Odometry" => self.left_out(
-                topic,
-                "odometry is mostly computed from the encoders, so that it \
-                                      does not show slip",
-            ),
-            "Twist" | "TwistStamped" => self.left_out(
-                topic,
-                "a speed wanted of the body; the drive decides what the \
-                                      wheels are commanded",
-            ),
+            "Odometry" => {
+                self.left_out(topic, "odometry is mostly computed from the encoders, so that it does not show slip")
+            }
+            "Twist" | "TwistStamped" => {
+                self.left_out(topic, "a speed wanted of the body; the drive decides what the wheels are commanded")
+            }
             "Feedback" if topic.message_type.starts_with("clearpath") || topic.message_type.starts_with("jackal") => {
                 let what = "drivers[0] taken for the left side and drivers[1] for the right, as Clearpath counts them; \
                             where the currents have no sign, add magnitude_only = true";

@@ -21,10 +21,7 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
     }
     match timeline(d) {
         Some(figure) => page.figure(&figure),
-        None => page.paragraph(
-            "In no stretch of time does a signal differ by clearly more than \
-                                in fault-free drives.",
-        ),
+        None => page.paragraph("In no stretch of time does a signal differ by clearly more than in fault-free drives."),
     }
     let figures: Vec<Figure> = map(d).into_iter().chain(paths(d)).collect();
     if figures.is_empty() {

@@ -122,11 +122,11 @@ fn trend_in_words(s: &Series<'_>) -> String {
     };
     let unit = if s.unit == "-" { String::new() } else { format!("{} ", s.unit) };
     let [slope, half] = [trend.slope, trend.half].map(|v| factor * v);
-    let told = format!("{} ± {} {unit}per {per} (90 %)", number(slope), number(half));
+    let change = format!("{} ± {} {unit}per {per} (90 %)", number(slope), number(half));
     if trend.is_told() {
-        format!("It {} by {told}.", if slope > 0.0 { "rises" } else { "falls" })
+        format!("It {} by {change}.", if slope > 0.0 { "rises" } else { "falls" })
     } else {
-        format!("No clear trend: {told}.")
+        format!("No clear trend: {change}.")
     }
 }
 

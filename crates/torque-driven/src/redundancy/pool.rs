@@ -42,10 +42,10 @@ pub(super) fn median(mut v: Vec<f64>) -> Option<(f64, f64)> {
 ///
 /// A run that does not determine the number to half the size that matters has no say.
 pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured> {
-    let told: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-    let (value, spread) = median(told.iter().map(|m| m.value).collect())?;
-    let n = told.len() as f64;
-    let own = (told.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
+    let determined: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+    let (value, spread) = median(determined.iter().map(|m| m.value).collect())?;
+    let n = determined.len() as f64;
+    let own = (determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
     Some(Measured { value, sigma: spread.max(own) })
 }
 
@@ -60,12 +60,12 @@ pub(super) fn beyond(
     let mut middle = [0.0; 2];
     let (mut squares, mut own, mut count, mut share) = (WORTH * (USUAL_SPREAD * interest).powi(2), 0.0, 0.0, 0.0);
     for (middle, group) in middle.iter_mut().zip([recordings, references]) {
-        let told: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-        *middle = median(told.iter().map(|m| m.value).collect())?.0;
-        squares += told.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
-        own += told.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
-        count += told.len() as f64;
-        share += 1.0 / told.len() as f64;
+        let determined: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+        *middle = median(determined.iter().map(|m| m.value).collect())?.0;
+        squares += determined.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
+        own += determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
+        count += determined.len() as f64;
+        share += 1.0 / determined.len() as f64;
     }
     let spread = (squares / (WORTH + count - 2.0)).max(own / count);
     Some(Measured { value: middle[0] - middle[1], sigma: MEDIAN * (spread * share).sqrt() })
