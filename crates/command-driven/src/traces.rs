@@ -6,7 +6,7 @@ use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::windows::{Window, Windows};
 use verdict::{Compared, Trace, instant, rounded};
 
-/// Places of the simulation as it is, re-tuned and corrected among the comparison.
+/// Places of the simulation as it is, re-tuned and corrected among the four.
 const SHOWN: [usize; 3] = [0, 1, 2];
 
 /// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.

@@ -173,7 +173,7 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     if seconds < LEAST_SECONDS {
         return Err(refuse(format!(
             "only {seconds:.1} s of steady turning with a gyro; at least \
-                                   {LEAST_SECONDS:.0} s are needed"
+             {LEAST_SECONDS:.0} s are needed"
         )));
     }
     let (mut dd, mut dw, mut ww) = (0.0, 0.0, 0.0);

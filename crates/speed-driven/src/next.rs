@@ -105,7 +105,7 @@ pub(crate) fn advise_steady(
     let Some(naming) = naming else {
         return Advice::withheld(
             "no load of these recordings can be compared, so there are no \
-                                 causes to tell apart; record longer steady driving",
+             causes to tell apart; record longer steady driving",
         );
     };
     let rivals = rivals(naming);

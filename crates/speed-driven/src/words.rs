@@ -78,14 +78,14 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
             let turns = pooled.left_out.len();
             format!(
                 "checked on {turns} turns left out one by one, the alignment errs by \
-                     {median:.2} s in the median, by less than {most:.2} s in 90 %"
+                 {median:.2} s in the median, by less than {most:.2} s in 90 %"
             )
         },
     );
     (!all.is_empty()).then(|| {
         format!(
             "the gyro runs on another clock: it was aligned by matching the turns, with a lag \
-                 of {from:.2} s to {until:.2} s; {error}"
+             of {from:.2} s to {until:.2} s; {error}"
         )
     })
 }
@@ -168,11 +168,11 @@ fn change(c: &LoadChange) -> String {
     let what = match c.ratio {
         Some(ratio) if c.bound => format!(
             "the straight load is at most {ratio:.2} times that of \
-                                           the rest; a slope that does this is {size}"
+             the rest; a slope that does this is {size}"
         ),
         Some(ratio) => format!(
             "the straight load is {ratio:.2} times that of the rest; a slope \
-                                that does this is {size}"
+             that does this is {size}"
         ),
         None => format!("the slope is {size}"),
     };

@@ -84,7 +84,8 @@ fn text(screened: &Screened) -> String {
     }
     let mut worst: Vec<&Screen> = screened.pieces.iter().filter(|p| p.unlike.is_some()).collect();
     worst.sort_by(|a, b| b.unlike.unwrap_or(0.0).total_cmp(&a.unlike.unwrap_or(0.0)));
-    let mut table = TextTable::new(&["least alike first", ">from, s", ">until, s", ">residual (1 is usual)"]);
+    let mut table =
+        TextTable::new(&["recording (least alike first)", ">from, s", ">until, s", ">residual (1 is usual)"]);
     for piece in worst.into_iter().take(ROWS) {
         let [from, until] = piece.interval.map(|t| format!("{t:.0}"));
         table.row([piece.recording.clone(), from, until, format!("{:.2}", piece.unlike.unwrap_or(f64::NAN))]);
