@@ -18,7 +18,8 @@ use pyo3::prelude::*;
 /// path : numpy.ndarray, (n, 2)
 ///     Position of the geometric centre, m; no rows without a pose.
 /// before, after : numpy.ndarray
-///     Mean squared mismatch of all signals over what the references show, of the simulation as it is and corrected.
+///     Mean squared mismatch of all signals, divided by that of the references, of the simulation
+///     as it is and corrected.
 /// signals : list of TracedSignal
 ///     What is compared.
 #[pyclass(frozen, get_all, module = "lacuna")]
@@ -44,7 +45,7 @@ pub(crate) struct Trace {
 /// recorded, nominal, retuned, corrected : numpy.ndarray
 ///     As recorded; the simulation as it is, with its constants re-tuned, and with the named effects.
 /// usual : float or None
-///     One standard deviation by which healthy drives differ from their simulation.
+///     One standard deviation by which fault-free drives differ from their simulation.
 #[pyclass(frozen, get_all, module = "lacuna")]
 pub(crate) struct TracedSignal {
     signal: String,

@@ -21,7 +21,7 @@ const FOLDERS: [(&str, &str); 3] = [
 
 /// Why there is no advice on the next drive for command-driven robots.
 const NO_ADVICE: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
-    steps, and which steps would tell more of them is not computed yet";
+    steps, and which command steps would separate them better is not computed yet";
 
 /// The folders that a case may have.
 pub fn folders(case: &Path) -> [PathBuf; 3] {
@@ -248,7 +248,7 @@ impl CaseFolder {
 }
 
 impl CaseFolder {
-    /// Diagnoses the case by what drives its robot; `stage` is told what begins.
+    /// Diagnoses the case by what drives its robot; `stage` is called with what begins.
     ///
     /// # Errors
     /// Recordings without the signals that are needed, or that do not determine an answer.

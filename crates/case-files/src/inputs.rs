@@ -288,7 +288,8 @@ impl Plan {
         self.groups[run].files.iter().filter_map(|f| Some(fs::metadata(&f.name).ok()?.len())).sum()
     }
 
-    /// Opens the files of a run, and gives them with its name to `read`; `pass` is told what is read of them.
+    /// Opens the files of a run, and gives them with its name to `read`; `pass` is called
+    /// with what is read of them.
     pub(crate) fn open<T>(
         &self,
         run: usize,

@@ -30,7 +30,7 @@ pub(crate) struct Simulation {
 }
 
 /// As it is, re-tuned, corrected, placebo.
-pub(crate) struct Four {
+pub(crate) struct Comparison {
     pub(crate) all: [Simulation; 4],
     /// Free constants of the corrected and of the placebo.
     pub(crate) constants: [usize; 2],
@@ -45,7 +45,7 @@ const WRONG_GROUND: [Element; 6] =
 /// Up to this many constants a placebo takes nothing that was named.
 const FEW: usize = 4;
 
-impl Four {
+impl Comparison {
     pub(crate) fn new(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f64; 2]) -> Self {
         let part = DrivePart::new(windows, 0);
         let measured = GroundPart::measured(windows, nominal);
@@ -53,8 +53,8 @@ impl Four {
         let plain = attempt(&measured, &base.ground, (), &[], None);
         let has_position = windows.pieces.iter().any(|p| p.position.is_some());
         let tunables: &[Element] = if has_position { &[Element::Radius, Element::Track] } else { &[Element::Track] };
-        let told = GroundPart::new(windows, part.wheels(base.drive.law, &base.drive.x), nominal);
-        let retuned = attempt(&told, &base.ground, (), tunables, None);
+        let as_commanded = GroundPart::new(windows, part.wheels(base.drive.law, &base.drive.x), nominal);
+        let retuned = attempt(&as_commanded, &base.ground, (), tunables, None);
         let placebo = placebo(windows, base, found, nominal);
         let count = |d: &Trial<Law>, g: &Trial<()>| d.free.len() + g.free.len();
         let constants = [count(&found.drive, &found.ground), count(&placebo.drive, &placebo.ground)];

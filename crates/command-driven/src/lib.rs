@@ -35,12 +35,12 @@ use robot_model::Robot;
 use inference::DiagnosisError;
 use verdict::{Diagnosis, Element, Response, Verdict};
 
-use compare::{Errors, Four, free_runs, summary};
+use compare::{Comparison, Errors, free_runs, summary};
 use drive::DrivePart;
 use ground::GroundPart;
 use identify::{Identified, Simulated, identify, neutral};
 use windows::{FOLDS, Windows};
-use words::Told;
+use words::Figures;
 
 pub use model::{response_errors, simulate_response};
 pub use run::ResponseRun;
@@ -69,7 +69,7 @@ const LEAST_STEPS: usize = 2 * FOLDS;
 /// Wheel speeds that repeat for longer are worth telling, s.
 const TELLING_HOLD: f64 = 0.04;
 
-/// Diagnoses a command-driven case. `progress` is told the stage that begins.
+/// Diagnoses a command-driven case. `progress` is called with the stage that begins.
 ///
 /// # Errors
 /// When recordings are missing or hold too few command steps.
@@ -90,19 +90,19 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     };
     let found = identify(&windows, &base, nominal, progress);
     progress("forecasting windows that were left out");
-    let four = Four::new(&windows, &base, &found, nominal);
+    let comparison = Comparison::new(&windows, &base, &found, nominal);
     let unseen = Windows::new(&case.held_out);
-    let left_out = four.left_out(&windows);
+    let left_out = comparison.left_out(&windows);
     let has_position = case.recordings.iter().any(ResponseRun::has_position);
     let mut runs = free_runs("left out in folds", &left_out, has_position);
-    let mut told = told(&left_out, &four.drive_only(&windows, false), has_position);
+    let mut figures = figures(&left_out, &comparison.drive_only(&windows, false), has_position);
     if !unseen.list.is_empty() {
-        let errors = four.unseen(&unseen);
+        let errors = comparison.unseen(&unseen);
         let position = case.held_out.iter().any(ResponseRun::has_position);
         runs.extend(free_runs("held out", &errors, position));
-        told = self::told(&errors, &four.drive_only(&unseen, true), position);
+        figures = self::figures(&errors, &comparison.drive_only(&unseen, true), position);
     }
-    let response = response(&windows, unseen.list.len(), &base, &found, &four, nominal);
+    let response = response(&windows, unseen.list.len(), &base, &found, &comparison, nominal);
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out[0][0][w]));
     let mut out = Diagnosis::withheld();
     let ranked = name::ranked(&found, &response.parameters, summary(&left_out[0][0])[0], off_error, nominal[1]);
@@ -110,11 +110,11 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     out.verdict = if response.parameters.is_empty() { Verdict::NoMismatch } else { Verdict::Explained };
     out.free_runs = runs;
     out.unexplained =
-        Some((told.wheel[2] / told.wheel[0].max(1e-12)).powi(2)).filter(|_| !response.parameters.is_empty());
+        Some((figures.wheel[2] / figures.wheel[0].max(1e-12)).powi(2)).filter(|_| !response.parameters.is_empty());
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
-    out.sentences = words::sentences(&out, &response, &told, nominal[1], !case.references.is_empty());
-    out.traces = traces::traces(&case.recordings, &windows, &four);
+    out.sentences = words::sentences(&out, &response, &figures, nominal[1], !case.references.is_empty());
+    out.traces = traces::traces(&case.recordings, &windows, &comparison);
     let corrected = Simulated { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     out.correction.response = Some(model::model_of(&corrected));
     out.response = Some(response);
@@ -134,7 +134,7 @@ fn response(
     held_out_windows: usize,
     base: &Simulated,
     found: &Identified,
-    four: &Four,
+    comparison: &Comparison,
     nominal: [f64; 2],
 ) -> Response {
     let [of_drive, of_ground] = name::simulated(base);
@@ -151,17 +151,17 @@ fn response(
         parameters,
         elements: found.evidence.iter().map(name::earned).collect(),
         alternatives: found.alternatives.clone(),
-        constants: four.constants,
+        constants: comparison.constants,
     }
 }
 
 /// The figures of the sentences: rms over windows.
-fn told(four: &[Errors; 4], drive_only: &Errors, has_position: bool) -> Told {
+fn figures(four: &[Errors; 4], drive_only: &Errors, has_position: bool) -> Figures {
     let of = |q: usize| {
         let rms = |e: &Errors| summary(&e[q])[0];
         [rms(&four[0]), rms(&four[1]), rms(&four[2]), rms(&four[3]), rms(drive_only)]
     };
-    Told { wheel: of(0), position: has_position.then(|| of(1)), yaw: of(2) }
+    Figures { wheel: of(0), position: has_position.then(|| of(1)), yaw: of(2) }
 }
 
 fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> {
@@ -169,26 +169,33 @@ fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> 
     let hold = case.recordings.iter().map(|r| r.hold).fold(0.0, f64::max);
     if hold > TELLING_HOLD {
         out.push(format!(
-            "wheel speeds hold one value for {hold:.2} s: dead time and lag together are up to {:.2} s too long",
+            "the recorded wheel speeds change every {hold:.2} s only: dead time and lag together \
+             may come out up to {:.2} s too long",
             0.5 * hold
         ));
     }
     if !has_position {
-        out.push("no position beside a heading: rolling radius and forward slip cannot be told".to_owned());
+        out.push(
+            "a heading but no position was recorded: rolling radius and forward slip cannot \
+                  be determined"
+                .to_owned(),
+        );
     }
     if case.references.is_empty() {
         out.push(
-            "no references: the simulation is \"wheels do what is commanded, no slip, nominal track\"; a command that was \
-             logged in other units than it was sent in shows as gains of the drive"
+            "no references were given: the simulation is taken as \"wheels do what is commanded, \
+             no slip, nominal track\"; a command logged in other units than it was sent in then \
+             appears as a gain of the drive"
                 .to_owned(),
         );
     }
     for p in r.parameters.iter().filter(|p| p.at_bound) {
-        out.push(format!("{} stopped at the end of what is sensible: {}", p.id, p.value));
+        out.push(format!("{} came out at the limit of its sensible range: {}", p.id, p.value));
     }
     out.push(
-        "no torque, no current: friction, mass and adhesion cannot be told; whether more is missing than was named is not \
-         judged, since the noise of wheels and pose is not known"
+        "no torque and no current are used: friction, mass and adhesion cannot be determined; \
+         whether more is missing than was named is not judged, since the noise of wheels and pose \
+         is not known"
             .to_owned(),
     );
     out

@@ -167,7 +167,7 @@ fn a_stock_controller_is_found_with_its_constants() {
     }
     // Nothing is wrong on the ground, and nothing is said to be.
     assert!(response.parameters.iter().all(|p| p.element.is_drive()), "{:?}", response.parameters);
-    assert!(d.sentences[0].contains("not what was driven"), "{:?}", d.sentences);
+    assert!(d.sentences[0].contains("do not do what is commanded"), "{:?}", d.sentences);
     let r = run(&d, "wheel speed");
     assert!(r.corrected < 0.2 && 5.0 * r.corrected < r.nominal, "{r:?}");
     assert!(r.placebo.is_some_and(|p| p > 1.5 * r.corrected), "{r:?}");
@@ -211,7 +211,7 @@ fn a_wrong_track_is_the_track_and_not_the_command() {
     assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
     holds(&d, "track_factor", 1.6);
     assert_eq!(d.response.as_ref().expect("a response").parameters.len(), 1);
-    assert!(d.sentences[0].contains("The command is what was driven"), "{:?}", d.sentences);
+    assert!(d.sentences[0].contains("The wheels do what is commanded"), "{:?}", d.sentences);
     let r = run(&d, "yaw");
     assert!(2.0 * r.corrected < r.nominal && r.placebo.is_some_and(|p| p > 1.5 * r.corrected), "{r:?}");
 }

@@ -1,6 +1,6 @@
 //! Recordings beside their forecasts from the commands, row by row; every window by a fit that left it out.
 
-use crate::compare::Four;
+use crate::compare::Comparison;
 use crate::ground::{Poses, misses};
 use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::windows::{Window, Windows};
@@ -17,8 +17,8 @@ const POSE: f64 = 0.1;
 type Simulated = (Vec<Vec<[f64; 2]>>, Vec<Poses>);
 
 /// Every recording with what was simulated for it.
-pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, four: &Four) -> Vec<Trace> {
-    let three = SHOWN.map(|k| four.simulated_left_out(windows, k));
+pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, comparison: &Comparison) -> Vec<Trace> {
+    let three = SHOWN.map(|k| comparison.simulated_left_out(windows, k));
     let errors: Vec<Vec<f64>> = three.iter().map(|s| errors(windows, s)).collect();
     let left = errors[2].iter().sum::<f64>() / errors[2].len().max(1) as f64;
     let mut first = 0;

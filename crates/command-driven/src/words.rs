@@ -22,8 +22,8 @@ pub(crate) const fn element(e: Element) -> &'static str {
     }
 }
 
-/// Errors that the sentences tell: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
-pub(crate) struct Told {
+/// Errors that the sentences give: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
+pub(crate) struct Figures {
     pub(crate) wheel: [f64; 5],
     pub(crate) position: Option<[f64; 5]>,
     pub(crate) yaw: [f64; 5],
@@ -49,7 +49,7 @@ fn list(r: &Response, items: &[(&str, &str)]) -> Vec<String> {
     items.iter().filter_map(|(id, what)| find(r, id).map(|p| format!("{what} {}", value(p)))).collect()
 }
 
-pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, references: bool) -> Vec<String> {
+pub(crate) fn sentences(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
     if d.verdict == Verdict::NoMismatch {
         return vec![
             "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says."
@@ -60,35 +60,45 @@ pub(crate) fn sentences(d: &Diagnosis, r: &Response, told: &Told, track: f64, re
     let ground = r.parameters.iter().any(|p| !p.element.is_drive());
     let simulation = if references { "the references' response" } else { "the command" };
     let mut out = Vec::new();
-    let w = &told.wheel;
+    let w = &figures.wheel;
     if drive {
         out.push(format!(
-            "The command is not what was driven, and that is neither slip nor friction: the wheels themselves leave \
-             {simulation} by {:.2} rad/s rms; the drive's controller, as fitted, explains all but {:.2} rad/s of left-out \
-             windows, and sides that only answer each for itself, as friction or slip would have it, leave {:.2} rad/s.",
+            "The wheels do not do what is commanded, and neither slip nor friction explains it: \
+             their speeds differ from {simulation} by {:.2} rad/s rms. With the drive's \
+             controller as fitted, {:.2} rad/s remain on windows left out of the fit; with each \
+             side responding on its own, as under friction or slip, {:.2} rad/s remain.",
             w[0], w[2], w[3]
         ));
         out.push(controller(r));
     } else {
         out.push(format!(
-            "The command is what was driven ({:.2} rad/s rms): the mismatch sits between wheels and ground.",
+            "The wheels do what is commanded (within {:.2} rad/s rms): the mismatch arises \
+             between wheels and ground.",
             w[0]
         ));
     }
     if ground {
         out.push(on_ground(r, track));
     } else {
-        out.push("From wheel to body nothing is missing: no slip is left to name.".to_owned());
+        out.push(
+            "From wheel to body nothing is missing: the body follows the wheels without \
+                  further slip."
+                .to_owned(),
+        );
     }
     let mut shares = Vec::new();
-    for (what, unit, e) in told.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &told.yaw)]) {
+    for (what, unit, e) in figures.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &figures.yaw)]) {
         shares.push(format!(
             "{what} {:.2} {unit} as simulated, {:.2} with track and radius re-tuned, {:.2} with the drive alone corrected, \
              {:.2} with both",
             e[0], e[1], e[4], e[2]
         ));
     }
-    out.push(format!("Error of left-out forecasts over 2 s from the commands alone (rms): {}.", shares.join("; ")));
+    out.push(format!(
+        "Rms error of forecasts over 2 s from the commands alone, on windows left \
+                      out of the fit: {}.",
+        shares.join("; ")
+    ));
     out
 }
 
@@ -109,7 +119,7 @@ fn controller(r: &Response) -> String {
             .scaling
             .as_deref()
             .filter(|_| r.scaling_is_told)
-            .unwrap_or("both sides are held in a way that is not told");
+            .unwrap_or("both sides are limited, in a way that these recordings do not determine");
         parts.push(format!("at {} of a wheel {how}", value(p)));
     }
     parts.extend(list(
@@ -123,7 +133,7 @@ fn controller(r: &Response) -> String {
             ("damping", "damping"),
         ],
     ));
-    format!("From command to wheel (90 %): {}.", parts.join(", "))
+    format!("From command to wheel, with 90 % intervals: {}.", parts.join(", "))
 }
 
 fn on_ground(r: &Response, track: f64) -> String {
@@ -143,5 +153,5 @@ fn on_ground(r: &Response, track: f64) -> String {
             ("side_radius", "left radius larger and right smaller by"),
         ],
     ));
-    format!("From wheel to body, slip that is left beside (90 %): {}.", parts.join(", "))
+    format!("From wheel to body, slip with 90 % intervals: {}.", parts.join(", "))
 }

@@ -1,4 +1,4 @@
-//! Rows counted: what is told at the end.
+//! Rows counted: what is reported at the end.
 
 use std::collections::BTreeMap;
 

@@ -30,13 +30,14 @@ pub fn nothing_to_split(advice: &Advice) -> Option<String> {
     match advice.rivals.as_slice() {
         [] => Some("no hypothesis could be fitted".to_owned()),
         [one] if one.effects.is_empty() => {
-            Some("nothing is missing in the motion, and no effect rivals that".to_owned())
+            Some("nothing is missing in the motion, and no effect is a likely alternative".to_owned())
         }
         [one] => Some(format!(
-            "nothing is left to tell apart: only {} is probable; the drives are in the order in which they narrow its size",
+            "nothing is left to tell apart: only {} is probable; the drives are ordered by how \
+             much they narrow its size",
             one.name
         )),
-        _ if most < LEAST_BITS => Some("no drive of the menu tells these rivals apart".to_owned()),
+        _ if most < LEAST_BITS => Some("none of the candidate drives would tell these causes apart".to_owned()),
         _ => None,
     }
 }

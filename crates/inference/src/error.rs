@@ -57,7 +57,10 @@ pub enum DiagnosisError {
         needed: usize,
     },
     /// The data do not determine the model.
-    #[error("the {stage} could not be solved: the recordings do not move enough to determine the model")]
+    #[error(
+        "the {stage} could not be solved: the robot moves too little in the recordings to \
+             determine the model; record more changes of speed and turning"
+    )]
     Singular {
         /// Stage of the diagnosis.
         stage: &'static str,

@@ -3,7 +3,7 @@
 /// Settings of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Integration step, s. At 1 ms the plant's error is a quarter of the healthy residual.
+    /// Integration step, s. At 1 ms the plant's error is a quarter of the fault-free residual.
     pub step: f64,
     /// Length of a segment over which the model runs free, s.
     pub segment: f64,

@@ -3,7 +3,7 @@
 //! | topic | messages | what it holds |
 //! |---|---|---|
 //! | `/RUN/SIGNAL`, such as `/run_1/left_wheel_speed` | `lacuna.Compared` | recorded, nominal, retuned, corrected, residual_before, residual_after |
-//! | `/RUN/mismatch` | `lacuna.Mismatch` | squared mismatch over what healthy drives show, before and after the correction |
+//! | `/RUN/mismatch` | `lacuna.Mismatch` | squared mismatch divided by that of fault-free drives, before and after the correction |
 //! | `/RUN/state/...` | `lacuna.State` | when a signal mismatches, when a named cause is present |
 //! | `/RUN/pose`, `/RUN/path` | `foxglove.PoseInFrame`, `foxglove.PosesInFrame` | position on the ground |
 //! | `/verdict` | `foxglove.Log` | the sentences of the verdict, what limits it, the intervals |

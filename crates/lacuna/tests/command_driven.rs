@@ -43,7 +43,7 @@ fn a_response_is_told_without_any_reference() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
-    for part in ["not what was driven", "effective track", "Response (", "held out"] {
+    for part in ["do not do what is commanded", "effective track", "Response (", "held out"] {
         assert!(run.out().contains(part), "no `{part}` in {}", run.out());
     }
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();

@@ -40,15 +40,19 @@ fn a_long_recording_is_screened_whole_and_diagnosed_on_its_budget() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--budget", "3", "--json", "out.json"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
-    assert!(run.out().contains("Of 7.0 min of recordings, all screened, 3.0 min were taken"), "{}", run.out());
-    assert!(run.out().contains("were screened and left out"), "{}", run.out());
+    assert!(
+        run.out().contains("Of 7.0 min of recordings, all screened, 3.0 min were diagnosed in full"),
+        "{}",
+        run.out()
+    );
+    assert!(run.out().contains("were screened but not diagnosed"), "{}", run.out());
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
     common::reads_back(&bench.read("out.json"));
     let diagnosis = &json["diagnosis"];
     assert_eq!(diagnosis["ranked"][0]["effect"], "payload", "{}", run.out());
     let coverage = &diagnosis["coverage"]["recordings"];
     assert_eq!((coverage["chosen"].as_array().unwrap().len(), &coverage["left_out"]), (3, &4.into()));
-    // What is told of a stretch is told in the time of its recording.
+    // What is said of a stretch is given in the time of its recording.
     let last = &diagnosis["traces"].as_array().unwrap().last().unwrap();
     let [from, until] = [0, 1].map(|i| coverage["chosen"][2]["interval"][i].as_f64().unwrap());
     for time in last["time"].as_array().unwrap() {

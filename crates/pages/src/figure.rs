@@ -7,7 +7,7 @@ use crate::table::Cell;
 
 pub use crate::role::Role;
 
-/// A chart with all that is told about it.
+/// A chart with all that is reported about it.
 #[derive(Debug, Clone)]
 pub struct Figure {
     /// Heading above it; empty for none.

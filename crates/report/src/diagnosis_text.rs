@@ -43,18 +43,21 @@ pub fn render(d: &Diagnosis, lost: &[String], not_used: &[String], mapping: Opti
 
 /// The drive that would tell the rivals apart, in a sentence.
 fn next(advice: &Advice) -> String {
-    let best = advice
-        .best()
-        .map(|m| format!("{}: {:.2} of {:.2} bits are expected of it", m.name, m.expected_bits, advice.entropy_bits));
+    let best = advice.best().map(|m| {
+        format!(
+            "{}: expected to resolve {:.2} of the {:.2} bits of uncertainty about the cause",
+            m.name, m.expected_bits, advice.entropy_bits
+        )
+    });
     match (&advice.withheld, best) {
         (None, Some(best)) => best,
         (Some(reason), _) => reason.clone(),
-        (None, None) => "there is none on the menu".to_owned(),
+        (None, None) => "no drive can be suggested".to_owned(),
     }
 }
 
 fn causes(ranked: &[Cause]) -> String {
-    let mut table = TextTable::new(&["cause", ">probability", "magnitude (90 %)", "where and when"]);
+    let mut table = TextTable::new(&["cause", ">probability", "size (90 %)", "where and when"]);
     let shown = ranked.iter().filter(|c| c.probability >= SHOWN || is_no_cause(c));
     for c in shown.take(ROWS + 2) {
         table.row([c.name.clone(), probability(c.probability), size(c).join(" ").trim().to_owned(), place(c)]);
@@ -82,13 +85,17 @@ fn steady(d: &Diagnosis) -> String {
             format!("{:.0}", r.seconds),
         ]);
     }
-    format!("\n{}{}", heading("Loads of steady driving (asymmetry: as a difference)"), table.render())
+    format!(
+        "\n{}{}",
+        heading("Loads of steady driving (over reference: ratio; of the asymmetry: difference)"),
+        table.render()
+    )
 }
 
 /// Constants of a command-driven robot's response.
 fn response(d: &Diagnosis) -> String {
     let Some(response) = d.response.as_ref().filter(|r| !r.parameters.is_empty()) else { return String::new() };
-    let mut table = TextTable::new(&["constant", ">value", ">90 %", "unit", ">simulated", ">loss without it"]);
+    let mut table = TextTable::new(&["constant", ">value", ">90 %", "unit", ">simulated", ">error without it"]);
     for p in &response.parameters {
         let half = p.half_width.map_or(String::new(), |h| format!("± {}", number(h)));
         let simulated = p.simulated.map_or("no limit".to_owned(), number);
@@ -97,7 +104,8 @@ fn response(d: &Diagnosis) -> String {
         table.row([p.id.to_string(), number(p.value), half, p.unit.to_string(), simulated, rise]);
     }
     let title = format!(
-        "Response ({} windows of 2 s in {} command steps; loss: rise on left-out windows)",
+        "Response ({} windows of 2 s in {} command steps; error without it: rise on windows left \
+         out of the fit)",
         response.windows, response.steps
     );
     format!("\n{}{}", heading(&title), table.render())

@@ -55,7 +55,7 @@ fn write(
     ink: RGBColor,
     h: HPos,
 ) -> Result<(), PictureError> {
-    // The SVG backend writes letters smaller by 1.24 than it is told.
+    // The SVG backend writes letters smaller by 1.24 than it is asked to.
     let font = FontDesc::new(FontFamily::SansSerif, 1.24 * f64::from(size), style);
     let style = TextStyle::from(font).color(&ink).pos(Pos::new(h, VPos::Top));
     root.draw(&Text::new(s.to_owned(), (x, y), style)).map_err(failed)

@@ -86,11 +86,14 @@ pub fn borders(s: &Span) -> [String; 2] {
 /// What the errors of a diagnosis's free runs are errors of.
 pub fn free_runs(d: &Diagnosis) -> &'static str {
     if d.response.is_some() {
-        "Forecasts of windows of 2 s from the commands alone (placebo: the best wrong cause, as many constants)"
+        "Forecasts over windows of 2 s from the commands alone (placebo: the best wrong cause \
+         with as many constants)"
+    } else if d.steady.is_some() {
+        "Forecasts of recordings left out of the fit (rms error; placebo: the best other law)"
     } else if d.free_runs.iter().any(|r| r.placebo.is_some()) {
-        "Free runs on recordings that were left out of the fit (rms error; placebo: the best other effect)"
+        "Free runs from measured states, on recordings left out of the fit (rms error; placebo: the best other effect)"
     } else {
-        "Free runs on recordings that were left out of the fit (rms error)"
+        "Free runs from measured states, on recordings left out of the fit (rms error)"
     }
 }
 

@@ -132,8 +132,9 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
     }
     if all().any(|r| r.magnitude_only && r.dead_band > 0.0) {
         out.push(
-            "currents carry no sign and have a dead band: a side that is dragged or brakes shows only a bound, so \
-             straight loads come from stretches in which both sides read"
+            "currents carry no sign and have a dead band: of a side that is dragged or brakes \
+             only a bound is known, so straight loads are taken where both currents exceed the \
+             dead band"
                 .to_owned(),
         );
     } else if all().any(|r| r.magnitude_only) {
@@ -145,7 +146,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
     };
     let blind = [named(&case.references, "reference"), named(&case.recordings, "recording")].concat();
     if !blind.is_empty() {
-        out.push(format!("no gyro in {}: no effective track from there", blind.join(", ")));
+        out.push(format!("no gyro was recorded in {}: no effective track can be measured there", blind.join(", ")));
     }
     if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
         out.push("some straight loads are compared with references driven at another speed".to_owned());

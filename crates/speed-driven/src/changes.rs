@@ -60,7 +60,8 @@ fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: 
     };
     let references: Usual = usual.map(|own| own.or(known));
     let like: Usual = std::array::from_fn(|c| of_class(c, &|l| plausible(l, references[c])));
-    // A run of which no part is like the references is compared with itself: the whole of it is told elsewhere.
+    // A run of which no part is like the references is compared with itself: the whole of it is
+    // reported elsewhere.
     let alike = like.iter().any(Option::is_some);
     std::array::from_fn(|c| {
         let own = like[c].or_else(|| if alike { references[c] } else { of_class(c, &|_| true) });

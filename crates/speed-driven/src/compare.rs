@@ -18,7 +18,7 @@ pub(crate) struct Reference {
 }
 
 /// Seconds of steady driving that make an answer firm.
-const FIRM: f64 = 10.0;
+pub(crate) const FIRM: f64 = 10.0;
 
 /// The scale on which a load is compared: its logarithm, or itself.
 pub(crate) fn scaled(l: &Load) -> (f64, f64) {

@@ -104,7 +104,7 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let refuse = |quantity: Quantity, rows: usize, what: &str| Withheld {
         recording: run.name.clone(),
         quantity,
-        reason: format!("{:.1} s of {what}, {LEAST_SECONDS:.0} s are needed", rows as f64 * run.period()),
+        reason: format!("only {:.1} s of {what}; at least {LEAST_SECONDS:.0} s are needed", rows as f64 * run.period()),
     };
     let all = || 0..run.time.len();
     let straight: Vec<usize> =
@@ -125,7 +125,7 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
         withheld.push(refuse(
             Quantity::StraightLoad,
             straight.len(),
-            "steady straight driving with both sides reading",
+            "steady straight driving with a current on both sides",
         ));
     }
     let turning: Vec<usize> = all().filter(|&i| is_steady_turn(run, i)).collect();
@@ -165,13 +165,16 @@ fn gap(l: &Load, speed: f64) -> f64 {
 fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, Withheld> {
     let quantity = Quantity::EffectiveTrack;
     let refuse = |reason: String| Withheld { recording: run.name.clone(), quantity, reason };
-    let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro".to_owned())) };
+    let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro was recorded".to_owned())) };
     let mut rows: Vec<usize> =
         rows.filter(|&i| yaw[i].is_finite() && run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
     rows.sort_unstable();
     let seconds = rows.len() as f64 * run.period();
     if seconds < LEAST_SECONDS {
-        return Err(refuse(format!("{seconds:.1} s of steady turning with a gyro, {LEAST_SECONDS:.0} s are needed")));
+        return Err(refuse(format!(
+            "only {seconds:.1} s of steady turning with a gyro; at least \
+             {LEAST_SECONDS:.0} s are needed"
+        )));
     }
     let (mut dd, mut dw, mut ww) = (0.0, 0.0, 0.0);
     for &i in &rows {
@@ -188,7 +191,7 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let weight = |p: &Vec<usize>| p.iter().map(|&i| run.difference(i).powi(2)).sum::<f64>();
     let effective = effective_number(pieces.iter().map(weight));
     if effective <= 1.5 {
-        return Err(refuse("one short turn only: nothing tells how it scatters".to_owned()));
+        return Err(refuse("only one short turn: its uncertainty cannot be estimated; record more turns".to_owned()));
     }
     let scatter: f64 = pieces
         .iter()

@@ -71,9 +71,9 @@ pub(super) fn jumps(
             let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
             let below = load < BELOW_FRICTION * from || nothing >= BELOW_SECONDS && load < from / UNNAMED_STRAIGHT;
             let (causes, reason) = if after_slope {
-                (vec![ROLLING], "the gyro shows no slope that would do it")
+                (vec![ROLLING], "the gyro shows no slope that would explain it")
             } else if below {
-                (vec![GRADE], "less than any friction: it runs downhill")
+                (vec![GRADE], "the load is below any friction, so the robot runs downhill")
             } else {
                 (vec![GRADE, ROLLING], "a straight drive one way cannot tell them apart")
             };
@@ -121,10 +121,10 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
         let whichever = seen.iter().any(|o| apart(o.0) > OTHER_HEADING && (o.1 / slope - 1.0).abs() < SCATTER);
         if way_back {
             change.causes = vec![GRADE];
-            change.reason = "the way back shows the opposite".into();
+            change.reason = "driven the other way, the load changes the opposite way".into();
         } else if whichever {
             change.causes = vec![ROLLING];
-            change.reason = "it is the same in another heading".into();
+            change.reason = "the load is the same in another heading".into();
         }
     }
 }

@@ -81,8 +81,8 @@ pub struct SteadyCase {
     pub recordings: Vec<SpeedRun>,
 }
 
-/// Diagnoses a speed-driven case; of the options only whether to advise on the next drive counts. `progress` is told the
-/// stage that begins.
+/// Diagnoses a speed-driven case; of the options only whether to advise on the next drive counts.
+/// `progress` is called with the stage that begins.
 ///
 /// # Errors
 /// When there is no recording, or nothing permits any answer.
@@ -254,7 +254,8 @@ fn of_reference(r: &Reference) -> Measured {
 }
 
 /// Every load less its reference. A sum of arcs is used only where the turning load itself is not known; the
-/// effective track is told but names nothing: loose ground shears in ways that no rigid-ground tyre law has (left out after a look at the open runs).
+/// effective track is reported but names nothing: loose ground shears in ways that no rigid-ground
+/// tyre law has (left out after a look at the open runs).
 fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
     loads
         .iter()

@@ -103,7 +103,10 @@ pub(crate) fn advise_steady(
     naming: Option<&Naming>,
 ) -> Advice {
     let Some(naming) = naming else {
-        return Advice::withheld("no load of these recordings can be compared, so no effect is a rival of another");
+        return Advice::withheld(
+            "no load of these recordings can be compared, so there are no \
+             causes to tell apart; record longer steady driving",
+        );
     };
     let rivals = rivals(naming);
     let mut out = among(rivals.iter().map(|r| r.contender.clone()));
@@ -126,8 +129,7 @@ pub(crate) fn advise_steady(
     let most = out.manoeuvres.iter().map(|m| m.expected_bits).fold(0.0, f64::max);
     out.withheld = nothing_to_split(&out);
     if most >= LEAST_BITS {
-        out.limits
-            .push("steady loads: each level is to be held for ten seconds at least, on the same ground".to_owned());
+        out.limits.push("hold each speed for ten seconds at least, all on the same ground".to_owned());
     }
     sorted(out)
 }
@@ -213,7 +215,7 @@ fn why(at: &[Operating], model: &Robot<f64>, k: &Rival<'_>, l: &Rival<'_>) -> St
     let Some(i) = (0..at.len()).max_by(|i, j| far(*i).total_cmp(&far(*j))) else { return String::new() };
     let quantity = at[i].quantity;
     let how = if quantity.is_difference() {
-        format!("{:+.2}", a[i] - b[i])
+        format!("{:.2} {}", (a[i] - b[i]).abs(), if a[i] < b[i] { "below" } else { "above" })
     } else {
         format!("{:.2} times", (a[i] - b[i]).exp())
     };

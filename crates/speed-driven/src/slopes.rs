@@ -6,7 +6,7 @@ use crate::run::SpeedRun;
 use inference::robust::NINETY;
 use verdict::LoadChange;
 
-/// A slope that is told, degrees, and for how long at least, s.
+/// A slope that is reported, degrees, and for how long at least, s.
 const SLOPE: f64 = 1.6;
 const LEAST_SECONDS: f64 = 3.0;
 /// Gaps in the sight of a slope that do not end it, s.
@@ -61,7 +61,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
                 slope_half: (NINETY * sigma).to_degrees(),
                 bound: false,
                 causes: vec![GRADE],
-                reason: "the gyro tilts with it".into(),
+                reason: "the gyro measures the tilt".into(),
             });
         }
     }

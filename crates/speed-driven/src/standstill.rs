@@ -4,14 +4,15 @@ use crate::extract::TURN_HOLD;
 use crate::run::SpeedRun;
 use verdict::Standstill;
 
-/// The body stands if it turns by less than this share of what its wheels are told.
+/// The body stands if it turns by less than this share of what its wheels are commanded.
 const SHARE: f64 = 0.2;
 /// For so long at least, s.
 const LEAST_SECONDS: f64 = 3.0;
 /// Difference of the speeds in a turn that counts, m/s.
 const TURN: f64 = 0.08;
 
-/// Stretches of a recording in which the body stood although the wheels were told to turn it; `track` in m.
+/// Stretches of a recording in which the body stood although the wheels were commanded to turn it;
+/// `track` in m.
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
     let share = |i: usize| yaw[i] * track / run.difference(i);

@@ -23,7 +23,7 @@ pub(crate) struct Fits<'a> {
 }
 
 /// A recording's torques by three models.
-struct Three {
+struct Simulations {
     nominal: Rows,
     retuned: Rows,
     corrected: Option<Rows>,
@@ -37,18 +37,18 @@ impl Fits<'_> {
         let mut free_runs = Vec::new();
         let mut traces = Vec::new();
         for run in &self.case.recordings {
-            let three = self.three(run);
-            if let Some(corrected) = three.corrected.as_ref().filter(|_| three.left_out) {
+            let simulations = self.simulate(run);
+            if let Some(corrected) = simulations.corrected.as_ref().filter(|_| simulations.left_out) {
                 free_runs.push(FreeRun {
                     recording: run.name.clone(),
                     quantity: "torque of a side, N m".to_owned(),
-                    nominal: three.nominal.rms(run),
-                    retuned: three.retuned.rms(run),
+                    nominal: simulations.nominal.rms(run),
+                    retuned: simulations.retuned.rms(run),
                     corrected: corrected.rms(run),
                     placebo: None,
                 });
             }
-            traces.push(trace(run, &three, usual));
+            traces.push(trace(run, &simulations, usual));
         }
         (free_runs, traces)
     }
@@ -66,26 +66,26 @@ impl Fits<'_> {
         }
     }
 
-    fn three(&self, run: &SpeedRun) -> Three {
+    fn simulate(&self, run: &SpeedRun) -> Simulations {
         let rows = |robot: &Robot<f64>, doses: &[Dose]| predicted_rows(run, robot, doses);
         let model = tuned(self.robot, &self.case.sigma, &self.calibrated.theta);
         let nominal = rows(self.robot, &[]);
         let best = self.naming.and_then(|n| n.effects.first()).filter(|e| e.score > 0.0);
         let others: Vec<Difference> = self.differences.iter().filter(|d| d.recording != run.name).cloned().collect();
         let Some(best) = best else {
-            return Three { nominal, retuned: rows(&model, &[]), corrected: None, left_out: true };
+            return Simulations { nominal, retuned: rows(&model, &[]), corrected: None, left_out: true };
         };
         let data: Vec<Measured> = self.known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
         let retuned = tune(self.robot, &self.case.sigma, &data).filter(|_| !others.is_empty());
         let Some(retuned) = retuned else {
             let corrected = Some(rows(&model, &best.doses()));
-            return Three { nominal, retuned: rows(&model, &[]), corrected, left_out: false };
+            return Simulations { nominal, retuned: rows(&model, &[]), corrected, left_out: false };
         };
         let refitted = Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated)
             .and_then(|c| c.fit(&best.parts, None));
         let corrected = refitted.map_or_else(|| rows(&model, &[]), |e| rows(&model, &e.doses()));
         let retuned = rows(&tuned(self.robot, &self.case.sigma, &retuned.theta), &[]);
-        Three { nominal, retuned, corrected: Some(corrected), left_out: true }
+        Simulations { nominal, retuned, corrected: Some(corrected), left_out: true }
     }
 
     /// Root mean squared error of the calibrated robot on its references, N m.
@@ -97,9 +97,9 @@ impl Fits<'_> {
     }
 }
 
-fn trace(run: &SpeedRun, three: &Three, usual: Option<f64>) -> Trace {
+fn trace(run: &SpeedRun, simulations: &Simulations, usual: Option<f64>) -> Trace {
     let short = |values: &[Option<f64>]| values.iter().map(|v| v.map(rounded)).collect::<Vec<_>>();
-    let corrected = |of: &dyn Fn(&Rows) -> Vec<Option<f64>>| three.corrected.as_ref().map_or_else(Vec::new, of);
+    let corrected = |of: &dyn Fn(&Rows) -> Vec<Option<f64>>| simulations.corrected.as_ref().map_or_else(Vec::new, of);
     let mut channels: Vec<Compared> = (0..2)
         .map(|j| {
             let of = |rows: &Rows| short(&rows.torque[j]);
@@ -108,8 +108,8 @@ fn trace(run: &SpeedRun, three: &Three, usual: Option<f64>) -> Trace {
                 unit: "N m".into(),
                 side: Some(inference::words::side(j).into()),
                 recorded: run.torque[j].iter().map(|t| Some(rounded(*t)).filter(|t| t.is_finite())).collect(),
-                nominal: of(&three.nominal),
-                retuned: of(&three.retuned),
+                nominal: of(&simulations.nominal),
+                retuned: of(&simulations.retuned),
                 corrected: corrected(&of),
                 usual: usual.map(rounded),
             }
@@ -121,8 +121,8 @@ fn trace(run: &SpeedRun, three: &Three, usual: Option<f64>) -> Trace {
             signal: "yaw rate".into(),
             unit: "rad/s".into(),
             recorded: yaw.iter().map(|w| Some(rounded(*w)).filter(|w| w.is_finite())).collect(),
-            nominal: of(&three.nominal),
-            retuned: of(&three.retuned),
+            nominal: of(&simulations.nominal),
+            retuned: of(&simulations.retuned),
             corrected: corrected(&of),
             ..Compared::default()
         });
@@ -133,12 +133,12 @@ fn trace(run: &SpeedRun, three: &Three, usual: Option<f64>) -> Trace {
     };
     Trace {
         recording: run.name.clone(),
-        left_out: three.left_out,
+        left_out: simulations.left_out,
         time: run.time.iter().copied().map(instant).collect(),
         restarts: Vec::new(),
         channels,
         path: Vec::new(),
-        before: over_usual(&three.nominal),
-        after: over_usual(three.corrected.as_ref().unwrap_or(&three.retuned)),
+        before: over_usual(&simulations.nominal),
+        after: over_usual(simulations.corrected.as_ref().unwrap_or(&simulations.retuned)),
     }
 }

@@ -1,4 +1,5 @@
-//! Turning told from the loads alone: what is left where neither a gyro nor a difference of the speeds is known.
+//! Turning inferred from the loads alone: what is left where neither a gyro nor a difference of
+//! the speeds is known.
 //!
 //! In a turn the outer side carries the scrub and reads more than both sides read in straight driving, the inner side
 //! is dragged and reads next to nothing. In a spin both sides read that much, and unsigned currents do not say which

@@ -1,5 +1,6 @@
 //! What a speed-driven case says in sentences.
 
+use crate::compare::FIRM;
 use crate::{Alignment, UNNAMED_STRAIGHT};
 use inference::words::{quantity, revealed_by};
 use robot_model::effect::LoadTerm;
@@ -9,16 +10,18 @@ use verdict::{
 
 /// The answer of a speed-driven case in sentences.
 pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
-    let theirs = if loads.references.is_empty() { "the robot file's" } else { "the references'" };
+    let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
     let mut out = Vec::new();
     match d.verdict {
         Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
         Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
-            out.push("No mismatch that these loads could name.".to_owned());
+            out.push("No mismatch: the loads of steady driving need no cause that the simulation lacks.".to_owned());
         }
         Verdict::NoMismatch => {
             out.push(
-                "Over each whole recording no mismatch that these loads could name; inside, loads change.".to_owned(),
+                "No mismatch over whole recordings: their loads need no cause that the simulation \
+                 lacks. Within recordings the load changes, as listed here."
+                    .to_owned(),
             );
         }
         Verdict::Unknown => {
@@ -60,7 +63,7 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
     out.extend(hidden(&loads.changes.hidden));
     out.extend(turning(&loads.turning));
     if set_points && !loads.ratios.is_empty() {
-        out.push("All figures compare set speeds, not measured ones.".to_owned());
+        out.push("All speeds here are set-points, not measured speeds.".to_owned());
     }
     out
 }
@@ -71,54 +74,72 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
     let left_out: Vec<f64> = all.iter().flat_map(|c| c.left_out.iter().copied()).collect();
     let pooled = Alignment { lag: Vec::new(), left_out };
     let error = pooled.error().map_or_else(
-        || "too few turns to say how well".to_owned(),
+        || "there are too few turns to check how well".to_owned(),
         |[median, most]| {
             let turns = pooled.left_out.len();
-            format!("on {turns} turns left out in turn it errs by {median:.2} s in the median, 90 % below {most:.2} s")
+            format!(
+                "checked on {turns} turns left out one by one, the alignment errs by \
+                 {median:.2} s in the median, by less than {most:.2} s in 90 %"
+            )
         },
     );
     (!all.is_empty()).then(|| {
-        format!("the gyro runs on another clock: aligned by the turns, lag from {from:.2} s to {until:.2} s; {error}")
+        format!(
+            "the gyro runs on another clock: it was aligned by matching the turns, with a lag \
+             of {from:.2} s to {until:.2} s; {error}"
+        )
     })
 }
 
-/// A load over `theirs`.
+/// A load, how it compares with `theirs`, and whether its interval shows a difference.
 fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
     let at = match r.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => format!(" at {slow:.2} to {fast:.2} m/s"),
+        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => {
+            format!(" at {slow:.2} to {fast:.2} m/s")
+        }
         Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
         _ => String::new(),
     };
-    let what = r.quantity.name();
+
     let [a, b] = r.interval;
-    if r.quantity == Quantity::EffectiveTrack {
-        return format!("{}: {what} {:.3} ± {:.3} m (90 %), {:.2} of {theirs}.", r.recording, r.value, r.half, r.ratio);
-    }
-    if r.quantity == Quantity::Asymmetry {
-        return format!("{}: {what}{at} {:+.2} beyond {theirs} [{a:+.2}, {b:+.2}].", r.recording, r.ratio);
-    }
-    let judgement = if a > 1.0 || b < 1.0 {
-        if r.quantity == Quantity::StraightLoad && a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT {
-            ": differs, but cold drive trains vary as much: unexplained"
-        } else {
-            ""
-        }
-    } else {
-        ": no difference"
+    let compared = match r.quantity {
+        Quantity::EffectiveTrack => format!(
+            "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
+            r.value, r.half, r.ratio
+        ),
+        Quantity::Asymmetry => format!(
+            "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
+            r.ratio.abs(),
+            if r.ratio < 0.0 { "below" } else { "above" }
+        ),
+        _ => format!("{:.2} times {theirs} (90 % interval {a:.2} to {b:.2})", r.ratio),
     };
-    let firm = if r.firm { "" } else { ", tentative" };
+
+    let none = if r.quantity.is_difference() { 0.0 } else { 1.0 };
+    let is_within_cold = a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT;
+    let judgement = if a <= none && none <= b {
+        format!("no difference is shown, since the interval contains {none}")
+    } else if r.quantity == Quantity::StraightLoad && is_within_cold {
+        "it differs, but a cold drive train varies as much, so no cause is named".to_owned()
+    } else {
+        "it differs".to_owned()
+    };
+    let firm = if r.firm { String::new() } else { format!(" (tentative: less than {FIRM:.0} s)") };
     format!(
-        "{}: {what}{at} {:.2} times {theirs} [{a:.2}, {b:.2}] (90 %), from {:.0} s{firm}{judgement}.",
-        r.recording, r.ratio, r.seconds
+        "{}: {}{at} is {compared}, measured over {:.0} s{firm}: {judgement}.",
+        r.recording,
+        r.quantity.name(),
+        r.seconds
     )
 }
 
 fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
     format!(
-        "{}: from {from:.1} s to {until:.1} s the body stands although its wheels are told to turn it ({:.0} % of the \
-         yaw rate, {:.0} N m on the more loaded side): dug in, or spinning free.",
+        "{}: from {from:.1} s to {until:.1} s the body stands although its wheels are commanded \
+         to turn it (yaw rate {:.0} % of what they ask for, {:.0} N m on the more loaded side): \
+         it is dug in, or its wheels spin.",
         s.recording,
         100.0 * s.share,
         s.load
@@ -146,9 +167,15 @@ fn change(c: &LoadChange) -> String {
         format!("{:.1} ± {:.1}° {way} (90 %)", c.slope.abs(), c.slope_half)
     };
     let what = match c.ratio {
-        Some(ratio) if c.bound => format!("straight load at most {ratio:.2} times the rest's; if a slope, {size}"),
-        Some(ratio) => format!("straight load {ratio:.2} times the rest's; if a slope, {size}"),
-        None => format!("slope of {size}"),
+        Some(ratio) if c.bound => format!(
+            "the straight load is at most {ratio:.2} times that of \
+             the rest; a slope that does this is {size}"
+        ),
+        Some(ratio) => format!(
+            "the straight load is {ratio:.2} times that of the rest; a slope \
+             that does this is {size}"
+        ),
+        None => format!("the slope is {size}"),
     };
     format!(
         "{}: from {} until {}: {what}. Cause: {} ({}).",
@@ -162,7 +189,8 @@ fn change(c: &LoadChange) -> String {
 
 fn turning_change(c: &TurningChange) -> String {
     format!(
-        "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), from {:.0} s: another ground.",
+        "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
+         measured over {:.0} s: the ground is another.",
         c.recording,
         moment(c.onset),
         moment(c.end),
@@ -202,8 +230,9 @@ fn turning(all: &[Turning]) -> Vec<String> {
         let seconds =
             |way: Way| list.iter().filter(|t| t.way == way).map(|t| t.interval[1] - t.interval[0]).sum::<f64>();
         format!(
-            "{}: by the loads it turns to the left for {:.0} s, to the right for {:.0} s, on the spot or under load on \
-             both sides for {:.0} s, although neither speeds nor a gyro say so.",
+            "{}: the loads show that the robot turns to the left for {:.0} s, to the right for \
+             {:.0} s, and on the spot or with load on both sides for {:.0} s; neither speeds nor \
+             a gyro show it.",
             list[0].recording,
             seconds(Way::Left),
             seconds(Way::Right),

@@ -1,4 +1,4 @@
-//! From a decision to what is told: kind of answer, causes with sizes and intervals, places, limits.
+//! From a decision to the verdict: kind of answer, causes with sizes and intervals, places, limits.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use faer::Mat;
 use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
-use crate::decide::{Scored, healthy_cost};
+use crate::decide::{Scored, fault_free_cost};
 use crate::fit::{Fitted, Hypothesis};
 use crate::judged::Judged;
 use crate::leave_out::{is_worthwhile, leave_one_out};
@@ -237,11 +237,11 @@ impl Judged<'_> {
                 (corrected, plain)
             })
             .collect();
-        let healthy = healthy_cost(p, &self.calibration.regimes.scatter);
+        let fault_free = fault_free_cost(p, &self.calibration.regimes.scatter);
         let best = winner.map_or(retuned.cost, |w| w.trial.fitted.cost);
         let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| {
-            let before = p.misfit(&calibrated) - healthy;
-            ((best - healthy) / before.max(1.0)).clamp(0.0, 1.0)
+            let before = p.misfit(&calibrated) - fault_free;
+            ((best - fault_free) / before.max(1.0)).clamp(0.0, 1.0)
         });
         let indistinguishable = self.rivals(&ranked, verdict);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
@@ -256,8 +256,8 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         if winner.is_some() && !worthwhile {
             limits.push(
-                "recordings that were left out are forecast no better with the correction: held-out drives are predicted \
-                 without it"
+                "the correction does not improve the forecasts of recordings left out of the fit: \
+                 held-out drives are predicted without it"
                     .to_owned(),
             );
         }
@@ -274,7 +274,7 @@ impl Judged<'_> {
             unexplained,
             limits,
             trials: self.trials(retuned),
-            costs: [p.misfit(&calibrated), retuned.cost, healthy],
+            costs: [p.misfit(&calibrated), retuned.cost, fault_free],
             accusations: self.calibration.gate.accusations.clone(),
             screened,
             tuning,
@@ -330,22 +330,23 @@ impl Judged<'_> {
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
             out.push(
-                "no pose: slip and places on the ground cannot be told, gyro faults cannot be told from turning"
+                "no pose was recorded: slip and places on the ground cannot be determined, and \
+                 gyro faults cannot be told from turning"
                     .to_owned(),
             );
         }
         if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
-            out.push("no gyro: turning is only known from the wheels".to_owned());
+            out.push("no gyro was recorded: turning is known from the wheels only".to_owned());
         }
         if runs().all(|r| r.accel[0].iter().all(Option::is_none)) {
-            out.push("no accelerometer: grade and pulls are told apart by the motion only".to_owned());
+            out.push("no accelerometer was recorded: slopes and pulls are told apart by the motion only".to_owned());
         }
         let held: usize = runs().map(|r| r.held_torques).sum();
         if held > 0 {
-            out.push(format!("{held} torque samples were missing and took the value before them"));
+            out.push(format!("{held} torque samples were missing; each was replaced by the value before it"));
         }
         if self.sensors.faults.iter().any(|f| f.card.redundancy == Redundancy::FrozenAngle) {
-            out.push("windows beside frozen encoder rows were left out".to_owned());
+            out.push("windows next to rows with a frozen encoder were left out".to_owned());
         }
         out
     }

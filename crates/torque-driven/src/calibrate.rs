@@ -22,7 +22,7 @@ pub(crate) struct Calibration {
     pub(crate) variance: [f64; CHANNELS],
     pub(crate) spread: f64,
     pub(crate) regimes: Regimes,
-    /// What the references themselves would be accused of.
+    /// Null scores of the references themselves.
     pub(crate) gate: Gate,
 }
 

@@ -22,9 +22,9 @@ const NONE: f64 = 12.0;
 const SIZE_WIDTH: f64 = 0.35;
 /// Temperature that turns scores into probabilities.
 pub(crate) const TEMPERATURE: f64 = 4.0;
-/// Logistic of "worse than healthy" and of "most of the mismatch is left" for "unknown". From 119 cases of our own
-/// generator (seed 8001): the logarithm of cost over healthy cost reaches 0.44 in 42 healthy cases and begins at 0.69 in 19
-/// with a cause outside the catalogue.
+/// Logistic of "worse than fault-free" and of "most of the mismatch is left" for "unknown". From
+/// 119 cases of our own generator (seed 8001): the logarithm of cost over fault-free cost reaches
+/// 0.44 in 42 fault-free cases and begins at 0.69 in 19 with a cause outside the catalogue.
 const UNKNOWN_RATIO: [f64; 2] = [10.0, 0.6];
 const UNKNOWN_LEFT: [f64; 2] = [12.0, 0.5];
 /// Mismatch below which "left" is not a share of anything, nats.
@@ -65,9 +65,9 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
     sum
 }
 
-/// Cost that a healthy drive of these segments would have: each as far from its expectation as the references' segments
-/// are from theirs, on average.
-pub(crate) fn healthy_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
+/// Cost that a fault-free drive of these segments would have: each as far from its expectation as
+/// the references' segments are from theirs, on average.
+pub(crate) fn fault_free_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
     let usual = [1.0];
     let scatter = if scatter.is_empty() { &usual } else { scatter };
     let mut f = 0.0;
@@ -82,7 +82,7 @@ pub(crate) fn healthy_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
 
 /// Weighs all hypotheses.
 ///
-/// `scatter`: of the references' segments about their regimes; `gate`: the highest score of a healthy drive.
+/// `scatter`: of the references' segments about their regimes; `gate`: the highest score of a fault-free drive.
 pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate: f64) -> Decision {
     let base: &Fitted = &found.retuned;
     let mut scored: Vec<Scored> = found
@@ -98,10 +98,10 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
     let none = NONE.max(gate);
-    let healthy = healthy_cost(problem, scatter);
+    let fault_free = fault_free_cost(problem, scatter);
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
-    let excess = (best / healthy.max(1e-9)).ln();
-    let left = (best - healthy) / (base.cost - healthy).max(LEAST_MISMATCH);
+    let excess = (best / fault_free.max(1e-9)).ln();
+    let left = (best - fault_free) / (base.cost - fault_free).max(LEAST_MISMATCH);
     let unknown =
         logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.

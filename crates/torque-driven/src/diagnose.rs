@@ -42,7 +42,8 @@ impl Calibrated {
         Ok(Self { references, calibration, largest_torque })
     }
 
-    /// Diagnoses the recordings of a case with the same robot and references. `progress` is told the stage that begins.
+    /// Diagnoses the recordings of a case with the same robot and references. `progress` is called
+    /// with the stage that begins.
     ///
     /// Where they hold a larger torque than the references, the references are screened anew with that torque, so that the
     /// answer is that of [`diagnose`].
@@ -91,7 +92,7 @@ impl Calibrated {
     }
 }
 
-/// Diagnoses a torque-driven case. `progress` is told the stage that begins.
+/// Diagnoses a torque-driven case. `progress` is called with the stage that begins.
 ///
 /// # Errors
 /// When there is nothing to compare with, or the recordings do not determine the model.

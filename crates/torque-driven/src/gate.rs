@@ -1,4 +1,5 @@
-//! The null's own evidence: what each reference would be accused of if only the others had calibrated the model.
+//! Null scores: the best effect for each reference when only the others calibrate the model, which
+//! is a false alarm.
 
 use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
@@ -8,10 +9,10 @@ use crate::fit::{Columns, Hypothesis, PER_RUN, Point, Problem};
 use crate::screen::screen;
 use inference::algebra::solve_spd;
 
-/// Scores that healthy recordings of this robot reach.
+/// Scores that fault-free recordings of this robot reach.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Gate {
-    /// Of each reference left out in turn: its worst accusation and what that scores, nats.
+    /// Of each reference left out in turn: the effect that scores best, a false alarm, and its score, nats.
     pub(crate) accusations: Vec<(String, f64)>,
 }
 
@@ -55,7 +56,7 @@ impl Gate {
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The highest score of a healthy recording.
+    /// The highest score of a fault-free recording.
     pub(crate) fn highest(&self) -> f64 {
         self.accusations.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
     }

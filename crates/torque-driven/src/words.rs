@@ -22,10 +22,16 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
         Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
         Verdict::Unknown => {
             out.push(
-                "The simulation lacks something that is not in the catalogue: no effect in it explains these recordings.".to_owned(),
+                "The simulation lacks something that is not in the catalogue: no effect of the \
+                 catalogue explains these recordings."
+                    .to_owned(),
             );
             if let Some(c) = causes.first() {
-                out.push(format!("The nearest is {}, {}, but it leaves too much.", c.name, quantity(c)));
+                out.push(format!(
+                    "The nearest effect is {} ({}), but most of the mismatch remains with it.",
+                    c.name,
+                    quantity(c)
+                ));
             }
         }
         Verdict::Explained => {
@@ -53,7 +59,8 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);
     if d.verdict == Verdict::Explained && unknown > 0.5 {
         out.push(format!(
-            "Beside that, something is missing that the catalogue does not hold (probability {unknown:.2})."
+            "Something else is missing as well, which is not in the catalogue (probability \
+             {unknown:.2})."
         ));
     }
     if let Some(r) = d.located.remainder.as_ref().filter(|_| d.verdict != Verdict::NoMismatch) {

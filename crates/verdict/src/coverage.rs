@@ -67,10 +67,11 @@ impl Coverage {
         let against = match self.compared_with {
             ComparedWith::References => "least like the references",
             ComparedWith::Beginning => "least like the beginning",
-            ComparedWith::Nothing => "further",
+            ComparedWith::Nothing => "others",
         };
         format!(
-            "Of {} of {what}, all screened, {} were taken: {} stretches ({} spread evenly, {} whose driving tells most, {} {against}).",
+            "Of {} of {what}, all screened, {} were diagnosed in full: {} stretches ({} spread \
+             evenly, {} with the most informative driving, {} {against}).",
             minutes(self.screened),
             minutes(self.diagnosed),
             self.chosen.len(),
@@ -85,12 +86,13 @@ impl Coverage {
         let taken = self.chosen.iter().filter_map(|c| c.unlike).fold(0.0, f64::max);
         let unlike = match self.unlike_left_out {
             [Some(median), Some(largest)] => format!(
-                "their mean squared residual of the law among signals is {median:.2} (median) to {largest:.2} (largest) of \
-                 what is usual, that of the stretches that were taken up to {taken:.2}"
+                "the relations among signals fit them with a mean squared residual of {median:.2} \
+                 (median) to {largest:.2} (largest) times the usual; in the stretches that were \
+                 diagnosed it is up to {taken:.2}"
             ),
-            _ => "they have no signals that a law could be told from".to_owned(),
+            _ => "how much they deviate is unknown, since they lack the signals to compare".to_owned(),
         };
-        format!("{} stretches of {what} were screened and left out: {unlike}", self.left_out)
+        format!("{} stretches of {what} were screened but not diagnosed: {unlike}", self.left_out)
     }
 }
 

@@ -52,9 +52,10 @@ pub struct Diagnosis {
     pub limits: Vec<String>,
     /// Hypotheses that were fitted, best first.
     pub trials: Vec<Trial>,
-    /// Cost of the recordings when calibrated, when re-tuned, when healthy: nats.
+    /// Cost of the recordings when calibrated, when re-tuned, when fault-free: nats.
     pub costs: [f64; 3],
-    /// What each reference, left out in turn, would be accused of, and what that scores: a hypothesis must do better.
+    /// The effect that each reference, left out in turn, would falsely be given, and its score: a
+    /// hypothesis must do better.
     pub accusations: Vec<(String, f64)>,
     /// Evidence of the screen per effect, nats.
     pub screened: Vec<(String, f64)>,

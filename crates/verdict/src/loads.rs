@@ -19,9 +19,9 @@ pub struct Loads {
     pub changes: Changes,
     /// When inside a recording turning begins or ceases to cost another torque.
     pub turning_changes: Vec<TurningChange>,
-    /// Turning told from the loads, where neither a gyro nor a difference of the speeds is known.
+    /// Turning inferred from the loads, where neither a gyro nor a difference of the speeds is known.
     pub turning: Vec<Turning>,
-    /// Wheels that were told to turn a body that did not.
+    /// Wheels that were commanded to turn a body that did not.
     pub standstills: Vec<Standstill>,
     /// Forecasts of the recordings' last thirds.
     pub forecasts: Vec<Forecast>,
@@ -124,7 +124,7 @@ pub struct Load {
 pub struct Withheld {
     /// Name of the recording.
     pub recording: String,
-    /// What cannot be told.
+    /// What cannot be determined.
     pub quantity: Quantity,
     /// Why.
     pub reason: String,

@@ -1,4 +1,4 @@
-//! What is told about where, when and how much.
+//! What is reported about where, when and how much.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -7,7 +7,7 @@ use crate::Word;
 /// All that was found about where the mismatch sits, before and after the verdict.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Located {
-    /// When each signal mismatches: at most one healthy case in twenty shows any.
+    /// When each signal mismatches: at most one fault-free case in twenty shows any.
     pub spans: Vec<Span>,
     /// Residual torque of each recording and side by the paper's identifier.
     pub torque: Vec<ResidualTorque>,
@@ -75,9 +75,10 @@ pub struct TorqueCertificate {
 pub struct Remainder {
     /// Share of the mismatch that is left, as in [`crate::Diagnosis::unexplained`].
     pub share: f64,
-    /// Each signal's share of what is left beyond healthy driving, largest first.
+    /// Each signal's share of what is left beyond fault-free driving, largest first.
     pub by_signal: Vec<(String, f64)>,
-    /// Where it sits in words ("the left side"); `None` when what is left does not stand out from healthy driving.
+    /// Where it shows, in words ("on the left side"); `None` when what is left does not stand out
+    /// from fault-free driving.
     pub place: Option<String>,
     /// Driving that holds most of it.
     pub regime: Option<Regime>,
@@ -129,13 +130,14 @@ pub struct Finding {
     pub signal: String,
     /// Side of the signal, if it has one.
     pub side: Option<Word>,
-    /// Mean squared mismatch of the calibrated model over what left-out references show in such driving.
+    /// Mean squared mismatch of the calibrated model, divided by that of left-out references in
+    /// the same kind of driving.
     pub ratio: f64,
     /// Recording and interval in which it is largest, s.
     pub recording: String,
     /// From, until, s.
     pub interval: [f64; 2],
-    /// Probability that a healthy case shows as much.
+    /// Probability that a fault-free case shows as much.
     pub p: f64,
     /// Whether it stands out from the references, with 5 % of false discoveries over all signals.
     pub significant: bool,
@@ -152,9 +154,9 @@ pub struct Cell {
     pub range: Vec<[f64; 2]>,
     /// Seconds of driving in it.
     pub seconds: f64,
-    /// Mean squared mismatch of all signals over what the references show in such driving.
+    /// Mean squared mismatch of all signals, divided by that of the references in such driving.
     pub ratio: f64,
-    /// Probability that healthy driving shows as much; segments are the independent blocks.
+    /// Probability that fault-free driving shows as much; segments are the independent blocks.
     pub p: f64,
     /// Whether it stands out, with 5 % of false discoveries over all cells (Benjamini and Yekutieli).
     pub significant: bool,

@@ -36,8 +36,9 @@ pub struct Trace {
     pub channels: Vec<Compared>,
     /// Position of the geometric centre in each window, m; empty without a pose.
     pub path: Vec<[f64; 2]>,
-    /// Mean squared mismatch of all channels over what the references show in such driving, of the simulation as it is;
-    /// of a command-driven robot, over what the corrected simulation leaves on average.
+    /// Mean squared mismatch of all channels, divided by that of the references in the same kind of
+    /// driving, of the simulation as it is; of a command-driven robot, over what the corrected
+    /// simulation leaves on average.
     pub before: Vec<Option<f64>>,
     /// The same of the corrected simulation.
     pub after: Vec<Option<f64>>,
@@ -60,6 +61,6 @@ pub struct Compared {
     pub retuned: Vec<Option<f64>>,
     /// Corrected by the named effects; empty where none is named.
     pub corrected: Vec<Option<f64>>,
-    /// One sigma by which healthy drives differ from their simulation, where that is known.
+    /// One sigma by which fault-free drives differ from their simulation, where that is known.
     pub usual: Option<f64>,
 }

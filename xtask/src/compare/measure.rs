@@ -98,7 +98,7 @@ impl Bench {
         Figure::read(&read("out"), program.place)
     }
 
-    /// Runs ours, theirs, ours, theirs ...; a program that fails is told and not run again.
+    /// Runs ours, theirs, ours, theirs ...; a program that fails is reported and not run again.
     pub(super) fn measure(&self, row: &Row, rounds: u32) -> Outcome {
         let rounds = rounds.min(row.rounds);
         let mut sides = [("ours", row.ours), ("theirs", row.theirs)].map(|(whose, program)| Measuring {

@@ -99,10 +99,10 @@ impl Draft {
                 self.plain(topic, &POSE, "x and y as they stand; the heading is a quaternion, which is not mapped")
             }
             "Odometry" => {
-                self.left_out(topic, "odometry is mostly computed from the encoders, so that it is no witness of slip")
+                self.left_out(topic, "odometry is mostly computed from the encoders, so that it does not show slip")
             }
             "Twist" | "TwistStamped" => {
-                self.left_out(topic, "a speed wanted of the body; what the wheels are told is the drive's to decide")
+                self.left_out(topic, "a speed wanted of the body; the drive decides what the wheels are commanded")
             }
             "Feedback" if topic.message_type.starts_with("clearpath") || topic.message_type.starts_with("jackal") => {
                 let what = "drivers[0] taken for the left side and drivers[1] for the right, as Clearpath counts them; \
@@ -121,7 +121,7 @@ impl Draft {
         Vec::new()
     }
 
-    /// Takes a signal that no topic has given yet; what has, is told.
+    /// Takes a signal that no topic has given yet; what has, is reported.
     fn take(&mut self, topic: &TopicContents, signal: &str) -> bool {
         if let Some(other) = self.taken.get(signal) {
             let known = self.repeated.iter_mut().find(|(name, from, _)| *name == topic.name && from == other);

@@ -8,7 +8,7 @@ use super::rows::{ACCEL, DIRECTION, DRIVE, GYRO, Grid, ONE, RATE, SIGNALS, SPEED
 const WINDOW: (usize, usize, u32) = (49, 12, 4);
 /// Penalty of the regressions, in squares of each regressor.
 const PENALTY: f64 = 1e-4;
-/// Fewest windows from which a law is told: ten for each coefficient.
+/// Fewest windows from which a law is learned: ten for each coefficient.
 const LEAST_WINDOWS: u64 = 160;
 
 /// Windows of the rows of a piece.

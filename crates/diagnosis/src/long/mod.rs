@@ -23,7 +23,7 @@ use rows::Grid;
 
 /// Length of a piece, s.
 pub const PIECE: f64 = 60.0;
-/// Recorded time on which a diagnosis rests at most unless told otherwise, s.
+/// Recorded time on which a diagnosis rests at most unless set otherwise, s.
 pub const BUDGET: f64 = 600.0;
 /// Shortest piece that is worth choosing, s.
 const SHORTEST: f64 = 10.0;

@@ -88,7 +88,7 @@ fn propose_to(target: &Path, bags: &[(String, Contents)], tables: &[(String, Tab
             let proposal = propose::mapping(&name, contents).with_context(nothing)?;
             (proposal.toml, proposal.inferred, false)
         }
-        // What was inferred of a table is told with its columns.
+        // What was inferred of a table is reported with its columns.
         (None, Some((table, contents))) => (skeleton::mapping(&name, table, contents), Vec::new(), true),
         (None, None) => bail!("--write-mapping needs a bag, or a table that no mapping fits; these have one"),
     };

@@ -45,7 +45,7 @@ Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag
   (ROS 2 bags); lacuna (what `lacuna convert` writes)
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost,
-  4 done and a mismatch was found (with --fail-on mismatch; goes before 3).";
+  4 done and a mismatch was found (with --fail-on mismatch; replaces 3).";
 
 /// Where each stage begins, as a share of the time of a torque-driven case; measured on drawn cases.
 const STAGES: Stages = &[

@@ -103,7 +103,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 fn withheld(advice: &Advice) -> &str {
-    advice.withheld.as_deref().unwrap_or("the menu is empty")
+    advice.withheld.as_deref().unwrap_or("no drive can be suggested")
 }
 
 /// The drive that was asked for, or the best.
@@ -114,7 +114,7 @@ fn chosen<'a>(advice: &'a Advice, name: Option<&str>) -> Result<Option<&'a Manoe
     }
     let near = nearest(name, advice.manoeuvres.iter().map(|m| m.name.as_str()));
     let near = near.map_or(String::new(), |n| format!("; did you mean '{n}'?"));
-    bail!(Usage(format!("there is no drive '{name}' on the menu of this case{near}")))
+    bail!(Usage(format!("there is no drive '{name}' among those suggested for this case{near}")))
 }
 
 /// The profile as CSV, rows at equal times.
@@ -133,7 +133,7 @@ fn profile(m: &Manoeuvre, robot: &Robot<f64>) -> String {
 fn text(advice: &Advice, wanted: Option<&Manoeuvre>, verdict: Option<&String>, lost: &[String]) -> String {
     let mut out = verdict.map_or(String::new(), |v| heading(v));
     if let Some(reason) = &advice.withheld {
-        out += &format!("No drive would split anything: {reason}.\n");
+        out += &format!("No further drive would help to decide: {reason}.\n");
     }
     out += &rivals(advice);
     out += &drives(advice);
@@ -156,11 +156,11 @@ fn rivals(advice: &Advice) -> String {
     if advice.rivals.is_empty() {
         return String::new();
     }
-    let mut table = TextTable::new(&["rival", ">probability"]);
+    let mut table = TextTable::new(&["answer", ">probability"]);
     for r in &advice.rivals {
         table.row([r.name.clone(), format!("{:.2}", r.probability)]);
     }
-    let title = format!("What may be true (entropy {:.2} bit)", advice.entropy_bits);
+    let title = format!("Answers still possible (uncertainty {:.2} bit)", advice.entropy_bits);
     format!("\n{}{}", heading(&title), table.render())
 }
 
@@ -168,7 +168,7 @@ fn drives(advice: &Advice) -> String {
     if advice.manoeuvres.is_empty() {
         return String::new();
     }
-    let mut table = TextTable::new(&["drive", ">expected bits", ">sigma of the size", "splits best"]);
+    let mut table = TextTable::new(&["drive", ">expected bits", ">uncertainty of the size", "tells apart best"]);
     for m in advice.manoeuvres.iter().take(SHOWN) {
         let splits = m.splits.as_ref().map_or(String::new(), |[a, b]| format!("{a} | {b}"));
         let narrows = m.narrows.map_or(String::new(), |n| format!("x {}", number(n)));

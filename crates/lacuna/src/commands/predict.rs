@@ -27,10 +27,10 @@ Examples:
 
 Several robot files are compared on the same drives. The simulation runs freely
 and is set to the recorded state at rows that hold all of it (pose, body
-velocity, gyro, wheels), at most every --restart seconds. Errors are told where
+velocity, gyro, wheels), at most every --restart seconds. Errors are given where
 the drive also holds what was to be predicted. Command-driven robots are
 forecast from their commands in windows of 2 s. Of speed-driven robots no drive
-is forecast freely: `lacuna simulate` tells the torque that their speeds take.
+is forecast freely: `lacuna simulate` gives the torque that their speeds take.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -94,8 +94,8 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
             "--out is for torque-driven robots; `lacuna simulate` writes what a command-driven robot does".to_owned()
         )),
         Causality::SpeedDriven => bail!(
-            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna simulate` tells the torque that \
-             their speeds take",
+            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna \
+             simulate` computes the torque that their speeds take",
             robots[0].name
         ),
     }

@@ -22,9 +22,9 @@ Examples:
   lacuna screen case/ --json screened.json       every minute, with its figure
 
 Recordings are passed over once, minute by minute, in memory that does not grow.
-A law among drive, wheels, yaw rate and acceleration is learned from the
-references by weak form (without any, from the first minutes); `unlike` is the
-mean squared residual of a minute over what is usual where the law holds.
+Relations among drive, wheels, yaw rate and acceleration are learned from the
+references (without any, from the first minutes). `unlike` says how badly they
+fit a minute: its mean squared residual, divided by the usual one.
 It says where to look, not what is missing: that is for `lacuna diagnose`.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
@@ -70,21 +70,23 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 fn text(screened: &Screened) -> String {
     let coverage = &screened.coverage;
     let law = match coverage.compared_with {
-        ComparedWith::References => "the law that the references follow",
-        ComparedWith::Beginning => "the law that the first minutes follow",
-        ComparedWith::Nothing => "nothing: there is no drive or no wheel motion to tell a law from",
+        ComparedWith::References => "the relations among signals in the references",
+        ComparedWith::Beginning => "the relations among signals in the first minutes",
+        ComparedWith::Nothing => "nothing, since a drive signal or the motion of the wheels is missing",
     };
     let hours = coverage.screened / 3600.0;
     let mut out = heading(&format!("{} stretches, {hours:.2} h, compared with {law}.", screened.pieces.len()));
     if let [Some(least), Some(lower), Some(median), Some(upper), Some(largest)] = coverage.unlike {
         out += &format!(
-            "Mean squared residual over what is usual: {least:.2} least, {lower:.2} lower quartile, {median:.2} median, \
+            "Mean squared residual (1 is usual): {least:.2} least, {lower:.2} lower quartile, \
+             {median:.2} median, \
              {upper:.2} upper quartile, {largest:.2} largest.\n"
         );
     }
     let mut worst: Vec<&Screen> = screened.pieces.iter().filter(|p| p.unlike.is_some()).collect();
     worst.sort_by(|a, b| b.unlike.unwrap_or(0.0).total_cmp(&a.unlike.unwrap_or(0.0)));
-    let mut table = TextTable::new(&["least like it", ">from, s", ">until, s", ">over what is usual"]);
+    let mut table =
+        TextTable::new(&["recording (least alike first)", ">from, s", ">until, s", ">residual (1 is usual)"]);
     for piece in worst.into_iter().take(ROWS) {
         let [from, until] = piece.interval.map(|t| format!("{t:.0}"));
         table.row([piece.recording.clone(), from, until, format!("{:.2}", piece.unlike.unwrap_or(f64::NAN))]);

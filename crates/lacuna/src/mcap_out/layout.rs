@@ -54,7 +54,7 @@ fn tab(diagnosis: &Diagnosis, trace: &Trace, panels: &mut Map<String, Value>) ->
     let topic = of_run(&trace.recording, "mismatch");
     let lines =
         [(format!("{topic}.before"), "as it is", COLOURS[1]), (format!("{topic}.after"), "corrected", COLOURS[3])];
-    rows.push(add("Plot", "mismatch", plot("Mismatch over what healthy drives show", &lines)));
+    rows.push(add("Plot", "mismatch", plot("Mismatch relative to fault-free drives", &lines)));
     rows.push(add("StateTransitions", "states", transitions(diagnosis, trace)));
     let stacked = stack(rows, "column");
     if trace.path.is_empty() {

@@ -99,7 +99,7 @@ pub(super) struct Joined {
     pub(super) join: f64,
     /// The change that comes nearest: bracket of its onset and its end, s.
     pub(super) told: Option<[[f64; 2]; 2]>,
-    /// Changes that were told.
+    /// Changes that were reported.
     pub(super) changes: usize,
     pub(super) answer: Answer,
 }

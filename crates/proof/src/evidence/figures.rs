@@ -186,7 +186,7 @@ fn slopes_of(e: &Evidence, hard: bool, out: &mut Vec<Figure>) {
         let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
         if !seen.is_empty() {
             add(out, &name("tilts found"), Some(count(Outcome::Found)), "", None);
-            add(out, &name("tilts told as not observable"), Some(count(Outcome::Hidden)), "", None);
+            add(out, &name("tilts reported as not observable"), Some(count(Outcome::Hidden)), "", None);
             add(out, &name("tilts missed"), Some(count(Outcome::Missed)), "", asked(0.0));
         }
         let moments = most(&|s| s.onset.into_iter().chain(s.end).max_by(f64::total_cmp));
@@ -223,7 +223,7 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
         );
         add(
             out,
-            "hard ground, gyro withheld: straight samples told as turning",
+            "hard ground, gyro withheld: straight samples reported as turning",
             Some(share(all.straight[1], all.straight[0])),
             "",
             Some(Asked::AtMost(0.2)),
@@ -232,7 +232,7 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
     if all.spins[0] > 0 {
         add(
             out,
-            "hard ground, gyro withheld: spins told (unsigned currents have no side)",
+            "hard ground, gyro withheld: spins reported (unsigned currents have no side)",
             Some(share(all.spins[1], all.spins[0])),
             "",
             Some(Asked::AtLeast(0.95)),
@@ -240,7 +240,7 @@ fn turning(e: &Evidence, out: &mut Vec<Figure>) {
     }
     if !e.husky.is_empty() {
         let stuck: usize = e.husky.iter().map(|r| r.open.steady("standstills").len()).sum();
-        add(out, "told that the body stands", Some(stuck as f64), "", Some(Asked::AtMost(0.0)));
+        add(out, "standstills reported", Some(stuck as f64), "", Some(Asked::AtMost(0.0)));
     }
 }
 
@@ -284,14 +284,14 @@ fn null(e: &Evidence, out: &mut Vec<Figure>) {
     let answers: usize = e.null.iter().map(|b| b.answers).sum();
     if answers > 0 {
         let alarms: usize = e.null.iter().map(|b| b.alarms.len()).sum();
-        add(out, "null: alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
+        add(out, "no cause: false alarms per answer", Some(share(alarms, answers)), "", Some(Asked::AtMost(0.1)));
     }
     let sand = || e.joined.iter().filter(|j| j.names[1].starts_with("SANDY"));
     if sand().next().is_some() {
         let errors: Vec<f64> = sand().filter_map(super::blocks::Joined::error).collect();
-        let name = "floor, then sand: joins at which a change is told";
+        let name = "floor, then sand: joins at which a change is reported";
         add(out, name, Some(share(errors.len(), sand().count())), "", None);
-        let name = "floor, then sand: largest error of the onset where it is told";
+        let name = "floor, then sand: largest error of the onset where it is reported";
         add(out, name, errors.into_iter().max_by(f64::total_cmp), "s", None);
     }
 }

@@ -59,7 +59,7 @@ impl Claim {
 const ABOUT: f64 = 0.5;
 /// A moment bracketed more widely than this was hidden, s.
 const BRACKET: f64 = 1.0;
-/// Share of a stretch that was told as hidden.
+/// Share of a stretch that was reported as hidden.
 const MOSTLY: f64 = 0.5;
 
 fn overlap(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -22,7 +22,7 @@ with their SHA-256 before its label or its witness was opened.
 
 - The Husky's currents have no sign and a dead band, its speeds are set-points, and its clocks wander: downhill only a \
 bound is known, slip and a drive that does not hold its speed look alike, and moments are good to some tenths of a second.
-- On one straight drive a slope and rolling resistance are the same load. The class is told as a class, unless a way \
+- On one straight drive a slope and rolling resistance are the same load. The class is reported as a class, unless a way \
 back, another heading, a load below any friction or the gyro decides.
 - On level ground mass and torque constant are one number: loads are ratios to the references'.
 - Cold drive trains differ by up to 1.45 from day to day. Such a rise of the straight load is called unexplained.
@@ -42,7 +42,7 @@ well; currents and mean speed alone; everything. Then the accelerometer is opene
 Its clock is aligned by the program's own method.
 4. The last third of each run that turns is forecast from its set speeds with what the first two thirds give. Placebos \
 are wrong laws with as many constants.
-5. Null: the references in blocks of 60 s, each against all others. Joined: a run on the floor, then another.";
+5. False alarms: the references in blocks of 60 s, each against all others. Joined: a run on the floor, then another.";
 
 const CHOSEN: &str = "\
 ## Chosen after a look at the open runs
@@ -96,7 +96,7 @@ fn verdicts(e: &Evidence) -> Section {
 fn outcome(o: Outcome) -> Cell {
     match o {
         Outcome::Found => toned("found", Tone::Good),
-        Outcome::Hidden => "told as not observable".into(),
+        Outcome::Hidden => "reported as not observable".into(),
         Outcome::Missed => toned("missed", Tone::Bad),
     }
 }
@@ -114,7 +114,7 @@ fn tilts(e: &Evidence, title: &str, of: impl Fn(&Examined) -> Option<&(Vec<Seen>
     );
     let mut claims = Section::new(
         &format!("{title}: what was claimed"),
-        "Every change that was told inside a run, and the mean of the witness over it.",
+        "Every change that was reported inside a run, and the mean of the witness over it.",
         &["run", "s", "slope, degrees (90 %)", "cause", "witness, degrees", "inside"],
     );
     for r in &e.husky {
@@ -193,8 +193,9 @@ fn forecasts(e: &Evidence) -> Section {
 
 fn others(e: &Evidence) -> Vec<Section> {
     let mut null = Section::new(
-        "Null: the references in blocks",
-        "Alarms: 90 % intervals that exclude no difference, and causes that are named. A block with a ramp in it is no null for what the ramp changes.",
+        "False alarms: the references in blocks",
+        "False alarms: 90 % intervals that exclude no difference, and causes that are named. A \
+         block with a ramp in it does not count for what the ramp changes.",
         &["block", "answers", "alarms", "which"],
     );
     for b in &e.null {
@@ -209,8 +210,8 @@ fn others(e: &Evidence) -> Vec<Section> {
     }
     let mut joined = Section::new(
         "Joined runs: where does the second begin?",
-        "Set speeds and currents only. Told: bracket of the onset of the nearest change.",
-        &["runs", "join, s", "told, s", "changes told"],
+        "Set speeds and currents only. Reported: bracket of the onset of the nearest change.",
+        &["runs", "join, s", "reported, s", "changes reported"],
     );
     for j in &e.joined {
         let told = j.told.map_or("-".to_owned(), |[onset, _]| span(onset));

@@ -1,4 +1,4 @@
-//! Turning told from the currents, beside what the gyro says.
+//! Turning inferred from the currents, beside what the gyro says.
 
 use serde_json::{Value, json};
 

@@ -66,7 +66,7 @@ pub(super) fn prove(name: &str, layout: &Layout, seals: &Seals, lacuna: &Path, p
         let out = folder.join(format!("{model}.xml"));
         let mut export = Command::new(lacuna);
         export.arg("export").arg(&verdict).args(["--to", "mjcf", "--force"]).args(arguments).arg("-o").arg(&out);
-        // What is not held is told below.
+        // What is not held is reported below.
         succeed(export.stderr(Stdio::null()))?;
     }
     let diagnosis = Envelope::open(&verdict)?.diagnosis;

@@ -48,7 +48,7 @@ pub(super) struct Tried {
     pub(super) lot: Said,
     /// Rivals before, with their probabilities.
     pub(super) rivals: Vec<(String, f64)>,
-    /// Expected bits of the drive of the menu by lot.
+    /// Expected bits of the random drive of the menu.
     pub(super) menu_bits: f64,
 }
 
@@ -85,7 +85,7 @@ pub(super) fn run(plan: &Plan, folder: &Path, seconds: f64) -> Result<Option<Tri
         expected_bits: best.expected_bits,
         advised: again(&best.name, advised(best))?,
         menu: again(&other.0, other.1.clone())?,
-        lot: again("speed profile by lot", lot)?,
+        lot: again("random speed profile", lot)?,
         rivals: advice.rivals.iter().map(|r| (r.effects.join("+"), r.probability)).collect(),
         menu_bits: advice.manoeuvres.iter().find(|m| m.name == other.0).map_or(0.0, |m| m.expected_bits),
         hidden,

@@ -1,4 +1,4 @@
-//! The drives of the proof: a calm one to begin with, the advised one, and two by lot.
+//! The drives of the proof: a calm one to begin with, the advised one, and two at random.
 
 use examiner::Course;
 use sim::{Purpose, Stream};
@@ -8,11 +8,11 @@ use verdict::Manoeuvre;
 const CALM: [[f64; 2]; 2] = [[0.12, 0.3], [0.15, 0.4]];
 /// Time of a calm ramp, s.
 const RAMP: f64 = 1.5;
-/// Time of a level of a profile by lot, s, and of each ramp.
+/// Time of a level of a random profile, s, and of each ramp.
 const EACH: f64 = 1.5;
 const SHORT_RAMP: f64 = 0.7;
 
-/// What by lot draws from: one stream for each purpose of a case.
+/// What the random draws come from: one stream for each purpose of a case.
 fn stream(seed: u64, purpose: u64) -> Stream {
     Stream::new(seed, Purpose::Search, purpose)
 }
@@ -52,7 +52,7 @@ pub(super) fn advised(m: &Manoeuvre) -> Course {
     Course { start: Some(m.start), points: m.profile.clone(), torque_free: m.torque_free.clone() }
 }
 
-/// A drive of the menu by lot: any whose recording can be added to the others, the searched one aside.
+/// A random drive of the menu: any whose recording can be added to the others, the searched one aside.
 pub(super) fn of_menu(menu: &[Manoeuvre], seed: u64) -> Option<&Manoeuvre> {
     let mut can: Vec<&Manoeuvre> = menu.iter().filter(|m| m.joins && !m.optimised).collect();
     // In an order that owes nothing to the advice.
@@ -61,7 +61,7 @@ pub(super) fn of_menu(menu: &[Manoeuvre], seed: u64) -> Option<&Manoeuvre> {
     can.get(at).copied()
 }
 
-/// A speed profile by lot within what the menu reaches, begun where the menu begins.
+/// A random speed profile within what the menu reaches, begun where the menu begins.
 pub(super) fn by_lot(menu: &[Manoeuvre], seed: u64, seconds: f64) -> Option<Course> {
     let start = menu.iter().find(|m| m.joins)?.start;
     let all = || menu.iter().filter(|m| m.joins).flat_map(|m| &m.profile);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! drawn robot with a hidden effect --one calm recording--> diagnosis that leaves several causes, with its advice
-//!   + the advised drive | a drive of the menu by lot | a speed profile by lot   (the same robot, the same length)
+//!   + the advised drive | a random drive of the menu | a random speed profile   (the same robot, the same length)
 //!   --> three second diagnoses: is the hidden effect now named, alone?
 //! ```
 

@@ -8,15 +8,15 @@ use crate::blind::Rate;
 use crate::document::{Section, number, toned, wrapped};
 use crate::output::{Asked, Figure};
 
-/// How much more often the advised drive must resolve a case than one by lot.
+/// How much more often the advised drive must resolve a case than one at random.
 const TIMES: f64 = 2.0;
 
 type Which = (&'static str, fn(&Tried) -> &Said);
 
 const ALL: [Which; 3] = [
     ("the advised drive", |t| &t.advised),
-    ("a drive of the menu by lot", |t| &t.menu),
-    ("a speed profile by lot", |t| &t.lot),
+    ("a random drive of the menu", |t| &t.menu),
+    ("a random speed profile", |t| &t.lot),
 ];
 
 fn rate(kept: &[Tried], of: fn(&Tried) -> &Said) -> Rate {
@@ -130,7 +130,7 @@ fn cases(kept: &[Tried]) -> Section {
     let mut s = Section::new(
         "The robots",
         "Probability of the hidden effect before and after each drive; bold where the case is not resolved.",
-        &["case", "hidden", "first before", "before", "advised drive", "advised", "menu by lot", "profile by lot"],
+        &["case", "hidden", "first before", "before", "advised drive", "advised", "random of menu", "random profile"],
     );
     for t in kept {
         let p = |said: &Said| {
@@ -152,7 +152,7 @@ fn cases(kept: &[Tried]) -> Section {
 
 /// How it is used; stands above the proof.
 const USE: &str = "\
-`lacuna next` says which drive would tell the remaining rivals apart: of a menu, and of short profiles made for the case. It takes
+`lacuna next` says which drive would tell the remaining causes apart: of a menu, and of short profiles made for the case. It takes
 what `lacuna diagnose` takes.
 
 ```sh
@@ -170,13 +170,13 @@ pub(super) fn intro(args: &Args, figures: &[Figure]) -> String {
          drive of one kind, {SECONDS} s. Where its diagnosis is not clear (the hidden effect is not first, or not above \
          0.9, or another stands beside it) and leaves two rivals or more, the advised drive is recorded with the \
          examiner's own plant and controller, with noise and run-to-run friction as ever, and everything is diagnosed \
-         again; in its place, a drive of the same menu by lot and a speed profile by lot, all of {seconds} s, all the \
+         again; in its place, a random drive of the same menu and a random speed profile, all of {seconds} s, all the \
          same run otherwise."
     );
     let chosen = "Chosen after a look at seed 1: how much of the separation that the model promises is believed (a \
                   quarter), that a rival is tried one sigma stronger than it was fitted, the length of the levels of a \
                   searched profile, and the length of the further drive. Before that, with 6 s, the advised drive \
-                  resolved 16 of 30 robots, a drive of the menu by lot 13, a profile by lot 16; with all of it, and \
+                  resolved 16 of 30 robots, a random drive of the menu 13, a random profile 16; with all of it, and \
                   4.3 s, 11 of 21 against 9 and 8. With the seed below, over both: 31 of 56 against 16 (1.94 \
                   times) and 25 (1.24 times).";
     let proof = [how, chosen.to_owned(), judgement(figures)].map(|text| wrapped(&text)).join("\n\n");

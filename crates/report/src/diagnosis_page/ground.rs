@@ -56,7 +56,8 @@ pub(super) fn map(d: &Diagnosis) -> Option<Figure> {
     Some(Figure {
         title: "In which driving".to_owned(),
         caption: format!(
-            "Mean squared mismatch of the simulation as it is, over what the references show in such driving; by {x} and {y}."
+            "Mean squared mismatch of the simulation as it is, divided by that of the references \
+             in the same kind of driving (1: no more than there); by {x} and {y}."
         ),
         table: (Vec::new(), Vec::new()),
         drawing: Drawing::Map(Map {
@@ -100,7 +101,8 @@ pub(super) fn paths(d: &Diagnosis) -> Option<Figure> {
     (!runs.is_empty()).then(|| Figure {
         title: "On the ground".to_owned(),
         caption: format!(
-            "Paths of the recordings, coloured by the mismatch of the simulation as it is over the usual.{place}"
+            "Paths of the recordings, coloured by the mismatch of the simulation as it is, \
+             divided by that of the references.{place}"
         ),
         table: (Vec::new(), Vec::new()),
         drawing: Drawing::Path(Paths { runs, discs }),

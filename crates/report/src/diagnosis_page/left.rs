@@ -39,14 +39,14 @@ fn unexplained(page: &mut Page, d: &Diagnosis) {
     let mut sentences = vec![format!("{:.0} % of the mismatch is still unexplained.", 100.0 * share)];
     if let Some(r) = remainder {
         sentences.push(match &r.place {
-            Some(place) => format!("What is left sits on {place}."),
-            None => "It does not stand out from healthy driving at any place.".to_owned(),
+            Some(place) => format!("Most of what is left shows {place}."),
+            None => "In no signal does it clearly exceed what fault-free drives show.".to_owned(),
         });
         if let Some(g) = &r.regime {
             let [a, b] = g.range;
             let range = if b.is_finite() { format!("{a} to {b}") } else { format!("above {a}") };
             sentences.push(format!(
-                "{:.0} % of it sits where {} is {range} {}, in {:.0} % of the time driven.",
+                "{:.0} % of it shows where {} is {range} {}, in {:.0} % of the time driven.",
                 100.0 * g.share,
                 g.by,
                 g.unit,
@@ -64,7 +64,8 @@ fn unexplained(page: &mut Page, d: &Diagnosis) {
     if let Some(m) = &d.located.residual_model {
         let [without, with] = m.wheel_speed;
         page.note(&format!(
-            "A residual network, {}, lowers the wheel-speed error on left-out recordings from {} to {} rad/s.",
+            "A network fitted to what is left ({}) lowers the wheel-speed error on left-out \
+             recordings from {} to {} rad/s.",
             m.standing,
             number(without),
             number(with)

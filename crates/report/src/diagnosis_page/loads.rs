@@ -42,17 +42,17 @@ fn ratios(loads: &Loads) -> Figure {
         stands_out: r.interval[0] > 1.0 || r.interval[1] < 1.0,
     };
     Figure {
-        title: "Loads over those of the references".to_owned(),
-        caption:
-            "Each load of a recording over the references' in such driving, with its 90 % interval; 1 is as usual. \
-                  Coloured: the interval leaves out 1."
-                .to_owned(),
+        title: "Loads relative to the references".to_owned(),
+        caption: "Each load of a recording divided by that of the references in the same kind of \
+             driving, with its 90 % interval; 1 is no difference. Coloured: the interval does not \
+             contain 1."
+            .to_owned(),
         table: (
             vec!["recording", "load", "inner, outer m/s", "value (90 %)", "over reference (90 %)", "s"],
             loads.ratios.iter().map(row).collect(),
         ),
         drawing: Drawing::Intervals(Intervals {
-            x: "load over the references'".to_owned(),
+            x: "load, times that of the references".to_owned(),
             neutral: 1.0,
             rows: shown.map(interval).collect(),
         }),
@@ -81,7 +81,7 @@ fn constants(page: &mut Page, response: &Response) {
             ]
         })
         .collect();
-    page.table(&["constant", "value", "90 %", "unit", "simulated", "loss without it"], &rows);
+    page.table(&["constant", "value", "90 %", "unit", "simulated", "error without it"], &rows);
 }
 
 fn two(x: f64) -> f64 {

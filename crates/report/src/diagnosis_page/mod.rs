@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_long_verdict_is_told_before_its_explanation() {
-        let first = "The command is not what was driven, and that is neither slip nor friction";
+        let first = "The wheels do not do what is commanded, and neither slip nor friction explains it";
         let why = "the wheels leave the command ".repeat(8);
         let sentences = vec![format!("{first}: {why}")];
         let d = Diagnosis { verdict: Verdict::Explained, sentences, ..Diagnosis::withheld() };

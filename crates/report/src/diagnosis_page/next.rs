@@ -36,7 +36,11 @@ fn advised(page: &mut Page, advice: &Advice) {
     if advice.rivals.len() > 1 {
         let names: Vec<String> =
             advice.rivals.iter().map(|r| format!("{} ({})", r.name, probability(r.probability))).collect();
-        page.paragraph(&format!("Still possible: {}; {:.2} bits are open.", names.join(", "), advice.entropy_bits));
+        page.paragraph(&format!(
+            "Still possible: {}. The uncertainty among them is {:.2} bits.",
+            names.join(", "),
+            advice.entropy_bits
+        ));
     }
     let worth = |m: &&Manoeuvre| m.expected_bits > 0.0 || m.narrows.is_some();
     if let Some(best) = advice.best().filter(worth) {
@@ -60,7 +64,7 @@ fn advised(page: &mut Page, advice: &Advice) {
     if open {
         page.table(&["drive", "expected bits", "tells apart best"], &rows);
     } else {
-        page.table(&["drive", "uncertainty of the size after it, of today's"], &rows);
+        page.table(&["drive", "uncertainty of the size after it, share of what it is now"], &rows);
     }
     for limit in &advice.limits {
         page.note(&sentence(limit));

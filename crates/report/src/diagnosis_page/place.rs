@@ -14,19 +14,20 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
     page.section("Where", "Where and when it shows");
     let further = further_sentences(d);
     if let Some(side) = &d.located.side {
-        page.paragraph(&format!("The wheel speeds put it on the {side} side."));
+        page.paragraph(&format!("By the wheel speeds, the cause is on the {side} side."));
     }
     if !further.is_empty() {
         page.list(further);
     }
     match timeline(d) {
         Some(figure) => page.figure(&figure),
-        None => page.paragraph("No stretch of time stands out from what healthy driving shows."),
+        None => page.paragraph("In no stretch of time does a signal differ by clearly more than in fault-free drives."),
     }
     let figures: Vec<Figure> = map(d).into_iter().chain(paths(d)).collect();
     if figures.is_empty() {
         page.note(
-            "Without speeds and positions in every window there is no map of kinds of driving and none of the ground.",
+            "No map over kinds of driving or over the ground can be drawn: that takes speeds and \
+             positions in every window.",
         );
     } else {
         page.grid(&figures);
@@ -45,9 +46,14 @@ fn tables(page: &mut Page, d: &Diagnosis) {
         };
         let rows: Vec<Vec<Cell>> = d.findings.iter().map(row).collect();
         let shown = d.findings.iter().filter(|f| f.significant).count();
-        page.folded("By signal", &format!("{shown} of {} stand out", d.findings.len()), false, |page| {
-            page.table(&["signal", "mismatch over the usual", "most in"], &rows);
-        });
+        page.folded(
+            "By signal",
+            &format!("{shown} of {} differ from the references", d.findings.len()),
+            false,
+            |page| {
+                page.table(&["signal", "mismatch (1: as in the references)", "largest in"], &rows);
+            },
+        );
     }
     if !d.cells.is_empty() {
         let row = |c: &Place| {
@@ -56,9 +62,13 @@ fn tables(page: &mut Page, d: &Diagnosis) {
         };
         let rows: Vec<Vec<Cell>> = d.cells.iter().map(row).collect();
         let shown = d.cells.iter().filter(|c| c.significant).count();
-        let more = format!("{shown} of {} ranges of speed, turning, slip, heading and place stand out", d.cells.len());
+        let more = format!(
+            "{shown} of {} ranges of speed, turning, slip, heading and place \
+                            differ from the references",
+            d.cells.len()
+        );
         page.folded("By kind of driving and place", &more, false, |page| {
-            page.table(&["by", "range", "mismatch over the usual", "s"], &rows);
+            page.table(&["by", "range", "mismatch (1: as in the references)", "s"], &rows);
         });
     }
     torque(page, &d.located.torque);
@@ -71,9 +81,9 @@ fn torque(page: &mut Page, all: &[ResidualTorque]) {
     }
     let certified = all.iter().all(|t| t.certificate.holds);
     let more = if certified {
-        "by the paper's identifier; its certificate holds"
+        "by the online neural identifier; its error bound holds"
     } else {
-        "by the paper's identifier; not certified"
+        "by the online neural identifier; its error bound does not hold"
     };
     let row = |t: &ResidualTorque| -> Vec<Cell> {
         let outside: Vec<String> =
@@ -88,6 +98,9 @@ fn torque(page: &mut Page, all: &[ResidualTorque]) {
     };
     let rows: Vec<Vec<Cell>> = all.iter().map(row).collect();
     page.folded("Torque that the model lacks", more, false, |page| {
-        page.table(&["recording, side", "mean, N m", "rms, N m", "references, N m", "outside of that"], &rows);
+        page.table(
+            &["recording, side", "mean, N m", "rms, N m", "range in the references, N m", "outside that range"],
+            &rows,
+        );
     });
 }

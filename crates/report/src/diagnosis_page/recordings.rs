@@ -47,7 +47,8 @@ fn figure(d: &Diagnosis, trace: &Trace) -> Figure {
     let marked = d.located.spans.iter().any(|s| s.recording == trace.recording);
     let marked = if marked { " Marked below a signal: where it mismatches the calibrated simulation." } else { "" };
     let restarted = if trace.restarts.len() > 1 {
-        " The simulations run free and are set to the measured state where their lines are broken."
+        " The simulations run without measurements and start again from the measured state where \
+         their lines are broken."
     } else {
         ""
     };

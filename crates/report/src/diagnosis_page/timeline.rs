@@ -41,7 +41,7 @@ fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
         (c.recording.as_str(), "straight load", c.interval, Role::Before, what)
     });
     let turning = loads.turning_changes.iter().map(|c| {
-        let what = format!("{:.2} ± {:.2} times the rest's", c.ratio, c.half);
+        let what = format!("{:.2} ± {:.2} times that of the rest", c.ratio, c.half);
         (c.recording.as_str(), "turning load", c.interval, Role::Before, what)
     });
     let standing = loads.standstills.iter().map(|c| {
@@ -95,8 +95,8 @@ pub(super) fn timeline(d: &Diagnosis) -> Option<Figure> {
     let caption = if d.steady.is_some() {
         "Stretches in which the load of a recording changes. Grey: turns or stops, in which no change could have been seen."
     } else {
-        "Stretches in which a signal differs from the calibrated simulation by more than healthy drives do; at most one \
-         healthy case in twenty shows any."
+        "Stretches in which a signal differs from the calibrated simulation by more than in \
+         fault-free drives; of twenty fault-free cases at most one shows any."
     };
     Some(Figure {
         title: "When it shows".to_owned(),

@@ -68,7 +68,7 @@ fn facts(d: &Diagnosis) -> String {
             facts.add("", &c.name, &probability(c.probability), "probability");
         } else {
             let class = d.indistinguishable.iter().find(|class| class.len() > 1 && class.contains(&c.effect));
-            let class = class.map_or_else(String::new, |l| format!("not to be told from {} others", l.len() - 1));
+            let class = class.map_or_else(String::new, |l| format!("cannot be told from {} others", l.len() - 1));
             let parts = [p, interval, where_and_when(c), class];
             let parts: Vec<String> = parts.into_iter().filter(|s| !s.is_empty()).collect();
             facts.add("", &c.name, &value, &parts.join(", "));
@@ -101,7 +101,7 @@ fn convincing(d: &Diagnosis) -> Option<Figure> {
     let all = d.traces.iter().flat_map(|t| t.channels.iter().map(move |c| (t, c)));
     let (trace, channel, _) = all.filter_map(|(t, c)| Some((t, c, mismatch(c)?))).max_by(|a, b| a.2.total_cmp(&b.2))?;
     let mut plot = plot(d, trace, &[channel], false);
-    let told: Vec<[f64; 2]> = d
+    let named: Vec<[f64; 2]> = d
         .ranked
         .iter()
         .filter(|c| c.probability > LIKELY)
@@ -109,8 +109,8 @@ fn convincing(d: &Diagnosis) -> Option<Figure> {
         .flatten()
         .copied()
         .collect();
-    if !told.is_empty() {
-        plot.rows.iter_mut().for_each(|r| r.spans.clone_from(&told));
+    if !named.is_empty() {
+        plot.rows.iter_mut().for_each(|r| r.spans.clone_from(&named));
     }
     let errors: Vec<Option<f64>> =
         [&channel.nominal, &channel.retuned, &channel.corrected].map(|y| rms(&channel.recorded, y)).to_vec();
@@ -142,7 +142,7 @@ fn caption(trace: &Trace, channel: &Compared, spans: &[[f64; 2]], errors: &[Opti
         out.push("The fit of the correction has not seen this recording.".to_owned());
     }
     if trace.restarts.len() > 1 {
-        out.push("Where its line is broken, the simulation is set to the measured state.".to_owned());
+        out.push("Where its line is broken, the simulation starts again from the measured state.".to_owned());
     }
     if !spans.is_empty() {
         let some: Vec<String> = spans.iter().take(SPANS).map(|[a, b]| format!("{a:.1} to {b:.1} s")).collect();

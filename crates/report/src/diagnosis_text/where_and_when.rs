@@ -35,7 +35,8 @@ fn place(d: &Diagnosis) -> String {
     if !any {
         return String::new();
     }
-    let title = "Where it shows (mean squared mismatch over the references'; 5 % false discoveries)";
+    let title = "Where it shows (ratio: mean squared mismatch, divided by that of the references; \
+                 5 % false discoveries)";
     format!("\n{}{}", heading(title), table.render())
 }
 
@@ -64,7 +65,7 @@ fn time(d: &Diagnosis) -> String {
 /// Recordings whose residual torque leaves the references' band.
 fn torque(d: &Diagnosis) -> String {
     let all = &d.located.torque;
-    let mut table = TextTable::new(&["recording", ">left, N m", ">right, N m", "outside the references' band"]);
+    let mut table = TextTable::new(&["recording", ">left, N m", ">right, N m", "outside the range of the references"]);
     let mut names: Vec<&str> = Vec::new();
     for t in all {
         let own: Vec<&ResidualTorque> = all.iter().filter(|o| o.recording == t.recording).collect();
@@ -84,8 +85,9 @@ fn torque(d: &Diagnosis) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let certified = if all.iter().all(|t| t.certificate.holds) { "its certificate holds" } else { "NOT CERTIFIED" };
-    let title = format!("Torque that the model lacks (mean, by the paper's identifier; {certified})");
+    let certified =
+        if all.iter().all(|t| t.certificate.holds) { "its error bound holds" } else { "its error bound DOES NOT HOLD" };
+    let title = format!("Torque that the model lacks (mean, by the online neural identifier; {certified})");
     format!("\n{}{}", heading(&title), table.render())
 }
 
@@ -94,7 +96,8 @@ pub(super) fn network(d: &Diagnosis) -> String {
     d.located.residual_model.as_ref().map_or(String::new(), |m| {
         let [without, with] = m.wheel_speed;
         format!(
-            "\nA residual network, {}, lowers the wheel-speed error on left-out recordings from {} to {} rad/s \
+            "\nA network fitted to what is left ({}) lowers the wheel-speed error on left-out \
+             recordings from {} to {} rad/s \
              (weights in the JSON).\n",
             m.standing,
             number(without),

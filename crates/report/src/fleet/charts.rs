@@ -13,7 +13,7 @@ const MOST: usize = 24;
 const POINTS: usize = 200;
 /// Rows of the numbers below a chart.
 const ROWS: usize = 50;
-/// Slopes of longer histories are told per 30 days.
+/// Slopes of longer histories are reported per 30 days.
 const LONG_DAYS: f64 = 60.0;
 
 /// Adds the section.
@@ -69,7 +69,7 @@ fn figure(s: &Series<'_>) -> Figure {
     let mut lines = vec![sizes];
     if let (Some(trend), Some(first), Some(last)) = (s.trend, shown.first(), shown.last()) {
         let x = [first[0], last[0]];
-        let name = if trend.is_told() { "trend" } else { "line, no trend told" };
+        let name = if trend.is_told() { "trend" } else { "line, no clear trend" };
         let line = Line::new(name, &x, &x.map(|x| trend.at(x + origin)));
         let role = Some(if trend.is_told() { Role::Before } else { Role::Placebo });
         lines.push(Line { role, ..line.dashed() });
@@ -112,7 +112,7 @@ fn trend_in_words(s: &Series<'_>) -> String {
         } else {
             "the sizes lie at one instant, or an interval is missing".to_owned()
         };
-        return format!("Whether it changes cannot be told: {why}.");
+        return format!("Whether it changes cannot be judged: {why}.");
     };
     let days = s.points.last().map_or(0.0, |p| p.x) - s.points.first().map_or(0.0, |p| p.x);
     let (factor, per) = match (s.dated, days > LONG_DAYS) {
@@ -122,11 +122,11 @@ fn trend_in_words(s: &Series<'_>) -> String {
     };
     let unit = if s.unit == "-" { String::new() } else { format!("{} ", s.unit) };
     let [slope, half] = [trend.slope, trend.half].map(|v| factor * v);
-    let told = format!("{} ± {} {unit}per {per} (90 %)", number(slope), number(half));
+    let change = format!("{} ± {} {unit}per {per} (90 %)", number(slope), number(half));
     if trend.is_told() {
-        format!("It {} by {told}.", if slope > 0.0 { "rises" } else { "falls" })
+        format!("It {} by {change}.", if slope > 0.0 { "rises" } else { "falls" })
     } else {
-        format!("No trend can be told: {told}.")
+        format!("No clear trend: {change}.")
     }
 }
 
@@ -137,9 +137,9 @@ pub(super) fn since_in_words(s: &Series<'_>) -> String {
         one.map_or(String::new(), |one| if s.dated { day(one.date) } else { one.id.clone() })
     };
     match s.since {
-        Since::TooFew => format!("cannot be told from {} recordings", s.answers.len()),
+        Since::TooFew => format!("cannot be determined from {} recordings", s.answers.len()),
         Since::Always => "before the first recording: it is named in all".to_owned(),
-        Since::Unclear(p) => format!("cannot be told: a change has probability {p:.2}"),
+        Since::Unclear(p) => format!("cannot be determined: a change has probability {p:.2}"),
         Since::Changed(Change { came, first_after: [from, to], best, .. }) => {
             let verb = if came { "came" } else { "went" };
             // It came after the last recording without it.

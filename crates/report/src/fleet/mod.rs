@@ -24,7 +24,7 @@ pub fn render(seen: &[Seen], program: &str) -> String {
     robots::add(&mut page, &all);
     charts::add(&mut page, &all);
     lists::add(&mut page, &all);
-    page.section("Method", "How this was told");
+    page.section("Method", "How this was judged");
     page.list(&[
         "An effect counts as named where the verdict is explained and the effect is more likely than not; its size stands with \
          the 90 % interval of its own diagnosis."

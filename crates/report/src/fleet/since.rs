@@ -2,14 +2,14 @@
 
 /// Fewer recordings than this tell no change.
 pub(super) const FEWEST: usize = 5;
-/// A change is told above this probability.
+/// A change is reported above this probability.
 const SURE: f64 = 0.95;
 /// Ends of the interval.
 const TAILS: [f64; 2] = [0.05, 0.95];
 
 pub(super) const METHOD: &str = "Since when: the recordings of a robot in their order, each with or without the effect \
     named. One share throughout is compared with one share before and another after an instant (uniform priors for \
-    shares and instant, even odds for a change); a change is told where it is at least 0.95 probable, with the 90 % interval \
+    shares and instant, even odds for a change); a change is reported where it is at least 0.95 probable, with the 90 % interval \
     of its instant, which lies between two recordings.";
 
 /// What the order of recordings says.
@@ -21,7 +21,7 @@ pub enum Since {
     Always,
     /// It came or went.
     Changed(Change),
-    /// No change is told; how probable one is.
+    /// No change is reported; how probable one is.
     Unclear(f64),
 }
 

@@ -113,7 +113,7 @@ fn named(magnitude: f64) -> Named {
     }
 }
 
-/// Recordings of a robot, one a week: healthy, then with an effect that grows.
+/// Recordings of a robot, one a week: fault-free, then with an effect that grows.
 fn worn(robot: &str, healthy: u32, ill: u32, growth: f64) -> Vec<Seen> {
     (0..healthy + ill)
         .map(|week| Seen {
@@ -145,7 +145,7 @@ fn the_page_says_who_differs_by_what_since_when_and_whether_it_grows() {
         "N m per day (90 %)",
         "came between 2026-02-12 and",
         "likeliest just before 2026-02-26",
-        "cannot be told from 3 recordings",
+        "cannot be determined from 3 recordings",
         "no &lt;b&gt;rows&lt;/b&gt;",
         "days after 2026-02-26",
         "1 failed, 0 withheld",

@@ -12,10 +12,10 @@ use verdict::ResidualTorque;
 /// Windows that are averaged, and bins of a series at most.
 const WINDOWS: usize = 5;
 const MOST_BINS: usize = 72;
-/// Usual scatter of a healthy run's mean and least scatter within one, in healthy standard deviations.
+/// Usual scatter of a fault-free run's mean and least scatter within one, in fault-free standard deviations.
 const BETWEEN: f64 = 0.4;
 const LEAST_WITHIN: f64 = 0.5;
-/// Least healthy standard deviation, N m, and bins at the overall variance that the kernel mean begins with.
+/// Least fault-free standard deviation, N m, and bins at the overall variance that the kernel mean begins with.
 const LEAST: f64 = 0.02;
 const PSEUDO_BINS: f64 = 2.0;
 /// Time in which the weights grow from zero, s: left out.
@@ -68,7 +68,8 @@ impl Band {
         Some(Self { known, mean, variance })
     }
 
-    /// Variance of healthy bins driven alike: kernel mean, unit bandwidth in rad/s, begun with the overall variance.
+    /// Variance of fault-free bins driven alike: kernel mean, unit bandwidth in rad/s, begun with
+    /// the overall variance.
     fn variance(&self, driving: [f64; 2], without: Option<usize>) -> f64 {
         let (mut weight, mut sum) = (PSEUDO_BINS, PSEUDO_BINS * self.variance);
         for (_, d, v) in self.known.iter().filter(|k| Some(k.0) != without) {
@@ -79,7 +80,7 @@ impl Band {
         sum / weight + LEAST * LEAST
     }
 
-    /// Bins in healthy standard deviations; a reference in those of the others.
+    /// Bins in fault-free standard deviations; a reference in those of the others.
     fn scaled(&self, bins: &[Bin], without: Option<usize>) -> Vec<f64> {
         bins.iter().map(|b| (b.torque - self.mean) / self.variance(b.driving, without).sqrt()).collect()
     }

@@ -149,7 +149,7 @@ fn channel_blocks(energy: &Energy, c: usize) -> Vec<Block> {
     energy.iter().enumerate().flat_map(|(r, run)| run.iter().filter_map(move |s| block(r, s))).collect()
 }
 
-/// Probability of each channel's level on healthy drives; `None` where there is nothing to compare.
+/// Probability of each channel's level on fault-free drives; `None` where there is nothing to compare.
 pub(crate) fn channel_probabilities(energy: &Energy, healthy: &Healthy) -> [Option<f64>; CHANNELS] {
     std::array::from_fn(|c| {
         let known = channel_blocks(&healthy.energy, c);

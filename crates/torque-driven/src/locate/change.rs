@@ -4,7 +4,7 @@ use inference::robust::{NINETY_FALL, sorted};
 
 use crate::locate::null::Null;
 
-/// Pseudo-runs from which the threshold is taken, and the share of healthy runs that may exceed it.
+/// Pseudo-runs from which the threshold is taken, and the share of fault-free runs that may exceed it.
 const PSEUDO_RUNS: usize = 200;
 const FALSE_ALARMS: f64 = 0.03;
 /// Stretches of one series at most.
@@ -12,9 +12,10 @@ const MOST: usize = 3;
 /// Scatter added to resampled segments for what so few references have not shown yet.
 const UNSEEN: f64 = 1.2;
 
-/// Factors of the threshold with one reference, two, and more: few references have not seen every kind of driving.
-/// Chosen on healthy development drives: without them 95 % stay below 1.54 times the threshold beside two references (72
-/// drives) and 1.24 beside three (36); 1.6 beside two still let 5 of 72 others through. The first is a guess.
+/// Factors of the threshold with one reference, two, and more: few references have not seen every
+/// kind of driving. Chosen on fault-free development drives: without them 95 % stay below 1.54
+/// times the threshold beside two references (72 drives) and 1.24 beside three (36); 1.6 beside two
+/// still let 5 of 72 others through. The first is a guess.
 const FEW: [f64; 3] = [3.0, 1.8, 1.25];
 
 /// Which changes count.
@@ -48,7 +49,7 @@ impl<'a> Sums<'a> {
     fn new(series: &[f64], null: &'a Null, sense: Sense) -> Self {
         let (mut first, mut second) = (vec![0.0], vec![0.0]);
         for y in series {
-            // A value that is missing says nothing: it lies at the healthy mean.
+            // A value that is missing says nothing: it lies at the fault-free mean.
             let z = if y.is_finite() { y - null.mean } else { 0.0 };
             first.push(first[first.len() - 1] + z);
             second.push(second[second.len() - 1] + z * z);
@@ -68,7 +69,7 @@ impl<'a> Sums<'a> {
         counts.then(|| (mean, (second / n - mean * mean).max(0.0)))
     }
 
-    /// How far `a..b` differs from healthy runs, whose levels scatter, nats.
+    /// How far `a..b` differs from fault-free runs, whose levels scatter, nats.
     fn differs(&self, a: usize, b: usize) -> f64 {
         let Some((mean, variance)) = self.raised(a, b) else { return 0.0 };
         let (s2, n) = (self.null.within.powi(2), self.null.share * (b - a) as f64);
@@ -76,7 +77,8 @@ impl<'a> Sums<'a> {
         0.5 * mean * mean / (s2 / n + self.null.apart().powi(2)) + 0.5 * n * (wide - 1.0 - wide.ln())
     }
 
-    /// Log-likelihood of a stretch `a..b` on a level of its own, the rest of `low..high` on one healthy level, nats.
+    /// Log-likelihood of a stretch `a..b` on a level of its own, the rest of `low..high` on one
+    /// fault-free level, nats.
     fn fits(&self, [a, b]: [usize; 2], [low, high]: [usize; 2]) -> f64 {
         let Some((_, variance)) = self.raised(a, b) else { return f64::MIN };
         let (s2, share) = (self.null.within.powi(2), self.null.share);
@@ -85,7 +87,7 @@ impl<'a> Sums<'a> {
         let inside = 0.5 * share * (b - a) as f64 * (wide.ln() + variance / s2 / wide);
         let ((n, first, second), (m, part, squares)) = (self.over(low, high), self.over(a, b));
         let (n, first, second) = (n - m, first - part, second - squares);
-        // The healthy level of this run, held to those of the references.
+        // The fault-free level of this run, held to those of the references.
         let weight = s2 / (share * self.null.apart().powi(2));
         let level = first / (n + weight);
         let outside = 0.5 * share * (second - 2.0 * level * first + (n + weight) * level * level) / s2;
@@ -147,7 +149,7 @@ pub(crate) fn find(series: &[f64], null: &Null, sense: Sense, threshold: f64) ->
     out
 }
 
-/// The healthy series of all channels, by run; every channel's null.
+/// The fault-free series of all channels, by run; every channel's null.
 pub(crate) struct Reference {
     /// Channel, run, bin.
     pub(crate) series: Vec<Vec<Vec<f64>>>,
@@ -156,7 +158,7 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// What the largest value over all channels of a healthy run of `bins` stays below in 95 of 100.
+    /// What the largest value over all channels of a fault-free run of `bins` stays below in 95 of 100.
     ///
     /// Pseudo-runs are made of stretches of `block` bins of the references, all channels together, each channel moved
     /// by a draw of its scatter between runs, of which a few references tell little: Student's t.
@@ -244,7 +246,7 @@ mod tests {
     const BINS: usize = 48;
     const BLOCK: usize = 4;
 
-    /// Healthy runs with scatter between runs and correlation within.
+    /// Fault-free runs with scatter between runs and correlation within.
     fn healthy(draws: &mut Draws, runs: usize) -> Vec<Vec<f64>> {
         (0..runs)
             .map(|_| {

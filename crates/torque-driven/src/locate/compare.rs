@@ -4,15 +4,15 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::locate::null::Null;
 
-/// Usual scatter of ln(energy) between healthy runs.
+/// Usual scatter of ln(energy) between fault-free runs.
 pub(crate) const BETWEEN: f64 = 0.35;
 /// Least scatter of ln(energy) within a run.
 pub(crate) const LEAST_WITHIN: f64 = 0.3;
-/// ln(energy) below which a healthy block is as good as any.
+/// ln(energy) below which a fault-free block is as good as any.
 const FLOOR: f64 = -3.0;
 /// False discoveries among what is reported.
 pub(crate) const DISCOVERIES: f64 = 0.05;
-/// Blocks of all cells that a cell's own healthy mean begins with.
+/// Blocks of all cells that a cell's own fault-free mean begins with.
 const PSEUDO_BLOCKS: f64 = 6.0;
 
 /// A segment's mean energy in a cell.
@@ -33,7 +33,7 @@ pub(crate) fn level(energy: f64) -> f64 {
     if energy.is_finite() { energy.max(1e-12).ln().max(FLOOR) } else { f64::NAN }
 }
 
-/// Healthy levels of blocks, by run.
+/// Fault-free levels of blocks, by run.
 pub(crate) fn null_of<'a>(blocks: impl Iterator<Item = &'a Block>) -> Option<Null> {
     let mut runs: Vec<Vec<f64>> = Vec::new();
     for b in blocks {
@@ -45,7 +45,7 @@ pub(crate) fn null_of<'a>(blocks: impl Iterator<Item = &'a Block>) -> Option<Nul
     Null::new(&runs, BETWEEN, LEAST_WITHIN)
 }
 
-/// Probability that healthy driving shows a mean level of `blocks` as high as this; 1 without blocks.
+/// Probability that fault-free driving shows a mean level of `blocks` as high as this; 1 without blocks.
 ///
 /// Segments are the blocks, windows are not counted; `own` are the references' blocks in the same cell.
 pub(crate) fn probability(blocks: &[Block], own: &[Block], null: &Null) -> f64 {

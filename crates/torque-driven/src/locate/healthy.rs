@@ -1,4 +1,5 @@
-//! What healthy driving looks like: each reference run freely with the model calibrated on the other references.
+//! What fault-free driving looks like: each reference run freely with the model calibrated on the
+//! other references.
 
 use std::sync::Arc;
 
@@ -17,13 +18,14 @@ const SMOOTH: usize = 2;
 /// Least energy of a segment.
 const LEAST: f64 = 0.02;
 
-/// Squared residuals over their healthy expectation: run, segment, window, channel; not a number where invalid.
+/// Squared residuals over their expectation in fault-free driving: run, segment, window, channel;
+/// not a number where invalid.
 pub(crate) type Energy = Vec<Vec<Vec<[f64; CHANNELS]>>>;
 
 /// A reference segment: its run, its kind of driving, ln of each channel's energy.
 type Known = (usize, [f64; 3], [f64; CHANNELS]);
 
-/// The healthy expectation, and the references seen with it.
+/// The expectation in fault-free driving, and the references seen with it.
 pub(crate) struct Healthy {
     /// Mean growth of the squared residual with the windows since the restart.
     growth: Vec<[f64; CHANNELS]>,

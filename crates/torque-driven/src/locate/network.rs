@@ -35,8 +35,8 @@ const RANGE: f64 = 2.0;
 const RIDGES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
 /// Rounds of relaxation.
 const ROUNDS: usize = 3;
-/// A network is told when it lowers the wheel-speed error by this share and does not raise the yaw-rate error by more
-/// than that.
+/// A network is reported when it lowers the wheel-speed error by this share and does not raise the
+/// yaw-rate error by more than that.
 const LOWERS: f64 = 0.03;
 const RAISES: f64 = 0.02;
 

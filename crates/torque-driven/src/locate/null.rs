@@ -1,9 +1,9 @@
-//! The healthy distribution of a logarithmic level: its mean, its scatter within runs and between runs.
+//! The fault-free distribution of a logarithmic level: its mean, its scatter within runs and between runs.
 
 /// Reference runs that the prior of the scatter between runs is worth.
 const PRIOR_RUNS: f64 = 4.0;
 
-/// The healthy distribution of a level.
+/// The fault-free distribution of a level.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Null {
     pub(crate) mean: f64,
@@ -27,8 +27,8 @@ fn moments(values: &[f64]) -> (f64, f64, f64) {
 }
 
 impl Null {
-    /// From the series of healthy runs; `prior` is the usual scatter between runs, `least` the least scatter within.
-    /// `None` when there are hardly any values.
+    /// From the series of fault-free runs; `prior` is the usual scatter between runs, `least` the
+    /// least scatter within. `None` when there are hardly any values.
     pub(crate) fn new(runs: &[Vec<f64>], prior: f64, least: f64) -> Option<Self> {
         let parts: Vec<(f64, f64, f64)> = runs.iter().map(|r| moments(r)).filter(|m| m.0 > 0.0).collect();
         let (count, values) = (parts.len() as f64, parts.iter().map(|m| m.0).sum::<f64>());

@@ -8,15 +8,16 @@ use verdict::{Regime, Remainder};
 /// Limits of |yaw rate| (rad/s) and |forward velocity| (m/s) that split the driving in two.
 const LIMITS: [(usize, &str, &str, [f64; 3]); 2] =
     [(2, "turning", "rad/s", [0.1, 0.3, 0.6]), (3, "speed", "m/s", [0.1, 0.3, 0.6])];
-/// A kind of driving is told when it holds this much of what is left, and this much more than its share of the time.
+/// A kind of driving is reported when it holds this much of what is left, and this much more than
+/// its share of the time.
 const MOST: f64 = 0.6;
 const BEYOND_TIME: f64 = 0.15;
-/// Probability below which a signal's remainder stands out from healthy driving, for all signals together.
+/// Probability below which a signal's remainder stands out from fault-free driving, for all signals together.
 const STANDS_OUT: f64 = 0.05;
 /// Sides within this ratio are alike.
 const ALIKE: f64 = 0.6;
 
-/// Energy of each channel beyond what is healthy, never below zero.
+/// Energy of each channel beyond what is fault-free, never below zero.
 pub(crate) fn excess(energy: &Energy) -> [f64; CHANNELS] {
     std::array::from_fn(|c| {
         let all = energy.iter().flatten().flatten().map(|w| w[c]).filter(|e| e.is_finite());
@@ -87,8 +88,8 @@ pub(crate) fn sentence(r: &Remainder) -> String {
     let driving = r.regime.as_ref().filter(|_| r.place.is_some()).map_or(String::new(), |regime| {
         let [from, until] = regime.range;
         let (word, limit) = if from > 0.0 { ("above", from) } else { ("below", until) };
-        let of = if regime.by == "turning" { "turning" } else { "speed" };
-        format!(" {word} {limit} {} of {of}", regime.unit)
+        let of = if regime.by == "turning" { "yaw rates" } else { "speeds" };
+        format!(" at {of} {word} {limit} {}", regime.unit)
     });
     format!("{:.0} % of the mismatch is still unexplained{place}{driving}.", 100.0 * r.share)
 }

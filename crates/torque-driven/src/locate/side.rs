@@ -47,8 +47,8 @@ pub(crate) fn contradiction(named: &[Cause], located: Option<&str>, residual: &[
         return None;
     }
     Some(format!(
-        "The stages disagree: {} is named on the {named} side, but the mismatch sits on the {located} side. Take the \
-         side as open.",
+        "The side is uncertain: {} is named on the {named} side, but the mismatch shows on the \
+         {located} side. Do not rely on the side.",
         cause.name.split(':').next().unwrap_or(&cause.name)
     ))
 }

@@ -1,4 +1,5 @@
-//! The locators together on synthetic drives: healthy ones, and ones with a dragging brake from an instant on.
+//! The locators together on synthetic drives: fault-free ones, and ones with a dragging brake from
+//! an instant on.
 
 use robot_model::effects;
 use robot_model::presence::Presence;

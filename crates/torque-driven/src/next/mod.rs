@@ -40,7 +40,9 @@ pub(crate) fn advise(answer: &Judged<'_>, retuned: &Fitted, length: f64) -> Advi
 
 /// Advice on what tells these rivals apart; `unknown` is the probability that none of them is true.
 fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Rival], unknown: f64) -> Advice {
-    let Some(follower) = Follower::new(problem) else { return Advice::withheld("no recording is long enough") };
+    let Some(follower) = Follower::new(problem) else {
+        return Advice::withheld("no recording is long enough for advice; record longer");
+    };
     let contender =
         |r: &Rival| Contender { effects: r.effects.clone(), name: r.name.clone(), probability: r.probability };
     let mut out = advice_among(rivals.iter().map(contender));
@@ -81,7 +83,8 @@ fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> M
 fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {
     let (c, most) = (0..CHANNELS).map(|c| (c, shows[c])).fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
     format!(
-        "Between {} and {} the {} would differ by {most:.1} times what healthy drives show, with all constants re-tuned.",
+        "Between \"{}\" and \"{}\" the {} would differ by {most:.1} times its deviation in \
+         fault-free drives, even with all constants re-tuned.",
         k.name, l.name, CHANNEL_NAMES[c]
     )
 }
@@ -89,9 +92,13 @@ fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {
 fn narrowing(narrows: Option<f64>, rivals: &[Rival]) -> String {
     match (narrows, rivals.first()) {
         (Some(share), Some(first)) => {
-            format!("The uncertainty of the size of {} would fall to {:.0} %.", first.name, 100.0 * share)
+            format!(
+                "The uncertainty of the size of {} would fall to {:.0} % of what it is now.",
+                first.name,
+                100.0 * share
+            )
         }
-        _ => "It would add to what is known of the robot.".to_owned(),
+        _ => "It would add to what the recordings say about the robot.".to_owned(),
     }
 }
 
@@ -99,8 +106,9 @@ fn limits(unknown: f64, advice: &Advice) -> Vec<String> {
     let mut out = Vec::new();
     if unknown > DOUBT {
         out.push(format!(
-            "with probability {unknown:.2} the cause is not in the catalogue: what would show that best cannot be \
-             computed, and the bits count among the catalogue's effects only"
+            "with probability {unknown:.2} the cause is not in the catalogue: which drive would \
+             reveal it best cannot be computed, and the expected bits refer to the effects of the \
+             catalogue only"
         ));
     }
     if advice.manoeuvres.iter().any(|m| !m.joins) {

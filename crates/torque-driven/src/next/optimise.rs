@@ -24,7 +24,7 @@ type Levels = Vec<[f64; 2]>;
 fn entry(scope: &Scope, levels: &[[f64; 2]]) -> Entry {
     let scaled: Vec<[f64; 2]> = levels.iter().map(|l| [l[0] * scope.limits[0], l[1] * scope.limits[1]]).collect();
     Entry {
-        name: "speed profile made for these rivals".to_owned(),
+        name: "speed profile made for these causes".to_owned(),
         setup: Setup::AsItIs,
         start: scope.start,
         course: Course::of_levels(&scaled, scope.length),

@@ -38,7 +38,8 @@ pub(crate) struct Prospect<'a> {
 pub(crate) struct Outlook {
     /// By the rival that is true.
     pub(crate) views: Vec<Forecast>,
-    /// Root mean square of what tells a pair apart, in units of what healthy drives show, by channel: `[truth][other]`.
+    /// Root mean square of what tells a pair apart, in units of what fault-free drives show, by
+    /// channel: `[truth][other]`.
     pub(crate) shows: Vec<Vec<[f64; CHANNELS]>>,
     /// One sigma of the first rival's size after the drive over that before.
     pub(crate) narrows: Option<f64>,

@@ -9,7 +9,7 @@ use super::{Fault, Redundant};
 use crate::run::Run;
 
 impl Redundant {
-    /// The run without the faults that were told, so that the motion is not blamed for them.
+    /// The run without the faults that were reported, so that the motion is not blamed for them.
     ///
     /// Zero and gain of the gyro are corrected when the run is cut, and frozen angles are left out there.
     pub(crate) fn corrected<'a>(&self, run: &'a Run) -> Cow<'a, Run> {

@@ -12,7 +12,7 @@ pub(super) struct Measured {
     pub(super) sigma: f64,
 }
 
-/// A difference is told when it exceeds so many sigma, and what matters.
+/// A difference is reported when it exceeds so many sigma, and what matters.
 const SURE: f64 = 4.0;
 /// Run-to-run spread that is expected beforehand, as a share of the size that matters, and how many runs that
 /// expectation is worth: three or four runs alone tell a spread badly.
@@ -45,14 +45,14 @@ pub(super) fn median(v: &[f64]) -> Option<(f64, f64)> {
 ///
 /// A run that does not determine the number to half the size that matters has no say.
 pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured> {
-    let told: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-    let (value, spread) = median(&values(&told))?;
-    let n = told.len() as f64;
-    let own = (told.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
+    let determined: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+    let (value, spread) = median(&values(&determined))?;
+    let n = determined.len() as f64;
+    let own = (determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
     Some(Measured { value, sigma: spread.max(own) })
 }
 
-/// What the recordings show beyond the references, by medians; `None` when either determines nothing.
+/// How far the recordings differ from the references, by medians; `None` when either determines nothing.
 ///
 /// A run that does not determine the number to half the size that matters has no say.
 pub(super) fn beyond(
@@ -63,12 +63,12 @@ pub(super) fn beyond(
     let mut middle = [0.0; 2];
     let (mut squares, mut own, mut count, mut share) = (WORTH * (USUAL_SPREAD * interest).powi(2), 0.0, 0.0, 0.0);
     for (middle, group) in middle.iter_mut().zip([recordings, references]) {
-        let told: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
-        *middle = median(&values(&told))?.0;
-        squares += told.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
-        own += told.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
-        count += told.len() as f64;
-        share += 1.0 / told.len() as f64;
+        let determined: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+        *middle = median(&values(&determined))?.0;
+        squares += determined.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
+        own += determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
+        count += determined.len() as f64;
+        share += 1.0 / determined.len() as f64;
     }
     let spread = (squares / (WORTH + count - 2.0)).max(own / count);
     Some(Measured { value: middle[0] - middle[1], sigma: MEDIAN * (spread * share).sqrt() })

@@ -27,7 +27,7 @@ fn told(delay: &Delay) -> String {
     if smallest_ms == 0.0 && largest_ms == 0.0 {
         return "logged at its stamp throughout".to_owned();
     }
-    // A stamp after the log time is told as such, not as a delay below zero.
+    // A stamp after the log time is reported as such, not as a delay below zero.
     let (sign, word, [least, most]) = if median_ms < 0.0 {
         (-1.0, "before", [largest_ms, smallest_ms])
     } else {

@@ -59,7 +59,7 @@ pub(super) fn choose<'a>(recording: &'a Recording, robot: &RobotSpec) -> Result<
     let names = |p: &Pair<'_>| format!("{}, {}", p[0].name(), p[1].name());
     let mut state_words = names(&speed);
     if from_commands {
-        state_words += " (set-points: what the drive was told, not what it did)";
+        state_words += " (set-points: what the drive was commanded, not what it did)";
     }
     let mut input_words = names(&input);
     if from_currents {

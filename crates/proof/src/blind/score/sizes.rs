@@ -29,7 +29,7 @@ pub(in crate::blind) struct Part {
     pub(in crate::blind) side_right: Option<bool>,
     /// Intersection over union of the times at which it was present, mean over the recordings; of local effects.
     pub(in crate::blind) overlap: Option<f64>,
-    /// Distance of the instants from which it was present, s; one for each recording in which one is told.
+    /// Distance of the instants from which it was present, s; one for each recording in which one is reported.
     pub(in crate::blind) onset_errors: Vec<f64>,
     /// Recordings in which it began at an instant.
     pub(in crate::blind) onsets: usize,
@@ -76,7 +76,7 @@ fn part(hidden: &EffectTruth, when: &Intervals, duration: f64, entry: Option<&To
     }
 }
 
-/// Mean over the recordings in which either says that the effect was there; 0 where nothing is told at all.
+/// Mean over the recordings in which either says that the effect was there; 0 where nothing is reported at all.
 fn overlap(when: &Intervals, duration: f64, told: Option<&Intervals>) -> Option<f64> {
     let Some(told) = told else { return Some(0.0) };
     let ratios: Vec<f64> = when
@@ -121,7 +121,7 @@ mod tests {
         assert_eq!((in_time(24.0, &[[0.0, 1.0]], &[]), in_time(24.0, &[], &[])), (Some(0.0), None));
         assert_eq!(in_time(2.0, &[[1.0, 2.0]], &[[1.0, 9.0]]), Some(1.0), "nothing is after the end");
         let when = spans(&[("run_1", [1.0, 3.0]), ("run_2", [0.0, 2.0])]);
-        // Where nothing is told for a recording, nothing of it is found.
+        // Where nothing is reported for a recording, nothing of it is found.
         assert_eq!(overlap(&when, 24.0, Some(&spans(&[("run_1", [2.0, 5.0])]))), Some(0.125));
         assert_eq!(overlap(&when, 24.0, None), Some(0.0));
     }
