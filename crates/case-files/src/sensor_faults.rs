@@ -3,8 +3,8 @@
 use recordings::{Channel, Recording, RecordingError, Signal};
 use verdict::EffectAt;
 
-/// Length of a burst in which an encoder stands still, s. The catalogue says which share of the rows is frozen, not in how
-/// long bursts; those that were seen in recordings last about so long.
+/// Length of a burst in which an encoder stands still, s: a guess. The catalogue says which share of the rows is frozen, not
+/// in how long bursts.
 const BURST: f64 = 0.1;
 
 const ANGLES: [Signal; 2] = [Signal::WheelAngleLeft, Signal::WheelAngleRight];

@@ -30,7 +30,9 @@ fn the_husky_did_not_drive_what_was_commanded() -> Outcome {
     let d = diagnosed("husky")?;
     assert_eq!(d.verdict, Verdict::Explained);
     assert_eq!(d.ranked[0].effect, "drive_command", "{:?}", d.ranked);
-    assert!(d.sentences[0].contains("not what was driven") && d.sentences[0].contains("neither slip nor friction"));
+    assert!(
+        d.sentences[0].contains("do not do what is commanded") && d.sentences[0].contains("neither slip nor friction")
+    );
     let response = d.response.as_ref().unwrap();
     assert!(response.scaling.as_ref().unwrap().contains("in proportion"), "{:?}", response.scaling);
     assert!(response.scaling_is_told);

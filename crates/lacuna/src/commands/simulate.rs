@@ -8,11 +8,10 @@ use case_files::envelope::Program;
 use case_files::simulated::simulated;
 use clap::Args as ClapArgs;
 use recordings::write_csv;
-use robot_model::effect::export::Way;
 use serde_json::json;
 
 use super::{Outcome, Reader, only, sources};
-use crate::console::{emit, emit_json, warning};
+use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -52,13 +51,6 @@ pub(crate) struct Args {
 /// Simulates a drive.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot(&args.robot)?;
-    // What a simulated recording cannot show is said instead of silently left out.
-    for effect in &robot.effects {
-        let spec = catalogue::find(&effect.effect).and_then(|entry| entry.effect);
-        if let Some(Way::Added(why)) = spec.map(|spec| spec.export.robot_file) {
-            warning(&format!("effect '{}' of the robot file is not in the simulated drive: {why}", effect.effect));
-        }
-    }
     let (loaded, _) = args.reader.load(&args.recording)?;
     let read = only(&loaded)?;
     let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;
