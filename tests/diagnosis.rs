@@ -5,9 +5,9 @@ mod common;
 use std::path::Path;
 
 use common::{answer, case_of, draw, settings, told};
-use diagnosis::diagnose;
 use examiner::{Content, DrawnCase, EffectId, Outsider};
 use inference::Options;
+use torque_driven::diagnose;
 use verdict::{Diagnosis, Prediction, Verdict};
 
 /// A case and its diagnosis.

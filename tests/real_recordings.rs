@@ -8,10 +8,10 @@ use verdict::{Diagnosis, Verdict};
 use verdict::{Quantity, Ratio};
 
 use case_files::case_folder::{self, CaseFolder};
-use diagnosis::diagnose;
 use inference::Options;
 use recordings::ReadOptions;
 use skipping::{Outcome, Skipped, beside};
+use torque_driven::diagnose;
 
 /// The Husky's runs on a ground against those on the floor of a building.
 fn husky(ground: &str) -> Result<Diagnosis, Skipped> {

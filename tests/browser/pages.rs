@@ -8,7 +8,6 @@ use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::report_page;
 use command_driven::diagnose_response;
-use diagnosis::diagnose;
 use examiner::{Content, EffectId, Setting, Settings, Severity, TyreLaw};
 use inference::Options;
 use pages::page::Page;
@@ -18,6 +17,7 @@ use report::diagnosis_page::{Provenance, render};
 use report::fleet::{Named, Seen, Told};
 use skipping::{Skipped, beside};
 use speed_driven::diagnose_steady;
+use torque_driven::diagnose;
 use verdict::{Advice, Compared, Diagnosis, Manoeuvre, Trace, Verdict};
 
 /// A name that would do harm if it became markup.

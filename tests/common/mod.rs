@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use diagnosis::diagnose;
 use examiner::{Content, DrawnCase, Setting, Settings, Severity, TyreLaw};
 use inference::Options;
 use recordings::{Input, Mapping, Policy, Read, ReadOptions, Recording, RecordingError};
 use robot_file::RobotSpec;
+use torque_driven::diagnose;
 use torque_driven::{Case, HeldOut, Run};
 use verdict::Diagnosis;
 

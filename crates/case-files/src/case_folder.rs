@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use inference::Options;
 use recordings::{Mapping, Read, ReadOptions};
 use robot_file::{Causality, RobotSpec};
-use verdict::{Advice, Coverage, Diagnosis};
+use verdict::{Coverage, Diagnosis};
 
 pub use crate::inputs::{Loaded, mapping, robot};
 use crate::long::Budget;
@@ -18,10 +18,6 @@ const FOLDERS: [(&str, &str); 3] = [
     ("recordings", "drives in which it was not"),
     ("heldout", "inputs whose response is to be predicted"),
 ];
-
-/// Why there is no advice on the next drive for command-driven robots.
-const NO_ADVICE: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
-    steps, and which command steps would separate them better is not computed yet";
 
 /// The folders that a case may have.
 pub fn folders(case: &Path) -> [PathBuf; 3] {
@@ -248,20 +244,24 @@ impl CaseFolder {
 }
 
 impl CaseFolder {
+    /// The case as the diagnosis takes it.
+    ///
+    /// # Errors
+    /// Recordings without the signals that are needed.
+    pub fn case(&self) -> Result<diagnosis::Case> {
+        Ok(match self.robot.causality {
+            Causality::TorqueDriven => diagnosis::Case::TorqueDriven(Box::new(self.torque_driven()?)),
+            Causality::SpeedDriven => diagnosis::Case::SpeedDriven(Box::new(self.speed_driven()?)),
+            Causality::CommandDriven => diagnosis::Case::CommandDriven(Box::new(self.command_driven()?)),
+        })
+    }
+
     /// Diagnoses the case by what drives its robot; `stage` is called with what begins.
     ///
     /// # Errors
     /// Recordings without the signals that are needed, or that do not determine an answer.
     pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
-        let mut out = match self.robot.causality {
-            Causality::TorqueDriven => diagnosis::diagnose(&self.torque_driven()?, options, stage)?,
-            Causality::SpeedDriven => speed_driven::diagnose_steady(&self.speed_driven()?, options, stage)?,
-            Causality::CommandDriven => {
-                let mut out = command_driven::diagnose_response(&self.command_driven()?, stage)?;
-                out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
-                out
-            }
-        };
+        let mut out = diagnosis::diagnose(&self.case()?, options, stage)?;
         out.rest_on(&self.coverage);
         Ok(out)
     }

@@ -1,7 +1,7 @@
 //! From files to a case, and from a verdict to files.
 //!
 //! ```text
-//! paths --inputs::load--> Loaded --CaseFolder--> torque_driven::Case --diagnosis::diagnose--> Diagnosis --Envelope--> JSON
+//! paths --inputs::load--> Loaded --CaseFolder--> diagnosis::Case --diagnosis::diagnose--> Diagnosis --Envelope--> JSON
 //! ```
 
 pub mod answers;

@@ -8,13 +8,15 @@
 //!
 //! # Files
 //!
+//! * `case`: a case of any kind of robot, the engine that diagnoses it, and references made ready once.
 //! * `long/*`: long recordings: screened once by weak form (`law`, `rows`, `thin`), of which the
 //!   minutes that differ most from the references are kept (`pool`) for a diagnosis.
 
+mod case;
 pub mod long;
 
-pub use inference::{Corrected, DiagnosisError, Options};
-pub use torque_driven::diagnose;
+pub use case::{Case, Prepared, diagnose};
+pub use inference::{DiagnosisError, Options};
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

@@ -4,11 +4,8 @@ use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{CaseFolder, file_names, robot};
 use case_files::inputs::Loaded;
 use case_files::which_mapping::named_or_built_in;
-use command_driven::{ResponseRun, diagnose_response};
 use recordings::{Mapping, Read, Recording};
-use robot_file::{Causality, RobotSpec};
-use speed_driven::{SpeedRun, diagnose_steady};
-use torque_driven::{Calibrated, Run};
+use robot_file::RobotSpec;
 use verdict::{Coverage, Diagnosis};
 
 use super::Settings;
@@ -28,14 +25,7 @@ pub(crate) struct Prepared {
     of_reference: Option<Coverage>,
     /// The mapping that was named, or that reads the references.
     mapping: Option<Mapping>,
-    ready: Ready,
-}
-
-/// References by what drives the robot.
-enum Ready {
-    Torque(Box<(Vec<Run>, Calibrated)>),
-    Speed(Vec<SpeedRun>),
-    Command(Vec<ResponseRun>),
+    ready: diagnosis::Prepared,
 }
 
 impl Prepared {
@@ -65,16 +55,9 @@ impl Prepared {
         // As recordings of a case without references: the conversions are those of a case.
         let none = Loaded::default;
         let case = CaseFolder::new(robot, [none(), std::mem::take(&mut reference), none()])?;
-        let ready = match case.robot.causality {
-            Causality::TorqueDriven => {
-                let mut given = case.torque_driven()?;
-                given.references = std::mem::take(&mut given.recordings);
-                let calibrated = Calibrated::new(&given, &settings.options)?;
-                Ready::Torque(Box::new((given.references, calibrated)))
-            }
-            Causality::SpeedDriven => Ready::Speed(case.speed_driven()?.recordings),
-            Causality::CommandDriven => Ready::Command(case.command_driven()?.recordings),
-        };
+        let mut ready = case.case()?;
+        ready.recordings_become_references();
+        let ready = diagnosis::Prepared::new(ready, &settings.options)?;
         let compared = case.recordings.reads.clone();
         let reference = without_samples(case.recordings)?;
         Ok(Self { robot: case.robot, key, reference, compared, of_reference, mapping, ready })
@@ -100,22 +83,7 @@ impl Prepared {
         let covered = [("reference", &self.of_reference), ("recordings", &coverage)];
         let covered = covered.into_iter().filter_map(|(part, c)| Some((part.to_owned(), c.clone()?)));
         case.coverage = covered.collect();
-        let (options, silent) = (&settings.options, &|_: &str| {});
-        let mut diagnosis = match &self.ready {
-            Ready::Torque(ready) => {
-                let (references, calibrated) = &**ready;
-                let given = torque_driven::Case { references: references.clone(), ..case.torque_driven()? };
-                calibrated.diagnose(&given, options, silent)?
-            }
-            Ready::Speed(references) => {
-                let given = speed_driven::SteadyCase { references: references.clone(), ..case.speed_driven()? };
-                diagnose_steady(&given, options, silent)?
-            }
-            Ready::Command(references) => {
-                let given = command_driven::ResponseCase { references: references.clone(), ..case.command_driven()? };
-                diagnose_response(&given, silent)?
-            }
-        };
+        let mut diagnosis = self.ready.diagnose(case.case()?, &settings.options, &|_: &str| {})?;
         diagnosis.rest_on(&case.coverage);
         case.reference = self.reference();
         case.refuse_twins()?;

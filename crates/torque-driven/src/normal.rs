@@ -26,7 +26,9 @@ impl Problem<'_> {
             .collect::<Option<Vec<_>>>()?;
 
         let mut sum = Normal::zero(NUISANCES + effects.0.len());
-        parts.into_iter().for_each(|part| sum.add(part));
+        for part in parts {
+            sum.add(part);
+        }
         Some(sum)
     }
 

@@ -15,7 +15,7 @@ const MOST_FIELDS: usize = 1 << 16;
 
 /// The way through a message of one layout.
 pub(super) struct Steps {
-    steps: Vec<Step>,
+    walk: Vec<Step>,
     lists_of_names: Vec<Names>,
     /// The header's stamp in the last message, in ns.
     stamp: Option<i128>,
@@ -59,7 +59,7 @@ impl Steps {
             return Err(format!("`{}` has more than {MOST_FIELDS} fields", layout.name));
         }
         let lists_of_names = (0..making.lists).map(|_| Names::default()).collect();
-        Ok((Self { steps: making.steps, lists_of_names, stamp: None }, making.fields))
+        Ok((Self { walk: making.steps, lists_of_names, stamp: None }, making.fields))
     }
 
     /// Walks a message and, when it decodes, widens what is known of the fields of its lists; the header's stamp, where
@@ -71,15 +71,15 @@ impl Steps {
         }
         impl Walk for Walking<'_> {
             fn walk<B: ByteOrder>(&mut self, reader: &mut CdrReader<'_, B>) -> Result<(), Undecodable> {
-                let Steps { steps, lists_of_names, stamp } = &mut *self.of;
-                steps.iter_mut().try_for_each(|step| step.walk(self.body, reader, lists_of_names, stamp))
+                let Steps { walk, lists_of_names, stamp } = &mut *self.of;
+                walk.iter_mut().try_for_each(|step| step.walk(self.body, reader, lists_of_names, stamp))
             }
         }
         self.stamp = None;
         let body = message.get(cdr::HEAD..).ok_or(Undecodable)?;
         cdr::walk(message, &mut Walking { of: self, body })?;
 
-        for step in &mut self.steps {
+        for step in &mut self.walk {
             if let Step::List(list) = step {
                 let names = list.names.and_then(|names| self.lists_of_names.get(names));
                 list.tell(names, fields);

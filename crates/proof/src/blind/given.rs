@@ -32,7 +32,7 @@ pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool>
         let outcome = (|| -> Result<verdict::Diagnosis> {
             let case =
                 case_folder::CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
-            Ok(diagnosis::diagnose(&case, &inference::Options::default(), &|_| ())?)
+            Ok(torque_driven::diagnose(&case, &inference::Options::default(), &|_| ())?)
         })();
         let seconds = start.elapsed().as_secs_f64();
         times.push(seconds);

@@ -108,7 +108,7 @@ fn diagnosed(folder: &Path, recordings: &[String], next: Option<f64>) -> Result<
     let mapping = case_folder::mapping("skid-steer-columns")?;
     let case = CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
     let options = Options { next, ..Options::default() };
-    Ok(diagnosis::diagnose(&case, &options, &|_| ())?)
+    Ok(torque_driven::diagnose(&case, &options, &|_| ())?)
 }
 
 fn said(drive: &str, d: &Diagnosis, hidden: &str) -> Said {
