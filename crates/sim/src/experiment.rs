@@ -8,30 +8,8 @@ use crate::group;
 use crate::identification::follow;
 use crate::network_recipe::SIGNALS;
 use crate::recipe::WIDE;
+use crate::tally::OutputIndices;
 use crate::{Purpose, Recipe, RobotSet, Scheme, SimError, Stream, Trajectory, UNITS, comparison};
-
-/// Quality of one output of one identifier. Errors are x̃ = x − x̂ of a wheel speed at the samples 1..=n, rad/s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OutputIndices {
-    /// Largest error, rad/s.
-    pub max: f64,
-    /// Root of the mean squared error, rad/s.
-    pub rmse: f64,
-    /// Largest error in each event's window, rad/s.
-    pub peak: [f64; 5],
-    /// When it occurred, s.
-    pub peak_at: [f64; 5],
-    /// Share of each event's window in the sum of squared errors.
-    pub share: [f64; 5],
-    /// Root of the mean squared error in the quiet parts, rad/s.
-    pub quiet_rms: f64,
-    /// Mean of ‖φ‖².
-    pub mean_regressor_square: f64,
-    /// Largest relative residual of the Lyapunov identity over the run, for zero and for random comparison weights.
-    pub identity_residual: f64,
-    /// Whether the mean-square bound held against both comparison weights.
-    pub mean_square_bound_holds: bool,
-}
 
 /// One draw of first layers and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

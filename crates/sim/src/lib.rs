@@ -48,7 +48,7 @@ mod tally;
 mod trajectory;
 
 pub use error::SimError;
-pub use experiment::{Draw, Experiment, OutputIndices, Trace};
+pub use experiment::{Draw, Experiment, Trace};
 pub use identification::comparison;
 pub use network_recipe::{Input, NetworkRecipe, SIGNALS, Scaling, Signals};
 pub use random::{Purpose, Stream};
@@ -57,6 +57,7 @@ pub use recipe::{
     SpeedProfile, UNITS,
 };
 pub use rk4::rk4;
+pub use tally::OutputIndices;
 pub use trajectory::{EVENTS, Trajectory, Windows};
 
 /// The README's snippets, run as tests.

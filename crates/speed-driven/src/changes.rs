@@ -4,48 +4,18 @@
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
 use crate::attitude::{Attitude, attitude};
-use crate::extract::CLASSES;
 use crate::jumps::jumps;
 use crate::level::levels;
 use crate::name::UNNAMED_STRAIGHT;
+use crate::pieces::{APART, DRIVING, Usual, class};
 use crate::run::SpeedRun;
 use crate::slopes::slopes;
 use crate::straight::{Reading, readings};
 use inference::robust::median;
-use robot_model::effects::{grade, rolling_resistance};
-use verdict::{Changes, Hidden, Word};
+use verdict::{Changes, Hidden};
 
-/// Ids of the effects that change the straight load.
-pub(super) const GRADE: Word = Word::Borrowed(grade::SPEC.id);
-pub(super) const ROLLING: Word = Word::Borrowed(rolling_resistance::SPEC.id);
-
-/// Rows that show the same change are at most this far apart, s.
-pub(super) const APART: f64 = 8.0;
 /// The load of a level stretch is known after so many seconds.
 const KNOWN: f64 = 10.0;
-/// Driving at least, m/s.
-pub(super) const DRIVING: f64 = 0.05;
-
-/// Straight load known from elsewhere, N m, by speed class; `None` where no reference was driven at such a speed.
-pub(crate) type Usual = [Option<f64>; CLASSES.len() - 1];
-
-/// The class of a speed.
-pub(super) fn class(speed: f64) -> usize {
-    CLASSES.windows(2).position(|c| speed < c[1]).unwrap_or(CLASSES.len() - 2)
-}
-
-/// Consecutive indices at most `gap` seconds apart.
-pub(super) fn pieces(time: &[f64], rows: impl Iterator<Item = usize>, gap: f64) -> Vec<Vec<usize>> {
-    let mut out: Vec<Vec<usize>> = Vec::new();
-    for i in rows {
-        match out.last_mut() {
-            Some(piece) if piece.last().is_some_and(|&k| time[i] - time[k] <= gap) => piece.push(i),
-            _ => out.push(vec![i]),
-        }
-    }
-    out
-}
-
 /// The load of most of the run at each speed class: its own where that is plausible beside the references', theirs
 /// otherwise.
 fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> Usual {
@@ -108,6 +78,7 @@ mod tests {
     use verdict::LoadChange;
 
     use super::*;
+    use crate::pieces::{GRADE, ROLLING};
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive};
 
     const USUAL: Usual = [Some(STRAIGHT), None, None];

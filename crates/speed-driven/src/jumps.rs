@@ -1,7 +1,7 @@
 //! Jumps of the straight load, by currents.
 
-use crate::changes::{APART, GRADE, ROLLING, Usual, class, pieces};
 use crate::name::UNNAMED_STRAIGHT;
+use crate::pieces::{APART, GRADE, ROLLING, Usual, class, pieces};
 use crate::run::SpeedRun;
 use crate::straight::{Reading, reads_nothing};
 use inference::robust::NINETY;

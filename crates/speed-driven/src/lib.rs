@@ -32,6 +32,7 @@ mod level;
 mod model;
 mod name;
 mod next;
+mod pieces;
 mod run;
 mod scrub;
 mod slopes;
@@ -191,7 +192,7 @@ fn within(
     withheld: Vec<Withheld>,
 ) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
-    let mut usual = changes::Usual::default();
+    let mut usual = pieces::Usual::default();
     for r in of(Quantity::StraightLoad) {
         usual[r.class] = Some(r.centre.exp());
     }

@@ -1,7 +1,7 @@
 //! Slopes under the robot, by its turning rates and loads.
 
 use crate::attitude::Attitude;
-use crate::changes::{DRIVING, GRADE, pieces};
+use crate::pieces::{DRIVING, GRADE, pieces};
 use crate::run::SpeedRun;
 use inference::robust::NINETY;
 use verdict::LoadChange;
