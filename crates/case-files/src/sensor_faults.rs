@@ -1,6 +1,7 @@
 //! Sensor faults that act on samples over time, not on a reading: frozen and jumping encoders, clocks that disagree.
 
 use recordings::{Channel, Recording, RecordingError, Signal};
+use robot_model::effect::export::Way;
 use verdict::EffectAt;
 
 /// Length of a burst in which an encoder stands still, s: a guess. The catalogue says which share of the rows is frozen, not
@@ -13,7 +14,8 @@ const POSE: [Signal; 3] = [Signal::PoseX, Signal::PoseY, Signal::PoseYaw];
 
 /// Whether an effect is one of these faults: no plant knows them.
 pub(crate) fn is_one(effect: &EffectAt) -> bool {
-    ["encoder_dropout", "encoder_slipped_index", "clock_offset", "clock_drift"].contains(&effect.effect.as_str())
+    let spec = catalogue::find(&effect.effect).and_then(|entry| entry.effect);
+    spec.is_some_and(|spec| spec.export.robot_file == Way::ON_SAMPLES)
 }
 
 /// What sensors with these faults show of a drive; other effects are the plant's.

@@ -37,6 +37,11 @@ pub enum Way {
     Added(&'static str),
 }
 
+impl Way {
+    /// Of a fault that no single reading shows, but the samples of a whole drive: frozen rows, clocks that disagree.
+    pub const ON_SAMPLES: Self = Self::Held("applied to the samples of a simulated drive");
+}
+
 /// A part of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Section {

@@ -27,7 +27,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     export: Export {
         mjcf: Way::Added("all its sensors share one clock"),
         sdf: Way::Added("all its sensors share one clock"),
-        robot_file: Way::Held("applied to the simulated samples"),
+        robot_file: Way::ON_SAMPLES,
         residual: Residual::Words(
             "Stretch the clocks: write a sample that was taken at t at t (1 + {0}) for \
             the IMU and t (1 + {1}) for the pose.",

@@ -26,7 +26,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     export: Export {
         mjcf: Way::Held("delay of the sensors"),
         sdf: Way::Added("all its sensors share one clock"),
-        robot_file: Way::Held("applied to the simulated samples"),
+        robot_file: Way::ON_SAMPLES,
         carrier: Carrier::SensorDelay,
         residual: Residual::Words(
             "Shift the samples in time: write IMU samples {0} s and pose samples {1} s \

@@ -23,7 +23,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     export: Export {
         mjcf: Way::Added("its sensors lose nothing"),
         sdf: Way::Added("its sensors lose nothing"),
-        robot_file: Way::Held("applied to the simulated samples"),
+        robot_file: Way::ON_SAMPLES,
         residual: Residual::Words(
             "Freeze the {side} wheel angle in short bursts that together take a share \
             of {0} of the time; the wheel itself turns on.",

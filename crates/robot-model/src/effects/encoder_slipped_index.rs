@@ -25,7 +25,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     export: Export {
         mjcf: Way::Added("its sensors lose nothing"),
         sdf: Way::Added("its sensors lose nothing"),
-        robot_file: Way::Held("applied to the simulated samples"),
+        robot_file: Way::ON_SAMPLES,
         residual: Residual::Words(
             "Add {0} rad to the {side} wheel angle from the instant at which it slips; \
             the wheel itself turns on.",

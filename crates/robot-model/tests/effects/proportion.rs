@@ -38,7 +38,7 @@ fn physics_and_commands_show_in_the_motion_and_sensor_faults_do_not() {
 }
 
 #[test]
-fn sensor_faults_show_in_the_readings_unless_their_specification_says_why_not() {
+fn sensor_faults_show_in_the_readings_unless_they_act_on_samples() {
     let readings = |active: &[Active<f64>]| {
         let robot = robot();
         let plant = Plant::new(&robot, active, H);
@@ -49,8 +49,8 @@ fn sensor_faults_show_in_the_readings_unless_their_specification_says_why_not() 
     };
     for effect in effects::catalogue::<f64>().into_iter().filter(|e| e.spec().kind == Kind::Sensor) {
         let shows = readings(&[at_probe(effect)]) != readings(&[]);
-        let is_held = matches!(effect.spec().export.robot_file, Way::Held(_));
-        assert_eq!(shows, is_held, "{}", effect.spec().id);
+        let acts_on_samples = effect.spec().export.robot_file == Way::ON_SAMPLES;
+        assert_eq!(shows, !acts_on_samples, "{}", effect.spec().id);
     }
 }
 

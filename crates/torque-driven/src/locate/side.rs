@@ -94,7 +94,7 @@ mod tests {
         cause.side = Some("left".into());
         let torques = [residual("left", 0.05), residual("right", 0.6)];
         let said = contradiction(std::slice::from_ref(&cause), located, &torques).expect("a contradiction");
-        assert!(said.contains("named on the left") && said.contains("sits on the right"), "{said}");
+        assert!(said.contains("named on the left") && said.contains("shows on the right"), "{said}");
         // The torque speaks for the named side: no contradiction.
         let torques = [residual("left", 0.6), residual("right", 0.05)];
         assert_eq!(contradiction(std::slice::from_ref(&cause), located, &torques), None);

@@ -41,7 +41,7 @@ impl Constant {
     /// Any constant that is multiplied: `apply` gets the factor `exp(δ)`.
     ///
     /// ```
-    /// let both_sides = diagnosis::output_error::Constant::factor("coulomb", |robot, factor| {
+    /// let both_sides = torque_driven::output_error::Constant::factor("coulomb", |robot, factor| {
     ///     robot.coulomb = robot.coulomb.map(|torque| torque * factor);
     /// });
     /// ```

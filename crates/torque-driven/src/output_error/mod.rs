@@ -7,7 +7,7 @@
 //! The cost of a long free run has many minima. Start within 10 % or so, or with short recordings first.
 //!
 //! ```
-//! use diagnosis::output_error::{Constant, OutputError, Recorded};
+//! use torque_driven::output_error::{Constant, OutputError, Recorded};
 //! use robot_model::{Robot, State, paper};
 //!
 //! let robot = Robot::<f64>::from(&paper::Parameters::SET_B);
@@ -29,7 +29,7 @@
 //! let problem = OutputError::new(&robot, constants, std::slice::from_ref(&drive), sigma, 1e-3)?;
 //! let fitted = problem.fit(&[0.05, -0.05])?;
 //! assert!(fitted.delta.iter().all(|d| d.abs() < 1e-4));
-//! # Ok::<(), diagnosis::output_error::OutputErrorError>(())
+//! # Ok::<(), torque_driven::output_error::OutputErrorError>(())
 //! ```
 
 mod constant;
