@@ -15,10 +15,6 @@ const ITERATIONS: [usize; 2] = [25, 10];
 const CONVERGED: f64 = 1e-6;
 /// First damping; longest step and finite step, shares of a constant (of its scale where that is more).
 const DAMPING: f64 = 1e-2;
-/// Factor by which damping falls and rises, and the least there is: a guess; valleys of limits and lags are curved, and with
-/// factors of ten a fit of the Warthog's drive ended in a worse one.
-const DAMPING_FACTOR: f64 = 6.0;
-const LEAST_DAMPING: f64 = 1e-4;
 const LONGEST: f64 = 0.7;
 const DIFFERENCE: f64 = 1e-3;
 /// Log odds against an element before anything was seen: one in twenty. An element stays when z²/2 exceeds it.
@@ -144,15 +140,8 @@ fn fit<P: Part>(
         let constant = FreeConstant::new(start.x[k].clamp(least, largest), c.scale).within(least, largest);
         FreeConstant { relative: true, longest: LONGEST, difference: DIFFERENCE, ..constant }
     };
-    let settings = Settings {
-        iterations,
-        first_damping: DAMPING,
-        lower: 1.0 / DAMPING_FACTOR,
-        raise: DAMPING_FACTOR,
-        least_damping: LEAST_DAMPING,
-        least_relative_fall: CONVERGED,
-        ..Settings::default()
-    };
+    let settings =
+        Settings { iterations, first_damping: DAMPING, least_relative_fall: CONVERGED, ..Settings::default() };
 
     let residuals = Residuals::new(free.iter().map(constant).collect(), misfit).with_loss(Loss::Huber(1.0));
     residuals.fit(&settings).map_or_else(
