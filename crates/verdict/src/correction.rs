@@ -10,7 +10,7 @@ use crate::ResponseModel;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Correction {
-    /// Tuning of each constant by its id ([`robot_model::tunable`]): the logarithm of a factor, or an offset in its unit.
+    /// Tuning of each constant by its id (`robot_model::tunable`): the logarithm of a factor, or an offset in its unit.
     #[serde(default)]
     pub tuning: BTreeMap<String, f64>,
     /// Effects, at values.

@@ -119,7 +119,7 @@ pub struct ResponseModel {
     pub side_ramps: bool,
     /// The lag is of second order, else of first.
     pub second_order: bool,
-    /// Constants that differ from "does what is commanded, rolls without slip", by id ([`crate::response::Parameter`]).
+    /// Constants that differ from "does what is commanded, rolls without slip", by id ([`crate::Parameter`]).
     pub constants: BTreeMap<String, f64>,
 }
 
