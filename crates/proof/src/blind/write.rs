@@ -5,6 +5,7 @@ use pages::page::Page;
 use pages::text_table::TextTable;
 use report::reliability;
 
+use super::figures::FEW;
 use super::layout::Layout;
 use super::score::{Row, bins};
 use super::tables;
@@ -21,7 +22,7 @@ pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) 
     write(folder, "summary.json", &serde_json::to_string_pretty(figures)?)?;
     write(folder, "scores.json", &serde_json::to_string_pretty(rows)?)?;
     let sections = tables::all(rows, figures);
-    let intro = format!("{set} {}", verdict(figures));
+    let intro = format!("{set} {}", verdict(figures, rows.len() < FEW));
     write(folder, "blind.md", &to_markdown(TITLE, &intro, &sections))?;
     let bins = bins(&rows.iter().collect::<Vec<_>>(), tables::FINE);
     write(folder, "reliability.svg", &reliability::svg(&bins)?)?;
@@ -38,13 +39,15 @@ pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) 
 }
 
 /// How many targets are met, in a sentence.
-fn verdict(figures: &[Figure]) -> String {
+fn verdict(figures: &[Figure], few: bool) -> String {
     let judged: Vec<bool> = figures.iter().filter_map(|f| f.pass).collect();
     let missed = judged.iter().filter(|met| !**met).count();
+    let few =
+        if few { " Of so few cases a target counts as missed only where its 95 % interval excludes it." } else { "" };
     if missed == 0 {
-        format!("All {} targets are met.", judged.len())
+        format!("All {} targets are met.{few}", judged.len())
     } else {
-        format!("{missed} of {} targets are missed.", judged.len())
+        format!("{missed} of {} targets are missed.{few}", judged.len())
     }
 }
 
@@ -57,7 +60,7 @@ fn summary(set: &str, rows: &[Row], figures: &[Figure]) -> String {
         judged.row([f.name.clone(), number(Some(f.value)), f.unit.clone(), target.clone(), met.to_owned()]);
     }
     let wrong: Vec<&Row> = rows.iter().filter(|r| tables::fails(r)).collect();
-    let mut out = format!("\n{set}\n\n{}\n{}\n", judged.render(), verdict(figures));
+    let mut out = format!("\n{set}\n\n{}\n{}\n", judged.render(), verdict(figures, rows.len() < FEW));
     if wrong.is_empty() {
         return out;
     }
