@@ -104,7 +104,7 @@ impl Row {
 }
 
 const WEAK_FORM: Program = example("weak-form", "kernel", &["--rows", "12000"]);
-const FITTED: Program = example("diagnosis", "output_error", &["fit"]);
+const FITTED: Program = example("torque-driven", "output_error", &["fit"]);
 /// `stiff` prints all schemes in one line.
 const STIFF: Program = Program { of: Of::Anchor("stiff"), args: &["0.02"], place: Place::Behind("ROS2x1") };
 
@@ -144,13 +144,13 @@ pub(super) const ROWS: &[Row] = &[
     row(KERNELS, "controller-scalar", "tracking law, one robot").ours(kernel(&["controller", "scalar"])),
     row(KERNELS, "controller-lanes", "tracking law, robots in lanes").ours(kernel(&["controller", "lanes"])),
     row(KERNELS, "catalogue-scalar", "step of the catalogue's plant, one robot; the C plant of the paper, scalar")
-        .ours(example("diagnosis", "plant", &["scalar"]))
+        .ours(example("torque-driven", "plant", &["scalar"]))
         .theirs(anchor("plant", &["scalar"])),
     row(KERNELS, "catalogue-lanes", "step of the catalogue's plant, robots in lanes; the C plant of the paper, AVX2")
-        .ours(example("diagnosis", "plant", &["lanes"]))
+        .ours(example("torque-driven", "plant", &["lanes"]))
         .theirs(anchor("plant", &["batch"])),
     row(KERNELS, "catalogue-mujoco", "step of the catalogue's plant, one robot; MuJoCo's step of a lean model")
-        .ours(example("diagnosis", "plant", &["scalar"]))
+        .ours(example("torque-driven", "plant", &["scalar"]))
         .theirs(script("mujoco_steps.py", &["lean", "1"])),
     row(EXPERIMENT, "seedloop-1", "32 000 steps, plant once per ms; C")
         .ours(kernel(&["seedloop", "1"]))
@@ -202,7 +202,7 @@ pub(super) const ROWS: &[Row] = &[
         .goal(Goal::Faster(60.0))
         .few(),
     row(FIT, "jacobian", "one Jacobian in lanes over one scalar run")
-        .ours(example("diagnosis", "output_error", &["jacobian"]))
+        .ours(example("torque-driven", "output_error", &["jacobian"]))
         .goal(Goal::Ours(2.5)),
     row(READING, "csv", "CSV of 15 columns to a checked recording in SI; C, digits only")
         .ours(example("recordings", "read_csv", &[]))

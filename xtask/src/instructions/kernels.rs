@@ -20,7 +20,7 @@ const fn kernel(name: &'static str, args: &'static [&'static str]) -> Kernel {
 }
 
 const fn catalogue(name: &'static str, args: &'static [&'static str]) -> Kernel {
-    Kernel { package: "diagnosis", example: "plant", ..kernel(name, args) }
+    Kernel { package: "torque-driven", example: "plant", ..kernel(name, args) }
 }
 
 /// Rows of the weak form in one round.
