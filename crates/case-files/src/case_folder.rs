@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use inference::Options;
 use recordings::{Mapping, Read, ReadOptions};
-use robot_file::{Causality, RobotSpec};
+use robot_file::RobotSpec;
 use verdict::{Coverage, Diagnosis};
 
 pub use crate::inputs::{Loaded, mapping, robot};
+use crate::kind;
 use crate::long::Budget;
 
 /// Folders of a case with what belongs into them.
@@ -249,11 +250,7 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn case(&self) -> Result<diagnosis::Case> {
-        Ok(match self.robot.causality {
-            Causality::TorqueDriven => diagnosis::Case::TorqueDriven(Box::new(self.torque_driven()?)),
-            Causality::SpeedDriven => diagnosis::Case::SpeedDriven(Box::new(self.speed_driven()?)),
-            Causality::CommandDriven => diagnosis::Case::CommandDriven(Box::new(self.command_driven()?)),
-        })
+        kind::of(self.robot.causality).case(self)
     }
 
     /// Diagnoses the case by what drives its robot; `stage` is called with what begins.

@@ -9,6 +9,7 @@ pub mod case_folder;
 pub mod check;
 pub mod envelope;
 pub mod inputs;
+pub mod kind;
 pub mod long;
 pub mod predictions;
 pub mod propose;

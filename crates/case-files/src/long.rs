@@ -14,6 +14,7 @@ use serde::Serialize;
 use verdict::Coverage;
 
 use crate::inputs::{Loaded, Plan, load};
+use crate::kind;
 use crate::watched::Pass;
 
 /// Files of fewer bytes together are read whole before anything is asked of them.
@@ -39,7 +40,7 @@ impl Budget {
 
     /// Seconds for a robot.
     fn seconds(self, causality: Causality) -> f64 {
-        self.0.unwrap_or(if causality == Causality::TorqueDriven { BUDGET } else { 6.0 * BUDGET })
+        self.0.unwrap_or_else(|| kind::of(causality).budget())
     }
 
     /// Reads recordings; of those that are longer together, the most telling pieces, compared with `references`.

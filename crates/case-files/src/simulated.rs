@@ -1,12 +1,10 @@
 //! A robot file on the inputs of a recording.
 
-use anyhow::{Result, bail};
-use command_driven::simulate_response;
-use inference::Options;
+use anyhow::Result;
 use recordings::Recording;
-use robot_file::{Causality, RobotSpec};
+use robot_file::RobotSpec;
 
-use crate::sensor_faults;
+use crate::{kind, sensor_faults};
 
 /// What the robot's sensors show on the inputs of a drive, its effects applied: of a torque-driven robot on commanded
 /// torques, of a speed-driven robot on wheel speeds, of a command-driven robot on commanded wheel speeds.
@@ -15,21 +13,6 @@ use crate::sensor_faults;
 /// Inputs that are missing, a simulation that does not stay finite, and an effect that cannot be simulated.
 pub fn simulated(robot: &RobotSpec, inputs: &Recording) -> Result<Recording> {
     let effects = robot.active(inputs.name())?;
-    let ideal = match robot.causality {
-        Causality::TorqueDriven => torque_driven::simulate(&robot.robot, &effects, inputs, &Options::default())?,
-        Causality::SpeedDriven => torque_driven::simulate_at_speed(&robot.robot, &effects, inputs)?,
-        Causality::CommandDriven => {
-            if let Some(effect) = robot.effects.iter().find(|effect| !sensor_faults::is_one(effect)) {
-                bail!(
-                    "robot '{}' is command-driven and simulated by its [response], without forces: the effect `{}` \
-                     cannot be applied; take it out of the robot file",
-                    robot.name,
-                    effect.effect
-                );
-            }
-            let response = robot.response.clone().unwrap_or_default();
-            simulate_response(&robot.robot, &response, inputs)?
-        }
-    };
+    let ideal = kind::of(robot.causality).simulate(robot, &effects, inputs)?;
     Ok(sensor_faults::shown(&robot.effects, ideal)?)
 }

@@ -1,14 +1,16 @@
 //! Forecasts of left-out windows from the commands alone, by four simulations.
 
+use inference::experiment::{Comparison, Experiment, Forecast, free_run};
+use inference::robust::{median, rms};
+use verdict::{Element, FreeRun, Scaling};
+
 use crate::controller::Law;
 use crate::drive::DrivePart;
 use crate::ground::{GroundPart, Poses, misses};
-use crate::identify::{Identified, Simulated};
+use crate::identify::{Base, Identified};
 use crate::run::WINDOW;
-use crate::search::{Model, Trial, attempt};
+use crate::search::{Model as PartModel, Trial, attempt};
 use crate::windows::{FOLDS, Windows};
-use inference::robust::{median, rms};
-use verdict::{Element, FreeRun, Scaling};
 
 /// What is compared: over the window, and at its end.
 pub(crate) const QUANTITIES: [(&str, &str); 5] = [
@@ -29,9 +31,26 @@ pub(crate) struct Simulation {
     ground: Trial<()>,
 }
 
-/// As it is, re-tuned, corrected, placebo.
-pub(crate) struct Comparison {
-    pub(crate) all: [Simulation; 4],
+/// Both parts at fitted constants.
+pub(crate) struct Model {
+    drive: PartModel<Law>,
+    powers: usize,
+    ground: PartModel<()>,
+}
+
+/// What a simulation says: wheel speeds by piece, poses by window.
+pub(crate) struct Motion {
+    pub(crate) wheels: Vec<Vec<[f64; 2]>>,
+    pub(crate) poses: Vec<Poses>,
+}
+
+/// The windows by four simulations, fold by fold.
+pub(crate) type Simulated = Forecast<Model, Motion>;
+
+/// Windows of command-driven recordings, of which each fold is left out in turn.
+pub(crate) struct Rivals<'a> {
+    windows: &'a Windows,
+    all: Comparison<Simulation>,
     /// Free constants of the corrected and of the placebo.
     pub(crate) constants: [usize; 2],
     nominal: [f64; 2],
@@ -45,16 +64,55 @@ const WRONG_GROUND: [Element; 6] =
 /// Up to this many constants a placebo takes nothing that was named.
 const FEW: usize = 4;
 
-impl Comparison {
-    pub(crate) fn new(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f64; 2]) -> Self {
+impl Experiment for Rivals<'_> {
+    type Model = Model;
+    type Response = Motion;
+
+    fn blocks(&self) -> usize {
+        FOLDS
+    }
+
+    fn fitted_without(&self, fold: usize) -> Option<Comparison<Model>> {
+        Some(self.all.map(|s| Model {
+            drive: s.drive.folds[fold].clone(),
+            powers: s.powers,
+            ground: s.ground.folds[fold].clone(),
+        }))
+    }
+
+    fn fitted(&self) -> Comparison<Model> {
+        self.all.map(|s| Model { drive: s.drive.model.clone(), powers: s.powers, ground: s.ground.model.clone() })
+    }
+
+    fn response(&self, model: &Model, _: usize) -> Motion {
+        self.motion(self.windows, model)
+    }
+
+    fn quantities(&self) -> Vec<String> {
+        QUANTITIES.map(|(name, unit)| format!("{name}, {unit}")).to_vec()
+    }
+
+    fn errors(&self, motion: &Motion, fold: usize) -> Vec<Vec<f64>> {
+        let all = errors(self.windows, motion);
+        let own = |of_window: Vec<f64>| {
+            of_window.into_iter().enumerate().filter(|(w, _)| self.windows.fold(*w) == fold).map(|(_, e)| e).collect()
+        };
+        all.into_iter().map(own).collect()
+    }
+}
+
+impl<'a> Rivals<'a> {
+    pub(crate) fn new(windows: &'a Windows, base: &Base, found: &Identified, nominal: [f64; 2]) -> Self {
         let part = DrivePart::new(windows, 0);
         let measured = GroundPart::measured(windows, nominal);
         let as_told = attempt(&part, &base.drive, base.drive.law, &[], None);
         let plain = attempt(&measured, &base.ground, (), &[], None);
+
         let has_position = windows.pieces.iter().any(|p| p.position.is_some());
         let tunables: &[Element] = if has_position { &[Element::Radius, Element::Track] } else { &[Element::Track] };
         let as_commanded = GroundPart::new(windows, part.wheels(base.drive.law, &base.drive.x), nominal);
         let retuned = attempt(&as_commanded, &base.ground, (), tunables, None);
+
         let placebo = placebo(windows, base, found, nominal);
         let count = |d: &Trial<Law>, g: &Trial<()>| d.free.len() + g.free.len();
         let constants = [count(&found.drive, &found.ground), count(&placebo.drive, &placebo.ground)];
@@ -63,82 +121,71 @@ impl Comparison {
             powers: 0,
             ground: ground.clone(),
         };
-        let all = [
-            simulation(&as_told, &plain),
-            simulation(&as_told, &retuned),
-            simulation(&found.drive, &found.ground),
-            placebo,
-        ];
-        Self { all, constants, nominal, largest: part.largest }
-    }
-
-    /// Errors on windows of the fit, each by a fit without its fold.
-    pub(crate) fn left_out(&self, windows: &Windows) -> [Errors; 4] {
-        std::array::from_fn(|k| {
-            let s = &self.all[k];
-            let folds: Vec<Errors> =
-                (0..FOLDS).map(|f| self.errors(windows, s.powers, &s.drive.folds[f], &s.ground.folds[f])).collect();
-            std::array::from_fn(|q| (0..windows.list.len()).map(|w| folds[windows.fold(w)][q][w]).collect())
-        })
-    }
-
-    /// Wheel speeds of every piece and poses of every window by simulation `k`, each by a fit without its fold.
-    pub(crate) fn simulated_left_out(&self, windows: &Windows, k: usize) -> (Vec<Vec<[f64; 2]>>, Vec<Poses>) {
-        let s = &self.all[k];
-        let folds: Vec<_> =
-            (0..FOLDS).map(|f| self.simulated(windows, s.powers, &s.drive.folds[f], &s.ground.folds[f])).collect();
-        let mut wheels = folds[0].0.clone();
-        let mut poses = Vec::with_capacity(windows.list.len());
-        for (w, window) in windows.list.iter().enumerate() {
-            let (of_fold, own_poses) = &folds[windows.fold(w)];
-            let rows = window.start..window.start + WINDOW;
-            wheels[window.piece][rows.clone()].copy_from_slice(&of_fold[window.piece][rows]);
-            poses.push(own_poses[w].clone());
-        }
-        (wheels, poses)
+        let all = Comparison {
+            nominal: simulation(&as_told, &plain),
+            retuned: simulation(&as_told, &retuned),
+            corrected: Some(simulation(&found.drive, &found.ground)),
+            placebo: Some(placebo),
+        };
+        Self { windows, all, constants, nominal, largest: part.largest }
     }
 
     /// Errors on windows that no fit has seen.
-    pub(crate) fn unseen(&self, windows: &Windows) -> [Errors; 4] {
-        std::array::from_fn(|k| {
-            let s = &self.all[k];
-            self.errors(windows, s.powers, &s.drive.model, &s.ground.model)
-        })
+    pub(crate) fn unseen(&self, windows: &Windows) -> Comparison<Errors> {
+        self.fitted().map(|model| errors(windows, &self.motion(windows, model)))
     }
 
-    /// Errors when only the drive is corrected.
-    pub(crate) fn drive_only(&self, windows: &Windows, held_out: bool) -> Errors {
-        let (s, plain) = (&self.all[2], &self.all[0].ground.model);
-        if held_out {
-            return self.errors(windows, 0, &s.drive.model, plain);
+    /// Errors when only the drive is corrected, of windows that no fit has seen or each by a fit without its fold.
+    pub(crate) fn drive_only(&self, unseen: Option<&Windows>) -> Errors {
+        let with_plain_ground = |corrected: &Comparison<Model>| {
+            let drive = corrected.best().drive.clone();
+            Model { drive, powers: 0, ground: self.all.nominal.ground.model.clone() }
+        };
+        if let Some(windows) = unseen {
+            return errors(windows, &self.motion(windows, &with_plain_ground(&self.fitted())));
         }
-        let folds: Vec<Errors> = (0..FOLDS).map(|f| self.errors(windows, 0, &s.drive.folds[f], plain)).collect();
-        std::array::from_fn(|q| (0..windows.list.len()).map(|w| folds[windows.fold(w)][q][w]).collect())
-    }
-
-    fn errors(&self, windows: &Windows, powers: usize, drive: &Model<Law>, ground: &Model<()>) -> Errors {
-        let (wheels, poses) = self.simulated(windows, powers, drive, ground);
-        errors(windows, &wheels, &poses)
+        let folds: Vec<Vec<Vec<f64>>> = (0..FOLDS)
+            .filter_map(|fold| self.fitted_without(fold).map(|models| (fold, with_plain_ground(&models))))
+            .map(|(fold, model)| Experiment::errors(self, &self.response(&model, fold), fold))
+            .collect();
+        joined(folds.iter())
     }
 
     /// Wheel speeds of every piece and poses of every window.
-    fn simulated(
-        &self,
-        windows: &Windows,
-        powers: usize,
-        drive: &Model<Law>,
-        ground: &Model<()>,
-    ) -> (Vec<Vec<[f64; 2]>>, Vec<Poses>) {
-        let mut part = DrivePart::new(windows, powers);
+    fn motion(&self, windows: &Windows, model: &Model) -> Motion {
+        let mut part = DrivePart::new(windows, model.powers);
         part.largest = self.largest;
-        let wheels = part.wheels(drive.law, &drive.x);
-        let poses = GroundPart::new(windows, wheels.clone(), self.nominal).poses(&ground.x);
-        (wheels, poses)
+        let wheels = part.wheels(model.drive.law, &model.drive.x);
+        let poses = GroundPart::new(windows, wheels.clone(), self.nominal).poses(&model.ground.x);
+        Motion { wheels, poses }
+    }
+}
+
+/// Errors of all windows from those of every fold: neighbouring windows share one, so that folds follow each other.
+fn joined<'a>(folds: impl Iterator<Item = &'a Vec<Vec<f64>>>) -> Errors {
+    let mut out = Errors::default();
+    for fold in folds {
+        out.iter_mut().zip(fold).for_each(|(all, own)| all.extend(own));
+    }
+    out
+}
+
+/// Errors of every window, each by fits that left it out.
+pub(crate) fn left_out(folds: &[Simulated]) -> Comparison<Errors> {
+    let of = |which: &dyn Fn(&Comparison<Vec<Vec<f64>>>) -> Option<&Vec<Vec<f64>>>| {
+        joined(folds.iter().filter_map(|fold| which(&fold.errors)))
+    };
+    Comparison {
+        nominal: of(&|c| Some(&c.nominal)),
+        retuned: of(&|c| Some(&c.retuned)),
+        corrected: Some(of(&|c| c.corrected.as_ref())),
+        placebo: Some(of(&|c| c.placebo.as_ref())),
     }
 }
 
 /// Errors of every window.
-pub(crate) fn errors(windows: &Windows, wheels: &[Vec<[f64; 2]>], poses: &[Poses]) -> Errors {
+pub(crate) fn errors(windows: &Windows, motion: &Motion) -> Errors {
+    let Motion { wheels, poses } = motion;
     let rms = |sum: f64, n: usize| (sum / n as f64).sqrt();
     let mut out: Errors = std::array::from_fn(|_| Vec::with_capacity(windows.list.len()));
     for (w, p) in windows.list.iter().zip(poses) {
@@ -159,7 +206,7 @@ pub(crate) fn errors(windows: &Windows, wheels: &[Vec<[f64; 2]>], poses: &[Poses
 
 /// The best wrong cause: wheels that answer each for themselves, by any odd law of their own command, with as many
 /// constants as the corrected simulation has. Where the drive is right, constants of the ground that were not named.
-fn placebo(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f64; 2]) -> Simulation {
+fn placebo(windows: &Windows, base: &Base, found: &Identified, nominal: [f64; 2]) -> Simulation {
     let named = &found.drive.elements;
     let count = found.drive.free.len();
     let law = Law { side_ramps: true, scaling: Scaling::EachSide, ..Law::default() };
@@ -196,22 +243,16 @@ pub(crate) fn summary(errors: &[f64]) -> [f64; 2] {
 }
 
 /// Rows of the answer: rms and median over windows of 2 s of every quantity that was recorded.
-pub(crate) fn free_runs(name: &str, four: &[Errors; 4], has_position: bool) -> Vec<FreeRun> {
+pub(crate) fn free_runs(name: &str, errors: &Comparison<Errors>, has_position: bool) -> Vec<FreeRun> {
     let mut out = Vec::new();
     for (q, (what, unit)) in QUANTITIES.iter().enumerate() {
         if what.starts_with("position") && !has_position {
             continue;
         }
-        let all: [[f64; 2]; 4] = std::array::from_fn(|k| summary(&four[k][q]));
+        let all = errors.map(|e| summary(&e[q]));
         for (s, statistic) in ["rms", "median"].into_iter().enumerate() {
-            out.push(FreeRun {
-                recording: name.to_owned(),
-                quantity: format!("{what} ({statistic}), {unit}"),
-                nominal: all[0][s],
-                retuned: all[1][s],
-                corrected: all[2][s],
-                placebo: Some(all[3][s]),
-            });
+            let quantity = format!("{what} ({statistic}), {unit}");
+            out.push(free_run(name.to_owned(), quantity, &all.map(|a| a[s])));
         }
     }
     out

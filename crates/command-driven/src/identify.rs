@@ -11,7 +11,7 @@ use crate::windows::Windows;
 
 /// What the simulation says: of the drive, of the ground.
 #[derive(Debug, Clone)]
-pub(crate) struct Simulated {
+pub(crate) struct Base {
     pub(crate) drive: Model<Law>,
     pub(crate) ground: Model<()>,
 }
@@ -29,15 +29,15 @@ pub(crate) struct Identified {
 }
 
 /// "The wheels do what is commanded, the body rolls without slip on the nominal track."
-pub(crate) fn neutral(windows: &Windows) -> Simulated {
-    Simulated {
+pub(crate) fn neutral(windows: &Windows) -> Base {
+    Base {
         drive: Model { law: Law::default(), x: DrivePart::new(windows, 0).neutral() },
         ground: Model { law: (), x: ground::neutral() },
     }
 }
 
 /// Finds what the recordings show beyond the simulation.
-pub(crate) fn identify(windows: &Windows, base: &Simulated, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
+pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
     progress("fitting wheel speeds to commands");
     let of_drive = drive(windows, base);
     progress("fitting the motion of the body to wheel speeds");
@@ -59,7 +59,7 @@ struct OfDrive {
     scaling_is_told: bool,
 }
 
-fn drive(windows: &Windows, base: &Simulated) -> OfDrive {
+fn drive(windows: &Windows, base: &Base) -> OfDrive {
     use Element::{DeadTime, ForwardLimit, Gain, Lag, Ramp, SideGain, TurnLimit, WheelLimit};
     let part = DrivePart::new(windows, 0);
     let full = [DeadTime, Gain, TurnLimit, WheelLimit, Ramp, Lag];
@@ -126,7 +126,7 @@ fn limit_words(law: Law) -> String {
     )
 }
 
-fn motion(windows: &Windows, base: &Simulated, nominal: [f64; 2]) -> (Trial<()>, Weighed) {
+fn motion(windows: &Windows, base: &Base, nominal: [f64; 2]) -> (Trial<()>, Weighed) {
     use Element::{BodyLag, Offset, Radius, SideRadius, Track, TurnSlip};
     let part = GroundPart::measured(windows, nominal);
     let has_position = windows.pieces.iter().any(|p| p.position.is_some());

@@ -35,10 +35,11 @@ use robot_model::Robot;
 use inference::DiagnosisError;
 use verdict::{Diagnosis, Element, Response, Verdict};
 
-use compare::{Comparison, Errors, free_runs, summary};
+use compare::{Errors, Rivals, free_runs, left_out, summary};
 use drive::DrivePart;
 use ground::GroundPart;
-use identify::{Identified, Simulated, identify, neutral};
+use identify::{Base, Identified, identify, neutral};
+use inference::experiment::{Comparison, Standing, leave_out};
 use windows::{FOLDS, Windows};
 use words::Figures;
 
@@ -86,26 +87,28 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
         let references = enough(&case.references, "references")?;
         let plain = neutral(&references);
         let found = identify(&references, &plain, nominal, &|_| progress("fitting the references"));
-        Simulated { drive: found.drive.model, ground: found.ground.model }
+        Base { drive: found.drive.model, ground: found.ground.model }
     };
     let found = identify(&windows, &base, nominal, progress);
     progress("forecasting windows that were left out");
-    let comparison = Comparison::new(&windows, &base, &found, nominal);
+    let rivals = Rivals::new(&windows, &base, &found, nominal);
+    let folds = leave_out(&rivals);
     let unseen = Windows::new(&case.held_out);
-    let left_out = comparison.left_out(&windows);
+    let left_out = left_out(&folds);
     let has_position = case.recordings.iter().any(ResponseRun::has_position);
     let mut runs = free_runs("left out in folds", &left_out, has_position);
-    let mut figures = figures(&left_out, &comparison.drive_only(&windows, false), has_position);
+    let standing = Standing::new(&runs);
+    let mut figures = figures(&left_out, &rivals.drive_only(None), has_position);
     if !unseen.list.is_empty() {
-        let errors = comparison.unseen(&unseen);
+        let errors = rivals.unseen(&unseen);
         let position = case.held_out.iter().any(ResponseRun::has_position);
         runs.extend(free_runs("held out", &errors, position));
-        figures = self::figures(&errors, &comparison.drive_only(&unseen, true), position);
+        figures = self::figures(&errors, &rivals.drive_only(Some(&unseen)), position);
     }
-    let response = response(&windows, unseen.list.len(), &base, &found, &comparison, nominal);
-    let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out[0][0][w]));
+    let response = response(&windows, unseen.list.len(), &base, &found, rivals.constants, nominal);
+    let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
-    let ranked = name::ranked(&found, &response.parameters, summary(&left_out[0][0])[0], off_error, nominal[1]);
+    let ranked = name::ranked(&found, &response.parameters, summary(&left_out.nominal[0])[0], off_error, nominal[1]);
     out.ranked = ranked;
     out.verdict = if response.parameters.is_empty() { Verdict::NoMismatch } else { Verdict::Explained };
     out.free_runs = runs;
@@ -113,9 +116,12 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
         Some((figures.wheel[2] / figures.wheel[0].max(1e-12)).powi(2)).filter(|_| !response.parameters.is_empty());
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
+    if out.verdict == Verdict::Explained {
+        out.limits.extend(standing.and_then(|s| s.objection(None)));
+    }
     out.sentences = words::sentences(&out, &response, &figures, nominal[1], !case.references.is_empty());
-    out.traces = traces::traces(&case.recordings, &windows, &comparison);
-    let corrected = Simulated { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
+    out.traces = traces::traces(&case.recordings, &windows, &folds);
+    let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     out.correction.response = Some(model::model_of(&corrected));
     out.response = Some(response);
     Ok(out)
@@ -132,9 +138,9 @@ fn enough(runs: &[ResponseRun], what: &'static str) -> Result<Windows, Diagnosis
 fn response(
     windows: &Windows,
     held_out_windows: usize,
-    base: &Simulated,
+    base: &Base,
     found: &Identified,
-    comparison: &Comparison,
+    constants: [usize; 2],
     nominal: [f64; 2],
 ) -> Response {
     let [of_drive, of_ground] = name::simulated(base);
@@ -151,15 +157,16 @@ fn response(
         parameters,
         elements: found.evidence.iter().map(name::earned).collect(),
         alternatives: found.alternatives.clone(),
-        constants: comparison.constants,
+        constants,
     }
 }
 
 /// The figures of the sentences: rms over windows.
-fn figures(four: &[Errors; 4], drive_only: &Errors, has_position: bool) -> Figures {
+fn figures(errors: &Comparison<Errors>, drive_only: &Errors, has_position: bool) -> Figures {
     let of = |q: usize| {
-        let rms = |e: &Errors| summary(&e[q])[0];
-        [rms(&four[0]), rms(&four[1]), rms(&four[2]), rms(&four[3]), rms(drive_only)]
+        let rms = errors.map(|e| summary(&e[q])[0]);
+        let placebo = rms.placebo.unwrap_or(f64::NAN);
+        [rms.nominal, rms.retuned, *rms.best(), placebo, summary(&drive_only[q])[0]]
     };
     Figures { wheel: of(0), position: has_position.then(|| of(1)), yaw: of(2) }
 }

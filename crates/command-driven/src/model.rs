@@ -4,18 +4,18 @@ use recordings::{Channel, Clock, Recording, Signal};
 use robot_model::Robot;
 use verdict::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseModel};
 
-use crate::compare::{QUANTITIES, errors, summary};
+use crate::compare::{Motion, QUANTITIES, errors, summary};
 use crate::controller::{Law, free_run};
 use crate::drive::DrivePart;
 use crate::ground::{GroundPart, driven};
-use crate::identify::Simulated;
+use crate::identify::Base;
 use crate::run::{Piece, ResponseRun, STEP, commands};
 use crate::search::Model;
 use crate::windows::Windows;
 use inference::DiagnosisError;
 
 /// What a fit found, for files.
-pub(crate) fn model_of(s: &Simulated) -> ResponseModel {
+pub(crate) fn model_of(s: &Base) -> ResponseModel {
     let law = s.drive.law;
     let own = |constants: &[ResponseConstant], x: &[f64]| -> Vec<(String, f64)> {
         let all = constants.iter().zip(x);
@@ -33,7 +33,7 @@ pub(crate) fn model_of(s: &Simulated) -> ResponseModel {
 }
 
 /// The response that a file holds, for simulations.
-fn simulated(model: &ResponseModel) -> Result<Simulated, DiagnosisError> {
+fn simulated(model: &ResponseModel) -> Result<Base, DiagnosisError> {
     model.checked()?;
     let value = |c: &ResponseConstant| model.constants.get(c.id).copied().unwrap_or(c.neutral);
     let law = Law {
@@ -43,7 +43,7 @@ fn simulated(model: &ResponseModel) -> Result<Simulated, DiagnosisError> {
         second_order: model.second_order,
     };
     let drive = Model { law, x: DRIVE_CONSTANTS.iter().map(value).collect() };
-    Ok(Simulated { drive, ground: Model { law: (), x: GROUND_CONSTANTS.iter().map(value).collect() } })
+    Ok(Base { drive, ground: Model { law: (), x: GROUND_CONSTANTS.iter().map(value).collect() } })
 }
 
 /// Simulates a command-driven robot on the commanded wheel speeds of a recording, from the wheel speeds of its first row
@@ -98,7 +98,7 @@ pub fn response_errors(
     let wheels = DrivePart::new(&windows, 0).wheels(s.drive.law, &s.drive.x);
     let nominal = [robot.wheel_radius, 2.0 * robot.half_track];
     let poses = GroundPart::new(&windows, wheels.clone(), nominal).poses(&s.ground.x);
-    let found = errors(&windows, &wheels, &poses);
+    let found = errors(&windows, &Motion { wheels, poses });
     let shown =
         QUANTITIES.iter().zip(&found).filter(|((what, _), _)| run.has_position() || !what.starts_with("position"));
     Ok(shown.map(|((what, unit), e)| (format!("{what}, {unit}"), summary(e)[0])).collect())

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
 
-use crate::identify::{Identified, Simulated};
+use crate::identify::{Base, Identified};
 use crate::search::{Evidence, Part, Trial, sigmas};
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::{CauseSpec, command_driven as cause};
@@ -133,7 +133,7 @@ pub(crate) fn tuning(parameters: &[Parameter]) -> BTreeMap<String, f64> {
 }
 
 /// What the simulation has for each constant.
-pub(crate) fn simulated(base: &Simulated) -> [&[f64]; 2] {
+pub(crate) fn simulated(base: &Base) -> [&[f64]; 2] {
     debug_assert_eq!(
         (base.drive.x.len(), base.ground.x.len()),
         (verdict::DRIVE_CONSTANTS.len(), verdict::GROUND_CONSTANTS.len())

@@ -1,24 +1,23 @@
 //! Recordings beside their forecasts from the commands, row by row; every window by a fit that left it out.
 
-use crate::compare::Comparison;
+use inference::experiment::Comparison;
+
+use crate::compare::{Motion, Simulated};
 use crate::ground::{Poses, misses};
 use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::windows::{Window, Windows};
 use verdict::{Compared, Trace, instant, rounded};
 
-/// Places of the simulation as it is, re-tuned and corrected among the four.
-const SHOWN: [usize; 3] = [0, 1, 2];
-
 /// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.
 const WHEEL: f64 = 0.3;
 const POSE: f64 = 0.1;
 
-/// What a simulation says: wheel speeds by piece, poses by window.
-type Simulated = (Vec<Vec<[f64; 2]>>, Vec<Poses>);
-
 /// Every recording with what was simulated for it.
-pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, comparison: &Comparison) -> Vec<Trace> {
-    let three = SHOWN.map(|k| comparison.simulated_left_out(windows, k));
+pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, folds: &[Simulated]) -> Vec<Trace> {
+    let of = |which: &dyn Fn(&Comparison<Motion>) -> &Motion| {
+        put_together(windows, &folds.iter().map(|fold| which(&fold.responses)).collect::<Vec<_>>())
+    };
+    let three = [of(&|c| &c.nominal), of(&|c| &c.retuned), of(&|c| c.best())];
     let errors: Vec<Vec<f64>> = three.iter().map(|s| errors(windows, s)).collect();
     let left = errors[2].iter().sum::<f64>() / errors[2].len().max(1) as f64;
     let mut first = 0;
@@ -48,7 +47,20 @@ pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, comparison: &Compa
         .collect()
 }
 
-fn channels(windows: &Windows, three: &[Simulated; 3], own: &[(usize, &Window)]) -> Vec<Compared> {
+/// Every window by the fit that left it out.
+fn put_together(windows: &Windows, folds: &[&Motion]) -> Motion {
+    let mut wheels = folds[0].wheels.clone();
+    let mut poses = Vec::with_capacity(windows.list.len());
+    for (w, window) in windows.list.iter().enumerate() {
+        let of_fold = folds[windows.fold(w)];
+        let rows = window.start..window.start + WINDOW;
+        wheels[window.piece][rows.clone()].copy_from_slice(&of_fold.wheels[window.piece][rows]);
+        poses.push(of_fold.poses[w].clone());
+    }
+    Motion { wheels, poses }
+}
+
+fn channels(windows: &Windows, three: &[Motion; 3], own: &[(usize, &Window)]) -> Vec<Compared> {
     let wheel = |j: usize| {
         let series = |of: &[Vec<[f64; 2]>]| -> Vec<Option<f64>> {
             let rows = |(_, w): &(usize, &Window)| {
@@ -62,9 +74,9 @@ fn channels(windows: &Windows, three: &[Simulated; 3], own: &[(usize, &Window)])
             unit: "rad/s".into(),
             side: Some(inference::words::side(j).into()),
             recorded: series(&measured),
-            nominal: series(&three[0].0),
-            retuned: series(&three[1].0),
-            corrected: series(&three[2].0),
+            nominal: series(&three[0].wheels),
+            retuned: series(&three[1].wheels),
+            corrected: series(&three[2].wheels),
             usual: None,
         }
     };
@@ -74,10 +86,10 @@ fn channels(windows: &Windows, three: &[Simulated; 3], own: &[(usize, &Window)])
     if own.iter().all(|w| heading(w).is_some()) {
         let recorded =
             |w: &(usize, &Window)| heading(w).unwrap_or_default().iter().map(|h| known(*h)).collect::<Vec<_>>();
-        let forecast = |s: &Simulated| {
+        let forecast = |s: &Motion| {
             let of_window = |w: &(usize, &Window)| {
                 let start = heading(w).and_then(|h| h.first()).copied().unwrap_or_default();
-                s.1[w.0].iter().map(|pose| known(start + pose[2])).collect::<Vec<_>>()
+                s.poses[w.0].iter().map(|pose| known(start + pose[2])).collect::<Vec<_>>()
             };
             own.iter().flat_map(of_window).collect()
         };
@@ -99,7 +111,7 @@ fn known(v: f64) -> Option<f64> {
 }
 
 /// Mean squared error of each window, all quantities in units of a usual size.
-fn errors(windows: &Windows, (wheels, poses): &Simulated) -> Vec<f64> {
+fn errors(windows: &Windows, Motion { wheels, poses }: &Motion) -> Vec<f64> {
     let of_window = |(w, p): (&Window, &Poses)| {
         let measured = &windows.pieces[w.piece].wheel;
         let wheel: f64 = (w.start..w.start + WINDOW)

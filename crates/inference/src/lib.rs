@@ -6,6 +6,7 @@
 //! * `evidence`: from scores to probabilities, classes and credible sets.
 //! * `robust`: medians, quantiles, intervals; `algebra`: the little dense algebra, over faer.
 //! * `expected_information`, `advice`: which drive to record next, in bits.
+//! * `experiment`: what a kind of robot says so that data left out of its fit are forecast like all others'.
 //! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
 //! * `corrected`: a correction as a robot and effects that a plant takes.
 //! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
@@ -20,6 +21,8 @@ mod error;
 pub mod evidence;
 #[cfg(feature = "solver")]
 pub mod expected_information;
+#[cfg(feature = "solver")]
+pub mod experiment;
 pub mod hypothesis;
 #[cfg(feature = "solver")]
 pub mod least_squares;

@@ -75,6 +75,11 @@ pub fn rms(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     mean(values.into_iter().map(|v| v * v)).map(f64::sqrt)
 }
 
+/// Geometric mean of positive values; `None` of nothing.
+pub fn geometric_mean(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    mean(values.into_iter().map(f64::ln)).map(f64::exp)
+}
+
 /// Effective number of weighted samples, `(Σw)²/Σw²` (Kish 1965); 0 of nothing.
 pub fn effective_number(weights: impl IntoIterator<Item = f64>) -> f64 {
     let (sum, squares) = weights.into_iter().fold((0.0, 0.0), |(s, q), w| (s + w, q + w * w));

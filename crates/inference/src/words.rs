@@ -36,6 +36,11 @@ pub fn variant(v: &Variant) -> String {
     }
 }
 
+/// Names of the effects of one hypothesis.
+pub fn variants<'a>(all: impl IntoIterator<Item = &'a Variant>) -> String {
+    all.into_iter().map(variant).collect::<Vec<_>>().join(" with ")
+}
+
 /// A number with as many digits as its uncertainty deserves.
 pub fn quantity(c: &Cause) -> String {
     let Some(m) = c.magnitude else { return String::new() };

@@ -91,9 +91,11 @@ pub fn free_runs(d: &Diagnosis) -> &'static str {
     } else if d.steady.is_some() {
         "Forecasts of recordings left out of the fit (rms error; placebo: the best other law)"
     } else if d.free_runs.iter().any(|r| r.placebo.is_some()) {
-        "Free runs from measured states, on recordings left out of the fit (rms error; placebo: the best other effect)"
+        "Free runs on recordings left out of the fit, from a measured state every 2 s where nothing else is said (rms \
+         error; placebo: the best other effect)"
     } else {
-        "Free runs from measured states, on recordings left out of the fit (rms error)"
+        "Free runs on recordings left out of the fit, from a measured state every 2 s where nothing else is said (rms \
+         error)"
     }
 }
 

@@ -1,6 +1,7 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
 use crate::name::{Named, Naming};
+use crate::traces::Forecasts;
 use crate::words::{clocks, sentences};
 use crate::{SpeedRun, SteadyCase};
 use catalogue::answer::{NONE, UNKNOWN};
@@ -17,10 +18,23 @@ const LEAST_PLAUSIBLE: f64 = 2.0;
 /// Causes below this probability are not listed.
 const LISTED: f64 = 1e-3;
 
-pub(super) fn verdict(case: &SteadyCase, naming: Option<&Naming>, loads: Loads) -> Diagnosis {
+pub(super) fn verdict(
+    case: &SteadyCase,
+    naming: Option<&Naming>,
+    loads: Loads,
+    forecasts: &Forecasts<'_>,
+) -> Diagnosis {
     let mut out = Diagnosis::withheld();
     if let Some(naming) = naming {
         weigh(naming, &mut out);
+        // A wrong cause that forecasts left-out recordings as well is in the class.
+        let as_good = forecasts.placebo.filter(|_| forecasts.standing.is_some_and(|s| s.is_matched_by_placebo()));
+        if let Some(class) = out.indistinguishable.first_mut() {
+            let ids = as_good.map_or_else(Vec::new, Named::ids);
+            let more: Vec<String> =
+                ids.iter().filter(|id| !class.iter().any(|c| c == *id)).map(|id| (*id).to_owned()).collect();
+            class.extend(more);
+        }
     }
     out.sentences = sentences(&out, &loads, case.recordings.iter().any(|r| r.set_points));
     out.steady = Some(loads);

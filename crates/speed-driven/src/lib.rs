@@ -60,7 +60,7 @@ pub use clock::{Alignment, align, box_mean, interpolate};
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming, UNNAMED_STRAIGHT};
 pub use run::{BodyRates, SpeedRun};
-use traces::Fits;
+use traces::{Fits, Forecasts};
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]
@@ -127,14 +127,15 @@ pub fn diagnose_steady(
         calibrated: &calibrated,
         naming: naming.as_ref(),
     };
-    let (free_runs, traces) = fits.forecasts();
+    let forecasts = fits.forecasts();
     let correction = fits.correction();
     withheld.extend(not_given);
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
     let loads = within(case, &robot, known_loads, (ratios, pooled), withheld);
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
-    let mut out = verdict(case, naming.as_ref(), loads);
+    let mut out = verdict(case, naming.as_ref(), loads, &forecasts);
+    let Forecasts { free_runs, traces, standing, placebo } = forecasts;
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
@@ -144,6 +145,10 @@ pub fn diagnose_steady(
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
+    if out.verdict == Verdict::Explained {
+        let wrong = placebo.map(|named| inference::words::variants(&named.parts));
+        out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
+    }
     if options.next.is_some() {
         progress("looking for the drive that tells the rivals apart");
         let speeds = case.recordings.iter().flat_map(|r| r.speed.iter().flatten());

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 use inference::least_squares::{Constant, Residuals, Settings};
+use inference::robust::{mean, rms};
 use robot_model::tunable::COUNT as NUISANCES;
 use robot_model::{Active, Plant, Robot, State};
 use verdict::Quantity;
@@ -137,31 +138,28 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
+    /// Errors of the torques, N m, where both are known.
+    pub(crate) fn residuals(&self, run: &SpeedRun) -> Vec<f64> {
+        (0..run.time.len()).flat_map(|i| self.errors(run, i)).collect()
+    }
+
     /// Root mean squared error of the torques, N m.
     pub(crate) fn rms(&self, run: &SpeedRun) -> f64 {
-        let (mut sum, mut n) = (0.0, 0.0);
-        for i in 0..run.time.len() {
-            for square in self.squares(run, i) {
-                sum += square;
-                n += 1.0;
-            }
-        }
-        (sum / f64::max(n, 1.0)).sqrt()
+        rms(self.residuals(run)).unwrap_or(0.0)
     }
 
     /// Mean squared error of the torques of a row, (N m)².
     pub(crate) fn square(&self, run: &SpeedRun, i: usize) -> Option<f64> {
-        let (n, sum) = self.squares(run, i).fold((0.0, 0.0), |(n, sum), square| (n + 1.0, sum + square));
-        (n > 0.0).then(|| sum / n)
+        mean(self.errors(run, i).map(|error| error * error))
     }
 
     /// What lies in the dead band on both accounts counts as right.
-    fn squares<'a>(&'a self, run: &'a SpeedRun, i: usize) -> impl Iterator<Item = f64> + 'a {
+    fn errors<'a>(&'a self, run: &'a SpeedRun, i: usize) -> impl Iterator<Item = f64> + 'a {
         (0..2).filter_map(move |j| {
             let shown = self.torque[j][i]?;
             let measured = run.torque[j][i];
             let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };
-            Some((measured - shown).powi(2))
+            Some(measured - shown)
         })
     }
 }

@@ -76,11 +76,8 @@ fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     found.sort_by(|a, b| b.2.total_cmp(&a.2));
     found.truncate(MOST);
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
-    let name = |named: Option<&Named>| {
-        named.map_or("nothing is missing".to_owned(), |n| {
-            n.parts.iter().map(inference::words::variant).collect::<Vec<_>>().join(" with ")
-        })
-    };
+    let name =
+        |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), |n| inference::words::variants(&n.parts));
     found
         .into_iter()
         .map(|(ids, named, score)| Rival {

@@ -1,15 +1,15 @@
 //! Torques of each recording beside those that its speeds predict, with everything fitted on the other recordings.
 
+use inference::experiment::{self, Comparison, Experiment, Forecast, Standing};
+use inference::hypothesis::Dose;
 use robot_model::Robot;
-use robot_model::tunable::tunables;
+use robot_model::tunable::{tunables, tuned};
 use verdict::{Compared, Correction, FreeRun, Trace, instant, rounded};
 
 use crate::SteadyCase;
 use crate::model::{Measured, Rows, Tuned, predicted_rows, tune};
-use crate::name::{Comparison, Difference, Naming};
+use crate::name::{self, Difference, Named, Naming};
 use crate::run::SpeedRun;
-use inference::hypothesis::Dose;
-use robot_model::tunable::tuned;
 
 /// All that a recording's forecast is fitted with.
 pub(crate) struct Fits<'a> {
@@ -22,70 +22,123 @@ pub(crate) struct Fits<'a> {
     pub(crate) naming: Option<&'a Naming>,
 }
 
-/// A recording's torques by three models.
-struct Simulations {
-    nominal: Rows,
-    retuned: Rows,
-    corrected: Option<Rows>,
-    left_out: bool,
+/// A robot with effects.
+pub(crate) struct Model {
+    robot: Robot<f64>,
+    doses: Vec<Dose>,
 }
 
-impl Fits<'_> {
-    /// Errors of the forecasts, and recordings beside them.
-    pub(crate) fn forecasts(&self) -> (Vec<FreeRun>, Vec<Trace>) {
-        let usual = self.usual();
-        let mut free_runs = Vec::new();
-        let mut traces = Vec::new();
-        for run in &self.case.recordings {
-            let simulations = self.simulate(run);
-            if let Some(corrected) = simulations.corrected.as_ref().filter(|_| simulations.left_out) {
-                free_runs.push(FreeRun {
-                    recording: run.name.clone(),
-                    quantity: "torque of a side, N m".to_owned(),
-                    nominal: simulations.nominal.rms(run),
-                    retuned: simulations.retuned.rms(run),
-                    corrected: corrected.rms(run),
-                    placebo: None,
-                });
-            }
-            traces.push(trace(run, &simulations, usual));
+/// A recording's torques by four simulations.
+type Simulated = Forecast<Model, Rows>;
+
+/// What the forecasts of recordings left out of the fit say.
+pub(crate) struct Forecasts<'a> {
+    pub(crate) free_runs: Vec<FreeRun>,
+    pub(crate) traces: Vec<Trace>,
+    /// How the correction stands on them; `None` without one, or with a lone recording.
+    pub(crate) standing: Option<Standing>,
+    /// The best wrong cause.
+    pub(crate) placebo: Option<&'a Named>,
+}
+
+impl Experiment for Fits<'_> {
+    type Model = Model;
+    type Response = Rows;
+
+    fn blocks(&self) -> usize {
+        self.case.recordings.len()
+    }
+
+    fn fitted_without(&self, block: usize) -> Option<Comparison<Model>> {
+        let Some(best) = self.best() else { return Some(self.fitted()) };
+        let left_out = &self.case.recordings[block].name;
+        let others: Vec<Difference> = self.differences.iter().filter(|d| d.recording != *left_out).cloned().collect();
+        if others.is_empty() {
+            return None;
         }
-        (free_runs, traces)
+
+        let data: Vec<Measured> = self.known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
+        let retuned = tune(self.robot, &self.case.sigma, &data)?;
+        let comparison = name::Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated);
+        let refitted = |named: &Named| {
+            let fitted = comparison.as_ref().and_then(|c| c.fit(&named.parts, None));
+            self.calibrated_with(fitted.map_or_else(Vec::new, |fitted| fitted.doses()))
+        };
+        Some(Comparison {
+            nominal: Model { robot: *self.robot, doses: Vec::new() },
+            retuned: Model { robot: tuned(self.robot, &self.case.sigma, &retuned.theta), doses: Vec::new() },
+            corrected: Some(refitted(best)),
+            placebo: self.placebo().map(refitted),
+        })
+    }
+
+    fn fitted(&self) -> Comparison<Model> {
+        let with = |named: &Named| self.calibrated_with(named.doses());
+        Comparison {
+            nominal: Model { robot: *self.robot, doses: Vec::new() },
+            retuned: self.calibrated_with(Vec::new()),
+            corrected: self.best().map(with),
+            placebo: self.placebo().map(with),
+        }
+    }
+
+    fn response(&self, model: &Model, block: usize) -> Rows {
+        predicted_rows(&self.case.recordings[block], &model.robot, &model.doses)
+    }
+
+    fn quantities(&self) -> Vec<String> {
+        vec!["torque of a side, N m".to_owned()]
+    }
+
+    fn errors(&self, response: &Rows, block: usize) -> Vec<Vec<f64>> {
+        vec![response.residuals(&self.case.recordings[block])]
+    }
+}
+
+impl<'a> Fits<'a> {
+    /// The likeliest effects, if they earned their keep.
+    fn best(&self) -> Option<&'a Named> {
+        self.naming.and_then(|n| n.effects.first()).filter(|e| e.score > 0.0)
+    }
+
+    /// The best hypothesis that shares no effect with these and is no larger.
+    fn placebo(&self) -> Option<&'a Named> {
+        let best = self.best()?;
+        let own = best.ids();
+        let wrong = |e: &&Named| e.parts.len() <= best.parts.len() && !e.ids().iter().any(|id| own.contains(id));
+        self.naming?.effects.iter().find(wrong)
+    }
+
+    fn calibrated_with(&self, doses: Vec<Dose>) -> Model {
+        Model { robot: tuned(self.robot, &self.case.sigma, &self.calibrated.theta), doses }
+    }
+
+    /// Errors of the forecasts, and recordings beside them.
+    pub(crate) fn forecasts(&self) -> Forecasts<'a> {
+        let usual = self.usual();
+        let simulated = experiment::leave_out(self);
+        let of_recording = |(run, s): (&SpeedRun, &Simulated)| trace(run, s, usual);
+        let traces = self.case.recordings.iter().zip(&simulated).map(of_recording).collect();
+        let free_runs = if self.best().is_some() {
+            experiment::free_runs(self, &simulated, |block| self.case.recordings[block].name.clone())
+        } else {
+            Vec::new()
+        };
+        Forecasts { standing: Standing::new(&free_runs), free_runs, traces, placebo: self.placebo() }
     }
 
     /// The robot calibrated and, with the likeliest effects that earned their keep, corrected.
     pub(crate) fn correction(&self) -> Correction {
         let tunings = tunables::<f64>().into_iter().zip(self.case.sigma).zip(self.calibrated.theta);
-        let best = self.naming.and_then(|n| n.effects.first()).filter(|e| e.score > 0.0);
-        let effects =
-            best.into_iter().flat_map(|e| (0..e.parts.len()).map(|k| e.parts[k].at(e.of(k).0, &Vec::new(), &[])));
+        let effects = self
+            .best()
+            .into_iter()
+            .flat_map(|e| (0..e.parts.len()).map(|k| e.parts[k].at(e.of(k).0, &Vec::new(), &[])));
         Correction {
             tuning: tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect(),
             effects: effects.collect(),
             response: None,
         }
-    }
-
-    fn simulate(&self, run: &SpeedRun) -> Simulations {
-        let rows = |robot: &Robot<f64>, doses: &[Dose]| predicted_rows(run, robot, doses);
-        let model = tuned(self.robot, &self.case.sigma, &self.calibrated.theta);
-        let nominal = rows(self.robot, &[]);
-        let best = self.naming.and_then(|n| n.effects.first()).filter(|e| e.score > 0.0);
-        let others: Vec<Difference> = self.differences.iter().filter(|d| d.recording != run.name).cloned().collect();
-        let Some(best) = best else {
-            return Simulations { nominal, retuned: rows(&model, &[]), corrected: None, left_out: true };
-        };
-        let data: Vec<Measured> = self.known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
-        let retuned = tune(self.robot, &self.case.sigma, &data).filter(|_| !others.is_empty());
-        let Some(retuned) = retuned else {
-            let corrected = Some(rows(&model, &best.doses()));
-            return Simulations { nominal, retuned: rows(&model, &[]), corrected, left_out: false };
-        };
-        let refitted = Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated)
-            .and_then(|c| c.fit(&best.parts, None));
-        let corrected = refitted.map_or_else(|| rows(&model, &[]), |e| rows(&model, &e.doses()));
-        let retuned = rows(&tuned(self.robot, &self.case.sigma, &retuned.theta), &[]);
-        Simulations { nominal, retuned, corrected: Some(corrected), left_out: true }
     }
 
     /// Root mean squared error of the calibrated robot on its references, N m.
@@ -97,7 +150,8 @@ impl Fits<'_> {
     }
 }
 
-fn trace(run: &SpeedRun, simulations: &Simulations, usual: Option<f64>) -> Trace {
+fn trace(run: &SpeedRun, simulated: &Simulated, usual: Option<f64>) -> Trace {
+    let simulations = &simulated.responses;
     let short = |values: &[Option<f64>]| values.iter().map(|v| v.map(rounded)).collect::<Vec<_>>();
     let corrected = |of: &dyn Fn(&Rows) -> Vec<Option<f64>>| simulations.corrected.as_ref().map_or_else(Vec::new, of);
     let mut channels: Vec<Compared> = (0..2)
@@ -133,12 +187,12 @@ fn trace(run: &SpeedRun, simulations: &Simulations, usual: Option<f64>) -> Trace
     };
     Trace {
         recording: run.name.clone(),
-        left_out: simulations.left_out,
+        left_out: simulated.left_out,
         time: run.time.iter().copied().map(instant).collect(),
         restarts: Vec::new(),
         channels,
         path: Vec::new(),
         before: over_usual(&simulations.nominal),
-        after: over_usual(simulations.corrected.as_ref().unwrap_or(&simulations.retuned)),
+        after: over_usual(simulations.best()),
     }
 }

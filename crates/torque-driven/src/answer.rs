@@ -16,6 +16,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::{locate, words};
 use inference::algebra::solve_spd;
+use inference::experiment::Standing;
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Place, Variant};
 use robot_model::tunable::tuned;
@@ -243,7 +244,9 @@ impl Judged<'_> {
             let before = p.misfit(&calibrated) - fault_free;
             ((best - fault_free) / before.max(1.0)).clamp(0.0, 1.0)
         });
-        let indistinguishable = self.rivals(&ranked, verdict);
+        let standing = Standing::new(&forecasts.free_runs).filter(|_| verdict == Verdict::Explained);
+        let as_good = forecasts.placebo.as_ref().filter(|_| standing.is_some_and(|s| s.is_matched_by_placebo()));
+        let indistinguishable = self.rivals(&ranked, verdict, as_good);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
         let mut correction = corrector.map_or_else(
             || p.correction(&none, &forecaster, &[]),
@@ -254,6 +257,8 @@ impl Judged<'_> {
         let located = locate::locate(self, &calibrated, fitted, &forecasts, unexplained, &ranked);
         let mut limits = self.limits();
         limits.extend(located.contradiction);
+        let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
+        limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
         if winner.is_some() && !worthwhile {
             limits.push(
                 "the correction does not improve the forecasts of recordings left out of the fit: \
@@ -270,7 +275,7 @@ impl Judged<'_> {
             findings: located.findings,
             cells: located.cells,
             located: located.told,
-            free_runs: forecasts.free_runs,
+            free_runs: [forecasts.free_runs, forecasts.whole].concat(),
             unexplained,
             limits,
             trials: self.trials(retuned),
@@ -303,8 +308,9 @@ impl Judged<'_> {
         self.decision.scored.iter().map(row).collect()
     }
 
-    /// Effects of the same kind of probability as the best: these recordings cannot tell them apart.
-    fn rivals(&self, ranked: &[Cause], verdict: Verdict) -> Vec<Vec<String>> {
+    /// Effects of the same kind of probability as the best, and a wrong cause that forecasts left-out recordings as
+    /// well: these recordings cannot tell them apart.
+    fn rivals(&self, ranked: &[Cause], verdict: Verdict, as_good: Option<&Scored>) -> Vec<Vec<String>> {
         let Some(winner) = self.winner().filter(|_| verdict == Verdict::Explained) else { return Vec::new() };
         // Alternatives to the best hypothesis, not its own second member.
         let members = winner.trial.hypothesis.ids();
@@ -313,10 +319,11 @@ impl Judged<'_> {
             .filter_map(|m| ranked.iter().find(|c| c.effect == *m))
             .map(|c| c.probability)
             .fold(0.0, f64::max);
+        let as_good = as_good.map_or_else(Vec::new, |s| s.trial.hypothesis.ids());
         let rivals: Vec<String> = ranked
             .iter()
             .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
-            .filter(|c| c.probability > RIVAL * best && c.probability < SURE)
+            .filter(|c| c.probability > RIVAL * best && c.probability < SURE || as_good.contains(&c.effect.as_str()))
             .map(|c| c.effect.clone())
             .collect();
         if rivals.is_empty() {

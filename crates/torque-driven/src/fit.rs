@@ -53,6 +53,11 @@ impl Hypothesis {
         self.parts.iter().map(|(v, _)| v.spec().id).collect()
     }
 
+    /// Its effects with where they are present.
+    pub(crate) fn variants(&self) -> impl Iterator<Item = &Variant> {
+        self.parts.iter().map(|(variant, _)| variant)
+    }
+
     pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
         self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
     }

@@ -1,106 +1,197 @@
 //! Free runs on recordings that were not fitted: as it is, re-tuned, corrected, and a placebo.
 
-use std::sync::Arc;
-
+use inference::experiment::{self, Comparison, Experiment, Forecast};
+use inference::hypothesis::Place;
 use robot_model::tunable::COUNT as NUISANCES;
+use verdict::FreeRun;
 
 use crate::calibrate::problem;
 use crate::decide::Scored;
-use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
-use crate::rms::rms;
+use crate::rms::{residuals, rms};
 use crate::simulate::Response;
-use crate::windows::Cut;
-use verdict::FreeRun;
+use crate::windows::{Cut, Segment};
 
-/// Gauss–Newton steps of a placebo, from where its own fit ended.
+/// Gauss–Newton steps of a refit without a recording, and of a placebo's, from where its own fit ended.
+const STEPS: usize = 3;
 const PLACEBO_STEPS: usize = 2;
 
-/// A recording's best point without it in the fit.
-pub(crate) struct LeftOut {
-    pub(crate) run: usize,
-    /// Corrected, or re-tuned when there is nothing to correct with.
+/// A hypothesis at fitted values.
+#[derive(Clone)]
+pub(crate) struct Model {
+    pub(crate) hypothesis: Hypothesis,
     pub(crate) point: Point,
 }
 
-/// What was simulated for a recording: windows by segment.
-pub(crate) struct Simulated {
-    /// Whether the fits behind `retuned` and `corrected` left it out.
-    pub(crate) left_out: bool,
-    pub(crate) nominal: Vec<Vec<f64>>,
-    pub(crate) retuned: Vec<Vec<f64>>,
-    pub(crate) corrected: Option<Vec<Vec<f64>>>,
-}
+/// A recording by four simulations: windows by segment.
+pub(crate) type Simulated = Forecast<Model, Vec<Vec<f64>>>;
 
 /// Free runs on recordings that were left out of the fit.
 pub(crate) struct Forecasts {
+    /// From measured states, every segment.
     pub(crate) free_runs: Vec<FreeRun>,
-    /// The points behind them.
-    pub(crate) left_out: Vec<LeftOut>,
+    /// From the first measured state alone.
+    pub(crate) whole: Vec<FreeRun>,
     /// One for each recording.
     pub(crate) simulated: Vec<Simulated>,
+    /// The best wrong cause, if one was fitted.
+    pub(crate) placebo: Option<Scored>,
 }
 
-/// Free runs on each recording, fitted on the others only. A lone recording cannot be left out: it is simulated as fitted.
-pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts {
-    let p = answer.problem;
-    let none = Hypothesis::default();
-    let nominal = Point { theta: [0.0; NUISANCES], ..p.origin() };
-    if p.cuts.len() < 2 {
-        let simulated = (0..p.cuts.len()).map(|run| Simulated {
-            left_out: false,
-            nominal: p.run_response(run, &nominal, &none),
-            retuned: retuned.response[run].clone(),
-            corrected: answer.winner().map(|w| w.trial.fitted.response[run].clone()),
-        });
-        return Forecasts { free_runs: Vec::new(), left_out: Vec::new(), simulated: simulated.collect() };
-    }
-    let wrong = placebo(answer);
-    let mut out = Vec::new();
-    let mut points = Vec::new();
-    let mut simulated = Vec::new();
-    for left_out in 0..p.cuts.len() {
-        let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != left_out).map(|r| p.cuts[r].clone()).collect();
-        let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
-        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
-        let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
-        let run = |point: &Point, h: &Hypothesis| p.run_response(left_out, point, h);
-        let error = |response: &Vec<Vec<f64>>| rms(p, &[(left_out, response.clone())]);
-        let refit = |s: &Scored, theta: [f64; NUISANCES], columns: Option<Arc<Columns>>, steps: usize| {
-            let h = without(&s.trial.hypothesis, left_out);
-            let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
-            elsewhere(&others.refine(&h, others.begin(&h, start, columns), steps, None))
-        };
-        let corrected = answer.winner().map(|w| (refit(w, others.centre, None, 3), &w.trial.hypothesis));
-        // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
-        let placebo = wrong.map(|s| {
-            let point = refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS);
-            error(&run(&point, &s.trial.hypothesis))
-        });
-        let retuned = elsewhere(&retuned);
-        let shown = Simulated {
-            left_out: true,
-            nominal: run(&nominal, &none),
-            retuned: run(&retuned, &none),
-            corrected: corrected.as_ref().map(|(point, h)| run(point, h)),
-        };
-        let (a, b) = (error(&shown.nominal), error(&shown.retuned));
-        let c = shown.corrected.as_ref().map_or(b, error);
-        simulated.push(shown);
-        for (i, quantity) in ["wheel speed, rad/s", "yaw rate, rad/s"].into_iter().enumerate() {
-            out.push(FreeRun {
-                recording: p.cuts[left_out].name.clone(),
-                quantity: quantity.to_owned(),
-                nominal: a[i],
-                retuned: b[i],
-                corrected: c[i],
-                placebo: placebo.map(|d| d[i]),
-            });
-        }
-        points.push(LeftOut { run: left_out, point: corrected.map_or(retuned, |c| c.0) });
-    }
-    Forecasts { free_runs: out, left_out: points, simulated }
+/// Torque-driven recordings, each of which is left out in turn.
+struct LeftOut<'a> {
+    answer: &'a Judged<'a>,
+    retuned: &'a Fitted,
+    placebo: Option<&'a Scored>,
 }
+
+/// Free runs on each recording, fitted on the others only: from measured states, and over the whole recording. A lone
+/// recording cannot be left out: it is simulated as fitted.
+pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts {
+    let placebo = placebo(answer);
+    let left_out = LeftOut { answer, retuned, placebo };
+    let simulated = experiment::leave_out(&left_out);
+    let free_runs = experiment::free_runs(&left_out, &simulated, |run| answer.problem.cuts[run].name.clone());
+    Forecasts { free_runs, whole: whole_recordings(answer, &simulated), simulated, placebo: placebo.cloned() }
+}
+
+impl Experiment for LeftOut<'_> {
+    type Model = Model;
+    type Response = Vec<Vec<f64>>;
+
+    fn blocks(&self) -> usize {
+        self.answer.problem.cuts.len()
+    }
+
+    fn fitted_without(&self, run: usize) -> Option<Comparison<Model>> {
+        let (answer, p) = (self.answer, self.answer.problem);
+        if p.cuts.len() < 2 {
+            return None;
+        }
+
+        let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != run).map(|r| p.cuts[r].clone()).collect();
+        let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
+        let none = Hypothesis::default();
+        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), STEPS, None);
+
+        // What a recording has to itself is not known beforehand: its deviations are zero.
+        let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
+        let refit = |s: &Scored, theta, columns, steps| {
+            let h = without(&s.trial.hypothesis, run);
+            let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
+            let point = elsewhere(&others.refine(&h, others.begin(&h, start, columns), steps, None));
+            Model { hypothesis: s.trial.hypothesis.clone(), point }
+        };
+        Some(Comparison {
+            nominal: self.nominal(),
+            corrected: answer.winner().map(|w| refit(w, others.centre, None, STEPS)),
+            // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
+            placebo: self
+                .placebo
+                .map(|s| refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS)),
+            retuned: Model { hypothesis: none, point: elsewhere(&retuned) },
+        })
+    }
+
+    fn fitted(&self) -> Comparison<Model> {
+        let model = |s: &Scored| Model { hypothesis: s.trial.hypothesis.clone(), point: s.trial.fitted.point.clone() };
+        Comparison {
+            nominal: self.nominal(),
+            retuned: Model { hypothesis: Hypothesis::default(), point: self.retuned.point.clone() },
+            corrected: self.answer.winner().map(model),
+            placebo: self.placebo.map(model),
+        }
+    }
+
+    fn response(&self, model: &Model, run: usize) -> Vec<Vec<f64>> {
+        let p = self.answer.problem;
+        // With one recording everything was fitted on it, its onset too.
+        if p.cuts.len() < 2 {
+            return p.run_response(run, &model.point, &model.hypothesis);
+        }
+        forecast(p, model, run)
+    }
+
+    fn quantities(&self) -> Vec<String> {
+        ["wheel speed, rad/s", "yaw rate, rad/s"].map(str::to_owned).to_vec()
+    }
+
+    fn errors(&self, response: &Vec<Vec<f64>>, run: usize) -> Vec<Vec<f64>> {
+        residuals(self.answer.problem, run, response).to_vec()
+    }
+}
+
+impl LeftOut<'_> {
+    fn nominal(&self) -> Model {
+        let point = Point { theta: [0.0; NUISANCES], ..self.answer.problem.origin() };
+        Model { hypothesis: Hypothesis::default(), point }
+    }
+}
+
+/// Free run of a recording, each segment with onsets that the other segments of the recording tell.
+///
+/// When an effect sets in cannot be known before a drive; nothing of the segment that is forecast may tell it.
+///
+/// Of two effects that set in, the first is forecast so; the second stays as it was fitted.
+pub(crate) fn forecast(p: &Problem<'_>, model: &Model, run: usize) -> Vec<Vec<f64>> {
+    let Model { hypothesis, point } = model;
+    let Some(part) = hypothesis.parts.iter().position(|(variant, _)| variant.place == Place::Onset) else {
+        return p.run_response(run, point, hypothesis);
+    };
+    let from = |onset: Option<f64>| {
+        let mut own = hypothesis.clone();
+        own.parts[part].1[run] = onset;
+        p.run_response(run, point, &own)
+    };
+    let cut = &p.cuts[run];
+    let [with, without] = [from(Some(cut.from)), from(None)];
+    let costs = |response: &[Vec<f64>]| -> Vec<f64> {
+        response.iter().enumerate().map(|(s, y)| p.segment_cost(run, s, p.q(run, s, y))).collect()
+    };
+    let costs: Vec<[f64; 2]> = costs(&with).into_iter().zip(costs(&without)).map(Into::into).collect();
+
+    let of_segment = |(s, segment): (usize, &Segment)| match present(&costs, s) {
+        Some(true) => with[s].clone(),
+        Some(false) => without[s].clone(),
+        None => {
+            let middle = segment.row + segment.windows * cut.rows_per_window / 2;
+            from(Some(cut.time(middle as f64))).swap_remove(s)
+        }
+    };
+    cut.segments.iter().enumerate().map(of_segment).collect()
+}
+
+/// Whether an effect is present in segment `s`, as the other segments tell by their costs with it and without; `None` if
+/// they say that it sets in within `s`.
+fn present(costs: &[[f64; 2]], s: usize) -> Option<bool> {
+    let others = |border: usize| -> f64 {
+        let cost = |(i, cost): (usize, &[f64; 2])| if i == s { 0.0 } else { cost[usize::from(i < border)] };
+        costs.iter().enumerate().map(cost).sum()
+    };
+    // Borders `s` and `s + 1` cost the same, for they differ in `s` only.
+    let border = (0..=costs.len()).min_by(|a, b| others(*a).total_cmp(&others(*b))).unwrap_or(0);
+    (border != s && border != s + 1).then_some(border < s)
+}
+
+/// The same simulations over whole recordings, from the first measured state alone.
+fn whole_recordings(answer: &Judged<'_>, simulated: &[Simulated]) -> Vec<FreeRun> {
+    let p = answer.problem;
+    let cuts: Vec<Cut> = p.cuts.iter().map(Cut::whole).collect();
+    let whole = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
+    let left_out = simulated.iter().enumerate().filter(|(_, s)| s.left_out);
+    let of_recording = |(run, simulated): (usize, &Simulated)| -> Vec<FreeRun> {
+        let errors = simulated.models.map(|m| rms(&whole, &[(run, whole.run_response(run, &m.point, &m.hypothesis))]));
+        let row = |(q, quantity): (usize, &str)| {
+            experiment::free_run(cuts[run].name.clone(), quantity.to_owned(), &errors.map(|e| e[q]))
+        };
+        WHOLE.into_iter().enumerate().map(row).collect()
+    };
+    left_out.flat_map(of_recording).collect()
+}
+
+/// What is compared over whole recordings.
+const WHOLE: [&str; 2] = ["wheel speed over the whole recording, rad/s", "yaw rate over the whole recording, rad/s"];
 
 /// Whether the correction (or re-tuning, without one) forecasts recordings that were left out of its fit no worse than the
 /// calibrated model does, all recordings and both quantities together.
@@ -140,7 +231,6 @@ mod tests {
     use crate::trial::Trial;
     use crate::windows::{CHANNELS, cut};
     use inference::Options;
-    use inference::hypothesis::Place;
     use robot_model::tunable::usual_sigma;
     use testing::robot;
 
@@ -199,13 +289,60 @@ mod tests {
         }
         let after = forecasts(&changed);
 
-        let of = |f: &Forecasts, run: usize| (f.left_out[run].point.theta, f.left_out[run].point.effects.clone());
+        let point = |f: &Forecasts, run: usize| f.simulated[run].models.best().point.clone();
+        let of = |f: &Forecasts, run: usize| (point(f, run).theta, point(f, run).effects);
         assert_eq!(of(&before, 0), of(&after, 0), "the fit for recording 0 saw recording 0");
         assert_ne!(of(&before, 1), of(&after, 1), "the fit for recording 1 did not see recording 0");
         // What was changed is forecast worse, by the placebo as well.
         let wheels = |f: &Forecasts| (f.free_runs[0].corrected, f.free_runs[0].placebo.expect("a placebo"));
         let ((c0, p0), (c1, p1)) = (wheels(&before), wheels(&after));
         assert!(c1 > c0 && p1 > p0, "corrected {c0} to {c1}, placebo {p0} to {p1}");
+    }
+
+    #[test]
+    fn the_other_segments_tell_whether_an_effect_is_present_in_one() {
+        // Costs with the effect and without: absent in the first two, present from within the third on.
+        let costs = [[9.0, 1.0], [9.0, 1.0], [6.0, 5.0], [1.0, 9.0], [1.0, 9.0]];
+        let told: Vec<Option<bool>> = (0..costs.len()).map(|s| present(&costs, s)).collect();
+        // The fourth may hold the instant as well, for all that its neighbours say.
+        assert_eq!(told, [Some(false), Some(false), None, None, Some(true)]);
+        // What a segment itself costs does not matter to it.
+        let mut changed = costs;
+        changed[4] = [99.0, 0.0];
+        assert_eq!(present(&changed, 4), Some(true));
+    }
+
+    #[test]
+    fn an_onset_is_not_taken_from_the_segment_that_is_forecast() {
+        let robot = robot();
+        let form = inference::hypothesis::variants(true).into_iter().find(|v| v.place == Place::Onset);
+        let form = form.expect("an effect that sets in");
+        let values: Vec<f64> = form.free(5.0).iter().map(|f| f.usual).collect();
+        let dose = form.dose(&values, Some(7.0));
+        let cuts = [cut(&driven(&robot, &[dose], 16.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let hypothesis = Hypothesis::single(form, vec![Some(7.0)]);
+        let model = Model { hypothesis, point: Point { effects: values, ..p.origin() } };
+
+        let plain = forecast(&p, &model, 0);
+        let mut wrong = model.clone();
+        wrong.hypothesis.parts[0].1[0] = Some(1.0);
+        assert_eq!(forecast(&p, &wrong, 0), plain, "the fitted onset of the run itself was used");
+    }
+
+    #[test]
+    fn a_whole_recording_runs_from_its_first_state_alone() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let whole = [cuts[0].whole()];
+        let (n, all) = (cuts[0].segments.len(), &whole[0].segments);
+        assert!(n > 1 && all.len() == 1 && all[0].windows == cuts[0].segments.iter().map(|s| s.windows).sum::<usize>());
+        let [by_segment, at_once] = [&cuts, &whole].map(|cuts| {
+            let p = problem(&robot, cuts);
+            rms(&p, &[(0, p.run_response(0, &p.origin(), &Hypothesis::default()))])
+        });
+        // The robot that drove is the one simulated: both stay near, the longer run less so.
+        assert!(by_segment[0] < 0.05 && at_once[0] < 0.5 && by_segment != at_once, "{by_segment:?} {at_once:?}");
     }
 
     #[test]

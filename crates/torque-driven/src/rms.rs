@@ -3,21 +3,23 @@
 use crate::fit::Problem;
 use crate::windows::CHANNELS;
 
-/// Root mean squared residual of the wheel speeds and of the yaw rate over these runs' responses.
-pub(crate) fn rms(problem: &Problem<'_>, responses: &[(usize, Vec<Vec<f64>>)]) -> [f64; 2] {
-    let mut sum = [(0.0, 0.0); 2];
-    for (run, response) in responses {
-        for (segment, response) in problem.cuts[*run].segments.iter().zip(response) {
-            for (i, (o, p)) in segment.observed.iter().zip(response).enumerate().filter(|(i, _)| segment.valid[*i]) {
-                let slot = match i % CHANNELS {
-                    0 | 1 => &mut sum[0],
-                    2 => &mut sum[1],
-                    _ => continue,
-                };
-                slot.0 += (o - p).powi(2);
-                slot.1 += 1.0;
+/// Residuals of the wheel speeds (both sides) and of the yaw rate of one run's response, where they were measured.
+pub(crate) fn residuals(problem: &Problem<'_>, run: usize, response: &[Vec<f64>]) -> [Vec<f64>; 2] {
+    let mut out = [Vec::new(), Vec::new()];
+    for (segment, response) in problem.cuts[run].segments.iter().zip(response) {
+        for (i, (o, p)) in segment.observed.iter().zip(response).enumerate().filter(|(i, _)| segment.valid[*i]) {
+            match i % CHANNELS {
+                0 | 1 => out[0].push(o - p),
+                2 => out[1].push(o - p),
+                _ => {}
             }
         }
     }
-    sum.map(|(q, n): (f64, f64)| (q / n.max(1.0)).sqrt())
+    out
+}
+
+/// Root mean squared residual of the wheel speeds and of the yaw rate over these runs' responses.
+pub(crate) fn rms(problem: &Problem<'_>, responses: &[(usize, Vec<Vec<f64>>)]) -> [f64; 2] {
+    let of_run: Vec<[Vec<f64>; 2]> = responses.iter().map(|(run, y)| residuals(problem, *run, y)).collect();
+    [0, 1].map(|q| inference::robust::rms(of_run.iter().flat_map(|r| r[q].iter().copied())).unwrap_or(0.0))
 }

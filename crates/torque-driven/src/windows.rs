@@ -77,6 +77,24 @@ impl Cut {
     pub(crate) fn end(&self) -> f64 {
         self.time(self.torque.len() as f64)
     }
+
+    /// The same as one segment, over which the model runs free from the first state alone.
+    pub(crate) fn whole(&self) -> Self {
+        let mut out = self.clone();
+        let mut all = std::mem::take(&mut out.segments).into_iter();
+        if let Some(first) = all.next() {
+            let whole = all.fold(first, |mut whole, next| {
+                whole.windows += next.windows;
+                whole.count += next.count;
+                whole.observed.extend(next.observed);
+                whole.valid.extend(next.valid);
+                whole.wheels.extend(next.wheels);
+                whole
+            });
+            out.segments.push(whole);
+        }
+        out
+    }
 }
 
 /// What cutting needs to know.

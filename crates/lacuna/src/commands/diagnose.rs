@@ -1,7 +1,6 @@
 //! `lacuna diagnose`: names what a simulation lacks.
 
 use crate::mcap_out;
-use robot_file::Causality;
 use robot_file::RobotSpec;
 use std::path::PathBuf;
 
@@ -10,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
-use case_files::{predictions, which_mapping};
+use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::Options;
 use recordings::Mapping;
@@ -163,12 +162,9 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let envelope = Envelope::new(diagnosis, &case, &options, name, args.input.reading.name())?;
     let (diagnosis, lost) = (&envelope.diagnosis, &envelope.lost);
     if let Some(dir) = &args.predictions {
-        if case.robot.causality == Causality::CommandDriven {
-            warning(
-                "command-driven robots have no predictions; errors on held-out drives are in the text and the JSON",
-            );
-        } else if !case.held_out.reads.is_empty() && diagnosis.predictions.is_empty() {
-            warning("held-out drives of a speed-driven robot are not predicted; the last thirds of its recordings are");
+        let cannot = kind::of(case.robot.causality).no_prediction().filter(|_| diagnosis.predictions.is_empty());
+        if let Some(why) = cannot {
+            warning(why);
         } else if diagnosis.predictions.is_empty() {
             warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
         } else {

@@ -1,12 +1,12 @@
 //! `lacuna export`: a diagnosed robot as a model of a simulator.
 
-use robot_file::Causality;
 use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use case_files::case_folder;
 use case_files::envelope::Envelope;
+use case_files::kind;
 use clap::{Args as ClapArgs, ValueEnum};
 use model_export::{Engine, Model};
 use verdict::{Cause, Diagnosis, EffectAt, Verdict};
@@ -83,11 +83,13 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         Format::Urdf => Engine::Urdf,
         Format::Sdf => Engine::Sdf,
     };
+    let no_forces = kind::of(robot.causality).no_forces();
     ensure!(
-        !matches!(robot.causality, Causality::CommandDriven),
-        "robot '{}' is command-driven: nothing is known of its masses and forces that a model could hold; export it with \
-         --to toml or json",
-        robot.name
+        no_forces.is_none(),
+        "robot '{}' is {}: {}; export it with --to toml or json",
+        robot.name,
+        robot.causality.name(),
+        no_forces.unwrap_or_default()
     );
     let name = stem(&robot.name);
     let model = Model {

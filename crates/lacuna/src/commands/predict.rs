@@ -1,21 +1,17 @@
 //! `lacuna predict`: robot files against drives that they have not seen.
 
 use pages::text_table::TextTable;
-use robot_file::Causality;
 use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
+use case_files::kind::{self, Kind};
 use case_files::predictions;
 use clap::Args as ClapArgs;
-use command_driven::{ResponseRun, response_errors};
-use inference::Options;
-use recordings::{Read, Recording, Signal};
+use recordings::Read;
 use serde_json::{Value, json};
-use torque_driven::HeldOut;
-use verdict::Prediction;
 
 use super::{Outcome, Reader, Usage, sources};
 use crate::console::{emit, emit_json};
@@ -87,26 +83,21 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
             robot.causality.name()
         );
     }
-    match causality {
-        Causality::TorqueDriven => {}
-        Causality::CommandDriven if args.out.is_none() => {}
-        Causality::CommandDriven => bail!(Usage(
-            "--out is for torque-driven robots; `lacuna simulate` writes what a command-driven robot does".to_owned()
-        )),
-        Causality::SpeedDriven => bail!(
-            "robot '{}' is speed-driven; its drives are not forecast freely, but `lacuna \
-             simulate` computes the torque that their speeds take",
-            robots[0].name
-        ),
+    let kind = kind::of(causality);
+    if let Some(why) = kind.no_forecast() {
+        bail!("robot '{}' is {}; {why}", robots[0].name, causality.name());
+    }
+    if args.out.is_some() && kind.no_prediction().is_some() {
+        bail!(Usage(format!(
+            "--out is for torque-driven robots; `lacuna simulate` writes what a {} robot does",
+            causality.name()
+        )));
     }
     let (loaded, _) = args.reader.load(&args.drives)?;
     let mut errors = Vec::new();
     for read in &loaded.reads {
-        let of = match causality {
-            Causality::CommandDriven => by_commands(&robots, read),
-            _ => by_torque(args, &robots, read),
-        };
-        errors.push(Errors { drive: read.recording.name().to_owned(), of: of.with_context(|| file_names(read))? });
+        let of = forecast(args, kind, &robots, read).with_context(|| file_names(read))?;
+        errors.push(Errors { drive: read.recording.name().to_owned(), of });
     }
     if let Some(target) = &args.json {
         emit_json(target, &as_json(args, &loaded.reads, &errors))?;
@@ -118,28 +109,18 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     Ok(Outcome::of(&lost))
 }
 
-fn by_torque(args: &Args, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
-    let held = HeldOut::new(&read.recording)?.restarting_every(args.restart);
+/// Errors of every robot on a drive; what they predict is written.
+fn forecast(args: &Args, kind: &dyn Kind, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
-        let prediction = torque_driven::forecast(&robot.robot, &robot.active(&held.name)?, &held, &Options::default());
-        let [wheel, yaw] = compare(&prediction, &read.recording, &held);
-        out.push(vec![("wheel speed, rad/s".to_owned(), wheel), ("yaw rate, rad/s".to_owned(), yaw)]);
-        if let Some(dir) = &args.out {
+        let forecast = kind.forecast(robot, &read.recording, args.restart)?;
+        out.push(forecast.errors);
+        if let (Some(dir), Some(prediction)) = (&args.out, &forecast.prediction) {
             let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };
-            predictions::write_one(&dir, &prediction)?;
+            predictions::write_one(&dir, prediction)?;
         }
     }
     Ok(out)
-}
-
-fn by_commands(robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
-    let run = ResponseRun::new(&read.recording)?;
-    let of = |robot: &RobotSpec| {
-        let errors = response_errors(&robot.robot, &robot.response.clone().unwrap_or_default(), &run)?;
-        Ok(errors.into_iter().map(|(quantity, e)| (quantity, Some(e))).collect())
-    };
-    robots.iter().map(of).collect()
 }
 
 /// The folder of a robot's predictions: the name of its file.
@@ -148,30 +129,6 @@ fn stem(robot: &str) -> Result<&str> {
         Some(stem) => Ok(stem),
         None => bail!("'{robot}' has no name that a folder could have; rename it"),
     }
-}
-
-/// Root mean squared errors of wheel speed and yaw rate, without the rows at which the state was given.
-fn compare(prediction: &Prediction, drive: &Recording, held: &HeldOut) -> [Option<f64>; 2] {
-    let given: Vec<usize> = held.restarts.iter().map(|r| r.row).collect();
-    let rms = |signal: Signal, predicted: &dyn Fn(usize) -> f64| -> Option<(f64, f64)> {
-        let channel = drive.get(signal)?;
-        let mut sum = (0.0, 0.0);
-        for (k, t) in held.stamps.iter().enumerate().filter(|(k, _)| given.binary_search(k).is_err()) {
-            if let Ok(at) = channel.t_ns().binary_search(t)
-                && k < prediction.time.len()
-            {
-                sum.0 += (channel.values()[at] - predicted(k)).powi(2);
-                sum.1 += 1.0;
-            }
-        }
-        (sum.1 > 0.0).then_some(sum)
-    };
-    let side = |j: usize, signal| rms(signal, &|k| prediction.wheel_speed[k][j]);
-    let wheels = side(0, Signal::WheelSpeedLeft).zip(side(1, Signal::WheelSpeedRight));
-    [
-        wheels.map(|(l, r)| ((l.0 + r.0) / (l.1 + r.1)).sqrt()),
-        rms(Signal::GyroZ, &|k| prediction.yaw_rate[k]).map(|(sum, n)| (sum / n).sqrt()),
-    ]
 }
 
 fn as_text(robots: &[String], errors: &[Errors]) -> String {

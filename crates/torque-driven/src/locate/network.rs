@@ -9,13 +9,19 @@ use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
 use sim::{Purpose, Stream};
 
 use crate::fit::{Hypothesis, PER_RUN, Point, Problem};
-use crate::leave_out::LeftOut;
 use crate::locate::torque::Followed;
 use crate::rms::rms;
 use crate::windows::{CHANNELS, Cut};
 use inference::algebra::solve_spd;
 use verdict::ResidualModel;
 use verdict::Word;
+
+/// A recording's best point without it in the fit.
+pub(crate) struct LeftOut {
+    pub(crate) run: usize,
+    /// Corrected, or re-tuned when there is nothing to correct with.
+    pub(crate) point: Point,
+}
 
 /// Wheel speeds, yaw rate, torque commands.
 const INPUTS: usize = 5;

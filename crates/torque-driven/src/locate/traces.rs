@@ -8,8 +8,8 @@ use verdict::{Compared, Trace, instant, rounded};
 
 /// Every recording with what was simulated for it.
 pub(crate) fn traces(p: &Problem<'_>, healthy: &Healthy, simulated: &[Simulated]) -> Vec<Trace> {
-    let nominal = healthy.energy_of(p, &simulated.iter().map(|s| s.nominal.clone()).collect());
-    let best = simulated.iter().map(|s| s.corrected.as_ref().unwrap_or(&s.retuned).clone()).collect();
+    let nominal = healthy.energy_of(p, &simulated.iter().map(|s| s.responses.nominal.clone()).collect());
+    let best = simulated.iter().map(|s| s.responses.best().clone()).collect();
     let after = healthy.energy_of(p, &best);
     let of =
         |(r, (cut, s)): (usize, (&Cut, &Simulated))| trace(p, cut, s, [mismatch(&nominal, r), mismatch(&after, r)]);
@@ -64,9 +64,9 @@ fn compared(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, c: usize) -> Opti
             signal: CHANNEL_NAMES[c].into(),
             unit: CHANNEL_UNITS[c].into(),
             side: (c < 2).then(|| inference::words::side(c).into()),
-            nominal: of(&simulated.nominal),
-            retuned: of(&simulated.retuned),
-            corrected: simulated.corrected.as_deref().map_or_else(Vec::new, of),
+            nominal: of(&simulated.responses.nominal),
+            retuned: of(&simulated.responses.retuned),
+            corrected: simulated.responses.corrected.as_deref().map_or_else(Vec::new, of),
             usual: Some(rounded(p.variance[c].sqrt())),
             recorded,
         }

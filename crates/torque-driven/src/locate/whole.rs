@@ -3,11 +3,11 @@
 use crate::calibrate::problem;
 use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::judged::Judged;
-use crate::leave_out::{Forecasts, LeftOut};
+use crate::leave_out::{Forecasts, Simulated};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
 use crate::locate::healthy::Healthy;
-use crate::locate::network::residual_model;
+use crate::locate::network::{LeftOut, residual_model};
 use crate::locate::remainder::{excess, remainder};
 use crate::locate::side::{contradiction, side};
 use crate::locate::times::spans;
@@ -41,7 +41,7 @@ fn followed(problem: &Problem<'_>, runs: &[Run]) -> Vec<Followed> {
 }
 
 /// A network for what is left, beside the best answer's own model.
-fn network(answer: &Judged<'_>, best: &Fitted, left_out: &[LeftOut]) -> Option<ResidualModel> {
+fn network(answer: &Judged<'_>, best: &Fitted, simulated: &[Simulated]) -> Option<ResidualModel> {
     let p = answer.problem;
     let none = Hypothesis::default();
     let h = answer.winner().map_or(&none, |w| &w.trial.hypothesis);
@@ -50,7 +50,10 @@ fn network(answer: &Judged<'_>, best: &Fitted, left_out: &[LeftOut]) -> Option<R
         follow(run, cut, &robot, &h.doses(&best.point.effects, r), p.largest_torque).ok()
     };
     let followed: Vec<Followed> = answer.case.recordings.iter().zip(p.cuts).enumerate().filter_map(seen).collect();
-    residual_model(p, h, left_out, &followed)
+    let left_out = simulated.iter().enumerate().filter(|(_, s)| s.left_out);
+    let left_out: Vec<LeftOut> =
+        left_out.map(|(run, s)| LeftOut { run, point: s.models.best().point.clone() }).collect();
+    residual_model(p, h, &left_out, &followed)
 }
 
 /// Locates the mismatch of the calibrated model, and what the best answer's fit leaves of it.
@@ -83,7 +86,7 @@ pub(crate) fn locate(
             side: side.map(Into::into),
             residual_model: unexplained
                 .filter(|share| *share > LEFT)
-                .and_then(|_| network(answer, best, &forecasts.left_out)),
+                .and_then(|_| network(answer, best, &forecasts.simulated)),
         },
         findings,
         traces: traces(p, &healthy, &forecasts.simulated),
