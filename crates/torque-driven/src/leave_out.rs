@@ -9,12 +9,12 @@ use crate::decide::Scored;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::rms::rms;
+use crate::settings::decision::{LeaveOut, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::Cut;
 use verdict::FreeRun;
 
-/// Gauss–Newton steps of a placebo, from where its own fit ended.
-const PLACEBO_STEPS: usize = 2;
+const LEAVE_OUT: LeaveOut = SETTINGS.leave_out;
 
 /// A recording's best point without it in the fit.
 pub(crate) struct LeftOut {
@@ -62,7 +62,7 @@ pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts 
     for left_out in 0..p.cuts.len() {
         let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != left_out).map(|r| p.cuts[r].clone()).collect();
         let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
-        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), 3, None);
+        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), LEAVE_OUT.steps, None);
         let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
         let run = |point: &Point, h: &Hypothesis| p.run_response(left_out, point, h);
         let error = |response: &Vec<Vec<f64>>| rms(p, &[(left_out, response.clone())]);
@@ -71,10 +71,11 @@ pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts 
             let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
             elsewhere(&others.refine(&h, others.begin(&h, start, columns), steps, None))
         };
-        let corrected = answer.winner().map(|w| (refit(w, others.centre, None, 3), &w.trial.hypothesis));
+        let corrected = answer.winner().map(|w| (refit(w, others.centre, None, LEAVE_OUT.steps), &w.trial.hypothesis));
         // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
         let placebo = wrong.map(|s| {
-            let point = refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS);
+            let columns = Some(retuned.columns.clone());
+            let point = refit(s, s.trial.fitted.point.theta, columns, LEAVE_OUT.placebo_steps);
             error(&run(&point, &s.trial.hypothesis))
         });
         let retuned = elsewhere(&retuned);
