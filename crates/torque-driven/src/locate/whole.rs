@@ -14,7 +14,7 @@ use crate::locate::times::spans;
 use crate::locate::torque::{Followed, follow};
 use crate::locate::traces::traces;
 use crate::run::Run;
-use crate::settings::{decision, locate as settings};
+use crate::settings::{decision, locate::SETTINGS};
 use crate::simulate::Response;
 use crate::windows::Cut;
 use robot_model::tunable::tuned;
@@ -81,7 +81,7 @@ pub(crate) fn locate(
             remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &healthy))),
             side: side.map(Into::into),
             residual_model: unexplained
-                .filter(|share| *share > settings::SETTINGS.network.left)
+                .filter(|share| *share > SETTINGS.network.left)
                 .and_then(|_| network(answer, best, &forecasts.left_out)),
         },
         findings,

@@ -33,19 +33,19 @@ pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
 /// agree with each other. A wheel cannot take up and lose that speed again within a row; an angle that freezes and
 /// jumps, or a sample that is wrong, does not leave its neighbours as they were.
 pub(super) fn jumps_of(angle: &[Option<f64>], least: f64) -> Vec<(usize, f64)> {
-    let (around, at_its_side) = (JUMPS.around, JUMPS.beside);
+    let (around, beside) = (JUMPS.around, JUMPS.beside);
     let steps: Vec<Option<f64>> = angle.windows(2).map(|w| Some(w[1]? - w[0]?)).collect();
     (around..steps.len().saturating_sub(around))
         .filter_map(|k| {
             let step = steps[k]?;
             let mut near: Vec<f64> =
                 (k - around..=k + around).filter(|&i| i != k).map(|i| steps[i]).collect::<Option<_>>()?;
-            let beside = near[around - at_its_side..around + at_its_side].to_vec();
+            let nearest = near[around - beside..around + beside].to_vec();
             near.sort_by(f64::total_cmp);
             let usual = 0.5 * (near[around - 1] + near[around]);
             // A wheel that seems to stand before it jumps is a frozen angle's.
-            let moving = beside[..at_its_side].iter().all(|s| *s != 0.0);
-            let steady = moving && beside.iter().all(|s| (s - usual).abs() < JUMPS.steady * least);
+            let moving = nearest[..beside].iter().all(|s| *s != 0.0);
+            let steady = moving && nearest.iter().all(|s| (s - usual).abs() < JUMPS.steady * least);
             (steady && (step - usual).abs() > least).then_some((k + 1, step - usual))
         })
         .collect()
