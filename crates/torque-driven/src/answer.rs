@@ -14,6 +14,7 @@ use crate::leave_out::{is_worthwhile, leave_one_out};
 use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Fault;
+use crate::settings::decision::{Answer, SETTINGS};
 use crate::{locate, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
@@ -23,16 +24,7 @@ use robot_model::tunable::tuned;
 use verdict::FORMAT;
 use verdict::{Cause, Diagnosis, Estimate, Trial, Verdict};
 
-/// Probability above which a sensor fault is taken to be there, when a redundancy shows it.
-const SURE: f64 = 0.99;
-/// One sigma of a size: so many times the curvature's, and this share of the size for what the model gets wrong. From
-/// 15 effects named on our own generator's plant, whose 90 % intervals by curvature alone held the truth 8 times.
-const CURVATURE: f64 = 2.0;
-const MODEL_ERROR: f64 = 0.02;
-/// Causes below this probability are not listed.
-const LISTED: f64 = 1e-4;
-/// A rival this likely, relative to the best, cannot be told from it.
-const RIVAL: f64 = 0.1;
+const ANSWER: Answer = SETTINGS.answer;
 
 impl Judged<'_> {
     fn verdict(&self) -> Verdict {
@@ -41,7 +33,7 @@ impl Judged<'_> {
         // A fault that two sensors agree on stands, whatever the motion does besides.
         if !self.sensors.faults.is_empty() {
             Verdict::Explained
-        } else if d.unknown > 0.5 {
+        } else if d.unknown > ANSWER.likely {
             Verdict::Unknown
         } else if d.scored.iter().map(|s| s.probability).sum::<f64>() > d.none && best > 0.0 {
             Verdict::Explained
@@ -64,7 +56,7 @@ impl Judged<'_> {
             out.push(Cause {
                 effect: f.card.id.to_owned(),
                 name: words::fault(f),
-                probability: SURE,
+                probability: ANSWER.sure,
                 magnitude: Some(f.magnitude),
                 sigma: Some(f.sigma),
                 unit: inference::words::unit(f.card).into(),
@@ -77,10 +69,10 @@ impl Judged<'_> {
                 intervals: None,
             });
         }
-        let none = if fault { self.decision.none * (1.0 - SURE) } else { self.decision.none };
+        let none = if fault { self.decision.none * (1.0 - ANSWER.sure) } else { self.decision.none };
         out.push(Cause::plain(NONE.id, NONE.name, none));
         out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, self.decision.unknown));
-        out.retain(|c| c.probability >= LISTED || c.effect == NONE.id || c.effect == UNKNOWN.id);
+        out.retain(|c| c.probability >= ANSWER.listed || c.effect == NONE.id || c.effect == UNKNOWN.id);
         out.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(a.effect.cmp(&b.effect)));
         out
     }
@@ -102,8 +94,8 @@ impl Judged<'_> {
             .enumerate()
             .filter_map(|(i, (f, &value))| {
                 let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(card.parameters[i].name))?;
-                let model = if f.parameter.is_some() { MODEL_ERROR * value } else { 0.0 };
-                let sigma = sigmas.as_ref().map(|s| (CURVATURE * s[before + i]).hypot(model));
+                let model = if f.parameter.is_some() { ANSWER.model_error * value } else { 0.0 };
+                let sigma = sigmas.as_ref().map(|s| (ANSWER.curvature * s[before + i]).hypot(model));
                 let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
                 Some((name.to_owned(), Estimate { value, sigma, at_bound }))
             })
@@ -121,7 +113,7 @@ impl Judged<'_> {
         let sigma = sigmas.as_ref().map(|s| {
             let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
             let curvature: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();
-            (CURVATURE.powi(2) * curvature + (MODEL_ERROR * variant.magnitude(e)).powi(2)).sqrt()
+            (ANSWER.curvature.powi(2) * curvature + (ANSWER.model_error * variant.magnitude(e)).powi(2)).sqrt()
         });
         Cause {
             effect: card.id.to_owned(),
@@ -159,8 +151,7 @@ impl Judged<'_> {
 
     /// When at least half of the wheels were inside the disc, in each recording.
     fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
-        /// Parts of a window in which the path is straight enough.
-        const FINE: usize = 5;
+        const FINE: usize = ANSWER.path_parts;
         let (a, b) = (self.problem.robot.half_wheelbase, self.problem.robot.half_track);
         let mut out = BTreeMap::new();
         for cut in self.problem.cuts {
@@ -323,7 +314,7 @@ impl Judged<'_> {
         let rivals: Vec<String> = ranked
             .iter()
             .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
-            .filter(|c| c.probability > RIVAL * best && c.probability < SURE || as_good.contains(&c.effect.as_str()))
+            .filter(|c| c.probability > ANSWER.rival * best && c.probability < ANSWER.sure || as_good.contains(&c.effect.as_str()))
             .map(|c| c.effect.clone())
             .collect();
         if rivals.is_empty() {

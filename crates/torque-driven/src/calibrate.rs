@@ -9,6 +9,7 @@ use crate::case::Case;
 use crate::drives::Drives;
 use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
 use crate::gate::Gate;
+use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
 use inference::algebra::solve_spd;
@@ -26,15 +27,7 @@ pub(crate) struct Calibration {
     pub(crate) gate: Gate,
 }
 
-/// Variances to start with, from typical residuals: wheel 0.3 rad/s, yaw 0.04 rad/s, v 0.03 and 0.012 m/s,
-/// a 0.12 and 0.08 m/s².
-const FIRST_SIGMA: [f64; CHANNELS] = [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08];
-/// No channel is trusted beyond this share of its typical residual.
-const LEAST_SHARE: f64 = 0.1;
-/// Common factors of the run-to-run deviations that are tried, and the log-normal prior about 1.3 of width 0.6.
-const SPREADS: [f64; 6] = [0.6, 0.9, 1.3, 1.9, 2.7, 3.8];
-/// Gauss–Newton steps.
-const STEPS: usize = 4;
+const CALIBRATING: Calibrating = SETTINGS.calibration;
 
 /// Expected misfit of a segment from those of the references driven alike.
 #[derive(Clone, Default)]
@@ -46,13 +39,10 @@ pub(crate) struct Regimes {
     pub(crate) scatter: Vec<f64>,
 }
 
-/// Segments at the middle that a kernel mean begins with.
-const PSEUDO_COUNTS: f64 = 2.0;
-
 /// Mean of the values of segments driven like `features`: Gaussian kernel of unit width over the features, begun with a
 /// few segments at `middle`.
 pub(crate) fn kernel_mean(known: impl Iterator<Item = ([f64; 3], f64)>, features: [f64; 3], middle: f64) -> f64 {
-    let (mut weight, mut sum) = (PSEUDO_COUNTS, PSEUDO_COUNTS * middle);
+    let (mut weight, mut sum) = (CALIBRATING.pseudo_counts, CALIBRATING.pseudo_counts * middle);
     for (other, value) in known {
         let distance2: f64 = other.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
         let k = (-0.5 * distance2).exp();
@@ -99,31 +89,36 @@ pub(crate) fn calibrate(
         robot,
         sigma: *sigma,
         cuts,
-        variance: FIRST_SIGMA.map(|s| s * s),
+        variance: CALIBRATING.first_sigma.map(|s| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),
         centre: [0.0; NUISANCES],
-        spread: 1.3,
+        spread: CALIBRATING.usual_spread,
         temper: options.temper,
         kappa: options.kappa,
         step: options.step,
         largest_torque,
         drives: Drives::default(),
     };
+
+    // Constants and variances in turn, each by the other.
     let none = Hypothesis::default();
     let mut at = problem.begin(&none, problem.origin(), None);
-    for step in 0..STEPS {
+    for step in 0..CALIBRATING.steps {
         at.cost = problem.cost(&at.point, &at.response);
         at = problem.refine(&none, at, 1, (step > 0).then_some(0));
         problem.variance = channel_variance(&problem, &at.response);
         problem.regime = regimes(&problem, &at.response).of(cuts);
     }
+
     problem.spread = spread(&mut problem, &at.point, &at.columns)?;
     let mut at = problem.begin(&none, at.point, None);
-    at = problem.refine(&none, at, 2, None);
+    at = problem.refine(&none, at, CALIBRATING.last_steps, None);
     problem.variance = channel_variance(&problem, &at.response);
     let regimes = regimes(&problem, &at.response);
     problem.regime = regimes.of(cuts);
+
+    // What the references know of the constants is the prior of the recordings.
     let columns = problem.nuisance_columns(&at.point, &none, &at.response);
     let normal = problem
         .normal(&at.point, &at.response, &columns, &Columns(Vec::new()))
@@ -153,8 +148,9 @@ fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNEL
         }
     }
     std::array::from_fn(|c| {
-        let least = (LEAST_SHARE * FIRST_SIGMA[c]).powi(2);
-        if n[c] > 0.0 { (sum[c] / n[c]).max(least) } else { FIRST_SIGMA[c].powi(2) }
+        let first = CALIBRATING.first_sigma[c];
+        let least = (CALIBRATING.least_share * first).powi(2);
+        if n[c] > 0.0 { (sum[c] / n[c]).max(least) } else { first.powi(2) }
     })
 }
 
@@ -175,14 +171,15 @@ fn spread(problem: &mut Problem<'_>, point: &crate::fit::Point, columns: &Column
     let mut flat = point.clone();
     flat.run = vec![[0.0; PER_RUN]; problem.cuts.len()];
     let response = problem.response(&flat, &Hypothesis::default());
-    let mut best = (f64::MIN, 1.3);
-    for f in SPREADS {
+    let usual = CALIBRATING.usual_spread;
+    let mut best = (f64::MIN, usual);
+    for f in CALIBRATING.spreads {
         problem.spread = f;
         let Some(mut normal) = problem.normal(&flat, &response, columns, &Columns(Vec::new())) else { continue };
         problem.with_prior(&flat, &mut normal);
         let Some((x, logdet)) = solve_spd(&normal.matrix, &normal.gradient) else { continue };
         let gain: f64 = (0..NUISANCES).map(|i| 0.5 * x[(i, 0)] * normal.gradient[(i, 0)]).sum();
-        let prior = -0.5 * ((f / 1.3_f64).ln() / 0.6).powi(2);
+        let prior = -0.5 * ((f / usual).ln() / CALIBRATING.spread_width).powi(2);
         let value = normal.gain + gain - 0.5 * (normal.log_determinant + logdet) + prior;
         if value > best.0 {
             best = (value, f);

@@ -7,6 +7,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
 
 use crate::fit::{Columns, Fitted, Problem};
+use crate::settings::{fit, search};
 
 /// A form of an effect with its evidence and where a fit of it should start.
 #[derive(Clone)]
@@ -31,7 +32,11 @@ pub(crate) fn evidence(a: &Mat<f64>, b: &Mat<f64>) -> Option<(f64, Vec<f64>, f64
 /// Evidence for a coefficient that must be positive: the share of the posterior that is, over that of the prior.
 pub(crate) fn positive_share(mean: f64, sd: f64) -> f64 {
     let z = mean / sd;
-    if z < -30.0 { -0.5 * z * z } else { (2.0 * Gaussian::standard().cdf(z)).max(1e-300).ln() }
+    if z < search::SETTINGS.screen.asymptote {
+        -0.5 * z * z
+    } else {
+        (2.0 * Gaussian::standard().cdf(z)).max(1e-300).ln()
+    }
 }
 
 pub(crate) fn single(a: f64, b: f64, signed: bool) -> Option<(f64, f64)> {
@@ -56,7 +61,7 @@ pub(crate) fn reduced(ground: &Ground<'_>, mut columns: Columns) -> Option<(Mat<
     problem.with_prior(&base.point, &mut normal);
     let known = ground.beside.0.len();
     for i in NUISANCES + n..NUISANCES + n + known {
-        normal.matrix[(i, i)] += 1e-3;
+        normal.matrix[(i, i)] += fit::SETTINGS.fit.whiff;
     }
     let all = NUISANCES + n + known + 1;
     // Order: columns, gradient, then θ and what is there already, which are eliminated.

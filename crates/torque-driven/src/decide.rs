@@ -3,32 +3,13 @@
 use inference::evidence::{logistic, penalty_of_smallness, probabilities};
 
 use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::trial::{Found, Trial};
 use crate::visits;
 use inference::hypothesis::Place;
 
-/// Penalties in nats: per effect, per shape number beyond the first strength, for choosing a disc, an onset, a second
-/// effect; and the preference for "nothing is missing".
-const PER_EFFECT: f64 = 6.0;
-const PER_SHAPE: f64 = 1.0;
-const DISC: f64 = 10.0;
-/// A disc that fewer than two visits support: what happened once may have been an event in time.
-const ONE_VISIT: f64 = 10.0;
-const ONSET: f64 = 9.0;
-/// A second effect: on our own generator (seed 8001) 46 wrong partners scored up to 20 before it, 21 right ones from 40.
-const SECOND: f64 = 18.0;
-const NONE: f64 = 12.0;
-/// Width of the smallest-size-of-interest penalty in ln(size).
-const SIZE_WIDTH: f64 = 0.35;
-/// Temperature that turns scores into probabilities.
-pub(crate) const TEMPERATURE: f64 = 4.0;
-/// Logistic of "worse than fault-free" and of "most of the mismatch is left" for "unknown". From
-/// 119 cases of our own generator (seed 8001): the logarithm of cost over fault-free cost reaches
-/// 0.44 in 42 fault-free cases and begins at 0.69 in 19 with a cause outside the catalogue.
-const UNKNOWN_RATIO: [f64; 2] = [10.0, 0.6];
-const UNKNOWN_LEFT: [f64; 2] = [12.0, 0.5];
-/// Mismatch below which "left" is not a share of anything, nats.
-const LEAST_MISMATCH: f64 = 60.0;
+const PRICES: Prices = SETTINGS.prices;
+const UNKNOWN: Unknown = SETTINGS.unknown;
 
 /// A hypothesis with its score and probability.
 #[derive(Clone)]
@@ -56,11 +37,11 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         let e = &effects[at..at + n];
         at += n;
         let disc = if v.place == Place::Disc { 3 } else { 0 };
-        sum += PER_EFFECT + v.spec().rarity + PER_SHAPE * (n - disc - 1) as f64;
-        sum += if v.place == Place::Disc { DISC } else { 0.0 };
-        sum += if onsets.iter().any(Option::is_some) { ONSET } else { 0.0 };
-        sum += if i > 0 { SECOND } else { 0.0 };
-        sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, SIZE_WIDTH);
+        sum += PRICES.per_effect + v.spec().rarity + PRICES.per_shape * (n - disc - 1) as f64;
+        sum += if v.place == Place::Disc { PRICES.disc } else { 0.0 };
+        sum += if onsets.iter().any(Option::is_some) { PRICES.onset } else { 0.0 };
+        sum += if i > 0 { PRICES.second } else { 0.0 };
+        sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, PRICES.size_width);
     }
     sum
 }
@@ -91,22 +72,22 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
         .chain(&found.pairs)
         .map(|t| {
             let visits = visits::supporting(problem, base, t);
-            let once = if visits.is_some_and(|n| n < 2) { ONE_VISIT } else { 0.0 };
+            let once = if visits.is_some_and(|n| n < SETTINGS.visits.needed) { PRICES.one_visit } else { 0.0 };
             let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, &t.fitted.point.effects) - once;
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let none = NONE.max(gate);
+    let none = PRICES.none.max(gate);
     let fault_free = fault_free_cost(problem, scatter);
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / fault_free.max(1e-9)).ln();
-    let left = (best - fault_free) / (base.cost - fault_free).max(LEAST_MISMATCH);
-    let unknown =
-        logistic(UNKNOWN_RATIO[0] * (excess - UNKNOWN_RATIO[1])) * logistic(UNKNOWN_LEFT[0] * (left - UNKNOWN_LEFT[1]));
+    let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
+    let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
+    let unknown = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let scores: Vec<f64> = std::iter::once(none).chain(scored.iter().map(|s| s.score)).collect();
-    let shares = probabilities(&scores, TEMPERATURE);
+    let shares = probabilities(&scores, PRICES.temperature);
     for (s, share) in scored.iter_mut().zip(&shares[1..]) {
         s.probability = (1.0 - unknown) * share;
     }
@@ -158,7 +139,7 @@ mod tests {
         let named: f64 = decision.scored.iter().map(|s| s.probability).sum();
         approx::assert_relative_eq!(named + decision.none + decision.unknown, 1.0, epsilon = 1e-12);
         for s in &decision.scored {
-            let odds = ((s.score - NONE) / TEMPERATURE).exp();
+            let odds = ((s.score - PRICES.none) / PRICES.temperature).exp();
             approx::assert_relative_eq!(s.probability / decision.none, odds, epsilon = 1e-9);
         }
         // The score that fault-free drives reach is the least that names anything.

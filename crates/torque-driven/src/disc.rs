@@ -1,6 +1,7 @@
 //! Moving and resizing the disc of a local effect: its edge makes the cost too rough for Gauss–Newton alone.
 
 use crate::fit::{Fitted, Point, Problem};
+use crate::settings::search::{ExactDiscs, SETTINGS};
 use crate::trial::Trial;
 use inference::hypothesis::Place;
 
@@ -21,16 +22,11 @@ const MOVES: [[f64; 3]; 14] = [
     [0.0, 1.0, -1.0],
     [0.0, -1.0, -1.0],
 ];
-/// Smallest radius, m.
-const LEAST_RADIUS: f64 = 0.3;
-/// Steps of the exact search, m: the screen's superposed columns have come this close.
-const STEPS: [f64; 3] = [0.15, 0.08, 0.04];
-/// Rounds of moves at each step, at most.
-const ROUNDS: usize = 2;
+const DISCS: ExactDiscs = SETTINGS.exact_discs;
 
 /// The discs (x, y, radius) around one.
 pub(crate) fn neighbours(disc: [f64; 3], step: f64) -> [[f64; 3]; 14] {
-    MOVES.map(|m| [disc[0] + step * m[0], disc[1] + step * m[1], (disc[2] + step * m[2]).max(LEAST_RADIUS)])
+    MOVES.map(|m| [disc[0] + step * m[0], disc[1] + step * m[1], (disc[2] + step * m[2]).max(DISCS.least_radius)])
 }
 
 /// Moves and resizes every disc of a trial by ever smaller steps, each improvement taken at once.
@@ -42,8 +38,8 @@ pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
         if variant.place != Place::Disc {
             continue;
         }
-        for step in STEPS {
-            for _ in 0..ROUNDS {
+        for step in DISCS.steps {
+            for _ in 0..DISCS.rounds {
                 let mut moved = false;
                 for m in 0..MOVES.len() {
                     let e = &trial.fitted.point.effects[end - 3..end];

@@ -7,14 +7,12 @@ use robot_model::robot::Drive;
 use robot_model::{Active, Plant, Robot, State};
 use sim::rollout::{DriveAlone, Grid, Hold, Rollout, each_step};
 
+use crate::settings::fit::SETTINGS;
 use crate::windows::Cut;
 use inference::hypothesis::Dose;
 
 /// Torque of each side in every step of a recording, N m.
 pub(crate) type Torques = Arc<Vec<[f64; 2]>>;
-
-/// Torques that are remembered at most: a handful of drives for each of a few recordings.
-const MOST: usize = 24;
 
 /// What one set of recordings asked for last.
 #[derive(Default)]
@@ -43,7 +41,7 @@ impl Drives {
         let fresh = Arc::new(simulated(cut, &plant, grid));
         let mut recent = lock();
         recent.push_front((run, drive, Arc::clone(&fresh)));
-        recent.truncate(MOST);
+        recent.truncate(SETTINGS.simulation.remembered);
         fresh
     }
 }

@@ -12,6 +12,7 @@ use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
 use sim::rollout::Grid;
 
 use crate::drives::Drives;
+use crate::settings::fit::{Deviations, Fit, SETTINGS};
 use crate::simulate::{Body, Response, free_run};
 use crate::windows::{CHANNELS, Cut, FORWARD};
 use inference::hypothesis::Dose;
@@ -24,18 +25,12 @@ pub(crate) const OFFSETS: usize = 3;
 pub(crate) const OFFSET_CHANNEL: [usize; OFFSETS] = [2, 5, 6];
 /// Constants of the ground and drivetrain that differ a little from run to run: their place among the tunables.
 pub(crate) const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
-/// Relative standard deviation of each of these between runs, before the common factor.
-const DEVIATION: [f64; 5] = [0.004, 0.01, 0.01, 0.01, 0.005];
-/// Standard deviation of the offsets between runs before the common factor: rad/s, m/s², m/s².
-pub(crate) const OFFSET_SIGMA: [f64; OFFSETS] = [0.0015, 0.03, 0.03];
-/// Gain below which a fit has arrived, nats: a guess, far below what decides between hypotheses.
-const LEAST_GAIN: f64 = 0.05;
 /// Cost of a response that is not finite.
 const HOPELESS: f64 = 1e300;
 /// Numbers that a run has to itself.
 pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
-/// Finite step of a nuisance parameter, in its sigma.
-const NUISANCE_STEP: f64 = 0.3;
+const DEVIATIONS: Deviations = SETTINGS.deviations;
+const FIT: Fit = SETTINGS.fit;
 
 /// Effects that a fit includes, with the onsets of those that have one.
 #[derive(Clone, Default)]
@@ -143,9 +138,9 @@ impl Problem<'_> {
     /// Standard deviation of a run's own numbers, in sigmas of θ or in units of the channel.
     pub(crate) fn run_scale(&self, i: usize) -> f64 {
         if i < DEVIATING.len() {
-            DEVIATION[i] * self.spread / self.sigma[DEVIATING[i]]
+            DEVIATIONS.constants[i] * self.spread / self.sigma[DEVIATING[i]]
         } else {
-            OFFSET_SIGMA[i - DEVIATING.len()]
+            DEVIATIONS.offsets[i - DEVIATING.len()]
         }
     }
 
@@ -168,7 +163,7 @@ impl Problem<'_> {
         let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
         for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {
             for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
-                let offset = own[DEVIATING.len() + o] * OFFSET_SIGMA[o];
+                let offset = own[DEVIATING.len() + o] * DEVIATIONS.offsets[o];
                 for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
                     *v += offset;
                 }
@@ -193,18 +188,18 @@ impl Problem<'_> {
         self.free(&Lane { point: point.clone(), doses: &doses, part: None }, run..run + 1).remove(0)
     }
 
-    /// Response and columns of θ by finite steps of 0.3 sigma.
+    /// Response and columns of θ by finite steps.
     pub(crate) fn nuisance_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
         let doses = |run: usize| h.doses(&point.effects, run);
         let lanes: Vec<Lane<'_>> = (0..NUISANCES)
             .map(|k| {
                 let mut p = point.clone();
-                p.theta[k] += NUISANCE_STEP;
+                p.theta[k] += FIT.constant_step;
                 Lane { point: p, doses: &doses, part: None }
             })
             .collect();
         let out = self.lanes(&lanes);
-        Columns(out.into_iter().map(|y| difference(&y, base, 1.0 / NUISANCE_STEP)).collect())
+        Columns(out.into_iter().map(|y| difference(&y, base, 1.0 / FIT.constant_step)).collect())
     }
 
     /// Columns of the effects' free values, per unit, by finite steps.
@@ -215,7 +210,7 @@ impl Problem<'_> {
             .enumerate()
             .map(|(i, f)| {
                 let mut p = point.clone();
-                let size = (0.1 * f.unit).max(0.02 * p.effects[i].abs());
+                let size = (FIT.effect_step * f.unit).max(FIT.least_effect_step * p.effects[i].abs());
                 // Step towards the inside of the bounds.
                 let d = if p.effects[i] + size > f.bounds[1] { -size } else { size };
                 p.effects[i] += d;
@@ -278,7 +273,7 @@ impl Problem<'_> {
     pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
         let settings = Settings {
             iterations: steps,
-            least_fall: LEAST_GAIN,
+            least_fall: FIT.least_gain,
             least_relative_fall: 0.0,
             least_move: 0.0,
             ..Settings::gauss_newton()

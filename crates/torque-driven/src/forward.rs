@@ -8,11 +8,12 @@ use sim::rollout::{AtSpeed, Commanded, Grid, Hold, Ramp, Rollout, Start, Visitor
 use crate::case::{HeldOut, Restart};
 use crate::motion::GyroError;
 use crate::predict::predict;
+use crate::settings::fit::SETTINGS;
 use inference::{DiagnosisError, Options};
 use verdict::Prediction;
 
 /// Integration step of a speed-driven robot, s.
-const STEP_AT_SPEED: f64 = 2e-3;
+const STEP_AT_SPEED: f64 = SETTINGS.simulation.step_at_speed;
 
 /// Simulates a torque-driven robot on the commanded torques of a recording.
 ///
@@ -72,6 +73,7 @@ pub fn simulate_at_speed(
     if rows.len() < 2 {
         return Err(DiagnosisError::TooShort { recording: inputs.name().to_owned(), rows: rows.len(), needed: 2 });
     }
+
     let stamps: Vec<i64> = rows.iter().map(|r| r.0).collect();
     let mut out = Sheet::new(inputs.name(), &stamps);
     let mut s = State::default();

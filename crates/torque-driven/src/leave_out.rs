@@ -10,12 +10,11 @@ use crate::decide::Scored;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::rms::{residuals, rms};
+use crate::settings::decision::{LeaveOut, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{Cut, Segment};
 
-/// Gauss–Newton steps of a refit without a recording, and of a placebo's, from where its own fit ended.
-const STEPS: usize = 3;
-const PLACEBO_STEPS: usize = 2;
+const LEAVE_OUT: LeaveOut = SETTINGS.leave_out;
 
 /// A hypothesis at fitted values.
 #[derive(Clone)]
@@ -73,7 +72,7 @@ impl Experiment for LeftOut<'_> {
         let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != run).map(|r| p.cuts[r].clone()).collect();
         let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
         let none = Hypothesis::default();
-        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), STEPS, None);
+        let retuned = others.refine(&none, others.begin(&none, others.origin(), None), LEAVE_OUT.steps, None);
 
         // What a recording has to itself is not known beforehand: its deviations are zero.
         let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
@@ -85,11 +84,11 @@ impl Experiment for LeftOut<'_> {
         };
         Some(Comparison {
             nominal: self.nominal(),
-            corrected: answer.winner().map(|w| refit(w, others.centre, None, STEPS)),
+            corrected: answer.winner().map(|w| refit(w, others.centre, None, LEAVE_OUT.steps)),
             // The placebo's tuning has seen the left-out recording: if anything, that flatters it.
             placebo: self
                 .placebo
-                .map(|s| refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), PLACEBO_STEPS)),
+                .map(|s| refit(s, s.trial.fitted.point.theta, Some(retuned.columns.clone()), LEAVE_OUT.placebo_steps)),
             retuned: Model { hypothesis: none, point: elsewhere(&retuned) },
         })
     }

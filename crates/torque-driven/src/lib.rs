@@ -20,6 +20,7 @@
 //! * `forward`, `predict`: any drive simulated, and held-out drives forecast.
 //! * `next/*`: which drive would tell the rivals apart.
 //! * `output_error/*`: constants of a robot from recordings in free run.
+//! * `settings/*`: every tuned number, stage by stage.
 
 mod answer;
 mod calibrate;
@@ -47,6 +48,7 @@ mod rms;
 mod run;
 mod screen;
 mod search;
+mod settings;
 mod simulate;
 mod smooth;
 #[cfg(test)]
@@ -60,6 +62,11 @@ pub use case::{Case, HeldOut, Restart};
 pub use diagnose::{Calibrated, diagnose};
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use run::Run;
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    crate::settings::all()
+}
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

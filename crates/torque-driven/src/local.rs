@@ -3,24 +3,13 @@
 use crate::candidate::{Candidate, Ground, reduced, single};
 use crate::disc::neighbours;
 use crate::fit::{Columns, Problem};
+use crate::settings::search::{Discs, Onsets, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{PARTS, Segment};
 use inference::hypothesis::Variant;
 
-/// Radii of discs that are tried, m.
-const RADII: [f64; 3] = [0.8, 1.2, 1.7];
-/// Centres of discs that are tried: farthest points of the driven paths.
-const CENTRES: usize = 24;
-/// Steps by which the best of these is moved and resized, m, and how often each at most.
-const STEPS: [f64; 3] = [0.4, 0.2, 0.1];
-const PASSES: usize = 3;
-/// Width over which a disc's edge is softened, m: what a robot crosses in a window.
-const SOFT: f64 = 0.1;
-/// Prior cost of choosing a disc, and of an onset in a run.
-const DISC_COST: f64 = 3.4;
-const ONSET_COST: f64 = 1.24;
-/// Onsets are tried at most this many per recording.
-const MOST_ONSETS: usize = 60;
+const DISCS: Discs = SETTINGS.discs;
+const ONSETS: Onsets = SETTINGS.onsets;
 
 /// The column of a local presence: each part's column times the share of it that is inside.
 fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> Response {
@@ -45,19 +34,20 @@ fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> 
         .collect()
 }
 
-/// Share of a part of a segment that is spent inside a disc, mean over the wheels; its edge is softened over `SOFT`.
+/// Share of a part of a segment that is spent inside a disc, mean over the wheels; its edge is softened.
 pub(crate) fn share_inside(segment: &Segment, q: usize, disc: [f64; 3]) -> f64 {
     let n = segment.windows;
     let (from, until) = (q * n / PARTS, (q + 1) * n / PARTS);
     let wheels = segment.wheels[from..until].iter().flatten();
-    let inside = |w: &[f64; 2]| (0.5 + (disc[2] - (w[0] - disc[0]).hypot(w[1] - disc[1])) / SOFT).clamp(0.0, 1.0);
+    let within = |w: &[f64; 2]| disc[2] - (w[0] - disc[0]).hypot(w[1] - disc[1]);
+    let inside = |w: &[f64; 2]| (0.5 + within(w) / DISCS.soft).clamp(0.0, 1.0);
     wheels.map(inside).sum::<f64>() / (4 * (until - from).max(1)) as f64
 }
 
 /// The disc whose superposed column explains most: from a coarse grid of places and radii, then moved and resized.
 pub(crate) fn disc(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -> Option<Candidate> {
     let problem = ground.problem;
-    let centres = farthest_points(problem, CENTRES);
+    let centres = farthest_points(problem, DISCS.centres);
     if centres.len() < 2 {
         return None;
     }
@@ -68,23 +58,24 @@ pub(crate) fn disc(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -
             .filter_map(|i| single(a[(i, i)], b[(i, 0)], false).map(|(value, x)| (value, x, discs[i])))
             .max_by(|x, y| x.0.total_cmp(&y.0))
     };
-    let grid: Vec<[f64; 3]> = centres.iter().flat_map(|c| RADII.map(|r| [c[0], c[1], r])).collect();
+    let grid: Vec<[f64; 3]> = centres.iter().flat_map(|c| DISCS.radii.map(|r| [c[0], c[1], r])).collect();
     let mut best = best_of(&grid)?;
-    for step in STEPS {
-        for _ in 0..PASSES {
+    for step in DISCS.steps {
+        for _ in 0..DISCS.passes {
             match best_of(&neighbours(best.2, step)) {
                 Some(better) if better.0 > best.0 => best = better,
                 _ => break,
             }
         }
     }
+
     let (value, x, found) = best;
     let free = variant.free(problem.largest_torque);
     let strengths = free.len() - 3;
     let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
     start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);
     start[strengths..].copy_from_slice(&found);
-    Some(Candidate { variant: *variant, start, onsets: Vec::new(), evidence: value - DISC_COST })
+    Some(Candidate { variant: *variant, start, onsets: Vec::new(), evidence: value - DISCS.cost })
 }
 
 /// Points of the driven paths as far from each other as can be, greedily.
@@ -95,7 +86,7 @@ fn farthest_points(problem: &Problem<'_>, most: usize) -> Vec<[f64; 2]> {
     let mut far: Vec<f64> = path.iter().map(|p| (p[0] - first[0]).hypot(p[1] - first[1])).collect();
     while out.len() < most {
         let Some((i, d)) = far.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        if d < 0.1 {
+        if d < DISCS.apart {
             break;
         }
         let p = path[i];
@@ -113,15 +104,17 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
     let mut grid: Vec<(usize, usize, usize)> = Vec::new();
     for (r, cut) in problem.cuts.iter().enumerate() {
         let all: Vec<(usize, usize)> = (0..cut.segments.len()).flat_map(|s| (0..PARTS).map(move |q| (s, q))).collect();
-        let keep = all.len().div_ceil(MOST_ONSETS).max(1);
+        let keep = all.len().div_ceil(ONSETS.most).max(1);
         grid.extend(all.into_iter().step_by(keep).map(|(s, q)| (r, s, q)));
     }
     if grid.is_empty() {
         return None;
     }
+
     let columns =
         grid.iter().map(|&(r, s, q)| superpose(parts, |r2, s2, q2| f64::from(r2 == r && (s2, q2) >= (s, q)))).collect();
     let (a, b) = reduced(ground, Columns(columns))?;
+
     let runs = problem.cuts.len();
     // One strength for all runs; each run's onset in turn is the best given the others. `None`: it does not set in.
     let mut chosen: Vec<Option<usize>> = vec![None; runs];
@@ -129,9 +122,9 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
         let set: Vec<usize> = chosen.iter().flatten().copied().collect();
         let aa: f64 = set.iter().flat_map(|&i| set.iter().map(move |&j| (i, j))).map(|(i, j)| a[(i, j)]).sum();
         let bb: f64 = set.iter().map(|&i| b[(i, 0)]).sum();
-        single(aa, bb, false).map_or((f64::MIN, 0.0), |(v, x)| (v - ONSET_COST * set.len() as f64, x))
+        single(aa, bb, false).map_or((f64::MIN, 0.0), |(v, x)| (v - ONSETS.cost * set.len() as f64, x))
     };
-    for _ in 0..3 {
+    for _ in 0..ONSETS.rounds {
         for r in 0..runs {
             let mut best = (f64::MIN, None);
             let options = std::iter::once(None).chain((0..grid.len()).filter(|&i| grid[i].0 == r).map(Some));
@@ -145,10 +138,12 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
             chosen[r] = best.1;
         }
     }
+
     let (best, x) = value(&chosen);
     if chosen.iter().all(Option::is_none) {
         return None;
     }
+
     let free = variant.free(problem.largest_torque);
     let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
     start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);

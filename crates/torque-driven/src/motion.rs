@@ -1,6 +1,7 @@
 //! What the sensors say about the motion before any force law: frozen angles, heading, smoothed velocity.
 
 use crate::run::Run;
+use crate::settings::preparation::{Freezing, SETTINGS};
 use crate::smooth::{interpolate, slope, smooth};
 
 /// What a sensor correction found by redundancy leaves to do.
@@ -12,11 +13,11 @@ pub(crate) struct GyroError {
     pub(crate) scale: f64,
 }
 
+const FREEZING: Freezing = SETTINGS.freezing;
 /// Nodes of the pose smoother, s.
-const NODE: f64 = 0.05;
+const NODE: f64 = SETTINGS.smoothing.node;
 
-/// Rows whose angle is frozen: three or more equal counts while moving, ended by a jump above three times the
-/// usual increment.
+/// Rows whose angle is frozen: several equal counts while moving, ended by a jump far above the usual increment.
 pub(crate) fn frozen_rows(angle: &[Option<f64>]) -> Vec<bool> {
     let mut frozen = vec![false; angle.len()];
     let present: Vec<(usize, f64)> = Run::present(angle).collect();
@@ -31,15 +32,17 @@ pub(crate) fn frozen_rows(angle: &[Option<f64>]) -> Vec<bool> {
         while k < steps.len() && steps[k] == 0.0 {
             k += 1;
         }
+
         // present[first..=k] are equal; the jump that ends them is steps[k].
         let usual = {
-            let mut near: Vec<f64> =
-                (0..first).rev().take(5).chain(k + 1..(k + 6).min(steps.len())).map(|i| steps[i]).collect();
+            let before = (0..first).rev().take(FREEZING.around);
+            let after = k + 1..(k + 1 + FREEZING.around).min(steps.len());
+            let mut near: Vec<f64> = before.chain(after).map(|i| steps[i]).collect();
             near.sort_by(f64::total_cmp);
             near.get(near.len() / 2).copied().unwrap_or(0.0)
         };
         let count = k - first + 1;
-        if count >= 3 && k < steps.len() && usual > 0.0 && steps[k] > 3.0 * usual {
+        if count >= FREEZING.least_rows && k < steps.len() && usual > 0.0 && steps[k] > FREEZING.jump * usual {
             for p in &present[first + 1..=k] {
                 frozen[p.0] = true;
             }
@@ -96,6 +99,7 @@ impl Smoothed {
         let nodes = (run.duration() / NODE).ceil() as usize + 1;
         let poses = pose_yaw(run);
         let turned = integrated_yaw(run, error);
+
         let yaw = match (turned, poses.is_empty()) {
             (Some(t), true) => t,
             (Some(t), false) => {
@@ -112,7 +116,8 @@ impl Smoothed {
                     stz += t * z;
                 }
                 let det = n * stt - st * st;
-                let slope = if n > 10.0 && det > 0.0 { (n * stz - st * sz) / det } else { 0.0 };
+                let slope =
+                    if n > SETTINGS.smoothing.least_for_drift && det > 0.0 { (n * stz - st * sz) / det } else { 0.0 };
                 let offset = (sz - slope * st) / n;
                 t.iter()
                     .enumerate()
@@ -129,6 +134,7 @@ impl Smoothed {
                 )
             }
         };
+
         let axis = |i: usize| {
             let (at, z): (Vec<f64>, Vec<f64>) = Run::present(&run.pose[i]).map(|(k, v)| (node(k), v)).unzip();
             smooth(&at, &z, nodes, sigma)

@@ -5,17 +5,14 @@ use inference::least_squares::{Normal, Parameter, Step};
 use rayon::prelude::*;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSET_SIGMA, OFFSETS, PER_RUN, Point, Problem};
+use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSETS, PER_RUN, Point, Problem};
+use crate::settings::fit::{Deviations, Fit, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::CHANNELS;
 use inference::hypothesis::Free;
 
-/// Tuning beyond so many sigmas is no tuning.
-const FARTHEST: f64 = 6.0;
-/// At most so many units of an effect's value at once: a linear column says nothing beyond.
-const LONGEST: f64 = 2.0;
-/// A whiff of a prior on strengths keeps what the data do not determine where it is.
-const WHIFF: f64 = 1e-3;
+const DEVIATIONS: Deviations = SETTINGS.deviations;
+const FIT: Fit = SETTINGS.fit;
 
 impl Problem<'_> {
     /// Normal equations of θ, then `effects`, at `base`, with every run's own numbers eliminated.
@@ -59,12 +56,13 @@ impl Problem<'_> {
                 fill(c, &|k| column[k]);
             }
             for o in 0..OFFSETS {
-                fill(n + o, &|k| if OFFSET_CHANNEL[o] == k % CHANNELS { OFFSET_SIGMA[o] } else { 0.0 });
+                fill(n + o, &|k| if OFFSET_CHANNEL[o] == k % CHANNELS { DEVIATIONS.offsets[o] } else { 0.0 });
             }
             let base = &base[r][s];
             fill(n + OFFSETS, &|k| segment.observed[k] - base[k]);
             gram += a.transpose() * &a;
         }
+
         // A run's own numbers: deviations move like θ, scaled; offsets are columns of their own.
         let expand = |u: usize| {
             if u < DEVIATING.len() { (DEVIATING[u], self.run_scale(u)) } else { (n + u - DEVIATING.len(), 1.0) }
@@ -78,6 +76,7 @@ impl Problem<'_> {
             let (a, x) = expand(i);
             if j < n { gram[(a, j)] * x } else { gram[(a, residual)] * x - point.run[r][i] }
         });
+
         let kept = gram.submatrix(0, 0, n, n).to_owned();
         Normal::new(kept, gram.submatrix(0, residual, n, 1).to_owned()).reduced(&own, &right)
     }
@@ -90,14 +89,14 @@ impl Problem<'_> {
 
     /// What a fit may move: θ, then the effects' free values.
     pub(crate) fn parameters(point: &Point, free: &[Free]) -> Vec<Parameter> {
-        let theta =
-            point.theta.iter().map(|&t| Parameter { bounds: [-FARTHEST, FARTHEST], ..Parameter::unbounded(t, 1.0) });
+        let bounds = [-FIT.farthest, FIT.farthest];
+        let theta = point.theta.iter().map(|&t| Parameter { bounds, ..Parameter::unbounded(t, 1.0) });
         let effects = free.iter().zip(&point.effects).map(|(f, &value)| Parameter {
             value,
             scale: f.unit,
             bounds: f.bounds,
-            longest: LONGEST,
-            ridge: WHIFF,
+            longest: FIT.longest,
+            ridge: FIT.whiff,
         });
         theta.chain(effects).collect()
     }

@@ -1,14 +1,13 @@
 //! Moving the onsets of an effect that begins at an instant.
 
 use crate::fit::Problem;
+use crate::settings::search::{ExactOnsets, SETTINGS};
 use crate::trial::Trial;
 use inference::hypothesis::Place;
 
-/// Steps of the search, s, and how many to each side.
-const STEPS: [f64; 2] = [0.5, 0.1];
-const REACH: i32 = 4;
+const ONSETS: ExactOnsets = SETTINGS.exact_onsets;
 
-/// Moves every onset to where the cost is least: half-second steps about the start, then tenths.
+/// Moves every onset to where the cost is least: long steps about the start, then short ones.
 pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
     for part in 0..trial.hypothesis.parts.len() {
         if trial.hypothesis.parts[part].0.place != Place::Onset {
@@ -16,10 +15,10 @@ pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
         }
         for run in 0..problem.cuts.len() {
             let cut = &problem.cuts[run];
-            for step in STEPS {
+            for step in ONSETS.steps {
                 let Some(now) = trial.hypothesis.parts[part].1[run] else { continue };
                 let mut least = problem.misfit_of_run(run, &trial.fitted.response[run]);
-                for k in (-REACH..=REACH).filter(|&k| k != 0) {
+                for k in (-ONSETS.reach..=ONSETS.reach).filter(|&k| k != 0) {
                     let mut h = trial.hypothesis.clone();
                     h.parts[part].1[run] = Some((now + step * f64::from(k)).clamp(cut.from, cut.end()));
                     let response = problem.run_response(run, &trial.fitted.point, &h);

@@ -2,7 +2,10 @@
 
 use recordings::{Recording, Signal};
 
+use crate::settings::preparation::{Runs, SETTINGS};
 use inference::DiagnosisError;
+
+const RUNS: Runs = SETTINGS.runs;
 
 /// One recording of a torque-driven robot: what was commanded and what the sensors showed, row by row.
 ///
@@ -43,14 +46,17 @@ impl Run {
         let left = get(Signal::TorqueLeft).ok_or_else(|| missing("torque_left"))?;
         let right = get(Signal::TorqueRight).ok_or_else(|| missing("torque_right"))?;
         let mut gaps: Vec<i64> = left.t_ns().windows(2).map(|w| w[1] - w[0]).collect();
-        if gaps.len() < 200 {
-            return Err(DiagnosisError::TooShort { recording: name, rows: gaps.len() + 1, needed: 201 });
+        if gaps.len() + 1 < RUNS.least_rows {
+            let (rows, needed) = (gaps.len() + 1, RUNS.least_rows);
+            return Err(DiagnosisError::TooShort { recording: name, rows, needed });
         }
+
+        // The grid: the usual gap between torques, from the first to the last of them.
         gaps.sort_unstable();
         let period_ns = gaps[gaps.len() / 2].max(1);
         let (start, end) = (left.t_ns()[0], left.t_ns()[left.len() - 1]);
         let rows = ((end - start + period_ns / 2) / period_ns) as usize + 1;
-        if rows > 100 * left.len() {
+        if rows > RUNS.most_rows_per_sample * left.len() {
             return Err(DiagnosisError::Gaps { recording: name, rows, samples: left.len() });
         }
         let grid = |signal: Signal| -> Vec<Option<f64>> {
@@ -65,6 +71,7 @@ impl Run {
             }
             out
         };
+
         let mut torque = vec![[0.0; 2]; rows];
         let mut held = 0;
         for (j, c) in [left, right].into_iter().enumerate() {
@@ -77,6 +84,7 @@ impl Run {
                 row[j] = last;
             }
         }
+
         let period = period_ns as f64 * 1e-9;
         let wheel = |angle: Signal, speed: Signal, what: &'static str| {
             if get(angle).is_some() {
@@ -100,9 +108,11 @@ impl Run {
             wheel(Signal::WheelAngleLeft, Signal::WheelSpeedLeft, "wheel_angle_left or wheel_speed_left")?,
             wheel(Signal::WheelAngleRight, Signal::WheelSpeedRight, "wheel_angle_right or wheel_speed_right")?,
         ];
+
         if angle.iter().all(|a| a.iter().flatten().all(|&x| Some(x) == a[0])) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
+
         Ok(Self {
             from: 0.0,
             period,

@@ -67,6 +67,7 @@ pub(crate) fn screen(
             Place::Disc | Place::Onset => locals.push(v),
         }
     }
+
     // Local forms of the same effect share their part lanes.
     let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].spec().id).collect();
     part_of.dedup();
@@ -81,6 +82,8 @@ pub(crate) fn screen(
         let (variant, free) = (&variants[v], variants[v].free(largest));
         doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
     }
+
+    // All probes and parts are lanes of one simulation.
     let makers: Vec<_> = doses
         .iter()
         .map(|(d, _)| {
@@ -97,6 +100,7 @@ pub(crate) fn screen(
         .map(|((_, part), m)| Lane { point: base.point.clone(), doses: m, part: *part })
         .collect();
     let raw: Vec<Response> = problem.lanes(&lanes).iter().map(|y| difference(y, &base.response, 1.0)).collect();
+
     let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
     for (n, id) in part_of.iter().enumerate() {
         let parts = &raw[list.len() + n * PARTS..list.len() + (n + 1) * PARTS];

@@ -7,25 +7,13 @@ use robot_model::EffectSpec;
 use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::screen::screen;
+use crate::settings::search::{Finalists, Pairs, Retuning, SETTINGS};
 use crate::trial::{Found, Trial};
 use crate::{disc, onset};
 
-/// Finalists that are refitted: common effects, and rare ones beside them, which take no place from a common one.
-const FINALISTS: [usize; 2] = [6, 2];
-/// Steps of a first refit, and more for those within `CLOSE` nats of the best.
-const STEPS: usize = 4;
-const MORE_STEPS: usize = 6;
-const CLOSE: f64 = 60.0;
-const MOST_CLOSE: usize = 4;
-/// Gain of a second effect that could matter, nats.
-const LEAST_SECOND: f64 = 12.0;
-/// Below this gain a finalist starts a second time, from the re-tuned point.
-const SMALL_GAIN: f64 = 30.0;
-/// Partners of a first effect that are tried, common and rare, and what a partner's evidence must exceed.
-const PARTNERS: [usize; 2] = [4, 1];
-/// First effects of pairs, common and rare.
-const FIRSTS: [usize; 2] = [2, 1];
-const PARTNER_EVIDENCE: f64 = 3.0;
+const FINALISTS: Finalists = SETTINGS.finalists;
+const RETUNING: Retuning = SETTINGS.retuning;
+const PAIRS: Pairs = SETTINGS.pairs;
 
 /// Places that are left to common and to rare effects.
 struct Places([usize; 2]);
@@ -51,12 +39,12 @@ fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
     out
 }
 
-/// Finalists: alternately from both rankings until six ids, with a second form of an effect that has one close by.
+/// Finalists: alternately from both rankings until their places are taken, with a second form of an effect that has one close by.
 fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
     let (a, b) = (by_id(first), by_id(second));
     let mut ids: Vec<&'static str> = Vec::new();
     let mut out: Vec<Candidate> = Vec::new();
-    let mut places = Places(FINALISTS);
+    let mut places = Places(FINALISTS.places);
     for i in 0..a.len().max(b.len()) {
         for list in [&a, &b] {
             if let Some(c) = list.get(i)
@@ -70,7 +58,7 @@ fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
                 let rival = ranking
                     .iter()
                     .filter(|o| o.variant.spec().id == c.variant.spec().id && o.variant.label() != c.variant.label())
-                    .find(|o| o.evidence > c.evidence - CLOSE);
+                    .find(|o| o.evidence > c.evidence - FINALISTS.close);
                 out.extend(rival.cloned());
             }
         }
@@ -107,20 +95,23 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     progress("screening every effect");
     let origin = problem.begin(&none, problem.origin(), None);
     let first = screen(problem, &origin, &all, &none);
+
     progress("re-tuning without any effect");
-    let mut retuned = problem.refine(&none, origin.clone(), 3, Some(1));
-    retuned = problem.refine(&none, retuned, 5, Some(0));
+    let mut retuned = problem.refine(&none, origin.clone(), RETUNING.first_steps, Some(1));
+    retuned = problem.refine(&none, retuned, RETUNING.second_steps, Some(0));
     retuned.columns = Arc::new(problem.nuisance_columns(&retuned.point, &none, &retuned.response));
     let second = screen(problem, &retuned, &all, &none);
+
     progress("fitting the finalists");
     let mut singles: Vec<Trial> = finalists(&first, &second)
         .into_iter()
         .map(|c| {
             let h = Hypothesis::single(c.variant, c.onsets.clone());
-            let trial = refit(problem, h.clone(), begin(problem, &h, &origin.point, &c.start, &origin), STEPS, None);
-            if retuned.cost - trial.fitted.cost < SMALL_GAIN {
-                let again =
-                    refit(problem, h.clone(), begin(problem, &h, &retuned.point, &c.start, &retuned), STEPS, None);
+            let start = begin(problem, &h, &origin.point, &c.start, &origin);
+            let trial = refit(problem, h.clone(), start, FINALISTS.steps, None);
+            if retuned.cost - trial.fitted.cost < FINALISTS.small_gain {
+                let start = begin(problem, &h, &retuned.point, &c.start, &retuned);
+                let again = refit(problem, h.clone(), start, FINALISTS.steps, None);
                 if again.fitted.cost < trial.fitted.cost {
                     return again;
                 }
@@ -130,25 +121,30 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
         .collect();
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
-    for trial in singles.iter_mut().filter(|t| t.fitted.cost < best + CLOSE).take(MOST_CLOSE) {
-        *trial = polish(problem, trial, MORE_STEPS);
+    let close = singles.iter_mut().filter(|t| t.fitted.cost < best + FINALISTS.close);
+    for trial in close.take(FINALISTS.most_close) {
+        *trial = polish(problem, trial, FINALISTS.more_steps);
     }
     best_first(&mut singles);
+
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
     if let Some(top) = singles.first()
-        && retuned.cost - top.fitted.cost < 25.0
+        && retuned.cost - top.fitted.cost < RETUNING.small_gain
     {
         let point = Point { effects: Vec::new(), ..top.fitted.point.clone() };
-        let again = problem.refine(&none, problem.begin(&none, point, Some(top.fitted.columns.clone())), 6, Some(2));
+        let start = problem.begin(&none, point, Some(top.fitted.columns.clone()));
+        let again = problem.refine(&none, start, RETUNING.last_steps, Some(2));
         if again.cost < retuned.cost {
             retuned = again;
         }
     }
+
     progress("looking for a second effect");
     let pairs = pairs(problem, &singles, &origin);
     if let Some(best) = pairs.first() {
         converge_members(problem, best, &mut singles);
     }
+
     let mut screened: Vec<(String, f64)> =
         by_id(&first).iter().map(|c| (c.variant.spec().id.to_owned(), c.evidence)).collect();
     for c in by_id(&second) {
@@ -166,10 +162,10 @@ fn converge_members(problem: &Problem<'_>, pair: &Trial, singles: &mut [Trial]) 
     for (variant, _) in &pair.hypothesis.parts {
         let until = from + variant.free(1.0).len();
         for single in singles.iter_mut().filter(|t| t.hypothesis.parts[0].0.label() == variant.label()) {
-            if single.fitted.cost - pair.fitted.cost > LEAST_SECOND {
+            if single.fitted.cost - pair.fitted.cost > PAIRS.least_second {
                 let effects = pair.fitted.point.effects[from..until].to_vec();
                 let start = begin(problem, &single.hypothesis, &pair.fitted.point, &effects, &pair.fitted);
-                let again = problem.refine(&single.hypothesis, start, MORE_STEPS, Some(2));
+                let again = problem.refine(&single.hypothesis, start, FINALISTS.more_steps, Some(2));
                 if again.cost < single.fitted.cost {
                     single.fitted = again;
                 }
@@ -188,7 +184,7 @@ fn best_first(trials: &mut [Trial]) {
 fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial> {
     let mut out: Vec<Trial> = Vec::new();
     let mut ids: Vec<&'static str> = Vec::new();
-    let mut firsts = Places(FIRSTS);
+    let mut firsts = Places(PAIRS.firsts);
     for first in singles {
         let card = first.hypothesis.parts[0].0.spec();
         let id = card.id;
@@ -201,8 +197,8 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         let (h1, e1) = (&first.hypothesis, &first.fitted.point.effects);
         let base = begin(problem, h1, &origin.point, e1, origin);
         let partners = screen_beside(problem, &base, first);
-        let mut places = Places(PARTNERS);
-        let worth = partners.into_iter().filter(|p| p.evidence > PARTNER_EVIDENCE);
+        let mut places = Places(PAIRS.partners);
+        let worth = partners.into_iter().filter(|p| p.evidence > PAIRS.partner_evidence);
         for p in worth.filter(|p| places.take(p.variant.spec())) {
             let known = out.iter().any(|t: &Trial| t.hypothesis.ids() == [p.variant.spec().id, id]);
             if known {
@@ -211,12 +207,13 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
             let mut h = h1.clone();
             h.parts.push((p.variant, p.onsets.clone()));
             let start: Vec<f64> = e1.iter().chain(&p.start).copied().collect();
-            out.push(refit(problem, h.clone(), begin(problem, &h, &origin.point, &start, origin), STEPS, None));
+            let start = begin(problem, &h, &origin.point, &start, origin);
+            out.push(refit(problem, h, start, FINALISTS.steps, None));
         }
     }
     best_first(&mut out);
-    for trial in out.iter_mut().take(3) {
-        *trial = polish(problem, trial, MORE_STEPS);
+    for trial in out.iter_mut().take(PAIRS.polished) {
+        *trial = polish(problem, trial, FINALISTS.more_steps);
     }
     best_first(&mut out);
     out

@@ -1,22 +1,26 @@
 //! Smoothing: velocity from noisy poses, local polynomial estimates.
 
+use crate::settings::preparation::{SETTINGS, Smoothing};
+
+const SMOOTHING: Smoothing = SETTINGS.smoothing;
+
 /// Whittaker–Henderson smoother on equally spaced nodes: minimises
 /// `Σ (z_i − x(t_i))² + λ Σ (Δ³x)²`, with `x` linear between nodes (a discrete quintic smoothing spline).
 ///
 /// `at` are the sample positions in nodes. λ is found so that the rms residual equals `sigma`
-/// (discrepancy principle). Returns the node values; `None` with fewer than eight samples.
+/// (discrepancy principle). Returns the node values; `None` with too few samples.
 pub(crate) fn smooth(at: &[f64], z: &[f64], nodes: usize, sigma: f64) -> Option<Vec<f64>> {
-    if at.len() < 8 || nodes < 8 {
+    if at.len() < SMOOTHING.least_samples || nodes < SMOOTHING.least_samples {
         return None;
     }
     let rms = |x: &[f64]| {
         let sum: f64 = at.iter().zip(z).map(|(&t, &v)| (v - interpolate(x, t)).powi(2)).sum();
         (sum / at.len() as f64).sqrt()
     };
-    let (mut low, mut high) = (-4.0_f64, 9.0_f64);
+    let [mut low, mut high] = SMOOTHING.log_weights;
     let mut best = whittaker(at, z, nodes, 10f64.powf(low));
-    // The residual grows with λ: bisect its logarithm, twenty halvings leave nothing to gain.
-    for _ in 0..20 {
+    // The residual grows with λ: bisect its logarithm.
+    for _ in 0..SMOOTHING.halvings {
         let middle = 0.5 * (low + high);
         let x = whittaker(at, z, nodes, 10f64.powf(middle));
         if rms(&x) > sigma {
@@ -61,6 +65,7 @@ fn whittaker(at: &[f64], z: &[f64], n: usize, lambda: f64) -> Vec<f64> {
         b[i] += (1.0 - f) * v;
         b[i + 1] += f * v;
     }
+
     let d = [-1.0, 3.0, -3.0, 1.0];
     for i in 0..n - BAND {
         for r in 0..=BAND {
@@ -69,6 +74,7 @@ fn whittaker(at: &[f64], z: &[f64], n: usize, lambda: f64) -> Vec<f64> {
             }
         }
     }
+
     // Banded LDLᵀ in place, then the two substitutions.
     for i in 0..n {
         for k in 1..=BAND.min(n - 1 - i) {

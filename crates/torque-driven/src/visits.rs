@@ -2,12 +2,10 @@
 
 use crate::fit::{Fitted, Problem};
 use crate::local::share_inside;
+use crate::settings::decision::SETTINGS;
 use crate::trial::Trial;
 use crate::windows::PARTS;
 use inference::hypothesis::Place;
-
-/// Gain of a visit that supports a place, nats.
-const SUPPORT: f64 = 2.0;
 
 /// Separate visits to the disc of a trial whose segments it explains better than re-tuning; `None` without a disc.
 ///
@@ -35,7 +33,7 @@ pub(crate) fn supporting(problem: &Problem<'_>, retuned: &Fitted, trial: &Trial)
             }
         }
         visits.push(gain);
-        count += visits.iter().filter(|&&g| g > SUPPORT).count();
+        count += visits.iter().filter(|&&g| g > SETTINGS.visits.support).count();
     }
     Some(count)
 }

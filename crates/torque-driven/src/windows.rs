@@ -4,6 +4,7 @@ use sim::rollout::Start;
 
 use crate::motion::{GyroError, Smoothed, frozen_rows};
 use crate::run::Run;
+use crate::settings::preparation::{SETTINGS, Starts, Windows};
 use crate::smooth::{interpolate, local_fit};
 
 /// What is compared in every window.
@@ -28,10 +29,12 @@ pub(crate) const CHANNEL_UNITS: [&str; CHANNELS] = ["rad/s", "rad/s", "rad/s", "
 /// Channel of the forward velocity.
 pub(crate) const FORWARD: usize = 3;
 
+const WINDOWS: Windows = SETTINGS.windows;
+const STARTS: Starts = SETTINGS.starts;
 /// Length of a window, s.
-pub(crate) const WINDOW: f64 = 0.1;
+pub(crate) const WINDOW: f64 = WINDOWS.length;
 /// Parts of a segment in which a local presence is resolved.
-pub(crate) const PARTS: usize = 4;
+pub(crate) const PARTS: usize = WINDOWS.parts;
 
 /// A stretch over which the model runs free.
 #[derive(Debug, Clone)]
@@ -158,6 +161,7 @@ fn segment(
     let mut valid = vec![false; windows * CHANNELS];
     let mut regime = [0.0; 3];
     let mut extremes = (f64::MAX, f64::MIN);
+
     for w in 0..windows {
         let (a, b) = (row + w * per_window, row + (w + 1) * per_window);
         let mut set = |c: usize, v: Option<f64>| {
@@ -167,7 +171,8 @@ fn segment(
             }
         };
         for j in 0..2 {
-            let near = |k: usize| frozen[j][k.saturating_sub(2)..(k + 3).min(run.rows())].iter().any(|&f| f);
+            let beside = WINDOWS.beside_frozen;
+            let near = |k: usize| frozen[j][k.saturating_sub(beside)..(k + beside + 1).min(run.rows())].contains(&true);
             let v = (!near(a) && !near(b))
                 .then_some(())
                 .and(run.angle[j][b].zip(run.angle[j][a]))
@@ -177,6 +182,7 @@ fn segment(
             }
             set(j, v);
         }
+
         let mean = |channel: &[Option<f64>]| {
             let (n, sum) = channel[a + 1..=b].iter().flatten().fold((0.0, 0.0), |(n, s), v| (n + 1.0, s + v));
             (n > 0.0).then(|| sum / n)
@@ -188,10 +194,12 @@ fn segment(
         set(4, v.map(|v| v[1]));
         set(5, mean(&run.accel[0]));
         set(6, mean(&run.accel[1]));
-        regime[0] += gyro.unwrap_or(0.0).abs() / (0.3 * windows as f64);
-        regime[1] += v.map_or(0.0, |v| v[0].abs()) / (0.3 * windows as f64);
+
+        regime[0] += gyro.unwrap_or(0.0).abs() / (WINDOWS.turning * windows as f64);
+        regime[1] += v.map_or(0.0, |v| v[0].abs()) / (WINDOWS.speed * windows as f64);
     }
-    regime[2] = ((extremes.1 - extremes.0) / 4.0).max(0.0);
+    regime[2] = ((extremes.1 - extremes.0) / WINDOWS.range).max(0.0);
+
     let wheels = (0..windows)
         .map(|w| {
             let t = (row as f64 + (w as f64 + 0.5) * per_window as f64) * run.period;
@@ -204,6 +212,7 @@ fn segment(
             })
         })
         .collect();
+
     let count = valid.iter().filter(|&&v| v).count() as f64;
     Segment { row, windows, start, observed, valid, wheels, regime, count }
 }
@@ -216,33 +225,39 @@ fn start_state(run: &Run, o: &CutOptions, smoothed: &Smoothed, frozen: &[Vec<boo
     };
     let mut start =
         Start { position: smoothed.position(t), yaw: interpolate(&smoothed.yaw, t / run.period), ..Start::default() };
+
     for j in 0..2 {
         // Wider when the encoder is frozen here, so that there is something to fit.
-        let fit = [0.05, 0.15, 0.4].into_iter().find_map(|half| {
+        let fit = STARTS.wheel.into_iter().find_map(|half| {
             let points: Vec<(f64, f64)> = around(half)
                 .filter(|&k| !frozen[j][k])
                 .filter_map(|k| run.angle[j][k].map(|a| ((k as f64 - row as f64) * run.period, a)))
                 .collect();
-            (points.len() >= 5).then(|| local_fit(&points)).flatten()
+            (points.len() >= STARTS.least_rows).then(|| local_fit(&points)).flatten()
         });
         if let Some((angle, speed)) = fit {
             start.wheel_angle[j] = angle;
             start.wheel_speed[j] = speed;
         }
     }
-    let points: Vec<(f64, f64)> = around(0.07)
+
+    let points: Vec<(f64, f64)> = around(STARTS.gyro)
         .filter_map(|k| {
             run.gyro[k].map(|g| ((k as f64 - 0.5 - row as f64) * run.period, (g - o.gyro.bias) / (1.0 + o.gyro.scale)))
         })
         .collect();
     start.yaw_rate = local_fit(&points).map_or(0.0, |f| f.0);
+
     // Without a pose, the wheels tell the forward velocity up to their slip.
     let rolled = o.wheel_radius * 0.5 * (start.wheel_speed[0] + start.wheel_speed[1]);
     start.velocity = smoothed.velocity(t, run.period).unwrap_or([rolled, 0.0]);
+
     // A robot whose wheels do not turn at the first row stands.
     if row == 0 {
         let still = |a: &[Option<f64>]| {
-            a.iter().flatten().take(3).all(|x| (x - a.iter().flatten().next().unwrap_or(x)).abs() < 1e-3)
+            let shown = || a.iter().flatten();
+            let moved = |x: &f64| (x - shown().next().unwrap_or(x)).abs();
+            shown().take(STARTS.standing_rows).all(|x| moved(x) < STARTS.standing)
         };
         if still(&run.angle[0]) && still(&run.angle[1]) {
             start =

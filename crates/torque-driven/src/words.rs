@@ -5,6 +5,7 @@ use inference::words::{named, quantity};
 
 use crate::locate;
 use crate::redundancy::Fault;
+use crate::settings::decision::SETTINGS;
 use verdict::{Cause, Diagnosis, Verdict};
 
 /// Name of a sensor fault: with its side, and with its number where the effect has several.
@@ -35,7 +36,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
             }
         }
         Verdict::Explained => {
-            for c in causes.iter().filter(|c| c.probability > 0.5) {
+            for c in causes.iter().filter(|c| c.probability > SETTINGS.answer.likely) {
                 let place =
                     c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
                 out.push(format!("Missing: {}, {}{place} (probability {:.2}).", c.name, quantity(c), c.probability));
@@ -57,7 +58,7 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
         out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
     }
     let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);
-    if d.verdict == Verdict::Explained && unknown > 0.5 {
+    if d.verdict == Verdict::Explained && unknown > SETTINGS.answer.likely {
         out.push(format!(
             "Something else is missing as well, which is not in the catalogue (probability \
              {unknown:.2})."

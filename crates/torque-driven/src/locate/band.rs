@@ -6,22 +6,13 @@ use crate::locate::change::{Reference, Sense, find};
 use crate::locate::null::Null;
 use crate::locate::times::span;
 use crate::locate::torque::Followed;
+use crate::settings::locate::{Bands, SETTINGS};
 use crate::windows::{Cut, WINDOW};
 use verdict::ResidualTorque;
 
-/// Windows that are averaged, and bins of a series at most.
-const WINDOWS: usize = 5;
-const MOST_BINS: usize = 72;
-/// Usual scatter of a fault-free run's mean and least scatter within one, in fault-free standard deviations.
-const BETWEEN: f64 = 0.4;
-const LEAST_WITHIN: f64 = 0.5;
-/// Least fault-free standard deviation, N m, and bins at the overall variance that the kernel mean begins with.
-const LEAST: f64 = 0.02;
-const PSEUDO_BINS: f64 = 2.0;
-/// Time in which the weights grow from zero, s: left out.
-const SETTLED: f64 = 1.0;
+const BANDS: Bands = SETTINGS.bands;
 
-/// Half-second mean of one side's estimate, with the driving it was made in.
+/// Mean over some windows of one side's estimate, with the driving it was made in.
 #[derive(Debug, Clone, Copy)]
 struct Bin {
     /// Not a number while the weights settle, N m.
@@ -55,7 +46,7 @@ impl Band {
     fn new(references: &[Vec<Bin>]) -> Option<Self> {
         let all = || references.iter().flatten().filter(|b| b.torque.is_finite());
         let n = all().count() as f64;
-        if n < 4.0 {
+        if n < BANDS.least_bins {
             return None;
         }
         let mean = all().map(|b| b.torque).sum::<f64>() / n;
@@ -71,13 +62,13 @@ impl Band {
     /// Variance of fault-free bins driven alike: kernel mean, unit bandwidth in rad/s, begun with
     /// the overall variance.
     fn variance(&self, driving: [f64; 2], without: Option<usize>) -> f64 {
-        let (mut weight, mut sum) = (PSEUDO_BINS, PSEUDO_BINS * self.variance);
+        let (mut weight, mut sum) = (BANDS.pseudo_bins, BANDS.pseudo_bins * self.variance);
         for (_, d, v) in self.known.iter().filter(|k| Some(k.0) != without) {
             let w = (-0.5 * ((d[0] - driving[0]).powi(2) + (d[1] - driving[1]).powi(2))).exp();
             weight += w;
             sum += w * v;
         }
-        sum / weight + LEAST * LEAST
+        sum / weight + BANDS.least_sigma * BANDS.least_sigma
     }
 
     /// Bins in fault-free standard deviations; a reference in those of the others.
@@ -90,9 +81,11 @@ impl Band {
 pub(crate) fn residual_torque(cuts: &[Cut], followed: &[Followed], references: &[Followed]) -> Vec<ResidualTorque> {
     let Some(cut) = cuts.first() else { return Vec::new() };
     let longest = followed.iter().map(|f| f.estimate.len()).max().unwrap_or(0);
-    let usual = ((WINDOWS as f64 * WINDOW / cut.period).round() as usize).max(1);
-    let rows = usual * longest.div_ceil(usual * MOST_BINS).max(1);
-    let settled = (SETTLED / cut.period) as usize;
+    let usual = ((BANDS.windows as f64 * WINDOW / cut.period).round() as usize).max(1);
+    let rows = usual * longest.div_ceil(usual * BANDS.most_bins).max(1);
+    let settled = (BANDS.settled / cut.period) as usize;
+
+    // What the references show, each beside the others.
     let known = [0, 1].map(|j| references.iter().map(|f| bins(f, j, rows, settled)).collect::<Vec<_>>());
     let [Some(left), Some(right)] = [Band::new(&known[0]), Band::new(&known[1])] else { return Vec::new() };
     let bands = [left, right];
@@ -101,10 +94,12 @@ pub(crate) fn residual_torque(cuts: &[Cut], followed: &[Followed], references: &
         runs.iter().enumerate().map(|(r, run)| band.scaled(run, apart(r))).collect()
     };
     let series: Vec<Vec<Vec<f64>>> = known.iter().zip(&bands).map(of).collect();
-    let nulls = series.iter().map(|k| Null::new(k, BETWEEN, LEAST_WITHIN)).collect();
+    let nulls = series.iter().map(|k| Null::new(k, BANDS.between, BANDS.least_within)).collect();
     let reference = Reference { series, nulls, sense: Sense::Either };
+
     let block = cut.segments.first().map_or(1, |s| s.windows * cut.rows_per_window / rows).max(1);
     let threshold = reference.threshold(longest.div_ceil(rows), block);
+
     let mut out = Vec::new();
     for (cut, f) in cuts.iter().zip(followed) {
         for (j, null) in reference.nulls.iter().enumerate() {

@@ -5,24 +5,13 @@ use std::collections::BTreeMap;
 use inference::robust::discoveries;
 
 use crate::fit::Problem;
-use crate::locate::compare::{Block, DISCOVERIES, null_of, probability};
+use crate::locate::compare::{Block, null_of, probability};
 use crate::locate::healthy::{Energy, Healthy};
-use crate::windows::{CHANNEL_NAMES, CHANNELS};
+use crate::settings::locate::{Cells, SETTINGS};
+use crate::windows::{CHANNEL_NAMES, CHANNELS, WINDOW};
 use verdict::{Cell, Finding};
 
-/// Borders of |forward velocity| in m/s, of the yaw rate in rad/s, and of the larger |slip speed| in m/s.
-const SPEEDS: [f64; 5] = [0.0, 0.1, 0.4, 0.8, 5.0];
-const TURNS: [f64; 6] = [-10.0, -0.5, -0.1, 0.1, 0.5, 10.0];
-const SLIPS: [f64; 5] = [0.0, 0.03, 0.1, 0.3, 10.0];
-/// Sectors of the heading.
-const SECTORS: i32 = 8;
-/// Cells along the longer side of the driven ground, at most.
-const GROUND: f64 = 6.0;
-/// Edges of a cell on the ground that are tried, m.
-const EDGES: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
-/// Least driving in a cell that is reported, s, and in a segment for it to count, windows.
-const LEAST_SECONDS: f64 = 1.0;
-const LEAST_WINDOWS: usize = 3;
+const CELLS: Cells = SETTINGS.cells;
 
 /// What a cell is a range of, with its unit.
 const AXES: [(&str, &str); 5] =
@@ -42,17 +31,18 @@ fn keys(problem: &Problem<'_>, run: usize, segment: usize, window: usize, edge: 
     };
     let (left, right, turn, speed) = (get(0), get(1), get(2), get(3));
     let mut out = Vec::with_capacity(AXES.len());
-    out.extend(speed.and_then(|v| bin(&SPEEDS, v.abs())).map(|i| (0, i, 0)));
-    out.extend(turn.and_then(|w| bin(&TURNS, w)).map(|i| (1, i, 0)));
+    out.extend(speed.and_then(|v| bin(&CELLS.speeds, v.abs())).map(|i| (0, i, 0)));
+    out.extend(turn.and_then(|w| bin(&CELLS.turns, w)).map(|i| (1, i, 0)));
     if let (Some(l), Some(r), Some(w), Some(v)) = (left, right, turn, speed) {
         let (radius, half) = (problem.robot.wheel_radius, problem.robot.half_track);
         let slip = (l * radius - v + w * half).abs().max((r * radius - v - w * half).abs());
-        out.extend(bin(&SLIPS, slip).map(|i| (2, i, 0)));
+        out.extend(bin(&CELLS.slips, slip).map(|i| (2, i, 0)));
     }
     // Without a pose neither heading nor place is known.
     if let (Some(_), Some([x, y, yaw])) = (speed, cut.path.get(s.row / cut.rows_per_window.max(1) + window)) {
-        let sector = (yaw.rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU * f64::from(SECTORS)) as i32;
-        out.push((3, sector.min(SECTORS - 1), 0));
+        let turns = yaw.rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+        let sector = (turns * f64::from(CELLS.sectors)) as i32;
+        out.push((3, sector.min(CELLS.sectors - 1), 0));
         out.push((4, (x / edge).floor() as i32, (y / edge).floor() as i32));
     }
     out
@@ -65,7 +55,7 @@ fn edge(problem: &Problem<'_>) -> f64 {
         path().fold(f64::MIN, f64::max) - path().fold(f64::MAX, f64::min)
     };
     let longest = extent(0).max(extent(1));
-    EDGES.into_iter().find(|e| longest / e <= GROUND).unwrap_or(100.0)
+    CELLS.edges.into_iter().find(|e| longest / e <= CELLS.ground).unwrap_or(CELLS.longest_edge)
 }
 
 /// Each segment's mean energy in every cell that it crosses.
@@ -85,7 +75,7 @@ fn blocks(problem: &Problem<'_>, energy: &Energy, edge: f64) -> Blocks {
                     slot.1 += 1;
                 }
             }
-            for (key, (sum, windows)) in sums.into_iter().filter(|(_, s)| s.1 >= LEAST_WINDOWS) {
+            for (key, (sum, windows)) in sums.into_iter().filter(|(_, s)| s.1 >= CELLS.least_windows) {
                 out.entry(key).or_default().push(Block { run: r, windows, energy: sum / windows as f64 });
             }
         }
@@ -96,11 +86,11 @@ fn blocks(problem: &Problem<'_>, energy: &Energy, edge: f64) -> Blocks {
 fn range((axis, i, j): Key, edge: f64) -> Vec<[f64; 2]> {
     let of = |edges: &[f64]| vec![[edges[i as usize], edges[i as usize + 1]]];
     let cell = |k: i32| [f64::from(k) * edge, f64::from(k + 1) * edge];
-    let sector = std::f64::consts::TAU / f64::from(SECTORS);
+    let sector = std::f64::consts::TAU / f64::from(CELLS.sectors);
     match axis {
-        0 => of(&SPEEDS),
-        1 => of(&TURNS),
-        2 => of(&SLIPS),
+        0 => of(&CELLS.speeds),
+        1 => of(&CELLS.turns),
+        2 => of(&CELLS.slips),
         3 => vec![[f64::from(i) * sector, f64::from(i + 1) * sector]],
         _ => vec![cell(i), cell(j)],
     }
@@ -110,15 +100,16 @@ fn range((axis, i, j): Key, edge: f64) -> Vec<[f64; 2]> {
 pub(crate) fn cells(problem: &Problem<'_>, references: &Problem<'_>, energy: &Energy, healthy: &Healthy) -> Vec<Cell> {
     let edge = edge(problem);
     let (own, known) = (blocks(problem, energy, edge), blocks(references, &healthy.energy, edge));
-    let window = problem.cuts.first().map_or(0.1, |c| c.rows_per_window as f64 * c.period);
+    let window = problem.cuts.first().map_or(WINDOW, |c| c.rows_per_window as f64 * c.period);
     let nulls: Vec<_> =
         (0..AXES.len()).map(|axis| null_of(known.iter().filter(|(k, _)| k.0 == axis).flat_map(|(_, b)| b))).collect();
+
     let mut out = Vec::new();
     for (&key, blocks) in &own {
         let Some(null) = &nulls[key.0] else { continue };
         let windows: usize = blocks.iter().map(|b| b.windows).sum();
         let seconds = windows as f64 * window;
-        if seconds < LEAST_SECONDS {
+        if seconds < CELLS.least_seconds {
             continue;
         }
         let (by, unit) = AXES[key.0];
@@ -132,8 +123,9 @@ pub(crate) fn cells(problem: &Problem<'_>, references: &Problem<'_>, energy: &En
             significant: false,
         });
     }
+
     let p: Vec<f64> = out.iter().map(|c| c.p).collect();
-    for (cell, significant) in out.iter_mut().zip(discoveries(&p, DISCOVERIES)) {
+    for (cell, significant) in out.iter_mut().zip(discoveries(&p, SETTINGS.levels.discoveries)) {
         cell.significant = significant;
     }
     out
@@ -144,7 +136,7 @@ fn channel_blocks(energy: &Energy, c: usize) -> Vec<Block> {
     let block = |run: usize, segment: &Vec<[f64; CHANNELS]>| {
         let valid = || segment.iter().map(|w| w[c]).filter(|e| e.is_finite());
         let windows = valid().count();
-        (windows >= LEAST_WINDOWS).then(|| Block { run, windows, energy: valid().sum::<f64>() / windows as f64 })
+        (windows >= CELLS.least_windows).then(|| Block { run, windows, energy: valid().sum::<f64>() / windows as f64 })
     };
     energy.iter().enumerate().flat_map(|(r, run)| run.iter().filter_map(move |s| block(r, s))).collect()
 }
@@ -166,7 +158,7 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let mut out: Vec<Finding> = (0..CHANNELS).filter_map(|c| finding(problem, energy, c, probabilities[c])).collect();
     let p: Vec<f64> = out.iter().map(|f| f.p).collect();
-    for (finding, significant) in out.iter_mut().zip(discoveries(&p, DISCOVERIES)) {
+    for (finding, significant) in out.iter_mut().zip(discoveries(&p, SETTINGS.levels.discoveries)) {
         finding.significant = significant;
     }
     out.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));

@@ -3,20 +3,9 @@
 use inference::robust::{NINETY_FALL, sorted};
 
 use crate::locate::null::Null;
+use crate::settings::locate::{Changes, SETTINGS};
 
-/// Pseudo-runs from which the threshold is taken, and the share of fault-free runs that may exceed it.
-const PSEUDO_RUNS: usize = 200;
-const FALSE_ALARMS: f64 = 0.03;
-/// Stretches of one series at most.
-const MOST: usize = 3;
-/// Scatter added to resampled segments for what so few references have not shown yet.
-const UNSEEN: f64 = 1.2;
-
-/// Factors of the threshold with one reference, two, and more: few references have not seen every
-/// kind of driving. Chosen on fault-free development drives: without them 95 % stay below 1.54
-/// times the threshold beside two references (72 drives) and 1.24 beside three (36); 1.6 beside two
-/// still let 5 of 72 others through. The first is a guess.
-const FEW: [f64; 3] = [3.0, 1.8, 1.25];
+const CHANGES: Changes = SETTINGS.changes;
 
 /// Which changes count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,6 +114,7 @@ pub(crate) fn find(series: &[f64], null: &Null, sense: Sense, threshold: f64) ->
             }
         }
         let Some(mut found) = best else { continue };
+
         // Profile of each end, the other one free, outwards from the best until it has fallen too far.
         let (a, b, least) = (found.from, found.until, found.gain - NINETY_FALL);
         let ends = |a: usize| (a + 1..=high).any(|b| sums.fits([a, b], range) >= least);
@@ -139,7 +129,7 @@ pub(crate) fn find(series: &[f64], null: &Null, sense: Sense, threshold: f64) ->
         ];
         found.gain = sums.differs(a, b);
         out.push(found);
-        if out.len() == MOST {
+        if out.len() == CHANGES.most {
             break;
         }
         // What the ends leave open belongs to this stretch, not to another one.
@@ -172,8 +162,9 @@ impl Reference {
         if blocks.is_empty() || bins == 0 {
             return f64::INFINITY;
         }
-        let mut draws = Draws::new(7);
-        let largest: Vec<f64> = (0..PSEUDO_RUNS)
+
+        let mut draws = Draws::new(CHANGES.seed);
+        let largest: Vec<f64> = (0..CHANGES.pseudo_runs)
             .map(|_| {
                 let chosen: Vec<(usize, usize)> =
                     (0..bins.div_ceil(block)).map(|_| blocks[draws.below(blocks.len())]).collect();
@@ -183,7 +174,7 @@ impl Reference {
                     let moved = null.apart() * draws.student(null.freedom());
                     let value = |&(r, k): &(usize, usize)| {
                         let centre = mean(&channel[r]);
-                        channel[r][k..k + block].iter().map(move |y| null.mean + UNSEEN * (y - centre) + moved)
+                        channel[r][k..k + block].iter().map(move |y| null.mean + CHANGES.unseen * (y - centre) + moved)
                     };
                     let series: Vec<f64> = chosen.iter().flat_map(value).take(bins).collect();
                     most = most.max(Sums::new(&series, null, self.sense).most());
@@ -191,9 +182,10 @@ impl Reference {
                 most
             })
             .collect();
+
         // The order statistic that no more than that share exceeds: a rank, not an estimate of a quantile.
-        let few = FEW[first.len().clamp(1, FEW.len()) - 1];
-        few * sorted(largest)[((1.0 - FALSE_ALARMS) * PSEUDO_RUNS as f64) as usize]
+        let few = CHANGES.few[first.len().clamp(1, CHANGES.few.len()) - 1];
+        few * sorted(largest)[((1.0 - CHANGES.false_alarms) * CHANGES.pseudo_runs as f64) as usize]
     }
 }
 
@@ -230,7 +222,7 @@ impl Draws {
     fn student(&mut self, freedom: f64) -> f64 {
         let n = freedom.round().max(1.0) as usize;
         let squares: f64 = (0..n).map(|_| self.normal().powi(2)).sum();
-        self.normal() / (squares / n as f64).sqrt().max(1e-3)
+        self.normal() / (squares / n as f64).sqrt().max(CHANGES.least_root)
     }
 
     /// Standard normal: the sum of twelve uniform numbers less six.

@@ -3,17 +3,9 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::locate::null::Null;
+use crate::settings::locate::{Levels, SETTINGS};
 
-/// Usual scatter of ln(energy) between fault-free runs.
-pub(crate) const BETWEEN: f64 = 0.35;
-/// Least scatter of ln(energy) within a run.
-pub(crate) const LEAST_WITHIN: f64 = 0.3;
-/// ln(energy) below which a fault-free block is as good as any.
-const FLOOR: f64 = -3.0;
-/// False discoveries among what is reported.
-pub(crate) const DISCOVERIES: f64 = 0.05;
-/// Blocks of all cells that a cell's own fault-free mean begins with.
-const PSEUDO_BLOCKS: f64 = 6.0;
+const LEVELS: Levels = SETTINGS.levels;
 
 /// A segment's mean energy in a cell.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +22,7 @@ impl Block {
 }
 
 pub(crate) fn level(energy: f64) -> f64 {
-    if energy.is_finite() { energy.max(1e-12).ln().max(FLOOR) } else { f64::NAN }
+    if energy.is_finite() { energy.max(1e-12).ln().max(LEVELS.floor) } else { f64::NAN }
 }
 
 /// Fault-free levels of blocks, by run.
@@ -42,7 +34,7 @@ pub(crate) fn null_of<'a>(blocks: impl Iterator<Item = &'a Block>) -> Option<Nul
         }
         runs[b.run].push(b.level());
     }
-    Null::new(&runs, BETWEEN, LEAST_WITHIN)
+    Null::new(&runs, LEVELS.between, LEVELS.least_within)
 }
 
 /// Probability that fault-free driving shows a mean level of `blocks` as high as this; 1 without blocks.
@@ -54,8 +46,8 @@ pub(crate) fn probability(blocks: &[Block], own: &[Block], null: &Null) -> f64 {
         return 1.0;
     }
     let mean = blocks.iter().map(Block::level).sum::<f64>() / n;
-    let m = own.len() as f64 + PSEUDO_BLOCKS;
-    let healthy = (own.iter().map(Block::level).sum::<f64>() + PSEUDO_BLOCKS * null.mean) / m;
+    let m = own.len() as f64 + LEVELS.pseudo_blocks;
+    let healthy = (own.iter().map(Block::level).sum::<f64>() + LEVELS.pseudo_blocks * null.mean) / m;
     let most = blocks.iter().map(|b| b.run).max().unwrap_or(0);
     let runs: f64 = (0..=most).map(|r| (blocks.iter().filter(|b| b.run == r).count() as f64 / n).powi(2)).sum();
     let within = null.within.powi(2) * (1.0 / n + 1.0 / m.min(null.values));
@@ -92,7 +84,7 @@ mod tests {
             let null = null_of(references.iter().flatten()).expect("blocks");
             let found = |cells: &[Vec<Block>]| {
                 let p: Vec<f64> = cells.iter().zip(&references).map(|(c, r)| probability(c, r, &null)).collect();
-                discoveries(&p, DISCOVERIES)
+                discoveries(&p, LEVELS.discoveries)
             };
             alarms += i32::from(found(&healthy).contains(&true));
             hits += i32::from(found(&ill)[0]);

@@ -8,15 +8,11 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::calibrate::kernel_mean;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::settings::locate::{HealthyDriving, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
 
-/// Gauss–Newton steps of a calibration without one reference, from the one with all.
-const STEPS: usize = 2;
-/// Windows to each side over which the growth of the residual since the restart is averaged.
-const SMOOTH: usize = 2;
-/// Least energy of a segment.
-const LEAST: f64 = 0.02;
+const DRIVING: HealthyDriving = SETTINGS.healthy;
 
 /// Squared residuals over their expectation in fault-free driving: run, segment, window, channel;
 /// not a number where invalid.
@@ -96,7 +92,7 @@ fn levels(segment: &[[f64; CHANNELS]]) -> [f64; CHANNELS] {
     std::array::from_fn(|c| {
         let valid = segment.iter().map(|w| w[c]).filter(|e| e.is_finite());
         let (n, sum) = valid.fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
-        if n > 0.0 { f64::max(sum / n, LEAST).ln() } else { f64::NAN }
+        if n > 0.0 { f64::max(sum / n, DRIVING.least_energy).ln() } else { f64::NAN }
     })
 }
 
@@ -123,7 +119,7 @@ fn left_out(references: &Problem<'_>) -> Response {
             let columns = columns.0.iter().map(|c| keep().map(|r| c[r].clone()).collect()).collect();
             let start = Point { theta: references.centre, ..others.origin() };
             let begun = others.begin(&none, start, Some(Arc::new(Columns(columns))));
-            let theta = others.refine(&none, begun, STEPS, None).point.theta;
+            let theta = others.refine(&none, begun, DRIVING.steps, None).point.theta;
             references.run_response(out, &Point { theta, ..references.origin() }, &none)
         })
         .collect()
@@ -150,7 +146,7 @@ fn whitened(problem: &Problem<'_>, response: &Response) -> Energy {
 fn growth(energy: &Energy) -> Vec<[f64; CHANNELS]> {
     let windows = energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
     let at = |w: usize, c: usize| {
-        let near = w.saturating_sub(SMOOTH)..w + SMOOTH + 1;
+        let near = w.saturating_sub(DRIVING.smooth)..w + DRIVING.smooth + 1;
         let all = energy.iter().flatten().flat_map(|s| s.iter().take(near.end).skip(near.start));
         let (n, sum) = all.map(|e| e[c]).filter(|e| e.is_finite()).fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
         if n > 0.0 && sum > 0.0 { sum / n } else { 1.0 }

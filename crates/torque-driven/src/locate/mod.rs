@@ -17,5 +17,6 @@ mod torque;
 mod traces;
 mod whole;
 
+pub(crate) use network::INPUTS;
 pub(crate) use remainder::sentence;
 pub(crate) use whole::locate;

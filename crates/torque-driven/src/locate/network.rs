@@ -11,6 +11,7 @@ use sim::{Purpose, Stream};
 use crate::fit::{Hypothesis, PER_RUN, Point, Problem};
 use crate::locate::torque::Followed;
 use crate::rms::rms;
+use crate::settings::locate::{Network, SETTINGS};
 use crate::windows::{CHANNELS, Cut};
 use inference::algebra::solve_spd;
 use verdict::ResidualModel;
@@ -24,7 +25,7 @@ pub(crate) struct LeftOut {
 }
 
 /// Wheel speeds, yaw rate, torque commands.
-const INPUTS: usize = 5;
+pub(crate) const INPUTS: usize = 5;
 const NAMES: [&str; INPUTS] = [
     "left wheel speed, rad/s",
     "right wheel speed, rad/s",
@@ -33,18 +34,9 @@ const NAMES: [&str; INPUTS] = [
     "right command, N m",
 ];
 /// Units, and these with a constant.
-const UNITS: usize = 12;
+const UNITS: usize = NETWORK.units;
 const TERMS: usize = UNITS + 1;
-/// First-layer weights lie between minus and plus this.
-const RANGE: f64 = 2.0;
-/// Ridge penalties that are tried, per window.
-const RIDGES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
-/// Rounds of relaxation.
-const ROUNDS: usize = 3;
-/// A network is reported when it lowers the wheel-speed error by this share and does not raise the
-/// yaw-rate error by more than that.
-const LOWERS: f64 = 0.03;
-const RAISES: f64 = 0.02;
+const NETWORK: Network = SETTINGS.network;
 
 type Input = [f64; INPUTS];
 /// A recording with its free run.
@@ -60,9 +52,10 @@ struct Layer {
 
 impl Layer {
     fn new(scale: Input) -> Option<Self> {
-        let mut stream = Stream::new(1, Purpose::IdentifierLayer, 2);
-        let threshold: [f64; UNITS] = std::array::from_fn(|_| stream.uniform(-RANGE, RANGE));
-        let weight: [Input; UNITS] = std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-RANGE, RANGE)));
+        let mut stream = Stream::new(NETWORK.seed, Purpose::IdentifierLayer, 2);
+        let mut drawn = || stream.uniform(-NETWORK.range, NETWORK.range);
+        let threshold: [f64; UNITS] = std::array::from_fn(|_| drawn());
+        let weight: [Input; UNITS] = std::array::from_fn(|_| std::array::from_fn(|_| drawn()));
         let rows = threshold.iter().zip(&weight).map(|(t, w)| [&[*t], w.as_slice()].concat()).collect();
         Some(Self { units: SigmoidLayer::new(threshold, weight, scale, Activation::Logistic).ok()?, rows, scale })
     }
@@ -144,9 +137,9 @@ fn fit(parts: &[&Sums]) -> Option<Net> {
         (0..parts.len()).map(|i| joined(Some(i)).solve(ridge).map(|net| parts[i].error(&net))).sum()
     };
     let (best, ridge) = if parts.len() > 1 {
-        RIDGES.iter().filter_map(|&r| error(r).map(|e| (e, r))).min_by(|a, b| a.0.total_cmp(&b.0))?
+        NETWORK.ridges.iter().filter_map(|&r| error(r).map(|e| (e, r))).min_by(|a, b| a.0.total_cmp(&b.0))?
     } else {
-        (0.0, RIDGES[2])
+        (0.0, NETWORK.lone_ridge)
     };
     if best < nothing { joined(None).solve(ridge) } else { None }
 }
@@ -190,7 +183,7 @@ fn free_run(p: &Problem<'_>, h: &Hypothesis, left: &LeftOut, layer: &Layer, net:
     let point = Point { run: vec![[0.0; PER_RUN]], ..left.point.clone() };
     let plain = &p.cuts[left.run];
     let mut response = p.run_response(left.run, &left.point, h);
-    for _ in 0..ROUNDS {
+    for _ in 0..NETWORK.rounds {
         let mut cut = plain.clone();
         for (segment, y) in plain.segments.iter().zip(&response) {
             for (w, window) in y.chunks(CHANNELS).enumerate() {
@@ -216,7 +209,7 @@ fn free_run(p: &Problem<'_>, h: &Hypothesis, left: &LeftOut, layer: &Layer, net:
 
 /// Largest size of each input over the recordings, at least a little.
 fn scale(cuts: &[Cut]) -> Input {
-    let mut out: Input = [1.0, 1.0, 0.2, 0.5, 0.5];
+    let mut out: Input = NETWORK.least_scale;
     for cut in cuts {
         for segment in &cut.segments {
             for (w, window) in segment.observed.chunks(CHANNELS).enumerate() {
@@ -244,6 +237,8 @@ pub(crate) fn residual_model(
     }
     let layer = Layer::new(scale(p.cuts))?;
     let sums: Vec<Sums> = p.cuts.iter().zip(followed).map(|(c, f)| sums(c, f, &layer)).collect();
+
+    // Each recording is run with the network of the others, and without any.
     let (mut without, mut with): (Vec<Seen>, Vec<Seen>) = (Vec::new(), Vec::new());
     for left in left_out {
         let others: Vec<&Sums> = sums.iter().enumerate().filter(|(r, _)| *r != left.run).map(|(_, s)| s).collect();
@@ -252,10 +247,13 @@ pub(crate) fn residual_model(
         with.push((left.run, better.unwrap_or_else(|| plain.clone())));
         without.push((left.run, plain));
     }
+
     let (a, b) = (rms(p, &without), rms(p, &with));
-    if b.iter().any(|e| !e.is_finite()) || b[0] > (1.0 - LOWERS) * a[0] || b[1] > (1.0 + RAISES) * a[1] {
+    let worse = b[0] > (1.0 - NETWORK.lowers) * a[0] || b[1] > (1.0 + NETWORK.raises) * a[1];
+    if b.iter().any(|e| !e.is_finite()) || worse {
         return None;
     }
+
     let net = fit(&sums.iter().collect::<Vec<_>>())?;
     Some(ResidualModel {
         standing: "not a cause".into(),

@@ -1,7 +1,8 @@
 //! The fault-free distribution of a logarithmic level: its mean, its scatter within runs and between runs.
 
-/// Reference runs that the prior of the scatter between runs is worth.
-const PRIOR_RUNS: f64 = 4.0;
+use crate::settings::locate::{Nulls, SETTINGS};
+
+const NULLS: Nulls = SETTINGS.nulls;
 
 /// The fault-free distribution of a level.
 #[derive(Debug, Clone, Copy)]
@@ -32,13 +33,13 @@ impl Null {
     pub(crate) fn new(runs: &[Vec<f64>], prior: f64, least: f64) -> Option<Self> {
         let parts: Vec<(f64, f64, f64)> = runs.iter().map(|r| moments(r)).filter(|m| m.0 > 0.0).collect();
         let (count, values) = (parts.len() as f64, parts.iter().map(|m| m.0).sum::<f64>());
-        if values - count < 4.0 {
+        if values - count < NULLS.least_values {
             return None;
         }
         let mean = parts.iter().map(|m| m.0 * m.1).sum::<f64>() / values;
         let within = (parts.iter().map(|m| m.2).sum::<f64>() / (values - count)).sqrt().max(least);
         let spread: f64 = parts.iter().map(|m| (m.1 - mean).powi(2)).sum();
-        let between = ((PRIOR_RUNS * prior * prior + spread) / (PRIOR_RUNS + count - 1.0)).sqrt();
+        let between = ((NULLS.prior_runs * prior * prior + spread) / (NULLS.prior_runs + count - 1.0)).sqrt();
         let share = share(runs);
         Some(Self { mean, within, between, share, values, runs: count })
     }
@@ -50,7 +51,7 @@ impl Null {
 
     /// Degrees of freedom of [`Null::between`].
     pub(crate) fn freedom(&self) -> f64 {
-        PRIOR_RUNS + self.runs - 1.0
+        NULLS.prior_runs + self.runs - 1.0
     }
 }
 
@@ -69,7 +70,7 @@ fn share(runs: &[Vec<f64>]) -> f64 {
         }
         if sum.1 > 0.0 { sum.0 / sum.1 } else { 0.0 }
     };
-    let longest = runs.iter().map(Vec::len).max().unwrap_or(0) / 4;
+    let longest = runs.iter().map(Vec::len).max().unwrap_or(0) / NULLS.lags;
     let sum: f64 = (1..=longest).map(lagged).take_while(|r| *r > 0.0).sum();
     1.0 / (1.0 + 2.0 * sum)
 }

@@ -2,20 +2,14 @@
 
 use crate::fit::Problem;
 use crate::locate::healthy::Energy;
+use crate::settings::locate::{Remaining, SETTINGS};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use verdict::{Regime, Remainder};
 
 /// Limits of |yaw rate| (rad/s) and |forward velocity| (m/s) that split the driving in two.
 const LIMITS: [(usize, &str, &str, [f64; 3]); 2] =
-    [(2, "turning", "rad/s", [0.1, 0.3, 0.6]), (3, "speed", "m/s", [0.1, 0.3, 0.6])];
-/// A kind of driving is reported when it holds this much of what is left, and this much more than
-/// its share of the time.
-const MOST: f64 = 0.6;
-const BEYOND_TIME: f64 = 0.15;
-/// Probability below which a signal's remainder stands out from fault-free driving, for all signals together.
-const STANDS_OUT: f64 = 0.05;
-/// Sides within this ratio are alike.
-const ALIKE: f64 = 0.6;
+    [(2, "turning", "rad/s", REMAINING.turning), (3, "speed", "m/s", REMAINING.speed)];
+const REMAINING: Remaining = SETTINGS.remainder;
 
 /// Energy of each channel beyond what is fault-free, never below zero.
 pub(crate) fn excess(energy: &Energy) -> [f64; CHANNELS] {
@@ -37,10 +31,10 @@ pub(crate) fn remainder(
     let mut order: Vec<usize> = (0..CHANNELS).filter(|&c| excess[c] > 0.0).collect();
     order.sort_by(|&a, &b| excess[b].total_cmp(&excess[a]));
     let by_signal = order.iter().map(|&c| (CHANNEL_NAMES[c].to_owned(), excess[c] / total)).collect();
-    let stands = |c: &usize| probabilities[*c].is_some_and(|p| p < STANDS_OUT / CHANNELS as f64);
+    let stands = |c: &usize| probabilities[*c].is_some_and(|p| p < REMAINING.stands_out / CHANNELS as f64);
     let largest = order.first().copied().filter(stands);
     let place = largest.map(|c| match c {
-        0 | 1 if excess[1 - c] > ALIKE * excess[c] => "in the wheel speeds of both sides".to_owned(),
+        0 | 1 if excess[1 - c] > REMAINING.alike * excess[c] => "in the wheel speeds of both sides".to_owned(),
         0 => "on the left side".to_owned(),
         1 => "on the right side".to_owned(),
         _ => format!("in the {}", CHANNEL_NAMES[c]),
@@ -64,6 +58,7 @@ fn regime(problem: &Problem<'_>, energy: &Energy, channel: usize) -> Option<Regi
                 }
             }
         }
+
         let (all, count) = (windows.iter().map(|w| w.1).sum::<f64>(), windows.len() as f64);
         if all <= 0.0 {
             continue;
@@ -74,7 +69,7 @@ fn regime(problem: &Problem<'_>, energy: &Energy, channel: usize) -> Option<Regi
             let share = (inside().map(|w| w.1).sum::<f64>() / all).min(1.0);
             let beyond = share - time;
             let better = best.as_ref().is_none_or(|b| beyond > b.share - b.time);
-            if share >= MOST && beyond >= BEYOND_TIME && better {
+            if share >= REMAINING.most && beyond >= REMAINING.beyond_time && better {
                 best = Some(Regime { by: by.into(), unit: unit.into(), range, share, time });
             }
         }

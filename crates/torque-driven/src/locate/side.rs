@@ -1,11 +1,9 @@
 //! On which side the mismatch sits, and whether a named effect contradicts it.
 
+use crate::settings::locate::SETTINGS;
 use crate::windows::CHANNELS;
 use inference::robust::NINETY_FIVE;
 use verdict::{Cause, Finding, ResidualTorque};
-
-/// A side holds the mismatch when its excess is this many times the other's.
-const CLEAR: f64 = 2.0;
 
 /// The side on which the mismatch sits: where the residual torque leaves the references' band, if one side clearly
 /// holds most of it; else where the wheel speed's excess does. Motion passes from side to side through the body, torque
@@ -17,9 +15,10 @@ pub(crate) fn side(
 ) -> Option<&'static str> {
     let leaves = |side: &str| residual.iter().any(|t| t.side == side && !t.spans.is_empty());
     let holds = |side: &str| findings.iter().any(|f| f.side.as_deref() == Some(side) && f.significant);
+    let clear = SETTINGS.sides.clear;
     let clearly = |[l, r]: [f64; 2], seen: &dyn Fn(&str) -> bool| match () {
-        () if l > CLEAR * r && seen("left") => Some("left"),
-        () if r > CLEAR * l && seen("right") => Some("right"),
+        () if l > clear * r && seen("left") => Some("left"),
+        () if r > clear * l && seen("right") => Some("right"),
         () => None,
     };
     let torques = ["left", "right"].map(|side| torque(residual, side));

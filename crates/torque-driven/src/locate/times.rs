@@ -2,16 +2,15 @@
 
 use crate::fit::Problem;
 use crate::locate::change::{Change, Reference, Sense, find};
-use crate::locate::compare::{BETWEEN, LEAST_WITHIN, level};
+use crate::locate::compare::level;
 use crate::locate::healthy::{Energy, Healthy};
 use crate::locate::null::Null;
+use crate::settings::locate::{Levels, SETTINGS, Spans};
 use crate::windows::{CHANNEL_NAMES, CHANNELS, Cut};
 use verdict::Span;
 
-/// Windows that are averaged, for runs of usual length.
-const WINDOWS: usize = 5;
-/// Bins of a series at most: longer runs get wider ones.
-const MOST_BINS: usize = 72;
+const SPANS: Spans = SETTINGS.spans;
+const LEVELS: Levels = SETTINGS.levels;
 
 /// ln(energy) of one channel in bins of `width` windows.
 fn series(run: &[Vec<[f64; CHANNELS]>], c: usize, width: usize) -> Vec<f64> {
@@ -48,10 +47,10 @@ pub(crate) fn span(cut: &Cut, signal: &str, side: Option<usize>, change: &Change
 /// Stretches in which each signal of each recording mismatches the calibrated simulation.
 pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, healthy: &Healthy) -> Vec<Span> {
     let longest = energy.iter().map(|run| run.iter().map(Vec::len).sum::<usize>()).max().unwrap_or(0);
-    let width = WINDOWS * longest.div_ceil(WINDOWS * MOST_BINS).max(1);
+    let width = SPANS.windows * longest.div_ceil(SPANS.windows * SPANS.most_bins).max(1);
     let known: Vec<Vec<Vec<f64>>> =
         (0..CHANNELS).map(|c| healthy.energy.iter().map(|run| series(run, c, width)).collect()).collect();
-    let nulls = known.iter().map(|k| Null::new(k, BETWEEN, LEAST_WITHIN)).collect();
+    let nulls = known.iter().map(|k| Null::new(k, LEVELS.between, LEVELS.least_within)).collect();
     let reference = Reference { series: known, nulls, sense: Sense::Rise };
     let segment = healthy.energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
     let threshold = reference.threshold(longest.div_ceil(width), (segment / width).max(1));

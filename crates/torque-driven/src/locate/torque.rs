@@ -15,16 +15,12 @@ use sim::rollout::{AtSpeed, DriveAlone, Grid, Hold, Rollout, Visitor};
 use sim::{Purpose, Recipe, Stream, UNITS};
 
 use crate::run::Run;
+use crate::settings::locate::{Identifying, SETTINGS};
 use crate::windows::{Cut, Segment};
 use inference::hypothesis::Dose;
 use verdict::TorqueCertificate;
 
-/// Rows to each side over which a wheel speed is the slope of the angle.
-const HALF: usize = 4;
-/// Integration step of the body that the wheels carry along, s.
-const STEP: f64 = 5e-4;
-/// Seed of the first layers: `lacuna identify`'s own.
-const SEED: u64 = 1;
+const IDENTIFYING: Identifying = SETTINGS.identifier;
 
 /// What an identifier made of a recording.
 pub(crate) struct Followed {
@@ -53,7 +49,7 @@ fn speeds(angle: &[Option<f64>], period: f64) -> Vec<f64> {
     whole.resize(angle.len(), last.map_or(0.0, |l| l.1));
     (0..whole.len())
         .map(|k| {
-            let near = HALF.min(k).min(whole.len() - 1 - k);
+            let near = IDENTIFYING.half.min(k).min(whole.len() - 1 - k);
             let (mut sum, mut squares) = (0.0, 0.0);
             for i in 1..=near {
                 sum += i as f64 * (whole[k + i] - whole[k - i]);
@@ -67,7 +63,7 @@ fn speeds(angle: &[Option<f64>], period: f64) -> Vec<f64> {
 /// Mean torque over each row that the drives deliver less what the model's wheels need at the measured speeds, N m.
 fn surplus(run: &Run, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], speed: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let grid = Grid::nearest(run.period, STEP);
+    let grid = Grid::nearest(run.period, IDENTIFYING.step);
     let plant = Plant::new(robot, &active, grid.step());
     let hold = Hold::new(grid, plant.drive().delay);
 
@@ -150,13 +146,16 @@ pub(crate) fn follow(
         left.into_iter().zip(right).map(|(l, r)| [l, r]).collect()
     };
     let surplus = surplus(run, cut, robot, doses, &speed);
+
     let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
     let recipe = Recipe::default().identifier;
-    let fastest = speed.iter().flatten().fold(1.0_f64, |a, v| a.max(v.abs()));
-    let (speed_scale, torque_scale) = (recipe.network.speed_scale * fastest, largest_torque.max(1e-3));
+    let fastest = speed.iter().flatten().fold(IDENTIFYING.least_speed, |a, v| a.max(v.abs()));
+    let speed_scale = recipe.network.speed_scale * fastest;
+    let torque_scale = largest_torque.max(IDENTIFYING.least_torque);
     let scale = [1.0, 1.0, speed_scale, speed_scale, torque_scale, torque_scale];
-    let mut stream = Stream::new(SEED, Purpose::IdentifierLayer, 0);
+    let mut stream = Stream::new(IDENTIFYING.seed, Purpose::IdentifierLayer, 0);
     let (pole, law, h) = (recipe.pole, Midpoint::new(recipe.gain)?, run.period);
+
     let mut raw = vec![[0.0; 2]; surplus.len()];
     let mut estimate = raw.clone();
     let mut certificate = [TorqueCertificate { holds: true, error_energy: 0.0, bound: 0.0, identity: 0.0 }; 2];

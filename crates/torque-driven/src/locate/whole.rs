@@ -14,15 +14,13 @@ use crate::locate::times::spans;
 use crate::locate::torque::{Followed, follow};
 use crate::locate::traces::traces;
 use crate::run::Run;
+use crate::settings::{decision, locate::SETTINGS};
 use crate::simulate::Response;
 use crate::windows::Cut;
 use robot_model::tunable::tuned;
 use verdict::Trace;
 use verdict::{Cause, Cell, Finding};
 use verdict::{Located, ResidualModel};
-
-/// Share of the mismatch beyond which what is left is given to a network.
-const LEFT: f64 = 0.2;
 
 /// Where the mismatch was found, and what contradicts the verdict.
 pub(crate) struct Whereabouts {
@@ -75,7 +73,8 @@ pub(crate) fn locate(
         residual_torque(p.cuts, &followed(p, &answer.case.recordings), &followed(&references, &answer.case.references));
     let left = healthy.energy_of(p, &best.response);
     let side = side(&excess(&energy), &findings, &torque);
-    let named: Vec<Cause> = ranked.iter().filter(|c| c.probability > 0.5).cloned().collect();
+    let likely = decision::SETTINGS.answer.likely;
+    let named: Vec<Cause> = ranked.iter().filter(|c| c.probability > likely).cloned().collect();
     Whereabouts {
         contradiction: contradiction(&named, side, &torque),
         cells: cells(p, &references, &energy, &healthy),
@@ -85,7 +84,7 @@ pub(crate) fn locate(
             remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &healthy))),
             side: side.map(Into::into),
             residual_model: unexplained
-                .filter(|share| *share > LEFT)
+                .filter(|share| *share > SETTINGS.network.left)
                 .and_then(|_| network(answer, best, &forecasts.simulated)),
         },
         findings,

@@ -5,19 +5,13 @@ use sim::rollout::{Grid, Hold, Input, Rollout, Start};
 
 use crate::drives::Drives;
 use crate::fit::Problem;
+use crate::settings::next::{Follow, SETTINGS};
+use crate::settings::preparation;
 use crate::windows::{CHANNELS, Cut, FORWARD, Segment};
 use inference::hypothesis::Dose;
 use verdict::{Course, wheel_speeds};
 
-/// Time in which the wheels reach what is wanted, s, and how much faster the integral acts.
-const REACH: f64 = 0.15;
-const INTEGRAL: f64 = 3.0;
-/// Yaw rate per error of the heading, 1/s, and the largest error that counts, rad.
-const HEADING: [f64; 2] = [2.0, 0.6];
-/// Wheel speed at which known friction is compensated in full, rad/s.
-const FRICTION_REST: f64 = 0.5;
-/// A robot file's limit beyond this is none, N m.
-const NO_LIMIT: f64 = 1e6;
+const FOLLOW: Follow = SETTINGS.follower;
 
 /// What a drive is made with: the robot as its user knows it, and how the recordings were made.
 #[derive(Debug, Clone)]
@@ -40,7 +34,7 @@ impl Follower {
     pub(crate) fn new(problem: &Problem<'_>) -> Option<Self> {
         let cut = problem.cuts.iter().find(|c| !c.segments.is_empty())?;
         let known = *problem.robot;
-        let limit = if known.drive.limit < NO_LIMIT { known.drive.limit } else { problem.largest_torque };
+        let limit = if known.drive.limit < FOLLOW.no_limit { known.drive.limit } else { problem.largest_torque };
         let inertia = 0.5 * known.mass * known.wheel_radius.powi(2) + 2.0 * known.wheel_inertia + known.motor_inertia;
         let shown = |c: usize| {
             let all = problem.cuts.iter().flat_map(|c| &c.segments);
@@ -49,7 +43,7 @@ impl Follower {
         Some(Self {
             known,
             limit,
-            gain: inertia / REACH,
+            gain: inertia / FOLLOW.reach,
             period: cut.period,
             step: problem.step,
             windows: cut.segments[0].windows,
@@ -105,11 +99,11 @@ impl Follower {
     /// Torque of a side: known friction, and what brings the wheel to its speed.
     fn command(&self, j: usize, wanted: f64, speed: f64, sum: &mut f64) -> f64 {
         let error = wanted - speed;
-        let known = self.known.coulomb[j] * (wanted / FRICTION_REST).tanh() + self.known.viscous[j] * wanted;
+        let known = self.known.coulomb[j] * (wanted / FOLLOW.friction_rest).tanh() + self.known.viscous[j] * wanted;
         let torque = known + self.gain * error + *sum;
         // No winding up beyond the limit.
         if torque.abs() < self.limit || torque * error < 0.0 {
-            *sum += INTEGRAL * self.gain * error * self.period;
+            *sum += FOLLOW.integral * self.gain * error * self.period;
         }
         torque.clamp(-self.limit, self.limit)
     }
@@ -175,9 +169,9 @@ impl Input<f64> for Following<'_> {
         let t = row as f64 * f.period;
         let [speed, turn] = self.course.at(t);
         self.heading += turn * f.period;
-        let off = (self.heading - self.turned).clamp(-HEADING[1], HEADING[1]);
+        let off = (self.heading - self.turned).clamp(-FOLLOW.largest_error, FOLLOW.largest_error);
         self.heading = self.turned + off;
-        let turn = if self.ground { turn + HEADING[0] * off } else { turn };
+        let turn = if self.ground { turn + FOLLOW.heading * off } else { turn };
 
         let wanted = wheel_speeds([speed, turn], f.known.wheel_radius, f.known.half_track);
         let command = if self.course.is_free(t) {
@@ -208,7 +202,8 @@ pub(crate) fn observe(cut: &mut Cut, response: &[Vec<f64>]) {
         let wheels = || windows().flat_map(|w| [w[0], w[1]]);
         let range = wheels().fold(f64::MIN, f64::max) - wheels().fold(f64::MAX, f64::min);
         // The same measures of a kind of driving as a recording's.
-        let regime = [mean(2) / 0.3, mean(FORWARD) / 0.3, range / 4.0];
+        let unit = preparation::SETTINGS.windows;
+        let regime = [mean(2) / unit.turning, mean(FORWARD) / unit.speed, range / unit.range];
         segment.regime = regime;
     }
 }

@@ -3,23 +3,19 @@
 use inference::robust::select_quantile;
 use robot_model::Robot;
 
+use crate::settings::next::{Limits, Menu, SETTINGS};
 use crate::windows::{CHANNELS, Cut, WINDOW};
 use verdict::{Course, WIDENING};
 
-/// Share of what was reached before that counts as the robot's limit, and the least limits, m/s and rad/s.
-const REACHED: f64 = 0.97;
-const LEAST: [f64; 2] = [0.15, 0.3];
-/// A robot that drives so fast can also spin: share of the yaw rate at which its wheels turn as fast.
-const SPIN: f64 = 0.6;
-/// Windows that a point of the recorded path is a mean of.
-const THINNED: usize = 5;
+const LIMITS: Limits = SETTINGS.scope;
+const MENU: Menu = SETTINGS.menu;
 
 /// How the robot is prepared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Setup {
     /// As it was.
     AsItIs,
-    /// With a known load of a fifth of its mass over its centre.
+    /// With a known load over its centre.
     Loaded,
     /// Wheels off the ground.
     Lifted,
@@ -63,8 +59,10 @@ impl Scope {
                 }
             }
         }
-        let mut limits = [0, 1].map(|c| select_quantile(&mut reached[c], REACHED).unwrap_or(0.0).max(LEAST[c]));
-        limits[1] = limits[1].max(SPIN * limits[0] / (WIDENING * robot.half_track));
+        let mut limit = |c: usize| select_quantile(&mut reached[c], LIMITS.reached).unwrap_or(0.0).max(LIMITS.least[c]);
+        let mut limits = [limit(0), limit(1)];
+        limits[1] = limits[1].max(LIMITS.spin * limits[0] / (WIDENING * robot.half_track));
+
         let windows: Vec<[f64; 2]> = recordings
             .iter()
             .take(1)
@@ -89,44 +87,50 @@ impl Scope {
             Course::of_levels(&[level, back].repeat(times), self.length)
         };
         let mut out = Vec::new();
-        for (word, share) in [("slow", 0.3), ("medium", 0.6), ("fast", 1.0)] {
+        for (word, share) in ["slow", "medium", "fast"].into_iter().zip(MENU.levels) {
             out.push(entry(&format!("{word} spins, both ways"), both([0.0, share * w], 1)));
             out.push(entry(&format!("straight ahead and back, {word}"), both([share * v, 0.0], 1)));
         }
-        for (word, share) in [("slow", 0.4), ("fast", 0.8)] {
-            let arcs = [[share * v, 0.5 * share * w], [share * v, -0.5 * share * w]];
+        for (word, share) in ["slow", "fast"].into_iter().zip(MENU.circles) {
+            let turn = MENU.circle_turning * share * w;
+            let arcs = [[share * v, turn], [share * v, -turn]];
             out.push(entry(
                 &format!("{word} circles of one radius, left then right"),
                 Course::of_levels(&arcs, self.length),
             ));
         }
-        out.push(entry("slow reversals, straight", both([0.4 * v, 0.0], 2)));
-        out.push(entry("fast reversals, straight", both([v, 0.0], 4)));
-        out.push(entry("fast reversals, on the spot", both([0.0, w], 4)));
-        out.push(entry("fast reversals while turning", both([0.7 * v, 0.6 * w], 4)));
+        out.push(entry("slow reversals, straight", both([MENU.slow * v, 0.0], MENU.slow_times)));
+        out.push(entry("fast reversals, straight", both([v, 0.0], MENU.fast_times)));
+        out.push(entry("fast reversals, on the spot", both([0.0, w], MENU.fast_times)));
+        let turning = [MENU.turning[0] * v, MENU.turning[1] * w];
+        out.push(entry("fast reversals while turning", both(turning, MENU.fast_times)));
+
         let mut coasting = both([v, 0.0], 1);
         // From speed to rest without torque, once each way.
-        coasting.torque_free = [0.25, 0.75].map(|share| [share * self.length, (share + 0.25) * self.length]).to_vec();
+        let coast = |share: f64| [share * self.length, (share + MENU.coast) * self.length];
+        coasting.torque_free = MENU.coasts.map(coast).to_vec();
         out.push(entry("coast-down, ahead and back", coasting));
         for (word, turned) in [("a quarter turn", 0.5), ("half a turn", 1.0)] {
             let mut e = entry(&format!("the recorded path, begun {word} further left"), self.path.clone());
             e.start[2] += turned * std::f64::consts::PI;
             out.push(e);
         }
+
         let prepared = |name: &str, setup: Setup, course: Course| Entry { setup, ..entry(name, course) };
-        let loaded = |name: &str, level| prepared(name, Setup::Loaded, both(level, 2));
-        out.push(loaded("with a known load: straight reversals", [0.8 * v, 0.0]));
-        out.push(loaded("with a known load: spins, both ways", [0.0, 0.6 * w]));
-        out.push(prepared("wheels off the ground: reversals", Setup::Lifted, both([v, 0.0], 3)));
+        let loaded = |name: &str, level| prepared(name, Setup::Loaded, both(level, MENU.loaded_times));
+        out.push(loaded("with a known load: straight reversals", [MENU.loaded_speed * v, 0.0]));
+        out.push(loaded("with a known load: spins, both ways", [0.0, MENU.loaded_spin * w]));
+        let lifted = both([v, 0.0], MENU.lifted_times);
+        out.push(prepared("wheels off the ground: reversals", Setup::Lifted, lifted));
         out
     }
 
     /// Straight through a place and back again: its centre lies half way.
     pub(crate) fn across(&self, [x, y, _]: [f64; 3]) -> Entry {
-        let speed = 0.6 * self.limits[0];
+        let speed = MENU.across * self.limits[0];
         let (sin, cos) = self.start[2].sin_cos();
         // Half of the first half of the drive, ramps aside.
-        let reach = 0.2 * self.length * speed;
+        let reach = MENU.across_reach * self.length * speed;
         Entry {
             name: "across the place and back".to_owned(),
             setup: Setup::AsItIs,
@@ -140,10 +144,10 @@ impl Scope {
 /// The path of a recording as a course of the usual length, begun again where it is shorter.
 fn again(windows: &[[f64; 2]], length: f64) -> Course {
     let means: Vec<[f64; 2]> = windows
-        .chunks(THINNED)
+        .chunks(LIMITS.thinned)
         .map(|part| [0, 1].map(|c| part.iter().map(|w| w[c]).sum::<f64>() / part.len() as f64))
         .collect();
-    let each = THINNED as f64 * WINDOW;
+    let each = LIMITS.thinned as f64 * WINDOW;
     let count = (length / each) as usize;
     let inner = means.iter().cycle().take(count.saturating_sub(2)).enumerate();
     let mut points = vec![[0.0; 3]];

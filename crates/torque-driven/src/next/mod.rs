@@ -17,9 +17,9 @@ use rayon::prelude::*;
 use verdict::{Advice, Contender, Manoeuvre};
 
 use crate::calibrate::Regimes;
-use crate::decide::TEMPERATURE;
 use crate::fit::{Fitted, Problem};
 use crate::judged::Judged;
+use crate::settings::{decision, next::SETTINGS};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use follow::Follower;
 use inference::advice::{among as advice_among, nothing_to_split, sorted};
@@ -28,8 +28,9 @@ use menu::{Entry, Scope, Setup};
 use outlook::{Outlook, Prospect};
 use rivals::{Rival, rivals};
 
-/// Probability of "unknown" from which advice among the catalogue's effects needs a word.
-const DOUBT: f64 = 0.1;
+/// Temperature that turned scores into the rivals' probabilities.
+const TEMPERATURE: f64 = decision::SETTINGS.prices.temperature;
+
 /// Advises on the next drive of a torque-driven robot.
 pub(crate) fn advise(answer: &Judged<'_>, retuned: &Fitted, length: f64) -> Advice {
     let rivals = rivals(answer.problem, answer.decision, retuned);
@@ -48,6 +49,7 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
     let mut out = advice_among(rivals.iter().map(contender));
     let mut entries = scope.entries();
     entries.extend(rivals.iter().find_map(Rival::place).map(|place| scope.across(place)));
+
     let prospect = Prospect { problem, regimes, rivals, follower };
     let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
     let bits = |o: &Outlook| expected_bits(&p, &o.views, TEMPERATURE);
@@ -57,6 +59,7 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
         let found = optimise::optimised(scope, |e| prospect.outlook(e).map(|o| bits(&o)));
         drives.extend(found.and_then(|(e, _)| prospect.outlook(&e).map(|o| (e, o))));
     }
+
     let gained: Vec<f64> = drives.par_iter().map(|(_, o)| bits(o)).collect();
     out.manoeuvres = drives.iter().zip(gained).map(|((e, o), bits)| manoeuvre(e, o, bits, rivals)).collect();
     out.withheld = nothing_to_split(&out);
@@ -104,7 +107,7 @@ fn narrowing(narrows: Option<f64>, rivals: &[Rival]) -> String {
 
 fn limits(unknown: f64, advice: &Advice) -> Vec<String> {
     let mut out = Vec::new();
-    if unknown > DOUBT {
+    if unknown > SETTINGS.rivals.doubt {
         out.push(format!(
             "with probability {unknown:.2} the cause is not in the catalogue: which drive would \
              reveal it best cannot be computed, and the expected bits refer to the effects of the \

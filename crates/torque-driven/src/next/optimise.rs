@@ -4,19 +4,10 @@ use rayon::prelude::*;
 use sim::{Purpose, Stream};
 
 use super::menu::{Entry, Scope, Setup};
+use crate::settings::next::{Profile, SETTINGS};
 use verdict::Course;
 
-/// Time of a level, s, and how many a profile has.
-const EACH: f64 = 1.5;
-const LEVELS: [usize; 2] = [3, 8];
-/// Rounds, candidates of each, and how many of them the next round is drawn from.
-const ROUNDS: u64 = 4;
-const CANDIDATES: u64 = 12;
-const ELITE: usize = 4;
-/// Spread of the levels at the beginning and its least later, in shares of the limits.
-const SPREAD: [f64; 2] = [0.8, 0.25];
-/// Fixes the search: the same rivals get the same profile.
-const SEED: u64 = 2026;
+const PROFILE: Profile = SETTINGS.profile;
 
 /// Speed and yaw rate of each piece of a profile, in shares of the limits.
 type Levels = Vec<[f64; 2]>;
@@ -40,14 +31,14 @@ fn within(level: [f64; 2]) -> [f64; 2] {
 
 /// The best profile found, with what `worth` says of it, if it says anything of any.
 pub(crate) fn optimised(scope: &Scope, worth: impl Fn(&Entry) -> Option<f64> + Sync) -> Option<(Entry, f64)> {
-    let count = ((scope.length / EACH).round() as usize).clamp(LEVELS[0], LEVELS[1]);
+    let count = ((scope.length / PROFILE.each).round() as usize).clamp(PROFILE.fewest, PROFILE.most);
     let mut mean: Levels = vec![[0.0; 2]; count];
-    let mut spread: Levels = vec![[SPREAD[0]; 2]; count];
+    let mut spread: Levels = vec![[PROFILE.first_spread; 2]; count];
     let mut all: Vec<(Levels, f64)> = Vec::new();
-    for round in 0..ROUNDS {
-        let draws: Vec<Levels> = (0..CANDIDATES)
+    for round in 0..PROFILE.rounds {
+        let draws: Vec<Levels> = (0..PROFILE.candidates)
             .map(|i| {
-                let mut s = Stream::new(SEED, Purpose::Search, round * CANDIDATES + i);
+                let mut s = Stream::new(PROFILE.seed, Purpose::Search, round * PROFILE.candidates + i);
                 let mut level =
                     |k: usize| within([0, 1].map(|c| (mean[k][c] + spread[k][c] * s.normal()).clamp(-1.0, 1.0)));
                 (0..count).map(&mut level).collect()
@@ -57,7 +48,9 @@ pub(crate) fn optimised(scope: &Scope, worth: impl Fn(&Entry) -> Option<f64> + S
         let found: Vec<(Levels, f64)> = draws.into_par_iter().filter_map(judged).collect();
         all.extend(found);
         all.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let elite = &all[..all.len().min(ELITE)];
+
+        // The next round is drawn about the best so far.
+        let elite = &all[..all.len().min(PROFILE.elite)];
         if elite.is_empty() {
             return None;
         }
@@ -66,7 +59,7 @@ pub(crate) fn optimised(scope: &Scope, worth: impl Fn(&Entry) -> Option<f64> + S
                 let n = elite.len() as f64;
                 let centre = elite.iter().map(|e| e.0[k][c]).sum::<f64>() / n;
                 let square = elite.iter().map(|e| (e.0[k][c] - centre).powi(2)).sum::<f64>() / n;
-                (mean[k][c], spread[k][c]) = (centre, square.sqrt().max(SPREAD[1]));
+                (mean[k][c], spread[k][c]) = (centre, square.sqrt().max(PROFILE.least_spread));
             }
         }
     }

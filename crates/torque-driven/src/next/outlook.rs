@@ -12,19 +12,11 @@ use super::menu::{Entry, Setup};
 use super::rivals::Rival;
 use crate::calibrate::Regimes;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::settings::next::SETTINGS;
 use crate::simulate::Response;
 use crate::windows::CHANNELS;
 use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
-
-/// Mass and inertia of a robot whose wheels turn in the air, kg and kg m², and what is left of gravity, m/s²: no
-/// contact carries a force, and the body stays where it is.
-const LIFTED: [f64; 2] = [1e6, 1e-9];
-/// Share of its mass that a known load adds, and of its yaw inertia.
-const LOAD: [f64; 2] = [0.2, 0.1];
-/// Share of what the model says that counts: the rest is its own error. With all of it nearly every drive seemed to tell
-/// everything, and 0.95 bits were expected where 0.73 were gained (thirty robots of the examiner, seed 1).
-const BELIEVED: f64 = 0.25;
 
 /// Everything that stays the same from drive to drive.
 pub(crate) struct Prospect<'a> {
@@ -58,12 +50,15 @@ impl Prospect<'_> {
     /// The robot as it stands for a drive.
     fn prepared(&self, setup: Setup) -> Robot<f64> {
         let r = *self.problem.robot;
+        let s = SETTINGS.setups;
         match setup {
             Setup::AsItIs => r,
             Setup::Loaded => {
-                Robot { mass: r.mass * (1.0 + LOAD[0]), yaw_inertia: r.yaw_inertia * (1.0 + LOAD[1]), ..r }
+                Robot { mass: r.mass * (1.0 + s.load_mass), yaw_inertia: r.yaw_inertia * (1.0 + s.load_inertia), ..r }
             }
-            Setup::Lifted => Robot { mass: LIFTED[0], yaw_inertia: LIFTED[0], gravity: LIFTED[1], ..r },
+            Setup::Lifted => {
+                Robot { mass: s.lifted_inertia, yaw_inertia: s.lifted_inertia, gravity: s.lifted_gravity, ..r }
+            }
         }
     }
 
@@ -158,6 +153,7 @@ fn gap_of(new: &Problem<'_>, tuning: &Columns, rival: &Rival, h: &Hypothesis) ->
             best = (moved, response);
         }
     }
+
     let (behind, response) = best;
     let cut = &new.cuts[0];
     let (mut left, mut sum, mut count) = (Vec::new(), [0.0; CHANNELS], [0.0_f64; CHANNELS]);
@@ -202,5 +198,6 @@ fn view(gaps: &[Gap]) -> Forecast {
         let product: f64 = gaps[a].left.iter().zip(&gaps[b].left).map(|(x, y)| x * y).sum();
         if norm[a] * norm[b] > 0.0 { product / (norm[a] * norm[b]) } else { f64::from(a == b) }
     };
-    Forecast::new(gaps.iter().map(|g| BELIEVED * g.behind.max(0.0)).collect(), alike)
+    let believed = SETTINGS.outlook.believed;
+    Forecast::new(gaps.iter().map(|g| believed * g.behind.max(0.0)).collect(), alike)
 }

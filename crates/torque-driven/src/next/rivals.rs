@@ -6,14 +6,10 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::Decision;
 use crate::fit::{Fitted, Hypothesis, PER_RUN, Point, Problem};
+use crate::settings::{fit, next::SETTINGS};
 use inference::algebra::solve_spd;
 use inference::hypothesis::{Free, Place};
 
-/// Rivals less probable than this are no rivals, and how many there are at most.
-const LEAST: f64 = 0.01;
-const MOST: usize = 6;
-/// A whiff of a prior on a strength, so that what nothing determines stays where it is.
-const WHIFF: f64 = 1e-3;
 /// An onset before the beginning: there throughout.
 const THROUGHOUT: Option<f64> = Some(-1.0);
 
@@ -46,7 +42,7 @@ impl Rival {
         problem.with_prior(&fitted.point, &mut normal);
         let mut information = normal.matrix;
         for i in NUISANCES..information.nrows() {
-            information[(i, i)] += WHIFF;
+            information[(i, i)] += fit::SETTINGS.fit.whiff;
         }
         let free = hypothesis.free(problem.largest_torque);
         let further = further(&information, hypothesis, &free, &fitted.point.effects);
@@ -121,9 +117,9 @@ pub(crate) fn rivals(problem: &Problem<'_>, decision: &Decision, retuned: &Fitte
         }
     }
     let sum: f64 = found.iter().map(|f| f.3).sum();
-    found.retain(|f| f.3 >= LEAST * sum.max(f64::MIN_POSITIVE));
+    found.retain(|f| f.3 >= SETTINGS.rivals.least * sum.max(f64::MIN_POSITIVE));
     found.sort_by(|a, b| b.3.total_cmp(&a.3));
-    found.truncate(MOST);
+    found.truncate(SETTINGS.rivals.most);
     let shares = normalised(&found.iter().map(|f| f.3).collect::<Vec<_>>());
     let rivals = found.into_iter().zip(shares);
     rivals.filter_map(|((_, h, fitted, _), p)| Rival::new(problem, h, fitted, p)).collect()

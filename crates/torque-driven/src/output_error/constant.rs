@@ -4,13 +4,9 @@ use robot_model::Robot;
 use robot_model::tunable::{Tuning, tunables};
 
 use super::OutputErrorError;
+use crate::settings::output_error::{Constants, SETTINGS};
 
-/// A usual change of a factor: 10 %.
-const FACTOR: f64 = 0.1;
-/// Finite step of a constant, in its scale: small enough to be linear, large enough to be told from rounding.
-const STEP: f64 = 1e-5;
-/// Longest step of a fit in one constant, in its scale: half a factor e for factors.
-const LONGEST: f64 = 5.0;
+const CONSTANTS: Constants = SETTINGS.constants;
 
 /// A constant of a robot that is free in a fit: `δ` changes it, 0 leaves it as it is.
 #[derive(Debug, Clone)]
@@ -34,7 +30,7 @@ impl Constant {
             id: id.into(),
             known: all.iter().map(|t| t.id).collect::<Vec<_>>().join(", "),
         })?;
-        let scale = if found.tuning == Tuning::Factor { FACTOR } else { found.sigma };
+        let scale = if found.tuning == Tuning::Factor { CONSTANTS.factor } else { found.sigma };
         Ok(Self { name: id.into(), apply: found.apply, by_exponent: false, scale })
     }
 
@@ -46,7 +42,7 @@ impl Constant {
     /// });
     /// ```
     pub fn factor(name: &str, apply: fn(&mut Robot<f64>, f64)) -> Self {
-        Self { name: name.into(), apply, by_exponent: true, scale: FACTOR }
+        Self { name: name.into(), apply, by_exponent: true, scale: CONSTANTS.factor }
     }
 
     /// Any constant to which `apply` adds `δ`, in the constant's unit; `scale` is a usual change of it.
@@ -72,11 +68,11 @@ impl Constant {
 
     /// Finite step of `δ` for a column of the Jacobian.
     pub(super) fn step(&self) -> f64 {
-        STEP * self.scale
+        CONSTANTS.step * self.scale
     }
 
     pub(super) fn longest_step(&self) -> f64 {
-        LONGEST * self.scale
+        CONSTANTS.longest * self.scale
     }
 
     pub(super) fn scale(&self) -> f64 {

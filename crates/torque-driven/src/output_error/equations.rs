@@ -5,9 +5,7 @@ use robot_model::Robot;
 
 use super::free::{Run, Shown, WIDTH};
 use super::{CHANNELS, OutputError};
-
-/// Vectors of robots that are run before their columns are summed and forgotten.
-const VECTORS: usize = 8;
+use crate::settings::output_error::SETTINGS;
 
 /// The problem linearised at a point.
 #[derive(Clone)]
@@ -79,11 +77,13 @@ impl OutputError<'_> {
         let robots = self.robots(delta).ok_or(0_usize)?;
         let (n, weight) = (self.constants.len(), self.weight());
         let per_step: Vec<f64> = self.constants.iter().map(|c| 1.0 / c.step()).collect();
+
         let mut lower = vec![0.0; n * (n + 1) / 2];
         let (mut gradient, mut cost, mut numbers) = (vec![0.0; n], 0.0, 0);
         let mut columns = vec![[0.0; CHANNELS]; n];
         let mut row_of = vec![0.0; n];
-        let at_once = (VECTORS * WIDTH / (n + 1)).max(1);
+
+        let at_once = (SETTINGS.equations.vectors * WIDTH / (n + 1)).max(1);
         for (part, recordings) in self.recordings.chunks(at_once).enumerate() {
             let runs: Vec<Run<'_>> = recordings
                 .iter()
@@ -117,6 +117,7 @@ impl OutputError<'_> {
                 }
             }
         }
+
         let at = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
         Ok(Equations {
             matrix: Mat::from_fn(n, n, at),

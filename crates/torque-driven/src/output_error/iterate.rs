@@ -6,19 +6,9 @@ use robot_model::Robot;
 
 use super::equations::Equations;
 use super::{OutputError, OutputErrorError};
+use crate::settings::output_error::{Iteration, SETTINGS};
 
-/// A fit has arrived when the cost falls by less than this share of itself, or all constants move by less than this share of
-/// their scale.
-const LEAST_FALL: f64 = 1e-7;
-const LEAST_MOVE: f64 = 1e-4;
-/// Steps at most.
-const MOST_STEPS: usize = 60;
-/// Smallest eigenvalue of the columns' correlations from which on they are told apart: finite steps are known to 1e-5 or so.
-const LEAST_EIGENVALUE: f64 = 1e-9;
-/// A constant that is known to no better than this many scales is not determined.
-const MOST_SIGMA: f64 = 10.0;
-/// A constant has a part in an undetermined combination from this share on.
-const PART: f64 = 0.2;
+const ITERATION: Iteration = SETTINGS.iteration;
 
 /// Constants fitted to recordings.
 #[derive(Debug, Clone)]
@@ -88,9 +78,9 @@ impl OutputError<'_> {
         self.check(start)?;
         let equations = self.linearised(start).map_err(|place| self.not_finite(place))?;
         let settings = Settings {
-            iterations: MOST_STEPS,
-            least_relative_fall: LEAST_FALL,
-            least_move: LEAST_MOVE,
+            iterations: ITERATION.most_steps,
+            least_relative_fall: ITERATION.least_fall,
+            least_move: ITERATION.least_move,
             ..Settings::default()
         };
         let outcome = minimise(&Task(self), Point { delta: start.to_vec(), equations }, &settings);
@@ -136,7 +126,7 @@ impl OutputError<'_> {
 
     /// Refuses constants that change nothing.
     fn all_leave_a_trace(&self, at: &Equations) -> Result<(), OutputErrorError> {
-        let silent = |i: usize| at.matrix[(i, i)] * (MOST_SIGMA * self.constants[i].scale()).powi(2) < 1.0;
+        let silent = |i: usize| at.matrix[(i, i)] * (ITERATION.most_sigma * self.constants[i].scale()).powi(2) < 1.0;
         if (0..self.constants.len()).any(silent) { Err(self.undetermined(silent)) } else { Ok(()) }
     }
 
@@ -149,13 +139,13 @@ impl OutputError<'_> {
         let eigen = correlation.self_adjoint_eigen(Side::Lower).map_err(|_| self.undetermined(|_| true))?;
         let values = eigen.S().column_vector();
         let worst = (0..n).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
-        if values[worst] < LEAST_EIGENVALUE {
-            return Err(self.undetermined(|i| eigen.U()[(i, worst)].abs() > PART));
+        if values[worst] < ITERATION.least_eigenvalue {
+            return Err(self.undetermined(|i| eigen.U()[(i, worst)].abs() > ITERATION.part));
         }
         let sigma: Vec<f64> = (0..n)
             .map(|i| (0..n).map(|k| eigen.U()[(i, k)].powi(2) / values[k]).sum::<f64>().sqrt() / size[i])
             .collect();
-        let vague = |i: usize| sigma[i] > MOST_SIGMA * self.constants[i].scale();
+        let vague = |i: usize| sigma[i] > ITERATION.most_sigma * self.constants[i].scale();
         if (0..n).any(vague) { Err(self.undetermined(vague)) } else { Ok(sigma) }
     }
 }

@@ -11,23 +11,22 @@ use super::pool::{Measured, beyond, least_squares};
 use super::{Fault, card};
 use crate::motion::{GyroError, Smoothed};
 use crate::run::Run;
+use crate::settings::redundancy::{Acceleration, SETTINGS};
 
-/// Half of the time over which a second difference is taken, s.
-const HALF: f64 = 1.0;
-/// Noise of the pose that smoothing allows, m; only the heading is used of it.
-const POSE_SIGMA: f64 = 0.004;
+const ACCELERATION: Acceleration = SETTINGS.acceleration;
 
 /// Bias in x and y (m/s²) and angle about z (rad) of a run's accelerometer.
 fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
     let nothing = [None; 3];
     let poses: Vec<(usize, [f64; 2])> =
         (0..run.rows()).filter_map(|k| Some((k, [run.pose[0][k]?, run.pose[1][k]?]))).collect();
-    if poses.len() < 20 || run.accel.iter().any(|a| a.iter().flatten().next().is_none()) {
+    if poses.len() < ACCELERATION.least_poses || run.accel.iter().any(|a| a.iter().flatten().next().is_none()) {
         return nothing;
     }
-    let yaw = Smoothed::new(run, gyro, POSE_SIGMA).yaw;
+
+    let yaw = Smoothed::new(run, gyro, ACCELERATION.pose_sigma).yaw;
     let gaps = (poses[poses.len() - 1].0 - poses[0].0) as f64 * run.period / (poses.len() - 1) as f64;
-    let half = (HALF / gaps).round().max(1.0) as usize;
+    let half = (ACCELERATION.half / gaps).round().max(1.0) as usize;
     // Specific force of each row, the last one known where a sample is missing, and the direction it has.
     let mut last = [0.0; 2];
     let felt: Vec<[f64; 4]> = (0..run.rows())
@@ -40,6 +39,7 @@ fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
             [last[0], last[1], c, s]
         })
         .collect();
+
     let mut rows: Vec<([f64; 5], f64)> = Vec::new();
     for w in poses.windows(2 * half + 1) {
         let [(a, from), (b, at), (c, to)] = [w[0], w[half], w[2 * half]];
@@ -61,6 +61,7 @@ fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
         rows.push(([-cos, sin, jx, all, 0.0], bend(0) - ax));
         rows.push(([-sin, -cos, jy, 0.0, all], bend(1) - ay));
     }
+
     // Neighbouring second differences share their samples.
     least_squares(&rows, 2.0 * half as f64).map_or(nothing, |[x, y, angle, ..]| [Some(x), Some(y), Some(angle)])
 }

@@ -6,6 +6,9 @@ use super::pool::median;
 use super::{Fault, card};
 use crate::motion::frozen_rows;
 use crate::run::Run;
+use crate::settings::redundancy::{Jumps, SETTINGS};
+
+const JUMPS: Jumps = SETTINGS.jumps;
 
 /// Share of rows with a frozen angle, beyond what the references show.
 pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
@@ -26,28 +29,23 @@ pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     }
 }
 
-/// Steps on each side of a jump that tell the usual step, and those beside it that must agree with it.
-const AROUND: usize = 5;
-const BESIDE: usize = 2;
-/// Most by which the steps beside a jump differ from the usual one, as a share of the smallest jump.
-const STEADY: f64 = 0.3;
-
 /// Rows before which the angle jumps by more than `least`, with the jump: a step unlike those before and after, which
 /// agree with each other. A wheel cannot take up and lose that speed again within a row; an angle that freezes and
 /// jumps, or a sample that is wrong, does not leave its neighbours as they were.
 pub(super) fn jumps_of(angle: &[Option<f64>], least: f64) -> Vec<(usize, f64)> {
+    let (around, beside) = (JUMPS.around, JUMPS.beside);
     let steps: Vec<Option<f64>> = angle.windows(2).map(|w| Some(w[1]? - w[0]?)).collect();
-    (AROUND..steps.len().saturating_sub(AROUND))
+    (around..steps.len().saturating_sub(around))
         .filter_map(|k| {
             let step = steps[k]?;
             let mut near: Vec<f64> =
-                (k - AROUND..=k + AROUND).filter(|&i| i != k).map(|i| steps[i]).collect::<Option<_>>()?;
-            let beside = near[AROUND - BESIDE..AROUND + BESIDE].to_vec();
+                (k - around..=k + around).filter(|&i| i != k).map(|i| steps[i]).collect::<Option<_>>()?;
+            let nearest = near[around - beside..around + beside].to_vec();
             near.sort_by(f64::total_cmp);
-            let usual = 0.5 * (near[AROUND - 1] + near[AROUND]);
+            let usual = 0.5 * (near[around - 1] + near[around]);
             // A wheel that seems to stand before it jumps is a frozen angle's.
-            let moving = beside[..BESIDE].iter().all(|s| *s != 0.0);
-            let steady = moving && beside.iter().all(|s| (s - usual).abs() < STEADY * least);
+            let moving = nearest[..beside].iter().all(|s| *s != 0.0);
+            let steady = moving && nearest.iter().all(|s| (s - usual).abs() < JUMPS.steady * least);
             (steady && (step - usual).abs() > least).then_some((k + 1, step - usual))
         })
         .collect()
@@ -64,7 +62,7 @@ pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         // Counts per run, with the spread of rare events.
         let (n, m) = (runs.len().max(1) as f64, references.len() as f64);
         let more = here.len() as f64 / n - there.len() as f64 / m;
-        if more > 4.0 * (there.len() as f64).sqrt() / m
+        if more > JUMPS.sure * (there.len() as f64).sqrt() / m
             && let Some((magnitude, sigma)) = median(&here)
         {
             out.push(Fault { card, parameter: 0, magnitude, sigma, side: Some(side) });

@@ -10,11 +10,9 @@ use super::pool::{Measured, beyond, least_squares};
 use super::{Fault, card};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
+use crate::settings::redundancy::{Clocks, SETTINGS};
 
-/// Rows on each side over which a rate is averaged.
-const AROUND: usize = 5;
-/// Poses that tell as much as one: their noise is white, but the errors of what they are compared with are not.
-const ALIKE: f64 = 3.0;
+const CLOCKS: Clocks = SETTINGS.clocks;
 
 /// Delays of a run's clocks, s, and growth of one.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,7 +31,7 @@ fn delays(run: &Run) -> Delays {
     let Some(turned) = integrated_yaw(run, GyroError::default()) else { return out };
     let half = |x: &[f64], k: usize| 0.5 * (x[k] + x[k.saturating_sub(1)]);
     let mean = |k: usize| {
-        let (a, b) = (k.saturating_sub(AROUND + 1), (k + AROUND).min(run.rows() - 1));
+        let (a, b) = (k.saturating_sub(CLOCKS.around + 1), (k + CLOCKS.around).min(run.rows() - 1));
         (turned[b] - turned[a]) / ((b - a) as f64 * run.period)
     };
     let wheels = wheel_turning(run);
@@ -49,12 +47,13 @@ fn delays(run: &Run) -> Delays {
             against[1].push(([1.0, t, angle, slipping, driving, -speed], yaw));
         }
     }
-    out.gyro = least_squares(&pose, ALIKE).map(|x| x[3]);
-    out.growing = least_squares(&long, ALIKE).map(|x| [x[3], x[4]]);
+    out.gyro = least_squares(&pose, CLOCKS.alike).map(|x| x[3]);
+    out.growing = least_squares(&long, CLOCKS.alike).map(|x| [x[3], x[4]]);
     out.wheels = against.map(|rows| {
-        let [_, _, gain, _, _, delayed] = least_squares(&rows, ALIKE)?;
+        let [_, _, gain, _, _, delayed] = least_squares(&rows, CLOCKS.alike)?;
         let value = delayed.value / gain.value;
-        (gain.value.abs() > 3.0 * gain.sigma).then(|| Measured { value, sigma: (delayed.sigma / gain.value).abs() })
+        (gain.value.abs() > CLOCKS.told_gain * gain.sigma)
+            .then(|| Measured { value, sigma: (delayed.sigma / gain.value).abs() })
     });
     out
 }
@@ -66,8 +65,8 @@ fn wheel_turning(run: &Run) -> Vec<Option<[f64; 4]>> {
     (0..run.rows())
         .map(|k| {
             let angle = |k: usize| Some([run.angle[0].get(k).copied()??, run.angle[1].get(k).copied()??]);
-            let time = (2 * AROUND + 1) as f64 * run.period;
-            let (before, after) = (angle(k.checked_sub(AROUND + 1)?)?, angle(k + AROUND)?);
+            let time = (2 * CLOCKS.around + 1) as f64 * run.period;
+            let (before, after) = (angle(k.checked_sub(CLOCKS.around + 1)?)?, angle(k + CLOCKS.around)?);
             let speed = [0, 1].map(|j| (after[j] - before[j]) / time);
             let (turn, drive) = (speed[1] - speed[0], 0.5 * (speed[0] + speed[1]));
             sums[0] += turn * turn.abs() * run.period;

@@ -7,31 +7,28 @@ use super::pool::{Measured, alone, beyond, least_squares};
 use super::{Fault, Redundant, card};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
+use crate::settings::redundancy::{Gyro, SETTINGS};
 
-/// Yaw travel below which a gyro's scale cannot be told, rad.
-const LEAST_TRAVEL: f64 = 3.0;
-
-/// Poses that tell as much as one: errors of a pose and of an integrated gyro last about a second.
-const ALIKE: f64 = 10.0;
+const GYRO: Gyro = SETTINGS.gyro;
 
 /// Offset and scale of one run's gyro against the pose heading, by least squares:
 /// `∫gyro = c + b t + (1 + s) yaw_pose(t)`. The scale is `None` with too little travel.
 fn gyro_against_pose(run: &Run) -> Option<[Option<Measured>; 2]> {
     let turned = integrated_yaw(run, GyroError::default())?;
     let poses = pose_yaw(run);
-    if poses.len() < 20 {
+    if poses.len() < GYRO.least_poses {
         return None;
     }
     let at = |k: usize| 0.5 * (turned[k] + turned[k.saturating_sub(1)]);
     let travel: f64 = poses.windows(2).map(|w| (w[1].1 - w[0].1).abs()).sum();
     let time = |k: usize| k as f64 * run.period;
-    if travel > LEAST_TRAVEL {
+    if travel > GYRO.least_travel {
         let rows: Vec<_> = poses.iter().map(|&(k, yaw)| ([1.0, time(k), yaw], at(k) - yaw)).collect();
-        let [_, bias, scale] = least_squares(&rows, ALIKE)?;
+        let [_, bias, scale] = least_squares(&rows, GYRO.alike)?;
         Some([Some(bias), Some(scale)])
     } else {
         let rows: Vec<_> = poses.iter().map(|&(k, yaw)| ([1.0, time(k)], at(k) - yaw)).collect();
-        let [_, bias] = least_squares(&rows, ALIKE)?;
+        let [_, bias] = least_squares(&rows, GYRO.alike)?;
         Some([Some(bias), None])
     }
 }

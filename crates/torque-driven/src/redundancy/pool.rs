@@ -3,7 +3,10 @@
 use faer::Mat;
 use inference::robust;
 
+use crate::settings::redundancy::{Pool, SETTINGS};
 use inference::algebra::solve_spd;
+
+const POOL: Pool = SETTINGS.pool;
 
 /// A number with one sigma.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,12 +15,6 @@ pub(super) struct Measured {
     pub(super) sigma: f64,
 }
 
-/// A difference is reported when it exceeds so many sigma, and what matters.
-const SURE: f64 = 4.0;
-/// Run-to-run spread that is expected beforehand, as a share of the size that matters, and how many runs that
-/// expectation is worth: three or four runs alone tell a spread badly.
-const USUAL_SPREAD: f64 = 0.25;
-const WORTH: f64 = 4.0;
 /// Sigma of a median over that of a mean.
 const MEDIAN: f64 = 1.25;
 /// Share of a column's square that keeps collinear columns apart: what it decides gets a huge sigma.
@@ -26,12 +23,16 @@ const RIDGE: f64 = 1e-9;
 impl Measured {
     /// Whether it is large enough to act on and far enough from zero to be believed.
     pub(super) fn is_told(&self, interest: f64) -> bool {
-        self.value.abs() > interest && self.value.abs() > SURE * self.sigma
+        self.value.abs() > interest && self.value.abs() > POOL.sure * self.sigma
     }
 }
 
 fn values(of: &[Measured]) -> Vec<f64> {
     of.iter().map(|m| m.value).collect()
+}
+
+fn determined(runs: &[Option<Measured>], interest: f64) -> Vec<Measured> {
+    runs.iter().flatten().copied().filter(|m| m.sigma < POOL.determined * interest).collect()
 }
 
 /// Median and the sigma of it by the spread.
@@ -43,9 +44,9 @@ pub(super) fn median(v: &[f64]) -> Option<(f64, f64)> {
 
 /// What the runs show by themselves: their median, no surer than their spread and their own sigmas let it be.
 ///
-/// A run that does not determine the number to half the size that matters has no say.
+/// A run that does not determine the number to a share of the size that matters has no say.
 pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured> {
-    let determined: Vec<Measured> = runs.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+    let determined = determined(runs, interest);
     let (value, spread) = median(&values(&determined))?;
     let n = determined.len() as f64;
     let own = (determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>() / n / n).sqrt();
@@ -54,23 +55,24 @@ pub(super) fn alone(runs: &[Option<Measured>], interest: f64) -> Option<Measured
 
 /// How far the recordings differ from the references, by medians; `None` when either determines nothing.
 ///
-/// A run that does not determine the number to half the size that matters has no say.
+/// A run that does not determine the number to a share of the size that matters has no say.
 pub(super) fn beyond(
     recordings: &[Option<Measured>],
     references: &[Option<Measured>],
     interest: f64,
 ) -> Option<Measured> {
     let mut middle = [0.0; 2];
-    let (mut squares, mut own, mut count, mut share) = (WORTH * (USUAL_SPREAD * interest).powi(2), 0.0, 0.0, 0.0);
+    let mut squares = POOL.worth * (POOL.usual_spread * interest).powi(2);
+    let (mut own, mut count, mut share) = (0.0, 0.0, 0.0);
     for (middle, group) in middle.iter_mut().zip([recordings, references]) {
-        let determined: Vec<Measured> = group.iter().flatten().copied().filter(|m| m.sigma < 0.5 * interest).collect();
+        let determined = determined(group, interest);
         *middle = median(&values(&determined))?.0;
         squares += determined.iter().map(|m| (m.value - *middle).powi(2)).sum::<f64>();
         own += determined.iter().map(|m| m.sigma * m.sigma).sum::<f64>();
         count += determined.len() as f64;
         share += 1.0 / determined.len() as f64;
     }
-    let spread = (squares / (WORTH + count - 2.0)).max(own / count);
+    let spread = (squares / (POOL.worth + count - 2.0)).max(own / count);
     Some(Measured { value: middle[0] - middle[1], sigma: MEDIAN * (spread * share).sqrt() })
 }
 

@@ -9,19 +9,13 @@ use robot_model::effect::Redundancy;
 use super::pool::{Measured, beyond, median};
 use super::{Fault, card};
 use crate::run::Run;
+use crate::settings::redundancy::{SETTINGS, Wheels};
 
-/// Time over which speeds are compared, s.
-const SPAN: f64 = 0.4;
-/// Slowest wheel that counts, rad/s.
-const SLOWEST: f64 = 1.5;
-/// Most turning per driving that is straight, rad/m.
-const STRAIGHT: f64 = 0.5;
-/// Fewest stretches of driving and of braking.
-const FEWEST: usize = 4;
+const WHEELS: Wheels = SETTINGS.wheels;
 
 /// ln(wheel speed over pose speed) of each side in straight driving and in straight braking, both alike.
 fn scales(run: &Run) -> [Option<Measured>; 2] {
-    let span = (SPAN / run.period).round().max(1.0) as usize;
+    let span = (WHEELS.span / run.period).round().max(1.0) as usize;
     let poses: Vec<(usize, [f64; 3])> =
         (0..run.rows()).filter_map(|k| Some((k, [run.pose[0][k]?, run.pose[1][k]?, run.pose[2][k]?]))).collect();
     let mut found: [[Vec<f64>; 2]; 2] = Default::default();
@@ -32,14 +26,14 @@ fn scales(run: &Run) -> [Option<Measured>; 2] {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
         let travel = dx.hypot(dy);
         let turn = (to[2] - from[2]).sin().abs();
-        if turn > STRAIGHT * travel {
+        if turn > WHEELS.straight * travel {
             continue;
         }
         for (j, found) in found.iter_mut().enumerate() {
             // A pose sample was taken half a row before its row.
             let at = |k: usize| Some(0.5 * (run.angle[j][k]? + run.angle[j][k.checked_sub(1)?]?));
             let Some((x, y)) = at(a).zip(at(b)) else { continue };
-            if (y - x).abs() < SLOWEST * (b - a) as f64 * run.period {
+            if (y - x).abs() < WHEELS.slowest * (b - a) as f64 * run.period {
                 continue;
             }
             let work: f64 = run.torque[a..b].iter().map(|t| t[j]).sum::<f64>() * (y - x);
@@ -47,7 +41,7 @@ fn scales(run: &Run) -> [Option<Measured>; 2] {
         }
     }
     found.map(|[driving, braking]| {
-        if driving.len() < FEWEST || braking.len() < FEWEST {
+        if driving.len() < WHEELS.fewest || braking.len() < WHEELS.fewest {
             return None;
         }
         let ((d, ds), (b, bs)) = (median(&driving)?, median(&braking)?);

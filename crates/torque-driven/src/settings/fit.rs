@@ -1,0 +1,67 @@
+//! Free runs, fits and the calibration on the references.
+
+use crate::fit::{DEVIATING, OFFSETS};
+use crate::windows::CHANNELS;
+
+::settings::settings! {
+    /// What fits and calibration were tuned with.
+    pub(crate) struct Settings;
+
+    /// Free runs of the plant.
+    simulation: Simulation {
+        /// Integration step of a speed-driven robot.
+        step_at_speed: f64 = 2e-3, "s", "guess";
+        /// Torques that are remembered at most: a handful of drives for each of a few recordings.
+        remembered: usize = 24, "1", "guess";
+    }
+
+    /// What differs a little from run to run.
+    deviations: Deviations {
+        /// Relative standard deviation between runs of each constant that deviates, before the common factor.
+        constants: [f64; DEVIATING.len()] = [0.004, 0.01, 0.01, 0.01, 0.005], "1", "guess";
+        /// Standard deviation between runs of the offsets of gyro, forward and lateral acceleration.
+        offsets: [f64; OFFSETS] = [0.0015, 0.03, 0.03], "rad/s, m/s², m/s²", "guess";
+    }
+
+    /// Gauss–Newton in free run.
+    fit: Fit {
+        /// Gain below which a fit has arrived.
+        least_gain: f64 = 0.05, "nats", "guess, far below what decides between hypotheses";
+        /// Finite step of a constant of the robot, in its sigma.
+        constant_step: f64 = 0.3, "1", "guess";
+        /// Finite step of an effect's value, in its unit.
+        effect_step: f64 = 0.1, "1", "guess";
+        /// Least finite step of an effect's value, as a share of the value.
+        least_effect_step: f64 = 0.02, "1", "guess";
+        /// Tuning beyond so many sigmas is no tuning.
+        farthest: f64 = 6.0, "1", "guess";
+        /// At most so many units of an effect's value at once: a linear column says nothing beyond.
+        longest: f64 = 2.0, "1", "guess";
+        /// A whiff of a prior on strengths keeps what the data do not determine where it is: its information per unit.
+        whiff: f64 = 1e-3, "1", "numerical guard";
+    }
+
+    /// Constants and noise from the references.
+    calibration: Calibrating {
+        /// Typical residual of each channel, the standard deviation to start with.
+        first_sigma: [f64; CHANNELS] = [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08],
+            "rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²", "typical residuals";
+        /// No channel is trusted beyond this share of its typical residual.
+        least_share: f64 = 0.1, "1", "guess";
+        /// Gauss–Newton steps, with the channels' variances renewed after each.
+        steps: usize = 4, "1", "guess";
+        /// Gauss–Newton steps after the spread between runs has been chosen.
+        last_steps: usize = 2, "1", "guess";
+        /// Common factors of the run-to-run deviations that are tried.
+        spreads: [f64; 6] = [0.6, 0.9, 1.3, 1.9, 2.7, 3.8], "1", "guess";
+        /// Common factor to start with, and the median of its log-normal prior.
+        usual_spread: f64 = 1.3, "1", "guess";
+        /// Width of that prior in the logarithm.
+        spread_width: f64 = 0.6, "1", "guess";
+        /// Segments at the middle that a kernel mean over kinds of driving begins with.
+        pseudo_counts: f64 = 2.0, "1", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;

@@ -1,0 +1,71 @@
+//! From a recording to segments of windows.
+
+::settings::settings! {
+    /// What recordings are turned into before any force law.
+    pub(crate) struct Settings;
+
+    /// Laying a recording on a grid of rows.
+    runs: Runs {
+        /// Fewest rows of a recording.
+        least_rows: usize = 201, "1", "guess";
+        /// Most rows of the grid per sample of the torque: more are gaps, not a recording.
+        most_rows_per_sample: usize = 100, "1", "guess";
+    }
+
+    /// Telling a frozen wheel angle from a wheel that stands.
+    freezing: Freezing {
+        /// Fewest equal angles in a row that are a freeze.
+        least_rows: usize = 3, "1", "guess";
+        /// Jump at the end of a freeze, in usual increments of the angle.
+        jump: f64 = 3.0, "1", "guess";
+        /// Increments to each side of a freeze that tell the usual one.
+        around: usize = 5, "1", "guess";
+    }
+
+    /// Smoothing of poses.
+    smoothing: Smoothing {
+        /// Distance of the nodes of the pose smoother.
+        node: f64 = 0.05, "s", "guess";
+        /// Fewest samples, and nodes, that are smoothed at all.
+        least_samples: usize = 8, "1", "guess";
+        /// Decimal logarithms between which the weight of roughness is looked for.
+        log_weights: [f64; 2] = [-4.0, 9.0], "1", "guess";
+        /// Halvings of that range.
+        halvings: usize = 20, "1", "numerical guard: twenty halvings leave nothing to gain";
+        /// Poses beyond which the integrated gyro's drift against them is told as well as its offset.
+        least_for_drift: f64 = 10.0, "1", "guess";
+    }
+
+    /// Windows and segments.
+    windows: Windows {
+        /// Length of a window.
+        length: f64 = 0.1, "s", "guess";
+        /// Parts of a segment in which a local presence is resolved.
+        parts: usize = 4, "1", "guess";
+        /// Rows to each side of a window's border that may not be frozen.
+        beside_frozen: usize = 2, "1", "guess";
+        /// Mean yaw rate by which kinds of driving differ by one.
+        turning: f64 = 0.3, "rad/s", "guess";
+        /// Mean forward velocity by which kinds of driving differ by one.
+        speed: f64 = 0.3, "m/s", "guess";
+        /// Range of the wheel speeds by which kinds of driving differ by one.
+        range: f64 = 4.0, "rad/s", "guess";
+    }
+
+    /// The state from which a segment runs free.
+    starts: Starts {
+        /// Times to each side over which the wheel angle is fitted, each tried when the one before holds too few rows.
+        wheel: [f64; 3] = [0.05, 0.15, 0.4], "s", "guess";
+        /// Fewest rows of such a fit.
+        least_rows: usize = 5, "1", "guess";
+        /// Time to each side over which the yaw rate is fitted.
+        gyro: f64 = 0.07, "s", "guess";
+        /// First angles that tell whether a robot stands at the beginning.
+        standing_rows: usize = 3, "1", "guess";
+        /// Change of the wheel angle below which it stands.
+        standing: f64 = 1e-3, "rad", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;

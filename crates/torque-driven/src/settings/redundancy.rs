@@ -1,0 +1,75 @@
+//! Sensor faults that two sensors show without any force law.
+
+::settings::settings! {
+    /// What the checks of sensors against each other were tuned with.
+    pub(crate) struct Settings;
+
+    /// Recordings judged against references.
+    pool: Pool {
+        /// A difference is reported when it exceeds so many sigma, and what matters.
+        sure: f64 = 4.0, "1", "guess";
+        /// Run-to-run spread that is expected beforehand, as a share of the size that matters.
+        usual_spread: f64 = 0.25, "1", "guess";
+        /// Runs that this expectation is worth: three or four runs alone tell a spread badly.
+        worth: f64 = 4.0, "1", "guess";
+        /// A run has a say when its sigma is below this share of the size that matters.
+        determined: f64 = 0.5, "1", "guess";
+    }
+
+    /// Encoders against the speed of the pose.
+    wheels: Wheels {
+        /// Time over which speeds are compared.
+        span: f64 = 0.4, "s", "guess";
+        /// Slowest wheel that counts.
+        slowest: f64 = 1.5, "rad/s", "guess";
+        /// Most turning per driving that is straight.
+        straight: f64 = 0.5, "rad/m", "guess";
+        /// Fewest stretches of driving and of braking.
+        fewest: usize = 4, "1", "guess";
+    }
+
+    /// The accelerometer against the pose.
+    acceleration: Acceleration {
+        /// Half of the time over which a second difference of the pose is taken.
+        half: f64 = 1.0, "s", "guess";
+        /// Noise of the pose that smoothing allows; only the heading is used of it.
+        pose_sigma: f64 = 0.004, "m", "guess";
+        /// Fewest poses of a run that has a say.
+        least_poses: usize = 20, "1", "guess";
+    }
+
+    /// Clocks against each other.
+    clocks: Clocks {
+        /// Rows on each side over which a rate is averaged.
+        around: usize = 5, "1", "guess";
+        /// Poses that tell as much as one: their noise is white, but the errors of what they are compared with are not.
+        alike: f64 = 3.0, "1", "guess";
+        /// Sigmas by which the wheels' turning must show in a sensor before its delay against them is told.
+        told_gain: f64 = 3.0, "1", "guess";
+    }
+
+    /// Jumps of the wheel angle.
+    jumps: Jumps {
+        /// Steps on each side of a jump that tell the usual step.
+        around: usize = 5, "1", "guess";
+        /// Steps on each side of a jump that must agree with the usual one.
+        beside: usize = 2, "1", "guess";
+        /// Most by which the steps beside a jump differ from the usual one, as a share of the smallest jump.
+        steady: f64 = 0.3, "1", "guess";
+        /// Sigmas of the references' count, a rare event's, by which the recordings must have more jumps.
+        sure: f64 = 4.0, "1", "guess";
+    }
+
+    /// The gyro against the heading of the pose.
+    gyro: Gyro {
+        /// Yaw travel below which a gyro's scale cannot be told.
+        least_travel: f64 = 3.0, "rad", "guess";
+        /// Poses that tell as much as one: errors of a pose and of an integrated gyro last about a second.
+        alike: f64 = 10.0, "1", "guess";
+        /// Fewest poses of a run that has a say.
+        least_poses: usize = 20, "1", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
