@@ -1,6 +1,7 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
 use crate::name::{Named, Naming};
+use crate::settings::{NAMING, naming::Answer};
 use crate::traces::Forecasts;
 use crate::words::{clocks, sentences};
 use crate::{SpeedRun, SteadyCase};
@@ -9,14 +10,7 @@ use inference::evidence::{is_within_odds, probabilities};
 use inference::hypothesis::Place;
 use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
 
-/// Effects within this many nats of the best (odds of 200) cannot be told from it: steady loads are few numbers, and
-/// the recordings were driven at different places. Widened from 3 after a look at the open sandy-loam runs, where 3
-/// left rolling resistance alone although every straight drive goes one way.
-const INDISTINGUISHABLE: f64 = 5.3;
-/// What is this much (nats) less probable than "nothing is missing" stands in for nothing.
-const LEAST_PLAUSIBLE: f64 = 2.0;
-/// Causes below this probability are not listed.
-const LISTED: f64 = 1e-3;
+const ANSWER: Answer = NAMING.answer;
 
 pub(super) fn verdict(
     case: &SteadyCase,
@@ -58,7 +52,7 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
         }
     }
     let scores: Vec<f64> = [0.0, naming.unknown].into_iter().chain(effects.iter().map(|e| e.score)).collect();
-    let shares = probabilities(&scores, 1.0);
+    let shares = probabilities(&scores, ANSWER.temperature);
     let (none, unknown, of_effects) = (shares[0], shares[1], &shares[2..]);
     out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
     // An effect is as probable as all hypotheses that contain it; its size is that alone.
@@ -73,7 +67,7 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
             }
         }
     }
-    causes.retain(|c| c.probability > LISTED);
+    causes.retain(|c| c.probability > ANSWER.listed);
     causes.push(Cause::plain(NONE.id, NONE.name, none));
     causes.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
     causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
@@ -100,8 +94,8 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
         .iter()
         .filter(|e| {
             e.parts.len() == best.parts.len()
-                && is_within_odds(e.score, best.score, INDISTINGUISHABLE)
-                && e.score > -LEAST_PLAUSIBLE
+                && is_within_odds(e.score, best.score, ANSWER.indistinguishable)
+                && e.score > -ANSWER.least_plausible
         })
         .filter_map(|e| {
             let ids = e.ids();

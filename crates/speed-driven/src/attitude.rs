@@ -10,32 +10,13 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::clock::interpolate;
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, changes::Filter};
 use crate::straight::Reading;
 
 type State = SVector<f64, 5>;
 type Square = SMatrix<f64, 5, 5>;
 
-const fn degrees(x: f64) -> f64 {
-    x * std::f64::consts::PI / 180.0
-}
-
-/// Tilt at the beginning, rad, and offsets of the gyro, rad/s: one sigma.
-const FIRST_TILT: f64 = degrees(6.0);
-const FIRST_OFFSET: f64 = degrees(0.05);
-/// Random walk of the tilt (vibration, aliasing), rad/√s, and of the offsets, rad/s/√s.
-const TILT_WALK: f64 = degrees(0.15);
-const OFFSET_WALK: f64 = degrees(0.001);
-/// Ground is level within this, rad, as if it were seen so once in so many seconds.
-const LEVEL: f64 = degrees(3.0);
-const LEVEL_EVERY: f64 = 20.0;
-/// The rolling load wanders by this share, over this time, s: drive trains warm up.
-const ROLLING: f64 = 0.3;
-const ROLLING_TIME: f64 = 60.0;
-/// Where the load is another from end to end the ground may be, too: this share of the excess counts as one sigma.
-const EXCESS: f64 = 0.7;
-/// Error of the slope from one second of straight driving, rad, and beyond which it counts less.
-const FROM_LOAD: f64 = degrees(2.0);
-const FAR_OFF: f64 = degrees(2.5);
+const FILTER: Filter = CHANGES.attitude;
 
 /// The slope along the heading at the rows of a recording, uphill positive.
 #[derive(Debug, Clone)]
@@ -76,6 +57,7 @@ pub(crate) fn attitude(
     let lag = &run.alignment.as_ref()?.lag;
     let (first, dt) = (*rates.time.first()?, rates.step);
     let rows = rates.time.len();
+
     // Readings by the step of the gyro's clock at which they were taken.
     let mut seen: Vec<Vec<usize>> = vec![Vec::new(); rows];
     for (i, _) in readings.iter().enumerate().filter(|(_, r)| r.is_some()) {
@@ -85,21 +67,25 @@ pub(crate) fn attitude(
             seen[step as usize].push(i);
         }
     }
+
+    // What walks between steps: tilt, offsets, rolling load.
     let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
     let excess = median(exact).map_or(0.0, |middle| (middle / usual - 1.0).abs());
-    let rolling = ROLLING.max(EXCESS * excess) * usual / weight;
-    let keep = 1.0 - dt / ROLLING_TIME;
+    let rolling = FILTER.rolling.max(FILTER.excess * excess) * usual / weight;
+    let keep = 1.0 - dt / FILTER.rolling_time;
     let mut walk = Square::zeros();
-    for (k, q) in [TILT_WALK, TILT_WALK, OFFSET_WALK, OFFSET_WALK].into_iter().enumerate() {
+    for (k, q) in [FILTER.tilt_walk, FILTER.tilt_walk, FILTER.offset_walk, FILTER.offset_walk].into_iter().enumerate() {
         walk[(k, k)] = q * q * dt;
     }
     walk[(4, 4)] = rolling * rolling * (1.0 - keep * keep);
+
+    // Forward: expect by the turning rates, correct by the loads.
     let mut x = State::zeros();
     let mut p = Square::from_diagonal(&State::from([
-        FIRST_TILT * FIRST_TILT,
-        FIRST_TILT * FIRST_TILT,
-        FIRST_OFFSET * FIRST_OFFSET,
-        FIRST_OFFSET * FIRST_OFFSET,
+        FILTER.first_tilt * FILTER.first_tilt,
+        FILTER.first_tilt * FILTER.first_tilt,
+        FILTER.first_offset * FILTER.first_offset,
+        FILTER.first_offset * FILTER.first_offset,
         rolling * rolling,
     ]));
     let mut steps: Vec<Step> = Vec::with_capacity(rows);
@@ -114,18 +100,19 @@ pub(crate) fn attitude(
         x = transition * x + State::from([-wy * dt, wx * dt, 0.0, 0.0, 0.0]);
         p = transition * p * transition.transpose() + walk;
         let (expected_x, expected_p) = (x, p);
+
         for axis in 0..2 {
-            update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, LEVEL * LEVEL * LEVEL_EVERY / dt);
+            update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, FILTER.level * FILTER.level * FILTER.level_every / dt);
         }
         for &i in seen {
             let h = State::from([run.speed[0][i].signum(), 0.0, 0.0, 0.0, 1.0]);
             let Some(reading) = readings[i] else { continue };
             let z = (reading.value() - usual) / weight;
             let miss = z - h.dot(&x);
-            let variance = FROM_LOAD * FROM_LOAD / period;
+            let variance = FILTER.from_load * FILTER.from_load / period;
             match reading {
                 Reading::Exact(_) => {
-                    update(&mut x, &mut p, &h, z, variance * (1.0 + (miss / FAR_OFF).powi(2)));
+                    update(&mut x, &mut p, &h, z, variance * (1.0 + (miss / FILTER.far_off).powi(2)));
                 }
                 Reading::AtMost(_) if miss < 0.0 => update(&mut x, &mut p, &h, z, variance),
                 Reading::AtMost(_) => {}
@@ -133,6 +120,8 @@ pub(crate) fn attitude(
         }
         steps.push(Step { x, p, expected_x, expected_p, transition });
     }
+
+    // Backward: what came later corrects what was known before.
     for k in (0..rows.saturating_sub(1)).rev() {
         let (before, after) = steps.split_at_mut(k + 1);
         let (now, next) = (&mut before[k], &after[0]);
@@ -140,6 +129,8 @@ pub(crate) fn attitude(
         now.x += gain * (next.x - next.expected_x);
         now.p += gain * (next.p - next.expected_p) * gain.transpose();
     }
+
+    // On the rows, where the gyro was on.
     let pitch: Vec<f64> = steps.iter().map(|s| s.x[0]).collect();
     let sigma: Vec<f64> = steps.iter().map(|s| s.p[(0, 0)].max(0.0).sqrt()).collect();
     let last = first + dt * rows as f64;

@@ -6,27 +6,27 @@
 use crate::attitude::{Attitude, attitude};
 use crate::jumps::jumps;
 use crate::level::levels;
-use crate::name::UNNAMED_STRAIGHT;
-use crate::pieces::{APART, DRIVING, Usual, class};
+use crate::pieces::{Usual, class};
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, NAMING, changes::Pieces};
 use crate::slopes::slopes;
 use crate::straight::{Reading, readings};
 use inference::robust::median;
 use verdict::{Changes, Hidden};
 
-/// The load of a level stretch is known after so many seconds.
-const KNOWN: f64 = 10.0;
+const PIECES: Pieces = CHANGES.pieces;
+
 /// The load of most of the run at each speed class: its own where that is plausible beside the references', theirs
 /// otherwise.
 fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> Usual {
     let known = usual.iter().flatten().next().copied();
-    let plausible =
-        |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * UNNAMED_STRAIGHT && l > r / UNNAMED_STRAIGHT);
+    let unnamed = NAMING.priors.unnamed_straight;
+    let plausible = |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * unnamed && l > r / unnamed);
     // Median of the class's levels, if there is enough of it.
     let of_class = |c: usize, keep: &dyn Fn(f64) -> bool| {
         let exact = |i: &usize| readings[*i].is_some_and(Reading::is_exact) && class(run.forward(*i).abs()) == c;
         let all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
-        if all.len() as f64 * run.period() >= KNOWN { median(all) } else { None }
+        if all.len() as f64 * run.period() >= PIECES.known { median(all) } else { None }
     };
     let references: Usual = usual.map(|own| own.or(known));
     let like: Usual = std::array::from_fn(|c| of_class(c, &|l| plausible(l, references[c])));
@@ -68,8 +68,9 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
     let ends = [0, run.time.len() - 1];
     let mut marks: Vec<usize> = (0..readings.len()).filter(seen).chain(ends).collect();
     marks.sort_unstable();
-    let moves = |from: usize, until: usize| (from..until).any(|i| (0..2).any(|j| run.speed[j][i].abs() > DRIVING));
-    let gaps = marks.windows(2).filter(|w| run.time[w[1]] - run.time[w[0]] > APART && moves(w[0], w[1]));
+    let moves =
+        |from: usize, until: usize| (from..until).any(|i| (0..2).any(|j| run.speed[j][i].abs() > PIECES.driving));
+    let gaps = marks.windows(2).filter(|w| run.time[w[1]] - run.time[w[0]] > PIECES.apart && moves(w[0], w[1]));
     gaps.map(|w| Hidden { recording: run.name.clone(), interval: [run.time[w[0]], run.time[w[1]]] }).collect()
 }
 

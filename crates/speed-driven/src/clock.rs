@@ -1,31 +1,10 @@
 //! Two clocks that drift: the gyro's against the speeds', from the turning itself and no assumed track.
 
 use inference::robust::{quantile, sorted};
-/// Nodes of the warp, s.
-const NODE: f64 = 2.0;
-/// Largest lag and its grid, s.
-const MOST_LAG: f64 = 2.0;
-const LAG_STEP: f64 = 0.05;
-/// Window of a local correlation, s.
-const WINDOW: f64 = 8.0;
-/// Fewest rows that correlate.
-const LEAST_ROWS: usize = 12;
-/// Least spread of the speed difference in a window, m/s: below it there is no turning to align.
-const LEAST_TURNING: f64 = 0.008;
-/// Correlations count as if this many windows' worth of samples were independent, per second of window and node.
-const EVIDENCE: f64 = 4.0;
-/// The clocks wander by about this much between nodes, s.
-const WANDER: f64 = 0.15;
-/// Weight of the anchors: both files begin together and end together, per second of lag.
-const ANCHOR: f64 = 13.3;
-/// A turn that can be left out: difference of the speeds, m/s, how long at least, which pauses do not end it, and what
-/// is taken before and after, s.
-pub(super) const TURN: f64 = 0.04;
-const TURN_SECONDS: f64 = 0.8;
-const TURN_PAUSE: f64 = 1.0;
-const TURN_MARGIN: f64 = 2.0;
-/// A turn tells its own lag where both signals agree this well.
-const OWN_CORRELATION: f64 = 0.9;
+
+use crate::settings::{MEASURING, measuring::Aligning};
+
+const ALIGNING: Aligning = MEASURING.aligning;
 
 /// The gyro's clock against the speeds', and how well turns that were left out of the alignment agree.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +19,7 @@ impl Alignment {
     /// Median and 90 % quantile of the errors on turns left out, s; `None` below three turns.
     pub fn error(&self) -> Option<[f64; 2]> {
         let sizes = sorted(self.left_out.iter().map(|e| e.abs()));
-        if sizes.len() < 3 {
+        if sizes.len() < ALIGNING.least_left_out {
             return None;
         }
         Some([quantile(&sizes, 0.5)?, quantile(&sizes, 0.9)?])
@@ -82,7 +61,7 @@ pub fn interpolate(t: &[f64], z: &[f64], at: f64) -> f64 {
 /// Correlation, and variance of the first.
 fn correlation(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> Option<(f64, f64)> {
     let n = pairs.clone().count();
-    if n < LEAST_ROWS {
+    if n < ALIGNING.least_rows {
         return None;
     }
     let n = n as f64;
@@ -111,23 +90,23 @@ impl Clocks<'_> {
     /// Costs of the lags at each node, from the rows that may be used.
     fn costs(&self, used: impl Fn(usize) -> bool) -> Vec<Vec<f64>> {
         let (first, last) = (self.time[0], self.time[self.time.len() - 1]);
-        let nodes = ((last - first) / NODE).ceil() as usize + 1;
+        let nodes = ((last - first) / ALIGNING.node).ceil() as usize + 1;
         let cost = |n: usize| {
-            let centre = first + n as f64 * NODE;
-            let from = self.time.partition_point(|&t| t < centre - 0.5 * WINDOW);
-            let until = self.time.partition_point(|&t| t <= centre + 0.5 * WINDOW);
+            let centre = first + n as f64 * ALIGNING.node;
+            let from = self.time.partition_point(|&t| t < centre - 0.5 * ALIGNING.window);
+            let until = self.time.partition_point(|&t| t <= centre + 0.5 * ALIGNING.window);
             let window: Vec<usize> = (from..until).filter(|&i| used(i)).collect();
             let of_lag = |(&lag, yaw): (&f64, &Vec<f64>)| {
                 let alike = match correlation(window.iter().map(|&i| (self.turning[i], yaw[i]))) {
-                    Some((rho, spread)) if spread > LEAST_TURNING * LEAST_TURNING => {
-                        let rho = rho.clamp(0.0, 0.99);
-                        EVIDENCE * (1.0 - rho * rho).ln()
+                    Some((rho, spread)) if spread > ALIGNING.least_turning * ALIGNING.least_turning => {
+                        let rho = rho.clamp(0.0, ALIGNING.most_correlation);
+                        ALIGNING.evidence * (1.0 - rho * rho).ln()
                     }
                     _ => 0.0,
                 };
-                let begin = if n == 0 { ANCHOR * lag.abs() } else { 0.0 };
-                let end = if n + 1 == nodes && self.end_lag.abs() <= MOST_LAG {
-                    ANCHOR * (lag - self.end_lag).abs()
+                let begin = if n == 0 { ALIGNING.anchor * lag.abs() } else { 0.0 };
+                let end = if n + 1 == nodes && self.end_lag.abs() <= ALIGNING.most_lag {
+                    ALIGNING.anchor * (lag - self.end_lag).abs()
                 } else {
                     0.0
                 };
@@ -150,7 +129,7 @@ impl Clocks<'_> {
                 let (i, value) = lags
                     .iter()
                     .enumerate()
-                    .map(|(i, &l)| (i, best[i] + (lag - l).abs() / WANDER))
+                    .map(|(i, &l)| (i, best[i] + (lag - l).abs() / ALIGNING.wander))
                     .min_by(|a, b| a.1.total_cmp(&b.1))
                     .unwrap_or((j, f64::MAX));
                 next.push(value + row[j]);
@@ -165,7 +144,7 @@ impl Clocks<'_> {
             at = from[n - 1][at];
             at_nodes[n - 1] = lags[at];
         }
-        let node_time: Vec<f64> = (0..cost.len()).map(|n| self.time[0] + n as f64 * NODE).collect();
+        let node_time: Vec<f64> = (0..cost.len()).map(|n| self.time[0] + n as f64 * ALIGNING.node).collect();
         self.time.iter().map(|&t| interpolate(&node_time, &at_nodes, t)).collect()
     }
 
@@ -173,26 +152,27 @@ impl Clocks<'_> {
     fn turns(&self) -> Vec<std::ops::Range<usize>> {
         let mut spans: Vec<[f64; 2]> = Vec::new();
         for (&t, d) in self.time.iter().zip(self.turning) {
-            if d.abs() <= TURN {
+            if d.abs() <= ALIGNING.turn {
                 continue;
             }
             match spans.last_mut() {
-                Some(span) if t - span[1] < TURN_PAUSE => span[1] = t,
+                Some(span) if t - span[1] < ALIGNING.turn_pause => span[1] = t,
                 _ => spans.push([t, t]),
             }
         }
         let rows = |[a, b]: [f64; 2]| {
-            let from = self.time.partition_point(|&t| t < a - TURN_MARGIN);
-            from..self.time.partition_point(|&t| t <= b + TURN_MARGIN)
+            let from = self.time.partition_point(|&t| t < a - ALIGNING.turn_margin);
+            from..self.time.partition_point(|&t| t <= b + ALIGNING.turn_margin)
         };
-        spans.into_iter().filter(|[a, b]| b - a > TURN_SECONDS).map(rows).collect()
+        spans.into_iter().filter(|[a, b]| b - a > ALIGNING.turn_seconds).map(rows).collect()
     }
 
     /// The lag that a turn tells by itself.
     fn own_lag(&self, turn: &std::ops::Range<usize>) -> Option<f64> {
         let alike = |(&lag, yaw): (&f64, &Vec<f64>)| {
             let (rho, spread) = correlation(turn.clone().map(|i| (self.turning[i], yaw[i])))?;
-            (rho > OWN_CORRELATION && spread > (0.5 * TURN).powi(2)).then_some((lag, rho))
+            (rho > ALIGNING.own_correlation && spread > (ALIGNING.own_spread * ALIGNING.turn).powi(2))
+                .then_some((lag, rho))
         };
         let all = self.lags.iter().zip(&self.yaw).filter_map(alike);
         all.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(lag, _)| lag)
@@ -209,11 +189,11 @@ pub fn align(time: &[f64], turning: &[f64], yaw_time: &[f64], yaw: &[f64]) -> Al
         return Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() };
     };
     // Stamps of a clock that was set meanwhile: nothing to align by.
-    if (last - time[0]) / NODE > time.len() as f64 {
+    if (last - time[0]) / ALIGNING.node > time.len() as f64 {
         return Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() };
     }
-    let steps = (2.0 * MOST_LAG / LAG_STEP).round() as usize;
-    let lags: Vec<f64> = (0..=steps).map(|i| i as f64 * LAG_STEP - MOST_LAG).collect();
+    let steps = (2.0 * ALIGNING.most_lag / ALIGNING.lag_step).round() as usize;
+    let lags: Vec<f64> = (0..=steps).map(|i| i as f64 * ALIGNING.lag_step - ALIGNING.most_lag).collect();
     let at = |lag: &f64| time.iter().map(|t| interpolate(yaw_time, yaw, t + lag)).collect();
     let clocks = Clocks { time, turning, yaw: lags.iter().map(at).collect(), lags, end_lag: yaw_last - last };
     let left_out = |turn: std::ops::Range<usize>| {

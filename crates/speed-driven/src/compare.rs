@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use verdict::{Load, Quantity, Ratio};
 
-use crate::extract::CLASSES;
+use crate::settings::{MEASURING, measuring::Ratios};
 use inference::robust::NINETY;
+
+const RATIOS: Ratios = MEASURING.ratios;
 
 /// A reference value of a quantity: logarithm (or value), its standard error, its speeds.
 #[derive(Debug, Clone)]
@@ -16,9 +18,6 @@ pub(crate) struct Reference {
     pub(crate) error: f64,
     pub(crate) speed: [f64; 2],
 }
-
-/// Seconds of steady driving that make an answer firm.
-pub(crate) const FIRM: f64 = 10.0;
 
 /// The scale on which a load is compared: its logarithm, or itself.
 pub(crate) fn scaled(l: &Load) -> (f64, f64) {
@@ -33,7 +32,7 @@ fn class(l: &Load) -> usize {
     match l.quantity {
         Quantity::StraightLoad | Quantity::Asymmetry => {
             let v = 0.5 * (l.speed[0] + l.speed[1]).abs();
-            CLASSES.windows(2).position(|c| v >= c[0] && v < c[1]).unwrap_or(0)
+            MEASURING.stretches.classes.windows(2).position(|c| v >= c[0] && v < c[1]).unwrap_or(0)
         }
         _ => 0,
     }
@@ -91,19 +90,23 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
             continue;
         }
         let n = list.len() as f64;
+
         let d: Vec<f64> = list.iter().map(|(l, r, _)| scaled(l).0 - r.centre).collect();
         let w: Vec<f64> = list.iter().map(|(l, ..)| 1.0 / (scaled(l).1.powi(2) + quantity.scatter().powi(2))).collect();
         let total: f64 = w.iter().sum();
         let mean = d.iter().zip(&w).map(|(d, w)| d * w).sum::<f64>() / total;
         let sd = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
-        // Recordings that differ by more than twice the usual scatter are not one load.
-        if sd > 2.0 * quantity.scatter() {
+        // Recordings that differ by more than the usual scatter are not one load.
+        if sd > RATIOS.most_spread * quantity.scatter() {
             continue;
         }
+
         let sd = sd.max(quantity.scatter());
         let inverse: f64 = list.iter().map(|(l, ..)| scaled(l).1.powi(-2)).sum();
         let reference = list.iter().map(|(_, r, _)| r.error).fold(0.0, f64::max);
         let e = (sd * sd / n + 1.0 / inverse + reference.powi(2)).sqrt();
+
+        // One load stands for all of them.
         let mut names: Vec<&str> = list.iter().map(|(l, ..)| l.recording.as_str()).collect();
         names.dedup();
         let mut sample = list[0].0.clone();
@@ -132,7 +135,7 @@ fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Rati
         ratio: of(d),
         interval: [of(d - NINETY * e), of(d + NINETY * e)],
         seconds: l.seconds,
-        firm: l.seconds >= FIRM,
+        firm: l.seconds >= RATIOS.firm,
         other_speed,
     }
 }

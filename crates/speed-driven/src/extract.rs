@@ -4,38 +4,20 @@
 //! couple, plus on the outer side of a turn. In a spin both sides drive and each reads `S/2 + T`.
 
 use crate::run::SpeedRun;
-use crate::straight::{STRAIGHT, is_straight};
+use crate::settings::MEASURING;
+use crate::settings::measuring::{Stretches, Turns};
+use crate::straight::is_straight;
 use inference::robust::effective_number;
 use verdict::{Load, Quantity, Withheld};
 
-/// Least steady driving for an answer, samples at least and seconds.
-const LEAST_SECONDS: f64 = 3.0;
-/// Samples further apart belong to different stretches, s; a stretch counts as one piece per so many seconds.
-const STRETCH_GAP: f64 = 1.0;
-const PIECE: f64 = 5.0;
-/// Scatter of such a piece on one floor, relative: guards recordings of few pieces.
-const PIECE_SCATTER: f64 = 0.06;
-/// Speed classes of straight driving, m/s: different speeds are never mixed.
-pub(crate) const CLASSES: [f64; 4] = [0.12, 0.30, 0.55, 5.0];
-/// Least difference of the sides in a turn, m/s.
-const TURN: f64 = 4.5 / 127.0;
-/// How long a drive must have been straight, s: loads wind up after a turn. How constant a turn must have been, m/s,
-/// and for how long, s.
-const STRAIGHT_HOLD: f64 = 1.5;
-pub(super) const TURN_HOLD: (f64, f64) = (3.5 / 127.0, 1.0);
-/// For how long a turn must go on for its yaw rate to count, s.
-const TURN_AHEAD: f64 = 0.5;
-/// Difference over sum of the speeds above which scrub is fully developed.
-const PLATEAU: f64 = 0.15;
-/// Systematic errors of the track: a gyro offset of 0.002 rad/s, set-points that are no encoder, 1.5 %.
-const GYRO_OFFSET: f64 = 0.002;
-const SET_POINT_ERROR: f64 = 0.015;
+const STRETCHES: Stretches = MEASURING.stretches;
+const TURNS: Turns = MEASURING.turns;
 
 /// Whether the robot turns at a row, has done so for a while, and scrub is fully developed: a spin or an arc.
 pub(crate) fn is_steady_turn(run: &SpeedRun, i: usize) -> bool {
     let (l, r) = (run.speed[0][i], run.speed[1][i]);
-    let tight = l * r < 0.0 || (r - l).abs() >= PLATEAU * (l + r).abs().max(1e-9);
-    tight && (r - l).abs() >= TURN && run.held(i, TURN_HOLD.0, TURN_HOLD.1 * run.patience())
+    let tight = l * r < 0.0 || (r - l).abs() >= TURNS.plateau * (l + r).abs().max(1e-9);
+    tight && (r - l).abs() >= TURNS.difference && run.held(i, TURNS.steady, TURNS.hold * run.patience())
 }
 
 /// Mean with a standard error over pieces of steady stretches.
@@ -51,8 +33,8 @@ fn pieces(run: &SpeedRun, rows: &[usize]) -> Vec<Vec<usize>> {
     for &i in rows {
         match out.last_mut() {
             Some(piece)
-                if piece.last().is_some_and(|&k| run.time[i] - run.time[k] <= STRETCH_GAP)
-                    && run.time[i] - run.time[piece[0]] <= PIECE =>
+                if piece.last().is_some_and(|&k| run.time[i] - run.time[k] <= STRETCHES.gap)
+                    && run.time[i] - run.time[piece[0]] <= STRETCHES.piece =>
             {
                 piece.push(i);
             }
@@ -65,7 +47,7 @@ fn pieces(run: &SpeedRun, rows: &[usize]) -> Vec<Vec<usize>> {
 /// Speeds of the inner and the outer side at a row, the outer one positive; their mean when the drive is straight.
 fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
     let (l, r) = (run.speed[0][i], run.speed[1][i]);
-    if (r - l).abs() <= STRAIGHT {
+    if (r - l).abs() <= MEASURING.straight.difference {
         return [0.5 * (l + r).abs(); 2];
     }
     let (inner, outer) = if l.abs() < r.abs() { (l, r) } else { (r, l) };
@@ -74,7 +56,7 @@ fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
 
 fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Option<Clustered> {
     let seconds = rows.len() as f64 * run.period();
-    if seconds < LEAST_SECONDS {
+    if seconds < STRETCHES.least_seconds {
         return None;
     }
     let pieces = pieces(run, rows);
@@ -83,8 +65,8 @@ fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Op
     let effective = effective_number(pieces.iter().map(|p| p.len() as f64));
     let scatter: f64 =
         pieces.iter().map(|p| (p.iter().map(|&i| value(i)).sum::<f64>() - p.len() as f64 * mean).powi(2)).sum();
-    let small = if effective > 1.5 { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
-    let error = (scatter.sqrt() / n * small).max(PIECE_SCATTER * mean.abs() / effective.sqrt());
+    let small = if effective > STRETCHES.least_pieces { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
+    let error = (scatter.sqrt() / n * small).max(STRETCHES.piece_scatter * mean.abs() / effective.sqrt());
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / n);
     Some(Clustered { mean, error, seconds, speed })
 }
@@ -104,13 +86,19 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let refuse = |quantity: Quantity, rows: usize, what: &str| Withheld {
         recording: run.name.clone(),
         quantity,
-        reason: format!("only {:.1} s of {what}; at least {LEAST_SECONDS:.0} s are needed", rows as f64 * run.period()),
+        reason: format!(
+            "only {:.1} s of {what}; at least {:.0} s are needed",
+            rows as f64 * run.period(),
+            STRETCHES.least_seconds
+        ),
     };
     let all = || 0..run.time.len();
-    let straight: Vec<usize> =
-        all().filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, STRAIGHT_HOLD)).collect();
+
+    let straight: Vec<usize> = all()
+        .filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, MEASURING.straight.hold_of_means))
+        .collect();
     let speed = |i: usize| run.forward(i).abs();
-    for class in CLASSES.windows(2) {
+    for class in STRETCHES.classes.windows(2) {
         let rows: Vec<usize> =
             straight.iter().copied().filter(|&i| speed(i) >= class[0] && speed(i) < class[1]).collect();
         if let Some(c) = clustered(run, &rows, |i| run.torque[0][i].abs() + run.torque[1][i].abs()) {
@@ -128,6 +116,8 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
             "steady straight driving with a current on both sides",
         ));
     }
+
+    // Arcs and spins: the outer side of an arc, both sides of a spin.
     let turning: Vec<usize> = all().filter(|&i| is_steady_turn(run, i)).collect();
     let (spins, arcs): (Vec<usize>, Vec<usize>) =
         turning.into_iter().partition(|&i| run.speed[0][i] * run.speed[1][i] < 0.0);
@@ -150,6 +140,7 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     if !loads.iter().any(|l| matches!(l.quantity, Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum)) {
         withheld.push(refuse(Quantity::TurningLoad, arcs.len().max(spins.len()), "steady turning"));
     }
+
     match track(run, arcs.iter().chain(&spins).copied()) {
         Ok(l) => loads.push(l),
         Err(w) => withheld.push(w),
@@ -167,15 +158,16 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let refuse = |reason: String| Withheld { recording: run.name.clone(), quantity, reason };
     let Some(yaw) = &run.yaw_rate else { return Err(refuse("no gyro was recorded".to_owned())) };
     let mut rows: Vec<usize> =
-        rows.filter(|&i| yaw[i].is_finite() && run.holds(i, TURN_HOLD.0, TURN_AHEAD * run.patience())).collect();
+        rows.filter(|&i| yaw[i].is_finite() && run.holds(i, TURNS.steady, TURNS.ahead * run.patience())).collect();
     rows.sort_unstable();
     let seconds = rows.len() as f64 * run.period();
-    if seconds < LEAST_SECONDS {
+    if seconds < STRETCHES.least_seconds {
         return Err(refuse(format!(
-            "only {seconds:.1} s of steady turning with a gyro; at least \
-             {LEAST_SECONDS:.0} s are needed"
+            "only {seconds:.1} s of steady turning with a gyro; at least {:.0} s are needed",
+            STRETCHES.least_seconds
         )));
     }
+
     let (mut dd, mut dw, mut ww) = (0.0, 0.0, 0.0);
     for &i in &rows {
         let d = run.difference(i);
@@ -187,10 +179,12 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
         return Err(refuse("the gyro does not turn with the wheels: check its sign and clock".to_owned()));
     }
     let b = dd / dw;
+
+    // Its error: random from piece to piece, systematic of the sensors.
     let pieces = pieces(run, &rows);
     let weight = |p: &Vec<usize>| p.iter().map(|&i| run.difference(i).powi(2)).sum::<f64>();
     let effective = effective_number(pieces.iter().map(weight));
-    if effective <= 1.5 {
+    if effective <= STRETCHES.least_pieces {
         return Err(refuse("only one short turn: its uncertainty cannot be estimated; record more turns".to_owned()));
     }
     let scatter: f64 = pieces
@@ -198,7 +192,8 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
         .map(|p| p.iter().map(|&i| run.difference(i) * (run.difference(i) - b * yaw[i])).sum::<f64>().powi(2))
         .sum();
     let random = scatter.sqrt() / dw * (effective / (effective - 1.0)).sqrt();
-    let systematic = b * (GYRO_OFFSET / (ww / rows.len() as f64).sqrt()).hypot(SET_POINT_ERROR);
+    let systematic =
+        b * (MEASURING.track.gyro_offset / (ww / rows.len() as f64).sqrt()).hypot(MEASURING.track.set_point_error);
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
     Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
 }
@@ -241,7 +236,7 @@ mod tests {
         ] {
             let l = one(&loads, quantity);
             assert!((l.value - truth).abs() <= 1e-6_f64.max(2.0 * l.error), "{l:?}, truth {truth}");
-            assert!(l.error < 0.1 * truth && l.seconds >= LEAST_SECONDS, "{l:?}");
+            assert!(l.error < 0.1 * truth && l.seconds >= STRETCHES.least_seconds, "{l:?}");
         }
         assert!(one(&loads, Quantity::Asymmetry).value.abs() < 1e-9);
         approx::assert_relative_eq!(one(&loads, Quantity::StraightLoad).speed[0], 0.5, epsilon = 1e-9);

@@ -1,17 +1,13 @@
 //! The last third of a recording forecast from its set speeds, with everything fitted on the first two.
 
-use crate::clock::TURN;
 use crate::extract::extract;
 use crate::law::{Law, error, fit, torques};
 use crate::run::SpeedRun;
+use crate::settings::{FORECASTING, MEASURING, forecasting::Split};
 use inference::robust::{median, rms};
 use verdict::{Forecast, Quantity};
 
-/// Recordings shorter than this are not split, s; nor those that turn less in either part, s.
-const LEAST_SECONDS: f64 = 15.0;
-const LEAST_TURNING: f64 = 3.0;
-/// Lags of the body behind its set speeds that are tried, s.
-const LAGS: [f64; 7] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+const SPLIT: Split = FORECASTING.split;
 
 /// What the references say of the forecast: torques by the law, and the effective track in m.
 pub(crate) struct Nominal {
@@ -25,7 +21,7 @@ impl Nominal {
     pub(crate) fn new(references: &[SpeedRun], straight: f64, track: f64) -> Self {
         let fits: Vec<_> = references
             .iter()
-            .filter(|r| turning_seconds(r, 0, r.time.len()) >= LEAST_TURNING)
+            .filter(|r| turning_seconds(r, 0, r.time.len()) >= SPLIT.least_turning)
             .map(|r| fit(Law::Turning, r, r.time.len(), straight))
             .collect();
         let middle = |k: usize| median(fits.iter().map(|c| c[k])).unwrap_or(f64::NAN);
@@ -34,18 +30,20 @@ impl Nominal {
 }
 
 fn turning_seconds(run: &SpeedRun, from: usize, until: usize) -> f64 {
-    (from..until).filter(|&i| run.difference(i).abs() > TURN).count() as f64 * run.period()
+    (from..until).filter(|&i| run.difference(i).abs() > MEASURING.aligning.turn).count() as f64 * run.period()
 }
 
 /// Forecasts of torques and yaw rate; none of a recording that is short or does not turn in both parts.
 pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
     let rows = run.time.len();
     let (first, last) = (run.time[0], run.time[rows - 1]);
-    let split = run.time.partition_point(|t| *t < first + (last - first) * 2.0 / 3.0);
-    let turns = turning_seconds(run, 0, split) >= LEAST_TURNING && turning_seconds(run, split, rows) >= LEAST_TURNING;
-    if last - first < LEAST_SECONDS || !turns {
+    let split = run.time.partition_point(|t| *t < first + (last - first) * SPLIT.fitted_thirds / 3.0);
+    let turns = turning_seconds(run, 0, split) >= SPLIT.least_turning
+        && turning_seconds(run, split, rows) >= SPLIT.least_turning;
+    if last - first < SPLIT.least_seconds || !turns {
         return Vec::new();
     }
+
     let mut out = Vec::new();
     if let Some(constants) = &nominal.constants {
         let of = |law| error(&torques(law, &fit(law, run, split, nominal.straight), run), run, split);
@@ -59,13 +57,17 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
             placebos: Law::PLACEBOS.into_iter().map(|law| (law.effect().into(), of(law))).collect(),
         });
     }
+
     if let Some(yaw) = &run.yaw_rate {
+        // By the effective track, behind the set speeds by the lag that fits best.
         let of_track = |b: f64, lag: f64, from: usize, until: usize| {
             let follow = followed(run, lag);
             rms_of_known((from..until).map(|i| follow[i] / b - yaw[i]))
         };
         let lag_of = |b: f64| {
-            LAGS.into_iter()
+            SPLIT
+                .lags
+                .into_iter()
                 .min_by(|x, y| of_track(b, *x, 0, split).total_cmp(&of_track(b, *y, 0, split)))
                 .unwrap_or(0.0)
         };

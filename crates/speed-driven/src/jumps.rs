@@ -1,24 +1,15 @@
 //! Jumps of the straight load, by currents.
 
-use crate::name::UNNAMED_STRAIGHT;
-use crate::pieces::{APART, GRADE, ROLLING, Usual, class, pieces};
+use crate::pieces::{GRADE, ROLLING, Usual, class, pieces};
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, NAMING, changes::Jumps};
 use crate::straight::{Reading, reads_nothing};
 use inference::robust::NINETY;
 use verdict::LoadChange;
 
-/// A change shorter than this is not told, s of straight driving.
-const LEAST: f64 = 1.5;
-/// A slope whose pull counts as a jump of the load, degrees.
-const JUMP: f64 = 1.9;
-/// No friction falls to this share of the usual load: the robot runs downhill.
-const BELOW_FRICTION: f64 = 0.35;
-const BELOW_SECONDS: f64 = 1.0;
-/// Scatter of the straight load along one floor, as a share.
-const SCATTER: f64 = 0.15;
-/// Headings this far apart tell a slope from the ground, rad; a way back, rad.
-const OTHER_HEADING: f64 = std::f64::consts::FRAC_PI_3;
-const WAY_BACK: f64 = 2.6;
+const JUMPS: Jumps = CHANGES.jumps;
+/// Factor by which the straight load varies without a cause.
+const UNNAMED: f64 = NAMING.priors.unnamed_straight;
 
 /// Jumps of the load, from currents. `after_slope`: what a slope does was taken away.
 pub(super) fn jumps(
@@ -31,17 +22,20 @@ pub(super) fn jumps(
 ) -> Vec<LoadChange> {
     let period = run.period();
     let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
-    let step = weight * JUMP.to_radians();
-    let changed = |i: &usize| (level[*i] - base(*i)).abs() > step.max((1.0 - 1.0 / UNNAMED_STRAIGHT) * base(*i));
+    let step = weight * JUMPS.slope.to_radians();
+    let changed = |i: &usize| (level[*i] - base(*i)).abs() > step.max((1.0 - 1.0 / UNNAMED) * base(*i));
     let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
+
     let mut out = Vec::new();
-    for piece in pieces(&run.time, seen.iter().copied().filter(changed), APART) {
+    for piece in pieces(&run.time, seen.iter().copied().filter(changed), CHANGES.pieces.apart) {
         // A piece has one direction.
         for piece in piece.chunk_by(|&a, &b| (level[a] > base(a)) == (level[b] > base(b))) {
             let seconds = piece.len() as f64 * period;
-            if seconds < LEAST {
+            if seconds < JUMPS.least {
                 continue;
             }
+
+            // By how much: from what reads, unless most of it only bounds the load.
             let exact: Vec<usize> =
                 piece.iter().copied().filter(|&i| readings[i].is_some_and(Reading::is_exact)).collect();
             let bound = 2 * exact.len() < piece.len();
@@ -53,23 +47,26 @@ pub(super) fn jumps(
                 continue;
             }
             // What the currents only bound from above may be anything between.
-            if bound && load > from / UNNAMED_STRAIGHT {
+            if bound && load > from / UNNAMED {
                 continue;
             }
+
             let (first, last) = (piece[0], piece[piece.len() - 1]);
             let own = |i: usize| level[i] - base(i);
             let before = seen.iter().rev().find(|&&i| i < first).copied();
             let after = seen.iter().find(|&&i| i > last).copied();
             // Cold drive trains differ from the references, but do not jump at one speed.
             let jumped = [before, after].into_iter().flatten().any(|i| {
-                class(run.forward(i).abs()) == class(run.forward(first).abs()) && own(i).abs() < 0.5 * own(first).abs()
+                class(run.forward(i).abs()) == class(run.forward(first).abs())
+                    && own(i).abs() < JUMPS.neighbour * own(first).abs()
             });
-            if !jumped && load > from / UNNAMED_STRAIGHT && load < from * UNNAMED_STRAIGHT * (1.0 + SCATTER) {
+            if !jumped && load > from / UNNAMED && load < from * UNNAMED * (1.0 + JUMPS.scatter) {
                 continue;
             }
+
             let slope = ((load - from) / weight).clamp(-1.0, 1.0).asin().to_degrees();
             let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
-            let below = load < BELOW_FRICTION * from || nothing >= BELOW_SECONDS && load < from / UNNAMED_STRAIGHT;
+            let below = load < JUMPS.below_friction * from || nothing >= JUMPS.below_seconds && load < from / UNNAMED;
             let (causes, reason) = if after_slope {
                 (vec![ROLLING], "the gyro shows no slope that would explain it")
             } else if below {
@@ -85,7 +82,7 @@ pub(super) fn jumps(
                 seconds,
                 ratio: Some(load / from),
                 slope,
-                slope_half: NINETY * SCATTER * from / weight * 180.0 / std::f64::consts::PI,
+                slope_half: NINETY * JUMPS.scatter * from / weight * 180.0 / std::f64::consts::PI,
                 bound,
                 causes,
                 reason: reason.into(),
@@ -117,8 +114,9 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
     for change in found.iter_mut().filter(|c| c.causes.len() > 1 && !c.bound) {
         let (own, slope) = (direction(change), change.slope);
         let apart = |other: f64| (other - own).sin().atan2((other - own).cos()).abs();
-        let way_back = seen.iter().any(|o| apart(o.0) > WAY_BACK && o.1 * slope < 0.0);
-        let whichever = seen.iter().any(|o| apart(o.0) > OTHER_HEADING && (o.1 / slope - 1.0).abs() < SCATTER);
+        let way_back = seen.iter().any(|o| apart(o.0) > JUMPS.way_back && o.1 * slope < 0.0);
+        let whichever =
+            seen.iter().any(|o| apart(o.0) > JUMPS.other_heading && (o.1 / slope - 1.0).abs() < JUMPS.scatter);
         if way_back {
             change.causes = vec![GRADE];
             change.reason = "driven the other way, the load changes the opposite way".into();

@@ -8,6 +8,11 @@ use inference::least_squares::{Constant, Loss, Residuals, Settings};
 use robot_model::effect::LoadTerm;
 
 use crate::run::SpeedRun;
+use crate::settings::FORECASTING;
+use crate::settings::forecasting::{Bounds, LawFit, Torques};
+
+const LAW: Torques = FORECASTING.law;
+const FIT: LawFit = FORECASTING.fit;
 
 /// Free constants of every law.
 pub(crate) const CONSTANTS: usize = 6;
@@ -41,36 +46,27 @@ impl Law {
     }
 }
 
-/// Where the fit begins: straight load, scrub couple (N m), curvature, distance (m), asymmetry, lag (s); and bounds.
-fn begin(law: Law, straight: f64) -> [Constants; 3] {
-    match law {
-        Law::Turning => [
-            [straight, 2.0 * straight, 0.3, 0.15, 0.1, 0.2],
-            [0.2 * straight, 0.1 * straight, 0.02, 0.01, -0.7, 0.01],
-            [6.0 * straight, 8.0 * straight, 2.0, 2.0, 0.7, 1.0],
-        ],
-        _ => [
-            [straight, 0.0, 0.0, 0.0, 0.1, 0.2],
-            [0.2 * straight, -20.0 * straight, -20.0 * straight, -20.0 * straight, -0.7, 0.01],
-            [6.0 * straight, 20.0 * straight, 20.0 * straight, 20.0 * straight, 0.7, 1.0],
-        ],
-    }
+/// Where the fit begins, its lower and its upper bounds: straight load, scrub couple (N m), curvature, distance (m),
+/// asymmetry, lag (s).
+fn bounds(law: Law, usual: f64) -> [Constants; 3] {
+    let Bounds { straight, couple, curvature, distance, placebo, asymmetry, lag } = FORECASTING.constants;
+    std::array::from_fn(|k| {
+        let [a1, a2, a3] = match law {
+            Law::Turning => [couple[k] * usual, curvature[k], distance[k]],
+            _ => [placebo[k] * usual; 3],
+        };
+        [straight[k] * usual, a1, a2, a3, asymmetry[k], lag[k]]
+    })
 }
-
-/// Below this speed a side rests, m/s; and the least that a curvature is taken over.
-const REST: f64 = 0.01;
-const LEAST_SPEED: f64 = 0.02;
-/// Torque over which an unsigned current goes from nothing to a reading, N m.
-const SOFT: f64 = 1.0;
 
 /// What the sensor shows of a torque.
 fn shown(torque: f64, speed: f64, magnitude_only: bool) -> f64 {
     if !magnitude_only {
         return torque;
     }
-    let drives = if speed.abs() > REST { torque * speed.signum() } else { torque.abs() };
+    let drives = if speed.abs() > LAW.rest { torque * speed.signum() } else { torque.abs() };
     // Soft at zero, so that a fit sees from which side it comes.
-    drives.max(0.0) + SOFT * (-(drives / SOFT).abs()).exp().ln_1p()
+    drives.max(0.0) + LAW.soft * (-(drives / LAW.soft).abs()).exp().ln_1p()
 }
 
 /// Torques of both sides that a law gives from the set speeds, row by row.
@@ -78,6 +74,7 @@ pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f
     let [straight, a1, a2, a3, asymmetry, lag] = *constants;
     let Some(&first) = run.time.first() else { return Vec::new() };
     let length = (run.time[run.time.len() - 1] - first).max(1e-9);
+
     let mut speed = [run.speed[0][0], run.speed[1][0]];
     let (mut wound, mut before, mut then) = (0.0, speed, first);
     let mut out = Vec::with_capacity(run.time.len());
@@ -87,16 +84,19 @@ pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f
         for (j, v) in speed.iter_mut().enumerate() {
             *v += follow * (run.speed[j][i] - *v);
         }
+
+        // Scrub winds up with the way of the faster side.
         let [l, r] = speed;
         let fastest = l.abs().max(r.abs());
         if law == Law::Turning {
-            let scrub = ((r - l) / fastest.max(LEAST_SPEED) / a2).tanh();
+            let scrub = ((r - l) / fastest.max(LAW.least_speed) / a2).tanh();
             wound += (1.0 - (-fastest * dt / a3).exp()) * (scrub - wound);
         }
+
         let mut row = [0.0; 2];
         for (j, side) in [(0, -1.0), (1, 1.0)] {
             let v = speed[j];
-            let rolling = (v / LEAST_SPEED).tanh() * 0.5 * straight * (1.0 + side * asymmetry);
+            let rolling = (v / LAW.least_speed).tanh() * 0.5 * straight * (1.0 + side * asymmetry);
             let rest = match law {
                 Law::Turning => side * a1 * wound,
                 Law::Speed => {
@@ -105,7 +105,7 @@ pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f
                 }
                 Law::Drift => {
                     let x = (now - first) / length;
-                    (v / LEAST_SPEED).tanh() * (a1 * x + a2 * x * x + a3 * (-8.0 * x).exp())
+                    (v / LAW.least_speed).tanh() * (a1 * x + a2 * x * x + a3 * (-LAW.decay * x).exp())
                 }
                 Law::Pull => a1 + a2 * side + if v > 0.0 { a3 } else { 0.0 },
             };
@@ -117,29 +117,20 @@ pub(crate) fn torques(law: Law, constants: &Constants, run: &SpeedRun) -> Vec<[f
     out
 }
 
-/// Residual beyond which a row counts less, N m.
-const FAR_OFF: f64 = 3.0;
-/// Steps of the fit and of its derivatives (share of the way from bound to bound), first damping, and what holds a
-/// constant that shows in no torque.
-const STEPS: usize = 25;
-const SHIFT: f64 = 1e-4;
-const DAMPING: f64 = 1e-2;
-const RIDGE: f64 = 1e-6;
-
 /// Fits a law to the rows before `until` (soft-L1 loss, within bounds); where it starts if it has no torque there.
 pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Constants {
-    let [start, low, high] = begin(law, straight);
+    let [start, low, high] = bounds(law, straight);
     let constant = |k: usize| {
         let constant = Constant::new(start[k], high[k] - low[k]).within(low[k], high[k]);
-        Constant { difference: SHIFT, ridge: RIDGE, ..constant }
+        Constant { difference: FIT.shift, ridge: FIT.ridge, ..constant }
     };
     let misfit = |x: &[f64]| -> Vec<f64> {
         let rows = torques(law, &std::array::from_fn(|k| x[k]), run);
         (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
     };
-    let settings = Settings { iterations: STEPS, first_damping: DAMPING, ..Settings::default() };
+    let settings = Settings { iterations: FIT.steps, first_damping: FIT.damping, ..Settings::default() };
 
-    let residuals = Residuals::new((0..CONSTANTS).map(constant).collect(), misfit).with_loss(Loss::SoftL1(FAR_OFF));
+    let residuals = Residuals::new((0..CONSTANTS).map(constant).collect(), misfit).with_loss(Loss::SoftL1(FIT.far_off));
     residuals.fit(&settings).map_or(start, |fitted| std::array::from_fn(|k| fitted.values[k]))
 }
 

@@ -3,45 +3,34 @@
 use inference::robust::{MAD_TO_SIGMA, median};
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use crate::settings::{CHANGES, changes::Levels};
 use crate::straight::Reading;
 
-/// Levels on the grid, as multiples of the usual load: from a steep descent to five times the usual.
-const RANGE: [f64; 2] = [-2.2, 5.5];
-const LEVELS: usize = 170;
-/// What a jump costs, nats.
-const JUMP: f64 = 7.0;
-/// Readings follow one another closely: one second counts as so many independent ones.
-pub(super) const PER_SECOND: f64 = 1.6;
-/// Scatter of a reading at least, as a share of the usual load.
-const LEAST_SCATTER: f64 = 0.09;
-/// Few readings tell no scatter: it is taken for this share of the usual load.
-const USUAL_SCATTER: f64 = 0.18;
-const ENOUGH: usize = 10;
-/// A reading far off is no Gaussian: degrees of freedom of Student's t.
-const FREEDOM: f64 = 4.0;
+const LEVELS: Levels = CHANGES.levels;
 
 /// Scatter of single exact readings about their neighbours, from the median difference.
 fn scatter(readings: &[Option<Reading>], usual: f64) -> f64 {
     let exact: Vec<f64> = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value()).collect();
-    if exact.len() <= ENOUGH {
-        return USUAL_SCATTER * usual;
+    if exact.len() <= LEVELS.few {
+        return LEVELS.usual_scatter * usual;
     }
     let step = median(exact.windows(2).map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0);
-    (MAD_TO_SIGMA / std::f64::consts::SQRT_2 * step).max(LEAST_SCATTER * usual)
+    (MAD_TO_SIGMA / std::f64::consts::SQRT_2 * step).max(LEVELS.least_scatter * usual)
 }
 
 /// The level at each row: piecewise constant, penalised by its jumps (a Potts functional, solved exactly on a grid of
 /// levels by dynamic programming). `usual` is the load to expect, `period` the time between rows, s.
 pub(crate) fn levels(readings: &[Option<Reading>], usual: f64, period: f64) -> Vec<f64> {
+    let [low, high] = LEVELS.range;
     let grid: Vec<f64> =
-        (0..=LEVELS).map(|k| usual * (RANGE[0] + (RANGE[1] - RANGE[0]) * k as f64 / LEVELS as f64)).collect();
+        (0..=LEVELS.steps).map(|k| usual * (low + (high - low) * k as f64 / LEVELS.steps as f64)).collect();
     let sigma = scatter(readings, usual);
-    let weight = PER_SECOND * period;
+    let weight = LEVELS.per_second * period;
     let normal = Normal::standard();
     let plausible = |r: Reading, level: f64| match r {
-        Reading::Exact(x) => -0.5 * FREEDOM * (1.0 + ((x - level) / sigma).powi(2) / FREEDOM).ln(),
+        Reading::Exact(x) => -0.5 * LEVELS.freedom * (1.0 + ((x - level) / sigma).powi(2) / LEVELS.freedom).ln(),
         // A side winds up for a while, so that a bound says less than a reading.
-        Reading::AtMost(x) => 0.5 * normal.cdf((x - level) / sigma).max(1e-300).ln(),
+        Reading::AtMost(x) => LEVELS.bound * normal.cdf((x - level) / sigma).max(1e-300).ln(),
     };
     let likely = |r: &Option<Reading>| -> Vec<f64> {
         grid.iter().map(|&level| r.map_or(0.0, |r| weight * plausible(r, level))).collect()
@@ -54,7 +43,7 @@ pub(crate) fn levels(readings: &[Option<Reading>], usual: f64, period: f64) -> V
     let mut jumped: Vec<(usize, Vec<bool>)> = Vec::with_capacity(rest.len());
     for r in rest {
         let top = (0..best.len()).max_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
-        let jump = best[top] - JUMP;
+        let jump = best[top] - LEVELS.jump;
         jumped.push((top, best.iter().map(|&stay| stay < jump).collect()));
         best = best.iter().zip(likely(r)).map(|(&stay, l)| stay.max(jump) + l).collect();
     }

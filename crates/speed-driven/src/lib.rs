@@ -17,6 +17,7 @@
 //! * `scrub`, `turning`, `standstill`: turning on other ground, turning without a gyro, a stuck
 //!   body.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
+//! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
 
 mod answer;
@@ -35,6 +36,7 @@ mod next;
 mod pieces;
 mod run;
 mod scrub;
+mod settings;
 mod slopes;
 mod standstill;
 mod straight;
@@ -58,9 +60,14 @@ use name::{Comparison, Difference, name};
 
 pub use clock::{Alignment, align, box_mean, interpolate};
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
-pub(crate) use name::{Named, Naming, UNNAMED_STRAIGHT};
+pub(crate) use name::{Named, Naming};
 pub use run::{BodyRates, SpeedRun};
 use traces::{Fits, Forecasts};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::all()
+}
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

@@ -8,22 +8,13 @@ use robot_model::{Active, Plant, Robot, State};
 use verdict::Quantity;
 
 use crate::run::SpeedRun;
+use crate::settings::NAMING;
+use crate::settings::naming::{Calibration, SteadyPlant};
 use inference::hypothesis::Dose;
 use robot_model::tunable::tuned;
 
-/// Integration step, s.
-const STEP: f64 = 2e-3;
-/// Headings over which a turn is averaged.
-const HEADINGS: usize = 6;
-/// Gauss–Newton steps of the calibration at most; the size of finite steps, the longest step and the farthest value,
-/// in sigmas.
-const STEPS: usize = 12;
-const SHIFT: f64 = 0.2;
-const LONGEST: f64 = 1.0;
-const FARTHEST: f64 = 4.0;
-
-/// Speed below which a braking side reads its braking current, without sign, m/s.
-const BRAKING_READS: f64 = 0.12;
+const PLANT: SteadyPlant = NAMING.plant;
+const CALIBRATION: Calibration = NAMING.calibration;
 
 /// Where and how a load is driven.
 #[derive(Debug, Clone, Copy)]
@@ -36,12 +27,12 @@ pub(crate) struct Operating {
 /// Means of a steady drive over all headings: torque of each side, yaw rate.
 fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let plant = Plant::new(robot, &active, STEP);
+    let plant = Plant::new(robot, &active, PLANT.step);
     let wheel = speed.map(|v| v / robot.wheel_radius);
     let turning = (speed[1] - speed[0]).abs() > 1e-6;
     // A slope pulls differently around a turn; a straight drive keeps its heading.
-    let headings = if turning { HEADINGS } else { 1 };
-    let yaw = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+    let headings = if turning { PLANT.headings } else { 1 };
+    let yaw = (speed[1] - speed[0]) / (PLANT.first_track * robot.half_track);
     let mut s = State { yaw_rate: yaw, ..State::default() };
     plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
     let (mut torque, mut turned) = ([0.0; 2], 0.0);
@@ -102,9 +93,9 @@ pub(crate) fn sensitivity(
     let columns: Vec<Vec<f64>> = (0..NUISANCES)
         .map(|k| {
             let mut t = *theta;
-            t[k] += SHIFT;
+            t[k] += CALIBRATION.shift;
             let r = tuned(robot, sigma, &t);
-            at.iter().zip(&base).map(|(o, b)| (predicted(&r, &[], *o) - b) / SHIFT).collect()
+            at.iter().zip(&base).map(|(o, b)| (predicted(&r, &[], *o) - b) / CALIBRATION.shift).collect()
         })
         .collect();
     Mat::from_fn(at.len(), NUISANCES, |i, k| columns[k][i])
@@ -118,11 +109,11 @@ pub(crate) fn tune(robot: &Robot<f64>, sigma: &[f64; NUISANCES], data: &[Measure
         data.iter().map(|d| (predicted(&r, &[], d.at) - d.value) / d.error).collect()
     };
     let tunable = Constant {
-        longest: LONGEST,
-        difference: SHIFT,
-        ..Constant::new(0.0, 1.0).within(-FARTHEST, FARTHEST).known(0.0, 1.0)
+        longest: CALIBRATION.longest,
+        difference: CALIBRATION.shift,
+        ..Constant::new(0.0, 1.0).within(-CALIBRATION.farthest, CALIBRATION.farthest).known(0.0, 1.0)
     };
-    let settings = Settings { iterations: STEPS, ..Settings::gauss_newton() };
+    let settings = Settings { iterations: CALIBRATION.steps, ..Settings::gauss_newton() };
 
     let fitted = Residuals::new(vec![tunable; NUISANCES], misfit).fit(&settings).ok()?;
     Some(Tuned { theta: std::array::from_fn(|k| fitted.values[k]), covariance: fitted.covariance? })
@@ -166,32 +157,36 @@ impl Rows {
 
 /// What a robot's sensors would show in a recording.
 ///
-/// Of currents without sign, a side that brakes reads nothing (the drive feeds back), below [`BRAKING_READS`]
-/// something unknown, which is left out.
+/// Of currents without sign, a side that brakes reads nothing (the drive feeds back), and at low speed something unknown,
+/// which is left out.
 pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose]) -> Rows {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
-    let plant = Plant::new(robot, &active, STEP);
+    let plant = Plant::new(robot, &active, PLANT.step);
     let radius = robot.wheel_radius;
     let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
     let rows = run.time.len();
+
     let mut out = Rows { torque: [vec![None; rows], vec![None; rows]], yaw_rate: vec![None; rows] };
     let mut s = State::default();
     for i in 1..rows {
         let span = run.time[i] - run.time[i - 1];
         let speed = [run.speed[0][i], run.speed[1][i]];
         // The body follows its wheels within a tenth of a second: rows are longer than that.
-        s.yaw_rate = (speed[1] - speed[0]) / (3.0 * robot.half_track);
+        s.yaw_rate = (speed[1] - speed[0]) / (PLANT.first_track * robot.half_track);
         plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
         plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
         out.yaw_rate[i] = Some(s.yaw_rate).filter(|w| w.is_finite());
+
+        // Steady motion, then what speeding up takes.
         let forward = 0.5 * (speed[0] + speed[1] - run.speed[0][i - 1] - run.speed[1][i - 1]) / span;
         let mean = [0, 1].map(|j| {
             let own = (speed[j] - run.speed[j][i - 1]) / radius / span;
             s.needed[j] + inertia * own + 0.5 * robot.mass * forward * radius
         });
+
         for (j, m) in mean.into_iter().enumerate() {
             let brakes = m * speed[j] < 0.0;
-            if run.magnitude_only && brakes && speed[j].abs() < BRAKING_READS {
+            if run.magnitude_only && brakes && speed[j].abs() < PLANT.braking_reads {
                 continue;
             }
             out.torque[j][i] = Some(if !run.magnitude_only {

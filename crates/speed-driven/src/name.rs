@@ -11,10 +11,15 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
 use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
+use crate::settings::NAMING;
+use crate::settings::naming::{EffectFits, Priors};
 use inference::algebra::solve_spd;
 use inference::hypothesis::Dose;
 use inference::hypothesis::{Free, Place, Variant, variants};
 use robot_model::tunable::tuned;
+
+const PRIORS: Priors = NAMING.priors;
+const EFFECTS: EffectFits = NAMING.effects;
 
 /// One difference between a recording and the references, on the comparison scale.
 #[derive(Debug, Clone)]
@@ -73,27 +78,6 @@ pub(crate) struct Naming {
     pub(crate) unknown: f64,
 }
 
-/// The straight load of a drive train varies by up to this factor (90 %) between days without a cause that these
-/// signals could name: cold grease, tyre pressure.
-pub(crate) const UNNAMED_STRAIGHT: f64 = 1.45;
-/// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
-const PLAUSIBLE: f64 = 3.0;
-/// Robot for which the cards' medium sizes are meant: mass in kg, torque m g r in N m, wheelbase in m.
-const MEDIUM_ROBOT: [f64; 3] = [20.0, 20.0, 0.36];
-/// Price of naming an effect, and of "unknown", nats.
-const PER_EFFECT: f64 = 3.0;
-const PER_UNKNOWN: f64 = 4.0;
-/// Steps of a fit at most, the gain below which it has arrived (nats), its finite steps (medium sizes), and what holds
-/// a size that shows in no load.
-const STEPS: usize = 8;
-const LEAST_GAIN: f64 = 1e-2;
-const SHIFT: f64 = 0.1;
-const RIDGE: f64 = 1e-6;
-/// An effect whose response is weaker than this at a medium size does not show in steady loads.
-const LEAST_RESPONSE: f64 = 1e-3;
-/// Single effects that are tried with a second one.
-const FIRSTS: usize = 4;
-
 /// Covariance of the differences: own errors, errors of shared references, the unnamed variation of the straight
 /// load, and what re-tuning the model could change.
 fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], calibrated: &Tuned) -> Mat<f64> {
@@ -101,7 +85,7 @@ fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], ca
     let there: Vec<Operating> = d.iter().map(|d| d.reference.at).collect();
     let j = sensitivity(robot, sigma, &calibrated.theta, &here) - sensitivity(robot, sigma, &calibrated.theta, &there);
     let tuning = &j * &calibrated.covariance * j.transpose();
-    let unnamed = (UNNAMED_STRAIGHT.ln() / inference::robust::NINETY).powi(2);
+    let unnamed = (PRIORS.unnamed_straight.ln() / inference::robust::NINETY).powi(2);
     Mat::from_fn(d.len(), d.len(), |a, b| {
         let (x, y) = (&d[a], &d[b]);
         let same = x.here.at.quantity == y.here.at.quantity;
@@ -168,14 +152,14 @@ impl<'a> Comparison<'a> {
     /// One sigma of a strength before anything is measured.
     fn plausible(&self, v: &Variant, f: &Free) -> f64 {
         let r = &self.model;
-        let torque = r.mass * r.gravity * r.wheel_radius / MEDIUM_ROBOT[1];
+        let torque = r.mass * r.gravity * r.wheel_radius / PRIORS.medium_torque;
         let size = match f.parameter.map_or("-", |i| v.spec().parameters[i].unit) {
-            "kg" | "N" => r.mass / MEDIUM_ROBOT[0],
-            "m" => 2.0 * r.half_wheelbase / MEDIUM_ROBOT[2],
+            "kg" | "N" => r.mass / PRIORS.medium_mass,
+            "m" => 2.0 * r.half_wheelbase / PRIORS.medium_wheelbase,
             unit if unit.starts_with("N m") => torque,
             _ => 1.0,
         };
-        PLAUSIBLE * f.unit * size
+        PRIORS.plausible * f.unit * size
     }
 
     /// Whether a medium size of any of these effects shows in the loads at `values`.
@@ -183,10 +167,10 @@ impl<'a> Comparison<'a> {
         let r = self.residual(&doses(parts, values));
         (0..free.len()).any(|i| {
             let mut shifted = values.to_vec();
-            shifted[i] += SHIFT * free[i].1.unit;
+            shifted[i] += EFFECTS.shift * free[i].1.unit;
             let moved = self.residual(&doses(parts, &shifted));
-            let column: Vec<f64> = moved.iter().zip(&r).map(|(a, b)| (a - b) / SHIFT).collect();
-            self.quadratic(&column, &column) >= LEAST_RESPONSE
+            let column: Vec<f64> = moved.iter().zip(&r).map(|(a, b)| (a - b) / EFFECTS.shift).collect();
+            self.quadratic(&column, &column) >= EFFECTS.least_response
         })
     }
 
@@ -199,7 +183,7 @@ impl<'a> Comparison<'a> {
             let begin = start.and_then(|s| s.get(i)).copied().unwrap_or(neutral);
             let width = self.plausible(v, f);
             let constant = Constant::new(begin.clamp(f.bounds[0], f.bounds[1]), f.unit);
-            let (longest, difference, ridge) = (width / f.unit, SHIFT, RIDGE);
+            let (longest, difference, ridge) = (width / f.unit, EFFECTS.shift, EFFECTS.ridge);
             Constant { longest, difference, ridge, ..constant.within(f.bounds[0], f.bounds[1]).known(neutral, width) }
         };
         let constants: Vec<Constant> = free.iter().enumerate().map(constant).collect();
@@ -209,8 +193,8 @@ impl<'a> Comparison<'a> {
         }
 
         let settings = Settings {
-            iterations: STEPS,
-            least_fall: LEAST_GAIN,
+            iterations: EFFECTS.steps,
+            least_fall: EFFECTS.least_gain,
             least_relative_fall: 0.0,
             ..Settings::gauss_newton()
         };
@@ -221,7 +205,7 @@ impl<'a> Comparison<'a> {
         }
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
-        let paid = fitted.occam() + parts.iter().map(|v| PER_EFFECT + v.spec().rarity).sum::<f64>();
+        let paid = fitted.occam() + parts.iter().map(|v| PRIORS.per_effect + v.spec().rarity).sum::<f64>();
         let score = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost - paid;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
         Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score })
@@ -243,7 +227,7 @@ impl<'a> Comparison<'a> {
         let g = a.transpose() * &self.weight * &r;
         let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
         let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
-        Some(explained - (price_of_a_constant(n) + PER_UNKNOWN) * m as f64)
+        Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown) * m as f64)
     }
 }
 
@@ -260,7 +244,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
     let able: Vec<Variant> = singles.iter().map(|s| s.parts[0]).collect();
     let mut firsts: Vec<&Named> = Vec::new();
     for s in &singles {
-        if firsts.len() < FIRSTS && !firsts.iter().any(|f| f.ids() == s.ids()) {
+        if firsts.len() < EFFECTS.firsts && !firsts.iter().any(|f| f.ids() == s.ids()) {
             firsts.push(s);
         }
     }

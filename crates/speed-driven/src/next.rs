@@ -10,22 +10,13 @@ use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Advice, Contender, Course, Manoeuvre, Quantity, WIDENING};
 
-use crate::{Named, Naming, Operating, Tuned, UNNAMED_STRAIGHT, predicted, sensitivity};
+use crate::settings::{NAMING, naming::NextDrive};
+use crate::{Named, Naming, Operating, Tuned, predicted, sensitivity};
 use inference::advice::{LEAST_BITS, among, nothing_to_split, sorted};
 use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
-/// Rivals less probable than this are none, and how many there are at most.
-const LEAST: f64 = 0.01;
-const MOST: usize = 6;
-/// Time of each level, s: a load needs ten seconds of steady driving to be firm.
-const EACH: f64 = 14.0;
-/// A load is measured to this share at least in that time.
-const MEASURED: f64 = 0.02;
-/// Sizes are taken to be known within so many units at least.
-const WIDEST: f64 = 3.0;
-/// Scores of steady loads are nats as they are.
-const TEMPERATURE: f64 = 1.0;
+const NEXT: NextDrive = NAMING.next;
 
 /// A drive of steady levels: speeds of the left and right side, m/s, with what each is compared in.
 struct Drive {
@@ -34,10 +25,10 @@ struct Drive {
 }
 
 fn menu(fastest: f64) -> Vec<Drive> {
-    let [slow, medium, fast] = [0.35, 0.6, 1.0].map(|share| share * fastest);
+    let [slow, medium, fast] = NEXT.speeds.map(|share| share * fastest);
     let straight = |v: f64| ([v, v], Quantity::StraightLoad);
     let spin = |v: f64| ([-v, v], Quantity::SpinSum);
-    let arc = |v: f64, inner: f64| ([inner * v, v], Quantity::TurningLoad);
+    let arc = |v: f64| ([NEXT.inner * v, v], Quantity::TurningLoad);
     let turned = |([l, r], q): ([f64; 2], Quantity)| ([r, l], q);
     let sides = |v: f64| [straight(v), ([v, v], Quantity::Asymmetry)];
     vec![
@@ -47,8 +38,8 @@ fn menu(fastest: f64) -> Vec<Drive> {
         Drive { name: "straight, both sides compared", levels: [sides(medium), sides(fast)].concat() },
         Drive { name: "slow spins, both ways", levels: vec![spin(slow), turned(spin(slow))] },
         Drive { name: "fast spins, both ways", levels: vec![spin(medium), turned(spin(medium))] },
-        Drive { name: "spins at three speeds", levels: vec![spin(0.5 * slow), spin(slow), spin(medium)] },
-        Drive { name: "circles of one radius, both ways", levels: vec![arc(medium, 0.4), turned(arc(medium, 0.4))] },
+        Drive { name: "spins at three speeds", levels: vec![spin(NEXT.slowest * slow), spin(slow), spin(medium)] },
+        Drive { name: "circles of one radius, both ways", levels: vec![arc(medium), turned(arc(medium))] },
         Drive { name: "straight, then a spin", levels: vec![straight(medium), spin(medium)] },
     ]
 }
@@ -72,9 +63,9 @@ fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     let top = found.iter().map(|f| f.2).fold(f64::MIN, f64::max);
     let weight = |s: f64| (s - top).exp();
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
-    found.retain(|f| weight(f.2) >= LEAST * sum);
+    found.retain(|f| weight(f.2) >= NEXT.least * sum);
     found.sort_by(|a, b| b.2.total_cmp(&a.2));
-    found.truncate(MOST);
+    found.truncate(NEXT.most);
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
     let name =
         |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), |n| inference::words::variants(&n.parts));
@@ -115,8 +106,8 @@ pub(crate) fn advise_steady(
         let doubt = doubt(&at, &sensitivity(robot, sigma, &calibrated.theta, &at), calibrated);
         let Some(views) = views(&model, &at, &doubt, &rivals) else { continue };
         let mut m = Manoeuvre::new(drive.name, course(&drive, robot), [0.0; 3]);
-        m.expected_bits = expected_bits(&p, &views, TEMPERATURE);
-        if let Some((k, l)) = widest_pair(&p, &views, TEMPERATURE) {
+        m.expected_bits = expected_bits(&p, &views, NAMING.answer.temperature);
+        if let Some((k, l)) = widest_pair(&p, &views, NAMING.answer.temperature) {
             let [a, b] = [k, l].map(|i| rivals[i].contender.name.clone());
             m.why = why(&at, &model, &rivals[k], &rivals[l]);
             m.splits = Some([a, b]);
@@ -139,7 +130,7 @@ fn course(drive: &Drive, robot: &Robot<f64>) -> Course {
             levels.push(level);
         }
     }
-    let length = EACH * levels.len() as f64;
+    let length = NEXT.each * levels.len() as f64;
     Course::of_levels(&levels, length)
 }
 
@@ -147,10 +138,10 @@ fn course(drive: &Drive, robot: &Robot<f64>) -> Course {
 /// drive of a day alike.
 fn doubt(at: &[Operating], by_constants: &Mat<f64>, calibrated: &Tuned) -> Mat<f64> {
     let tuning = by_constants * &calibrated.covariance * by_constants.transpose();
-    let unnamed = (UNNAMED_STRAIGHT.ln() / NINETY).powi(2);
+    let unnamed = (NAMING.priors.unnamed_straight.ln() / NINETY).powi(2);
     let straight = |o: &Operating| o.quantity == Quantity::StraightLoad;
     Mat::from_fn(at.len(), at.len(), |a, b| {
-        let own = if a == b { at[a].quantity.scatter().powi(2) + MEASURED.powi(2) } else { 0.0 };
+        let own = if a == b { at[a].quantity.scatter().powi(2) + NEXT.measured.powi(2) } else { 0.0 };
         own + tuning[(a, b)] + if straight(&at[a]) && straight(&at[b]) { unnamed } else { 0.0 }
     })
 }
@@ -168,9 +159,9 @@ fn by_sizes(model: &Robot<f64>, at: &[Operating], named: &Named, base: &[f64]) -
         .enumerate()
         .map(|(i, f)| {
             let mut shifted = named.clone();
-            let step = 0.1 * f.unit;
+            let step = NEXT.shift * f.unit;
             shifted.values[i] += step;
-            let known = named.sigma[i].min(WIDEST * f.unit);
+            let known = named.sigma[i].min(NEXT.widest * f.unit);
             loads(model, at, Some(&shifted)).iter().zip(base).map(|(y, b)| (y - b) / step * known).collect()
         })
         .collect();

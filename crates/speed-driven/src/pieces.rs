@@ -3,17 +3,14 @@
 use robot_model::effects::{grade, rolling_resistance};
 use verdict::Word;
 
-use crate::extract::CLASSES;
+use crate::settings::MEASURING;
+
+/// Limits of the classes of speed, m/s.
+const CLASSES: [f64; 4] = MEASURING.stretches.classes;
 
 /// Ids of the effects that change the straight load.
 pub(crate) const GRADE: Word = Word::Borrowed(grade::SPEC.id);
 pub(crate) const ROLLING: Word = Word::Borrowed(rolling_resistance::SPEC.id);
-
-/// Rows that show the same change are at most this far apart, s.
-pub(crate) const APART: f64 = 8.0;
-
-/// Driving at least, m/s.
-pub(crate) const DRIVING: f64 = 0.05;
 
 /// Straight load known from elsewhere, N m, by speed class; `None` where no reference was driven at such a speed.
 pub(crate) type Usual = [Option<f64>; CLASSES.len() - 1];

@@ -4,7 +4,10 @@ use inference::robust::median;
 use recordings::{Channel, Recording, Signal};
 
 use crate::clock::{self, Alignment};
+use crate::settings::{MEASURING, measuring::Rows};
 use inference::DiagnosisError;
+
+const ROWS: Rows = MEASURING.rows;
 
 /// One recording of a speed-driven robot. Sides: 0 left, 1 right.
 #[derive(Debug, Clone)]
@@ -49,17 +52,17 @@ impl BodyRates {
         let origin = origin(recording);
         let (time, _) = samples(z, origin);
         let (first, last) = (*time.first()?, *time.last()?);
-        if ((last - first) / RATE_STEP) as usize > SPARSE * time.len() {
+        if ((last - first) / ROWS.rate_step) as usize > ROWS.sparse * time.len() {
             return None;
         }
         let grid: Vec<f64> =
-            (0..=((last - first) / RATE_STEP) as usize).map(|k| first + k as f64 * RATE_STEP).collect();
+            (0..=((last - first) / ROWS.rate_step) as usize).map(|k| first + k as f64 * ROWS.rate_step).collect();
         let rate = [x, y, z].map(|channel| {
             let (t, values) = samples(channel, origin);
-            let mean = clock::box_mean(&t, values, RATE_STEP);
+            let mean = clock::box_mean(&t, values, ROWS.rate_step);
             grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
         });
-        Some(Self { time: grid, step: RATE_STEP, rate })
+        Some(Self { time: grid, step: ROWS.rate_step, rate })
     }
 }
 
@@ -72,19 +75,6 @@ fn origin(recording: &Recording) -> i64 {
 fn samples(channel: &Channel, origin: i64) -> (Vec<f64>, &[f64]) {
     (channel.t_ns().iter().map(|t| (*t - origin) as f64 * 1e-9).collect(), channel.values())
 }
-
-/// Shortest recording that can hold three seconds of steady driving, rows.
-const LEAST_ROWS: usize = 20;
-/// Yaw rate is averaged over this long, s: wheel vibration is no turning.
-const GYRO_MEAN: f64 = 0.31;
-/// Its first and last value count this much longer, s.
-const GYRO_EDGE: f64 = 0.5;
-/// Stamps that leave more than this many steps for each sample come from a clock that was set: no rates then.
-const SPARSE: usize = 50;
-/// How much sooner a measured speed is steady than a set-point.
-const MEASURED_PATIENCE: f64 = 0.3;
-/// Steps of the body's turning rates, s.
-const RATE_STEP: f64 = 0.1;
 
 impl SpeedRun {
     /// Takes set (or measured) wheel speeds and currents (or torques) from a recording.
@@ -108,26 +98,29 @@ impl SpeedRun {
         let (kind, left, right) = pair(speeds, "wheel_speed or command_speed of both sides")?;
         let (load, load_left, load_right) = pair(loads, "current or torque of both sides")?;
         let factor = if load == 1 { torque_per_current } else { 1.0 };
+
+        // Rows at which all four were recorded.
         let common: Vec<i64> = left
             .t_ns()
             .iter()
             .copied()
             .filter(|t| has(right, *t) && has(load_left, *t) && has(load_right, *t))
             .collect();
-        if common.len() < LEAST_ROWS {
-            return Err(DiagnosisError::TooShort { recording: name, rows: common.len(), needed: LEAST_ROWS });
+        if common.len() < ROWS.least {
+            return Err(DiagnosisError::TooShort { recording: name, rows: common.len(), needed: ROWS.least });
         }
         let take = |c: &Channel, f: f64| common.iter().map(|t| at(c, *t) * f).collect::<Vec<f64>>();
         let speed = [take(left, radius), take(right, radius)];
         if speed.iter().flatten().all(|v| v.abs() < 1e-9) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
+
         let origin = origin(recording);
         let time: Vec<f64> = common.iter().map(|t| (*t - origin) as f64 * 1e-9).collect();
         let attributes = load_left.attributes();
         let mut run = Self {
             torque: [take(load_left, factor), take(load_right, factor)],
-            dead_band: attributes.dead_band.map_or(0.0, |d| (d + DEAD_BAND_SLACK) * factor),
+            dead_band: attributes.dead_band.map_or(0.0, |d| (d + ROWS.dead_band_slack) * factor),
             set_points: kind == 1 || left.attributes().set_point,
             magnitude_only: attributes.magnitude_only,
             yaw_rate: None,
@@ -137,9 +130,11 @@ impl SpeedRun {
             time,
             speed,
         };
+
+        // The gyro's clock is another one as a rule.
         if let Some(gyro) = recording.get(Signal::GyroZ) {
             let (t, values) = samples(gyro, origin);
-            let smooth = clock::box_mean(&t, values, GYRO_MEAN);
+            let smooth = clock::box_mean(&t, values, ROWS.gyro_mean);
             let turning: Vec<f64> = run.speed[1].iter().zip(&run.speed[0]).map(|(r, l)| r - l).collect();
             let alignment = if gyro.clock() == left.clock() {
                 Alignment { lag: vec![0.0; run.time.len()], left_out: Vec::new() }
@@ -149,7 +144,7 @@ impl SpeedRun {
             let (first, last) = (t.first().copied().unwrap_or(0.0), t.last().copied().unwrap_or(0.0));
             let at = |(a, b): (&f64, &f64)| {
                 // Where the gyro was off nothing is known.
-                let inside = a + b > first - GYRO_EDGE && a + b < last + GYRO_EDGE;
+                let inside = a + b > first - ROWS.gyro_edge && a + b < last + ROWS.gyro_edge;
                 if inside { clock::interpolate(&t, &smooth, a + b) } else { f64::NAN }
             };
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
@@ -200,7 +195,7 @@ impl SpeedRun {
     /// Share of the usual waiting times that a change of speed takes to pass: measured speeds follow the robot, set-points
     /// run ahead of it.
     pub(crate) fn patience(&self) -> f64 {
-        if self.set_points { 1.0 } else { MEASURED_PATIENCE }
+        if self.set_points { 1.0 } else { ROWS.measured_patience }
     }
 
     /// Whether both speeds stay within `tolerance` for `seconds` after row `i`.
@@ -215,9 +210,6 @@ impl SpeedRun {
         self.time[k] - self.time[i] >= seconds - 1e-9
     }
 }
-
-/// Readings up to a dead band are given to two decimals: half of the last digit more counts as in it, A.
-const DEAD_BAND_SLACK: f64 = 0.01;
 
 fn has(c: &Channel, t: i64) -> bool {
     c.t_ns().binary_search(&t).is_ok()
@@ -301,7 +293,7 @@ pub(crate) mod tests {
         assert!(run.set_points && run.magnitude_only);
         approx::assert_relative_eq!(run.speed[0][5], 0.5, epsilon = 1e-12);
         approx::assert_relative_eq!(run.torque[1][5], 12.0, epsilon = 1e-9);
-        approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + DEAD_BAND_SLACK) * CONSTANT);
+        approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + ROWS.dead_band_slack) * CONSTANT);
         // Speeds and gyro share a clock: nothing is to be aligned.
         assert!(run.alignment.expect("a gyro").lag.iter().all(|l| *l == 0.0));
         assert_eq!(run.body_rates, None);

@@ -1,19 +1,14 @@
 //! When inside a recording turning begins or ceases to cost another torque: another ground.
 
 use crate::extract::is_steady_turn;
-use crate::level::{PER_SECOND, levels};
+use crate::level::levels;
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, changes::Scrub};
 use crate::straight::Reading;
 use inference::robust::{NINETY, median};
 use verdict::TurningChange;
 
-/// Ratios within this factor are one ground.
-const SAME: f64 = 1.25;
-/// Scatter of such torques on one ground, as a share.
-const SCATTER: f64 = 0.08;
-/// Least steady turning that shows a change, s; what is known after so many seconds.
-const LEAST: f64 = 3.0;
-const KNOWN: f64 = 5.0;
+const SCRUB: Scrub = CHANGES.scrub;
 
 /// Torque of the outer side in steady arcs, mean of both sides in spins.
 fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
@@ -33,42 +28,47 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
     let period = run.period();
     let Some(middle) = median(readings.iter().flatten().map(|r| r.value())) else { return Vec::new() };
     let level = levels(&readings, usual.unwrap_or(middle), period);
+
     // The rest of the run is what is like the references, if anything is; else the middle of the run.
     let mut like: Vec<f64> = seen.iter().map(|&i| level[i]).collect();
     if let Some(u) = usual {
-        let alike: Vec<f64> = like.iter().copied().filter(|l| l / u < SAME && u / l < SAME).collect();
-        if alike.len() as f64 * period >= KNOWN {
+        let alike: Vec<f64> = like.iter().copied().filter(|l| l / u < SCRUB.same && u / l < SCRUB.same).collect();
+        if alike.len() as f64 * period >= SCRUB.known {
             like = alike;
         }
     }
     let Some(base) = median(like).filter(|base| *base > 0.0) else { return Vec::new() };
     let other = |i: usize| {
         let ratio = level[i] / base;
-        if ratio > SAME {
+        if ratio > SCRUB.same {
             1
-        } else if ratio < 1.0 / SAME {
+        } else if ratio < 1.0 / SCRUB.same {
             -1
         } else {
             0
         }
     };
+
     let mut out = Vec::new();
     for piece in seen.chunk_by(|&a, &b| other(a) == other(b)).filter(|p| other(p[0]) != 0) {
         let seconds = piece.len() as f64 * period;
-        if seconds < LEAST {
+        if seconds < SCRUB.least {
             continue;
         }
+
         let (first, last) = (piece[0], piece[piece.len() - 1]);
         let values = || piece.iter().filter_map(|&i| readings[i]).map(Reading::value);
         let n = piece.len() as f64;
         let mean = values().sum::<f64>() / n;
         let spread = values().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
         let ratio = mean / base;
-        let of_readings = (spread / (PER_SECOND * seconds)).sqrt() / base;
-        let half = NINETY * (SCATTER * std::f64::consts::SQRT_2 * ratio).hypot(of_readings);
+        let of_readings = (spread / (CHANGES.levels.per_second * seconds)).sqrt() / base;
+        let half = NINETY * (SCRUB.scatter * std::f64::consts::SQRT_2 * ratio).hypot(of_readings);
         if (ratio - 1.0).abs() < half {
             continue;
         }
+
+        // It began and ended somewhere since the last turn and before the next.
         let before = seen.iter().rev().find(|&&i| i < first).map_or(run.time[0], |&i| run.time[i]);
         let after = seen.iter().find(|&&i| i > last).map_or(run.time[run.time.len() - 1], |&i| run.time[i]);
         out.push(TurningChange {

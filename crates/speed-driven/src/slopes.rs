@@ -1,32 +1,28 @@
 //! Slopes under the robot, by its turning rates and loads.
 
 use crate::attitude::Attitude;
-use crate::pieces::{DRIVING, GRADE, pieces};
+use crate::pieces::{GRADE, pieces};
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, changes::Slopes};
 use inference::robust::NINETY;
 use verdict::LoadChange;
 
-/// A slope that is reported, degrees, and for how long at least, s.
-const SLOPE: f64 = 1.6;
-const LEAST_SECONDS: f64 = 3.0;
-/// Gaps in the sight of a slope that do not end it, s.
-const SLOPE_GAP: f64 = 2.0;
-/// Clocks are aligned to about this, s: added to where a slope begins and ends.
-const CLOCK: f64 = 0.35;
+const SLOPES: Slopes = CHANGES.slopes;
 
 /// Slopes that the gyro and the load show together.
 pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
-    let drives = |i: usize| run.forward(i).abs() > DRIVING;
+    let drives = |i: usize| run.forward(i).abs() > CHANGES.pieces.driving;
     let certain = |i: usize| {
         drives(i)
-            && attitude.pitch[i].abs() > SLOPE.to_radians()
+            && attitude.pitch[i].abs() > SLOPES.least.to_radians()
             && attitude.pitch[i].abs() > NINETY * attitude.sigma[i]
     };
+
     // What is certain somewhere goes on to where it is no slope.
     let mut steep: Vec<bool> = (0..run.time.len()).map(certain).collect();
     let goes_on = |i: usize, k: usize| {
         let (here, there) = (attitude.pitch[i], attitude.pitch[k]);
-        drives(i) && here * there > 0.0 && here.abs() > SLOPE.to_radians()
+        drives(i) && here * there > 0.0 && here.abs() > SLOPES.least.to_radians()
     };
     for i in 1..steep.len() {
         steep[i] = steep[i] || (steep[i - 1] && goes_on(i, i - 1));
@@ -34,14 +30,15 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
     for i in (1..steep.len()).rev() {
         steep[i - 1] = steep[i - 1] || (steep[i] && goes_on(i - 1, i));
     }
+
     let mut out = Vec::new();
     let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
     let period = run.period();
-    for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPE_GAP) {
+    for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPES.gap) {
         for piece in piece.chunk_by(|&a, &b| along(a) * along(b) > 0.0) {
             let (first, last) = (piece[0], piece[piece.len() - 1]);
             let [from, until] = [run.time[first], run.time[last]];
-            if until - from < LEAST_SECONDS {
+            if until - from < SLOPES.least_seconds {
                 continue;
             }
             let n = piece.len() as f64;
@@ -53,8 +50,8 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
             out.push(LoadChange {
                 recording: run.name.clone(),
                 interval: [from, until],
-                onset: [from - CLOCK, from + CLOCK],
-                end: [until - CLOCK, until + CLOCK],
+                onset: [from - SLOPES.clock, from + SLOPES.clock],
+                end: [until - SLOPES.clock, until + SLOPES.clock],
                 seconds: n * period,
                 ratio: None,
                 slope: mean.to_degrees(),

@@ -1,28 +1,25 @@
 //! Wheels that are commanded to turn the robot while its body does not turn: dug in, or spinning free.
 
-use crate::extract::TURN_HOLD;
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, MEASURING, changes::Stuck, measuring::Turns};
 use verdict::Standstill;
 
-/// The body stands if it turns by less than this share of what its wheels are commanded.
-const SHARE: f64 = 0.2;
-/// For so long at least, s.
-const LEAST_SECONDS: f64 = 3.0;
-/// Difference of the speeds in a turn that counts, m/s.
-const TURN: f64 = 0.08;
+const STUCK: Stuck = CHANGES.standstill;
+const TURNS: Turns = MEASURING.turns;
 
 /// Stretches of a recording in which the body stood although the wheels were commanded to turn it;
 /// `track` in m.
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
     let share = |i: usize| yaw[i] * track / run.difference(i);
-    let stands =
-        |i: usize| run.difference(i).abs() > TURN && run.held(i, TURN_HOLD.0, TURN_HOLD.1) && share(i).abs() < SHARE;
+    let stands = |i: usize| {
+        run.difference(i).abs() > STUCK.turn && run.held(i, TURNS.steady, TURNS.hold) && share(i).abs() < STUCK.share
+    };
     let rows: Vec<usize> = (0..run.time.len()).collect();
     let stretch = |rows: &[usize]| {
         let (first, last) = (rows[0], rows[rows.len() - 1]);
         let seconds = run.time[last] - run.time[first];
-        (stands(first) && seconds >= LEAST_SECONDS).then(|| {
+        (stands(first) && seconds >= STUCK.least_seconds).then(|| {
             let mean = |f: &dyn Fn(usize) -> f64| rows.iter().map(|&i| f(i)).sum::<f64>() / rows.len() as f64;
             Standstill {
                 recording: run.name.clone(),

@@ -1,6 +1,9 @@
 //! What each row of straight driving says of the straight load.
 
 use crate::run::SpeedRun;
+use crate::settings::{MEASURING, measuring::Straight};
+
+const STRAIGHT: Straight = MEASURING.straight;
 
 /// The straight load at a row: the sum of both sides' torques in the direction of travel, N m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,23 +26,13 @@ impl Reading {
     }
 }
 
-/// Below this speed a braking side starts to read without sign, m/s.
-pub(crate) const LEAST_SPEED: f64 = 0.12;
-/// Largest difference of the sides in straight driving, m/s.
-pub(crate) const STRAIGHT: f64 = 3.5 / 127.0;
-/// How constant the speeds must have been, m/s.
-pub(crate) const STEADY: f64 = 2.5 / 127.0;
-/// For how long, s: by then a change of speed has passed. A mean over a whole stretch waits longer, since loads wind
-/// up after a turn.
-const HOLD: f64 = 1.0;
-
 /// Whether a row is driven straight and has been so for `hold` seconds.
 pub(crate) fn is_straight(run: &SpeedRun, i: usize, hold: f64) -> bool {
     let (l, r) = (run.speed[0][i], run.speed[1][i]);
     l * r > 0.0
-        && l.abs().min(r.abs()) >= LEAST_SPEED
-        && (r - l).abs() <= STRAIGHT
-        && run.held(i, STEADY, hold * run.patience())
+        && l.abs().min(r.abs()) >= STRAIGHT.least_speed
+        && (r - l).abs() <= STRAIGHT.difference
+        && run.held(i, STRAIGHT.steady, hold * run.patience())
 }
 
 /// The straight load row by row; `None` where the drive is not straight or not steady.
@@ -53,7 +46,7 @@ pub(crate) fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
         let sum = (0..2).map(|j| if run.reads(i, j) { torque[j].abs() } else { run.dead_band }).sum();
         if run.reads(i, 0) && run.reads(i, 1) { Reading::Exact(sum) } else { Reading::AtMost(sum) }
     };
-    (0..run.time.len()).map(|i| is_straight(run, i, HOLD).then(|| of_row(i))).collect()
+    (0..run.time.len()).map(|i| is_straight(run, i, STRAIGHT.hold).then(|| of_row(i))).collect()
 }
 
 /// Both sides in the dead band.

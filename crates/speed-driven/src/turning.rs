@@ -7,20 +7,16 @@
 
 use crate::clock::box_mean;
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, changes::FromLoads};
 use verdict::{Turning, Way};
 
-/// Loads are averaged over this long, s.
-const MEAN: f64 = 0.7;
-/// Sides that differ by less than this share of the straight load carry the same.
-const EVEN: f64 = 0.36;
-/// Speed below which nothing says which way the robot travels, m/s.
-const LEAST_SPEED: f64 = 0.02;
+const FROM_LOADS: FromLoads = CHANGES.turning;
 
 /// The way at each row, `None` for straight driving or rest. `straight` is the usual straight load of both sides, N m.
 pub(crate) fn ways(run: &SpeedRun, straight: f64) -> Vec<Option<Way>> {
     let side = |j: usize| {
         let torque: Vec<f64> = run.torque[j].iter().map(|t| t.abs()).collect();
-        box_mean(&run.time, &torque, MEAN)
+        box_mean(&run.time, &torque, FROM_LOADS.mean)
     };
     let (left, right) = (side(0), side(1));
     let of_row = |i: usize| {
@@ -29,7 +25,7 @@ pub(crate) fn ways(run: &SpeedRun, straight: f64) -> Vec<Option<Way>> {
         }
         let forward = run.forward(i);
         let excess = (right[i] - left[i]) * forward.signum();
-        Some(if forward.abs() < LEAST_SPEED || excess.abs() < EVEN * straight {
+        Some(if forward.abs() < FROM_LOADS.least_speed || excess.abs() < FROM_LOADS.even * straight {
             Way::Unknown
         } else if excess > 0.0 {
             Way::Left

@@ -1,12 +1,14 @@
 //! What a speed-driven case says in sentences.
 
-use crate::compare::FIRM;
-use crate::{Alignment, UNNAMED_STRAIGHT};
+use crate::Alignment;
+use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use inference::words::{quantity, revealed_by};
 use robot_model::effect::LoadTerm;
 use verdict::{
     ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
 };
+
+const SENTENCES: Sentences = NAMING.sentences;
 
 /// The answer of a speed-driven case in sentences.
 pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
@@ -38,10 +40,10 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
                     format!(", {size}")
                 };
                 out.push(format!("Missing: {}{tail}.", names.join(" or ")));
-                // The drives that reveal the members split the class; the first three are enough to begin with.
+                // The drives that reveal the members split the class; the first ones are enough to begin with.
                 let mut drives: Vec<&str> = Vec::new();
                 for drive in class.iter().filter_map(|id| revealed_by(id)) {
-                    if !drives.contains(&drive) && drives.len() < 3 {
+                    if !drives.contains(&drive) && drives.len() < SENTENCES.drives {
                         drives.push(drive);
                     }
                 }
@@ -51,12 +53,14 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
             }
         }
     }
+
     let pooled = |r: &&Ratio| {
         !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
     };
     for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
         out.push(load(r, theirs));
     }
+
     out.extend(loads.standstills.iter().map(standstill));
     out.extend(loads.changes.found.iter().map(change));
     out.extend(loads.turning_changes.iter().map(turning_change));
@@ -95,7 +99,7 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
 fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
     let at = match r.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > 0.05 => {
+        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
             format!(" at {slow:.2} to {fast:.2} m/s")
         }
         Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
@@ -117,7 +121,8 @@ fn load(r: &Ratio, theirs: &str) -> String {
     };
 
     let none = if r.quantity.is_difference() { 0.0 } else { 1.0 };
-    let is_within_cold = a < UNNAMED_STRAIGHT && b > 1.0 / UNNAMED_STRAIGHT;
+    let unnamed = NAMING.priors.unnamed_straight;
+    let is_within_cold = a < unnamed && b > 1.0 / unnamed;
     let judgement = if a <= none && none <= b {
         format!("no difference is shown, since the interval contains {none}")
     } else if r.quantity == Quantity::StraightLoad && is_within_cold {
@@ -125,7 +130,7 @@ fn load(r: &Ratio, theirs: &str) -> String {
     } else {
         "it differs".to_owned()
     };
-    let firm = if r.firm { String::new() } else { format!(" (tentative: less than {FIRM:.0} s)") };
+    let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
     format!(
         "{}: {}{at} is {compared}, measured over {:.0} s{firm}: {judgement}.",
         r.recording,
@@ -148,9 +153,7 @@ fn standstill(s: &Standstill) -> String {
 
 /// "196.6 s", or "between 183.8 s and 200.9 s" where it is hidden.
 fn moment([a, b]: [f64; 2]) -> String {
-    /// Closer than this is one moment, s.
-    const MOMENT: f64 = 1.0;
-    if b - a < MOMENT { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
+    if b - a < SENTENCES.moment { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
 }
 
 /// What a sentence calls the term of the load that an effect stands for.
@@ -202,18 +205,17 @@ fn turning_change(c: &TurningChange) -> String {
 
 /// One sentence per recording: the longest stretches, and how much there is in all.
 fn hidden(all: &[Hidden]) -> Vec<String> {
-    /// Stretches that are named.
-    const NAMED: usize = 3;
+    let named = SENTENCES.hidden;
     let of = |list: &[Hidden]| {
         let seconds = |h: &Hidden| h.interval[1] - h.interval[0];
         let mut longest: Vec<&Hidden> = list.iter().collect();
         longest.sort_by(|a, b| seconds(b).total_cmp(&seconds(a)));
-        longest.truncate(NAMED);
+        longest.truncate(named);
         longest.sort_by(|a, b| a.interval[0].total_cmp(&b.interval[0]));
         let spans: Vec<String> =
             longest.iter().map(|h| format!("{:.0}-{:.0} s", h.interval[0], h.interval[1])).collect();
         let more =
-            if list.len() > NAMED { format!(" and {} shorter stretches", list.len() - NAMED) } else { String::new() };
+            if list.len() > named { format!(" and {} shorter stretches", list.len() - named) } else { String::new() };
         format!(
             "{}: no straight driving in {}{more} ({:.0} s in all): a change of the ground would not show there.",
             list[0].recording,

@@ -37,6 +37,7 @@
 //! * `kernel`: the three sums, in one order whatever the vector unit.
 //! * `aligned`: numbers that begin at a line of the cache.
 //! * `gram`, `ridge`: the matrix, and regression from it alone.
+//! * `settings`: every tuned number.
 //! * `error`: why there is no weak form.
 
 mod aligned;
@@ -44,6 +45,7 @@ mod error;
 mod gram;
 mod kernel;
 mod ridge;
+mod settings;
 mod shape;
 mod stream;
 
@@ -52,6 +54,11 @@ pub use gram::Gram;
 pub use ridge::Law;
 pub use shape::Shape;
 pub use stream::WeakForm;
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}
 
 /// Name of the vector unit that the sums are compiled for on this machine, as `pulp` detects it.
 pub fn vector_unit() -> &'static str {

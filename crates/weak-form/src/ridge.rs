@@ -3,11 +3,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
+use crate::settings::SETTINGS;
 use crate::{Gram, WeakFormError};
-
-/// Share of a regressor that the regressors before it must leave unexplained, in squares, for its coefficient to have a
-/// meaning: squares are known to some 1e-16 of themselves.
-const LEAST_PIVOT: f64 = 1e-12;
 
 /// Coefficients of a linear law between columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +56,7 @@ impl Gram {
         });
         let b = Mat::from_fn(n, targets.len(), |i, t| h(regressors[i], targets[t]) / size[i]);
         let factor = a.llt(Side::Lower).map_err(|_| undetermined())?;
-        if !(0..n).all(|i| factor.L()[(i, i)].powi(2) > LEAST_PIVOT) {
+        if !(0..n).all(|i| factor.L()[(i, i)].powi(2) > SETTINGS.ridge.least_pivot) {
             return Err(undetermined());
         }
         let x = factor.solve(&b);

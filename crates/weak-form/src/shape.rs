@@ -3,13 +3,9 @@
 use std::ops::Range;
 
 use crate::WeakFormError;
+use crate::settings::{Limits, SETTINGS};
 
-/// Most signals: they make 5150 columns, whose Gram matrix takes 0.2 GB.
-const MOST_SIGNALS: usize = 100;
-/// Widest window and longest stride, in rows.
-const MOST_ROWS: usize = 1 << 20;
-/// Largest exponent of the bump.
-const MOST_EXPONENT: usize = 64;
+const LIMITS: Limits = SETTINGS.limits;
 
 /// How many signals there are, and what a window is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,10 +23,10 @@ impl Shape {
     /// A number out of its range: 1 to 100 signals, 1 to 1 048 576 rows, exponents up to 64.
     pub fn new(signals: usize, width: usize, stride: usize, exponent: u32) -> Result<Self, WeakFormError> {
         for (what, value, least, most) in [
-            ("a number of signals", signals, 1, MOST_SIGNALS),
-            ("a width, rows,", width, 1, MOST_ROWS),
-            ("a stride, rows,", stride, 1, MOST_ROWS),
-            ("an exponent", exponent as usize, 0, MOST_EXPONENT),
+            ("a number of signals", signals, 1, LIMITS.signals),
+            ("a width, rows,", width, 1, LIMITS.rows),
+            ("a stride, rows,", stride, 1, LIMITS.rows),
+            ("an exponent", exponent as usize, 0, LIMITS.exponent),
         ] {
             if !(least..=most).contains(&value) {
                 return Err(WeakFormError::OutOfRange { what, value, least, most });

@@ -4,14 +4,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::aligned::{Aligned, NUMBERS};
 use crate::kernel::{add_products, add_rows, monomials};
+use crate::settings::{SETTINGS, Stream};
 use crate::{Gram, Shape, WeakFormError};
 
-/// Rows whose columns are held at once, at most: those of a block stay in the nearest cache.
-const ROWS: usize = 48;
-/// Windows that go into the Gram matrix at once.
-const WINDOWS: usize = 32;
-/// Numbers beyond this size count as missing: their products would leave the numbers.
-const LARGEST: f64 = 1e70;
+const STREAM: Stream = SETTINGS.stream;
 
 /// The weak form of a stream of rows.
 ///
@@ -54,13 +50,13 @@ impl WeakForm {
             pitch,
             row: Aligned::zeros(shape.signals() + NUMBERS),
             // The last row's columns are written in whole vectors.
-            block: Aligned::zeros(ROWS.min(shape.stride()) * pitch + NUMBERS),
+            block: Aligned::zeros(STREAM.rows.min(shape.stride()) * pitch + NUMBERS),
             rows: 0,
             sums: Aligned::zeros(open * pitch),
             broken: vec![false; open],
             stage: 0,
             done: 0,
-            waiting: Aligned::zeros(WINDOWS * pitch),
+            waiting: Aligned::zeros(STREAM.windows * pitch),
             waiting_count: 0,
             products: Aligned::zeros(pitch * pitch),
             windows: 0,
@@ -136,7 +132,7 @@ impl WithSimd for Push<'_> {
         let Self { to, rows } = self;
         for row in rows.chunks_exact(to.shape.signals()) {
             to.take(simd, row);
-            if to.rows == ROWS || to.done + to.rows == to.shape.stride() {
+            if to.rows == STREAM.rows || to.done + to.rows == to.shape.stride() {
                 to.close_block(simd);
             }
         }
@@ -156,7 +152,7 @@ impl WeakForm {
             self.sums.all_mut()[begun * self.pitch..][..self.pitch].fill(0.0);
             self.broken[begun] = false;
         }
-        let whole = row.iter().fold(true, |whole, z| whole & (z.abs() <= LARGEST));
+        let whole = row.iter().fold(true, |whole, z| whole & (z.abs() <= STREAM.largest));
         let padded = self.row.all_mut();
         if whole {
             padded[..row.len()].copy_from_slice(row);
@@ -219,7 +215,7 @@ impl WeakForm {
         let window = &self.sums.all()[place * self.pitch..][..self.pitch];
         self.waiting.all_mut()[self.waiting_count * self.pitch..][..self.pitch].copy_from_slice(window);
         self.waiting_count += 1;
-        if self.waiting_count == WINDOWS {
+        if self.waiting_count == STREAM.windows {
             self.close_windows(simd);
         }
     }

@@ -1,0 +1,132 @@
+//! Slopes, jumps of the load, turning and standstills inside recordings.
+
+const fn degrees(x: f64) -> f64 {
+    x * std::f64::consts::PI / 180.0
+}
+
+::settings::settings! {
+    /// What is looked for inside recordings, and how.
+    pub(crate) struct Settings;
+
+    /// What the searches for changes share.
+    pieces: Pieces {
+        /// Rows that show the same change are at most this far apart.
+        apart: f64 = 8.0, "s", "chosen after a look at the open Husky runs";
+        /// Speed from which the robot drives.
+        driving: f64 = 0.05, "m/s", "guess";
+        /// The load of a level stretch is known after so much of it.
+        known: f64 = 10.0, "s", "guess";
+    }
+
+    /// The slope under the robot from its turning rates and loads.
+    attitude: Filter {
+        /// Tilt at the beginning, one sigma.
+        first_tilt: f64 = degrees(6.0), "rad", "guess";
+        /// Offsets of the gyro at the beginning, one sigma.
+        first_offset: f64 = degrees(0.05), "rad/s", "guess";
+        /// Random walk of the tilt: vibration, aliasing.
+        tilt_walk: f64 = degrees(0.15), "rad/√s", "one of about ten settings tried on the open Husky runs";
+        /// Random walk of the gyro's offsets.
+        offset_walk: f64 = degrees(0.001), "rad/s/√s", "one of about ten settings tried on the open Husky runs";
+        /// Ground is level within this.
+        level: f64 = degrees(3.0), "rad", "one of about ten settings tried on the open Husky runs";
+        /// Ground counts as if it were seen to be level once in this time.
+        level_every: f64 = 20.0, "s", "one of about ten settings tried on the open Husky runs";
+        /// The rolling load wanders by this share: drive trains warm up.
+        rolling: f64 = 0.3, "1", "one of about ten settings tried on the open Husky runs";
+        /// Time over which the rolling load wanders.
+        rolling_time: f64 = 60.0, "s", "one of about ten settings tried on the open Husky runs";
+        /// Where the load is another from end to end the ground may be, too: this share of the excess is one sigma.
+        excess: f64 = 0.7, "1", "one of about ten settings tried on the open Husky runs";
+        /// Error of the slope from one second of straight driving.
+        from_load: f64 = degrees(2.0), "rad", "one of about ten settings tried on the open Husky runs";
+        /// Miss of a reading beyond which it counts less.
+        far_off: f64 = degrees(2.5), "rad", "guess";
+    }
+
+    /// Slopes that gyro and load show together.
+    slopes: Slopes {
+        /// Least slope that is reported.
+        least: f64 = 1.6, "°", "one of about ten settings tried on the open Husky runs";
+        /// For how long at least.
+        least_seconds: f64 = 3.0, "s", "one of about ten settings tried on the open Husky runs";
+        /// Gaps in the sight of a slope that do not end it.
+        gap: f64 = 2.0, "s", "guess";
+        /// Clocks are aligned to about this: taken off and added where a slope begins and ends.
+        clock: f64 = 0.35, "s", "guess";
+    }
+
+    /// The piecewise constant course of a load.
+    levels: Levels {
+        /// Lowest and highest level of the grid, as multiples of the usual load.
+        range: [f64; 2] = [-2.2, 5.5], "1", "guess: from a steep descent to five times the usual";
+        /// Steps of the grid.
+        steps: usize = 170, "1", "guess";
+        /// What a jump costs.
+        jump: f64 = 7.0, "nats", "chosen after a look at the open Husky runs";
+        /// Readings follow one another closely: one second counts as so many independent ones.
+        per_second: f64 = 1.6, "1/s", "chosen after a look at the open Husky runs";
+        /// Scatter of a reading at least, as a share of the usual load.
+        least_scatter: f64 = 0.09, "1", "guess";
+        /// Scatter where too few readings tell it, as a share of the usual load.
+        usual_scatter: f64 = 0.18, "1", "guess";
+        /// Readings that are too few to tell their scatter, at most.
+        few: usize = 10, "1", "guess";
+        /// Degrees of freedom of Student's t: a reading far off is no Gaussian.
+        freedom: f64 = 4.0, "1", "guess";
+        /// Weight of a bound beside a reading: a side winds up for a while, so that a bound says less.
+        bound: f64 = 0.5, "1", "guess";
+    }
+
+    /// Jumps of the straight load, by currents.
+    jumps: Jumps {
+        /// A change shorter than this is not told: straight driving.
+        least: f64 = 1.5, "s", "guess";
+        /// Slope whose pull counts as a jump of the load.
+        slope: f64 = 1.9, "°", "chosen after a look at the open Husky runs";
+        /// No friction falls to this share of the usual load: the robot runs downhill.
+        below_friction: f64 = 0.35, "1", "guess";
+        /// For how long both sides read nothing where the robot runs downhill.
+        below_seconds: f64 = 1.0, "s", "guess";
+        /// Scatter of the straight load along one floor, as a share.
+        scatter: f64 = 0.15, "1", "chosen after a look at the open Husky runs";
+        /// A load jumped where its neighbour at the same speed is off by less than this share of its own excess.
+        neighbour: f64 = 0.5, "1", "guess";
+        /// Headings this far apart tell a slope from the ground.
+        other_heading: f64 = std::f64::consts::FRAC_PI_3, "rad", "guess";
+        /// Headings this far apart are the way back.
+        way_back: f64 = 2.6, "rad", "guess";
+    }
+
+    /// Changes of what turning costs.
+    scrub: Scrub {
+        /// Ratios within this factor are one ground.
+        same: f64 = 1.25, "1", "guess";
+        /// Scatter of such torques on one ground, as a share.
+        scatter: f64 = 0.08, "1", "guess";
+        /// Least steady turning that shows a change.
+        least: f64 = 3.0, "s", "guess";
+        /// What turning costs on the references' ground is known after so much of it.
+        known: f64 = 5.0, "s", "guess";
+    }
+
+    /// Turning without a gyro and without a difference of the speeds.
+    turning: FromLoads {
+        /// Loads are averaged over this long.
+        mean: f64 = 0.7, "s", "guess";
+        /// Sides that differ by less than this share of the straight load carry the same.
+        even: f64 = 0.36, "1", "guess";
+        /// Speed below which nothing says which way the robot travels.
+        least_speed: f64 = 0.02, "m/s", "guess";
+    }
+
+    /// A body that does not turn with its wheels.
+    standstill: Stuck {
+        /// The body stands if it turns by less than this share of what its wheels are commanded.
+        share: f64 = 0.2, "1", "guess";
+        /// For so long at least.
+        least_seconds: f64 = 3.0, "s", "guess";
+        /// Difference of the speeds in a turn that counts.
+        turn: f64 = 0.08, "m/s", "guess";
+    }
+}

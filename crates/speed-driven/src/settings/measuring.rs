@@ -1,0 +1,123 @@
+//! Rows, clocks, loads of steady driving and their comparison with the references'.
+
+::settings::settings! {
+    /// What a recording is measured with.
+    pub(crate) struct Settings;
+
+    /// Rows of a recording: speeds, torques, turning rates.
+    rows: Rows {
+        /// Shortest recording that is taken, rows.
+        least: usize = 20, "1", "rows of three seconds of steady driving";
+        /// A yaw rate is averaged over this long: wheel vibration is no turning.
+        gyro_mean: f64 = 0.31, "s", "guess";
+        /// The first and the last value of a gyro count this much longer.
+        gyro_edge: f64 = 0.5, "s", "guess";
+        /// Length of the steps over which turning rates of the body are averaged.
+        rate_step: f64 = 0.1, "s", "guess";
+        /// Stamps that leave more than this many steps for each sample come from a clock that was set: no rates then.
+        sparse: usize = 50, "1", "guess";
+        /// Waiting time until a measured speed is steady, as a share of that of a set-point: set-points run ahead.
+        measured_patience: f64 = 0.3, "1", "guess";
+        /// Readings up to this much above a dead band count as in it: dead bands are given to two decimals.
+        dead_band_slack: f64 = 0.01, "A", "last digit of recorded dead bands";
+    }
+
+    /// Alignment of the gyro's clock with the speeds' by the turns.
+    aligning: Aligning {
+        /// Time between nodes of the warp.
+        node: f64 = 2.0, "s", "guess";
+        /// Largest lag that is tried, either way.
+        most_lag: f64 = 2.0, "s", "guess";
+        /// Step of the grid of lags.
+        lag_step: f64 = 0.05, "s", "guess";
+        /// Window of a local correlation.
+        window: f64 = 8.0, "s", "guess";
+        /// Fewest rows that correlate.
+        least_rows: usize = 12, "1", "guess";
+        /// Least spread of the speed difference in a window: below it there is no turning to align.
+        least_turning: f64 = 0.008, "m/s", "guess";
+        /// Correlations count as no higher than this: the evidence of a perfect one would be infinite.
+        most_correlation: f64 = 0.99, "1", "guess";
+        /// Correlations count as if this many windows' worth of samples were independent, per second of window and
+        /// node.
+        evidence: f64 = 4.0, "1", "guess";
+        /// The clocks wander by about this much between nodes.
+        wander: f64 = 0.15, "s", "guess";
+        /// Weight of the anchors, per second of lag: both files begin together and end together.
+        anchor: f64 = 13.3, "1/s", "guess";
+        /// Difference of the speeds above which the robot turns.
+        turn: f64 = 0.04, "m/s", "guess";
+        /// Length of a turn that can be left out, at least.
+        turn_seconds: f64 = 0.8, "s", "guess";
+        /// Pauses shorter than this do not end a turn.
+        turn_pause: f64 = 1.0, "s", "guess";
+        /// What is taken before and after a turn.
+        turn_margin: f64 = 2.0, "s", "guess";
+        /// A turn tells its own lag where both signals correlate this well.
+        own_correlation: f64 = 0.9, "1", "guess";
+        /// A turn tells its own lag where the speed difference spreads by this share of what counts as turning.
+        own_spread: f64 = 0.5, "1", "guess";
+        /// Turns left out from which an error of the alignment is told, at least.
+        least_left_out: usize = 3, "1", "guess";
+    }
+
+    /// What counts as straight driving.
+    straight: Straight {
+        /// Least speed: below it a braking side starts to read without sign.
+        least_speed: f64 = 0.12, "m/s", "chosen after a look at the open Husky runs";
+        /// Largest difference of the sides.
+        difference: f64 = 3.5 / 127.0, "m/s", "chosen after a look at the open Husky runs";
+        /// How constant the speeds must have been.
+        steady: f64 = 2.5 / 127.0, "m/s", "chosen after a look at the open Husky runs";
+        /// For how long the drive must have been straight for a single reading: by then a change of speed has passed.
+        hold: f64 = 1.0, "s", "chosen after a look at the open Husky runs";
+        /// For how long the drive must have been straight for a mean over a stretch: loads wind up after a turn.
+        hold_of_means: f64 = 1.5, "s", "chosen after a look at the open Husky runs";
+    }
+
+    /// What counts as steady turning.
+    turns: Turns {
+        /// Least difference of the sides.
+        difference: f64 = 4.5 / 127.0, "m/s", "chosen after a look at the open Husky runs";
+        /// How constant the speeds must have been.
+        steady: f64 = 3.5 / 127.0, "m/s", "chosen after a look at the open Husky runs";
+        /// For how long the speeds must have been constant.
+        hold: f64 = 1.0, "s", "chosen after a look at the open Husky runs";
+        /// For how long a turn must go on for its yaw rate to count.
+        ahead: f64 = 0.5, "s", "chosen after a look at the open Husky runs";
+        /// Difference over sum of the speeds above which scrub is fully developed.
+        plateau: f64 = 0.15, "1", "chosen after a look at the open Husky runs";
+    }
+
+    /// Means over steady stretches and their errors.
+    stretches: Stretches {
+        /// Least steady driving for an answer.
+        least_seconds: f64 = 3.0, "s", "chosen after a look at the open Husky runs";
+        /// Samples further apart belong to different stretches.
+        gap: f64 = 1.0, "s", "guess";
+        /// A stretch counts as one piece per so many seconds.
+        piece: f64 = 5.0, "s", "guess";
+        /// Scatter of such a piece on one floor, relative: guards recordings of few pieces.
+        piece_scatter: f64 = 0.06, "1", "guess";
+        /// Effective number of pieces from which their scatter tells an error.
+        least_pieces: f64 = 1.5, "1", "guess";
+        /// Limits of the speed classes of straight driving: different speeds are never mixed.
+        classes: [f64; 4] = [0.12, 0.30, 0.55, 5.0], "m/s", "chosen after a look at the open Husky runs";
+    }
+
+    /// Systematic errors of the effective track.
+    track: Track {
+        /// Offset of the gyro.
+        gyro_offset: f64 = 0.002, "rad/s", "guess";
+        /// Error of speeds that are set-points and no encoder's, relative.
+        set_point_error: f64 = 0.015, "1", "guess";
+    }
+
+    /// Loads over those of the references.
+    ratios: Ratios {
+        /// Steady driving that makes an answer firm.
+        firm: f64 = 10.0, "s", "chosen after a look at the open Husky runs";
+        /// Recordings whose loads spread by more than this many times the usual scatter are not one load.
+        most_spread: f64 = 2.0, "1", "guess";
+    }
+}
