@@ -6,6 +6,7 @@ use crate::ground::{GroundPart, Poses, misses};
 use crate::identify::{Identified, Simulated};
 use crate::run::WINDOW;
 use crate::search::{Model, Trial, attempt};
+use crate::settings::SETTINGS;
 use crate::windows::{FOLDS, Windows};
 use inference::robust::{median, rms};
 use verdict::{Element, FreeRun, Scaling};
@@ -42,8 +43,6 @@ pub(crate) struct Comparison {
 const WRONG_DRIVE: [Element; 4] = [Element::WheelLimit, Element::Lag, Element::Ramp, Element::DeadTime];
 const WRONG_GROUND: [Element; 6] =
     [Element::Radius, Element::SideRadius, Element::Offset, Element::TurnSlip, Element::BodyLag, Element::Track];
-/// Up to this many constants a placebo takes nothing that was named.
-const FEW: usize = 4;
 
 impl Comparison {
     pub(crate) fn new(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f64; 2]) -> Self {
@@ -166,7 +165,7 @@ fn placebo(windows: &Windows, base: &Simulated, found: &Identified, nominal: [f6
     let mut elements = Vec::new();
     let mut powers = 0;
     if count > 0 {
-        let usable = WRONG_DRIVE.into_iter().filter(|e| count > FEW || !named.contains(e));
+        let usable = WRONG_DRIVE.into_iter().filter(|e| count > SETTINGS.placebo.few || !named.contains(e));
         elements.extend(usable.take(count.saturating_sub(1)));
         powers = count - elements.len();
         elements.push(Element::Gain);

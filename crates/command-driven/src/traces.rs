@@ -3,15 +3,14 @@
 use crate::compare::Comparison;
 use crate::ground::{Poses, misses};
 use crate::run::{ResponseRun, STEP, WINDOW};
+use crate::settings::{SETTINGS, Usual};
 use crate::windows::{Window, Windows};
 use verdict::{Compared, Trace, instant, rounded};
 
 /// Places of the simulation as it is, re-tuned and corrected among the four.
 const SHOWN: [usize; 3] = [0, 1, 2];
 
-/// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.
-const WHEEL: f64 = 0.3;
-const POSE: f64 = 0.1;
+const USUAL: Usual = SETTINGS.traces;
 
 /// What a simulation says: wheel speeds by piece, poses by window.
 type Simulated = (Vec<Vec<[f64; 2]>>, Vec<Poses>);
@@ -69,6 +68,8 @@ fn channels(windows: &Windows, three: &[Simulated; 3], own: &[(usize, &Window)])
         }
     };
     let mut out = vec![wheel(0), wheel(1)];
+
+    // Headings of forecasts begin at zero in every window.
     let heading =
         |(_, w): &(usize, &Window)| windows.pieces[w.piece].heading.as_ref().map(|h| &h[w.start..w.start + WINDOW]);
     if own.iter().all(|w| heading(w).is_some()) {
@@ -105,8 +106,8 @@ fn errors(windows: &Windows, (wheels, poses): &Simulated) -> Vec<f64> {
         let wheel: f64 = (w.start..w.start + WINDOW)
             .flat_map(|i| [0, 1].map(|j| (wheels[w.piece][i][j] - measured[i][j]).powi(2)))
             .sum();
-        let pose: f64 = misses(windows, w, p).iter().flatten().map(|m| (m / POSE).powi(2)).sum();
-        (wheel / (2.0 * WHEEL * WHEEL) + pose / 3.0) / WINDOW as f64
+        let pose: f64 = misses(windows, w, p).iter().flatten().map(|m| (m / USUAL.pose).powi(2)).sum();
+        (wheel / (2.0 * USUAL.wheel * USUAL.wheel) + pose / 3.0) / WINDOW as f64
     };
     windows.list.iter().zip(poses).map(of_window).collect()
 }

@@ -57,6 +57,11 @@ macro_rules! settings {
                     $vis $name: $kind,
                 )+
             }
+
+            impl $Group {
+                /// What this stage does.
+                $vis const ABOUT: &'static str = concat!($($about),+);
+            }
         )+
 
         $(#[doc = $all])+
@@ -75,7 +80,7 @@ macro_rules! settings {
             /// A row for each number, in the order of the source.
             $vis const ALL: &'static [$crate::Setting] = &[$($($crate::Setting {
                 group: stringify!($group),
-                about: concat!($($about),+),
+                about: $Group::ABOUT,
                 name: stringify!($name),
                 default: stringify!($default),
                 unit: $unit,
