@@ -12,6 +12,7 @@ use mdbook_driver::config::Config;
 
 mod effects;
 mod inward;
+mod settings;
 
 /// What the book looks like. Nothing in it is loaded from a network.
 const CONFIG: &str = r#"
@@ -55,7 +56,7 @@ enum Command {
 /// Arguments of `cargo xtask book`.
 #[derive(Debug, ClapArgs)]
 struct Args {
-    /// Write the pages that are made from the program (docs/effects.md) first.
+    /// Write the pages that are made from the program (docs/effects.md, docs/settings.md) first.
     #[arg(long)]
     docs: bool,
     /// Folder of the book.
@@ -72,6 +73,7 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<bool> {
     if args.docs {
         output::write(&output::docs(""), "effects.md", &effects::page())?;
+        output::write(&output::docs(""), "settings.md", &settings::page())?;
     }
     let out = output::beside(&args.out.to_string_lossy());
     build(&output::beside(""), &out)?;

@@ -10,6 +10,7 @@ use crate::ground::{GroundPart, Poses, misses};
 use crate::identify::{Base, Identified};
 use crate::run::WINDOW;
 use crate::search::{Model as PartModel, Trial, attempt};
+use crate::settings::SETTINGS;
 use crate::windows::{FOLDS, Windows};
 
 /// What is compared: over the window, and at its end.
@@ -61,8 +62,6 @@ pub(crate) struct Rivals<'a> {
 const WRONG_DRIVE: [Element; 4] = [Element::WheelLimit, Element::Lag, Element::Ramp, Element::DeadTime];
 const WRONG_GROUND: [Element; 6] =
     [Element::Radius, Element::SideRadius, Element::Offset, Element::TurnSlip, Element::BodyLag, Element::Track];
-/// Up to this many constants a placebo takes nothing that was named.
-const FEW: usize = 4;
 
 impl Experiment for Rivals<'_> {
     type Model = Model;
@@ -213,7 +212,7 @@ fn placebo(windows: &Windows, base: &Base, found: &Identified, nominal: [f64; 2]
     let mut elements = Vec::new();
     let mut powers = 0;
     if count > 0 {
-        let usable = WRONG_DRIVE.into_iter().filter(|e| count > FEW || !named.contains(e));
+        let usable = WRONG_DRIVE.into_iter().filter(|e| count > SETTINGS.placebo.few || !named.contains(e));
         elements.extend(usable.take(count.saturating_sub(1)));
         powers = count - elements.len();
         elements.push(Element::Gain);

@@ -10,9 +10,10 @@ use nalgebra::Matrix2;
 use verdict::{ResponseConstant, Scaling};
 
 use crate::run::{Piece, STEP, WINDOW};
+use crate::settings::SETTINGS;
 
 /// Integration steps per row.
-const SUBSTEPS: usize = 2;
+const SUBSTEPS: usize = SETTINGS.integration.substeps;
 const H: f64 = STEP / SUBSTEPS as f64;
 
 /// What has no size: the order and kind of the controller's parts.
@@ -47,8 +48,13 @@ pub(crate) const SIDE_GAIN: usize = 12;
 /// From here on: odd powers of each side's own command (placebo only).
 pub(crate) const SHAPE: usize = 13;
 
-pub(crate) const POWER: ResponseConstant =
-    ResponseConstant { id: "power", unit: "-", neutral: 0.0, bounds: [-50.0, 50.0], scale: 0.3 };
+pub(crate) const POWER: ResponseConstant = ResponseConstant {
+    id: "power",
+    unit: "-",
+    neutral: 0.0,
+    bounds: SETTINGS.placebo.power_bounds,
+    scale: SETTINGS.placebo.power_scale,
+};
 
 /// Wheel speeds from commands alone, every window from its measured start; the controller's own state runs through.
 pub(crate) fn simulate(law: Law, x: &[f64], largest: f64, piece: &Piece) -> Vec<[f64; 2]> {
@@ -164,12 +170,11 @@ impl Lag {
 
 /// exp(A) by halving and squaring: the library's own needs an allocator that its features here leave out.
 fn exponential(a: Matrix2<f64>) -> Matrix2<f64> {
-    /// Squarings: the largest frequency and damping give |A| / 2¹² below 0.03.
-    const SQUARINGS: i32 = 12;
-    let a = a * 0.5_f64.powi(SQUARINGS);
+    let squarings = SETTINGS.integration.squarings;
+    let a = a * 0.5_f64.powi(squarings);
     let one = Matrix2::identity();
     let mut out = one + a * (one + a * 0.5 * (one + a / 3.0 * (one + a * 0.25)));
-    for _ in 0..SQUARINGS {
+    for _ in 0..squarings {
         out *= out;
     }
     out

@@ -6,12 +6,12 @@ use crate::controller::{
 };
 use crate::run::{STEP, WINDOW};
 use crate::search::Part;
+use crate::settings::{DriveStarts, SETTINGS};
 use crate::windows::Windows;
 use inference::robust::select_quantile;
 use verdict::{DRIVE_CONSTANTS, Element, ResponseConstant};
 
-/// Errors beyond this share of the rms wheel speed count linearly only. Chosen after a look at the open data.
-const OUTLIER: f64 = 0.2;
+const STARTS: DriveStarts = SETTINGS.drive_starts;
 
 /// The fit of wheel speeds to commands.
 pub(crate) struct DrivePart<'a> {
@@ -30,7 +30,7 @@ impl<'a> DrivePart<'a> {
         let commands = windows.pieces.iter().flat_map(|p| p.command.iter().flatten());
         let largest = commands.fold(0.0_f64, |m, c| m.max(c.abs())).max(1e-6);
         let constants = DRIVE_CONSTANTS.into_iter().chain(std::iter::repeat_n(POWER, powers)).collect();
-        Self { windows, powers, constants, unit: (OUTLIER * windows.speed()).max(1e-6), largest }
+        Self { windows, powers, constants, unit: (SETTINGS.residuals.wheel * windows.speed()).max(1e-6), largest }
     }
 
     /// "The wheels do what is commanded."
@@ -104,10 +104,9 @@ impl Part for DrivePart<'_> {
         out
     }
 
-    /// Limits from what the wheels reach, ramps from how fast they change in 0.25 s, usual lags.
+    /// Limits from what the wheels reach, ramps from how fast they change, usual lags.
     fn guess(&self, constant: usize) -> f64 {
-        /// Rows in which a change is measured: longer than a sample-hold.
-        const SPAN: usize = 5;
+        const SPAN: usize = STARTS.change_rows;
         let quantile = |mut all: Vec<f64>, q: f64| select_quantile(&mut all, q).unwrap_or(1.0);
         let of = |f: &dyn Fn([f64; 2]) -> f64| -> Vec<f64> {
             self.windows.pieces.iter().flat_map(|p| p.wheel.iter().map(|w| f(*w).abs())).collect()
@@ -121,21 +120,23 @@ impl Part for DrivePart<'_> {
                 .map(|c| c / (SPAN as f64 * STEP))
                 .collect()
         };
+
         let reached = match constant {
-            TURN_LIMIT => quantile(of(&|w| body(w)[1]), 0.95),
-            FORWARD_LIMIT => quantile(of(&|w| body(w)[0]), 0.98),
-            WHEEL_LIMIT => quantile(of(&|[l, r]| l.abs().max(r.abs())), 0.97),
-            c if c == RAMP[0] || c == SIDE_RAMP => quantile(change(0), 0.98),
-            c if c == RAMP[1] => quantile(change(1), 0.98),
-            DEAD_TIME | LAG => return 0.15,
-            FREQUENCY => return 10.0,
-            DAMPING => return 0.9,
+            TURN_LIMIT => quantile(of(&|w| body(w)[1]), STARTS.turn_limit),
+            FORWARD_LIMIT => quantile(of(&|w| body(w)[0]), STARTS.forward_limit),
+            WHEEL_LIMIT => quantile(of(&|[l, r]| l.abs().max(r.abs())), STARTS.wheel_limit),
+            c if c == RAMP[0] || c == SIDE_RAMP => quantile(change(0), STARTS.forward_ramp),
+            c if c == RAMP[1] => quantile(change(1), STARTS.turn_ramp),
+            DEAD_TIME => return STARTS.dead_time,
+            LAG => return STARTS.lag,
+            FREQUENCY => return STARTS.frequency,
+            DAMPING => return STARTS.damping,
             _ => return self.neutral()[constant],
         };
-        reached.max(0.1)
+        reached.max(STARTS.least)
     }
 
     fn starts(&self) -> (usize, &'static [f64]) {
-        (DEAD_TIME, &[0.05, 0.15, 0.3])
+        (DEAD_TIME, &STARTS.dead_times)
     }
 }

@@ -8,11 +8,11 @@
 
 use crate::run::{STEP, WINDOW};
 use crate::search::Part;
+use crate::settings::{GroundStarts, SETTINGS};
 use crate::windows::{Window, Windows};
 use verdict::{Element, GROUND_CONSTANTS, ResponseConstant};
 
-/// Errors beyond this (m; rad) count linearly only: lidar poses jump.
-const POSE_UNIT: f64 = 0.1;
+const STARTS: GroundStarts = SETTINGS.ground_starts;
 
 pub(crate) const RADIUS: usize = 0;
 pub(crate) const TRACK: usize = 1;
@@ -138,7 +138,7 @@ impl Part for GroundPart<'_> {
     fn residuals(&self, (): (), x: &[f64]) -> Vec<f64> {
         let poses = self.poses(x);
         let all = self.windows.list.iter().zip(&poses).flat_map(|(w, p)| misses(self.windows, w, p));
-        all.flat_map(|m| m.map(|e| e / POSE_UNIT)).collect()
+        all.flat_map(|m| m.map(|e| e / SETTINGS.residuals.pose)).collect()
     }
 
     fn free(&self, (): (), element: Element) -> Vec<usize> {
@@ -157,14 +157,14 @@ impl Part for GroundPart<'_> {
 
     fn guess(&self, constant: usize) -> f64 {
         match constant {
-            // Skid-steer robots turn less than their track says.
-            TRACK => 1.5,
-            TURN_SLIP | BODY_LAG => 0.1,
+            TRACK => STARTS.track,
+            TURN_SLIP => STARTS.turn_slip,
+            BODY_LAG => STARTS.body_lag,
             _ => GROUND_CONSTANTS[constant].neutral,
         }
     }
 
     fn starts(&self) -> (usize, &'static [f64]) {
-        (TRACK, &[1.0, 2.0])
+        (TRACK, &STARTS.tracks)
     }
 }

@@ -13,6 +13,7 @@
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
 //! * `name`, `words`: elements as causes with intervals; sentences.
 //! * `model`: a fitted response as a model of its own, run forward.
+//! * `settings`: every tuned number, with unit and source.
 
 mod compare;
 mod controller;
@@ -23,6 +24,7 @@ mod model;
 mod name;
 mod run;
 mod search;
+mod settings;
 #[cfg(test)]
 mod tests;
 mod traces;
@@ -35,6 +37,7 @@ use robot_model::Robot;
 use inference::DiagnosisError;
 use verdict::{Diagnosis, Element, Response, Verdict};
 
+use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
 use drive::DrivePart;
 use ground::GroundPart;
@@ -45,6 +48,11 @@ use words::Figures;
 
 pub use model::{response_errors, simulate_response};
 pub use run::ResponseRun;
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]
@@ -66,9 +74,7 @@ pub struct ResponseCase {
 }
 
 /// Steps without which nothing can be left out in folds.
-const LEAST_STEPS: usize = 2 * FOLDS;
-/// Wheel speeds that repeat for longer are worth telling, s.
-const TELLING_HOLD: f64 = 0.04;
+const LEAST_STEPS: usize = SETTINGS.windows.steps_per_fold * FOLDS;
 
 /// Diagnoses a command-driven case. `progress` is called with the stage that begins.
 ///
@@ -174,7 +180,7 @@ fn figures(errors: &Comparison<Errors>, drive_only: &Errors, has_position: bool)
 fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> {
     let mut out = Vec::new();
     let hold = case.recordings.iter().map(|r| r.hold).fold(0.0, f64::max);
-    if hold > TELLING_HOLD {
+    if hold > SETTINGS.recording.telling_hold {
         out.push(format!(
             "the recorded wheel speeds change every {hold:.2} s only: dead time and lag together \
              may come out up to {:.2} s too long",

@@ -5,6 +5,7 @@ use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
 
 use crate::identify::{Base, Identified};
 use crate::search::{Evidence, Part, Trial, sigmas};
+use crate::settings::{Answer, SETTINGS};
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::{CauseSpec, command_driven as cause};
 use inference::evidence::{logistic, none_of};
@@ -76,10 +77,7 @@ const CAUSES: [(&CauseSpec, &[Element], Size); 9] = [
     (&cause::BODY_LAG, &[Element::BodyLag], Size::First),
     (&cause::SIDE_RADIUS, &[Element::SideRadius], Size::First),
 ];
-/// Causes below this probability are not listed: what left-out windows say nothing about keeps the 0.05 of its prior.
-const LISTED: f64 = 0.1;
-/// Beyond this, probabilities do not order causes; the way from command to ground does.
-const SURE: f64 = 0.999;
+const ANSWER: Answer = SETTINGS.answer;
 
 /// Causes by probability; of those that are sure, the one nearer to the command first.
 pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off_error: f64, track: f64) -> Vec<Cause> {
@@ -89,7 +87,7 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let p = own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         present.push(p);
-        if p < LISTED {
+        if p < ANSWER.listed {
             continue;
         }
 
@@ -119,7 +117,7 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
     }
     out.push(Cause::plain(NONE.id, NONE.name, none_of(present)));
     out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, 0.0));
-    out.sort_by(|a, b| b.probability.min(SURE).total_cmp(&a.probability.min(SURE)));
+    out.sort_by(|a, b| b.probability.min(ANSWER.sure).total_cmp(&a.probability.min(ANSWER.sure)));
     out
 }
 

@@ -4,15 +4,14 @@ use recordings::{Channel, Recording, Signal};
 
 use inference::DiagnosisError;
 
-/// Grid on which commands, wheels and pose are compared, s. Drives answer within tenths of a second; the open data
-/// sets of this kind are sampled so.
-pub(crate) const STEP: f64 = 0.05;
-/// Rows of a window: 2 s. The row that would close it opens the next one.
-pub(crate) const WINDOW: usize = 40;
-/// A channel that is silent for longer cuts the recording, s.
-const GAP: f64 = 1.0;
-/// Stamps are rounded: a sample this much later than a row still counts as of that row, s.
-const STAMP: f64 = 1e-3;
+use crate::settings::SETTINGS;
+
+/// Grid on which commands, wheels and pose are compared, s.
+pub(crate) const STEP: f64 = SETTINGS.recording.step;
+/// Rows of a window.
+pub(crate) const WINDOW: usize = SETTINGS.windows.rows;
+/// A sample this much later than a row still counts as of that row, s.
+const STAMP: f64 = SETTINGS.recording.stamp;
 const NS: f64 = 1e-9;
 
 /// One recording of a command-driven robot. Sides: 0 left, 1 right.
@@ -60,6 +59,8 @@ impl ResponseRun {
             need(Signal::WheelSpeedLeft, "wheel_speed of both sides")?,
             need(Signal::WheelSpeedRight, "wheel_speed of both sides")?,
         ];
+
+        // Turning and position are of one sensor; a gyro gives the turning alone.
         let yaw = recording.get(Signal::PoseYaw);
         let gyro = recording.get(Signal::GyroZ);
         let turning = yaw
@@ -69,6 +70,8 @@ impl ResponseRun {
             (Some(_), Some(x), Some(y)) => Some([x, y]),
             _ => None,
         };
+
+        // Pieces are what all of them cover without a gap.
         let mut used: Vec<&Channel> = command.into_iter().chain(wheel).chain([turning]).collect();
         used.extend(place.into_iter().flatten());
         let headings = unwrapped(turning.values());
@@ -93,6 +96,7 @@ impl ResponseRun {
                 pieces.push(piece);
             }
         }
+
         let rows: usize = wheel[0].len();
         if pieces.is_empty() {
             return Err(DiagnosisError::TooShort { recording: name, rows, needed: WINDOW });
@@ -147,7 +151,7 @@ fn stretches(channels: &[&Channel]) -> Vec<[f64; 2]> {
     let mut gaps: Vec<[f64; 2]> = channels
         .iter()
         .flat_map(|c| c.t_ns().windows(2).map(|w| [w[0] as f64 * NS, w[1] as f64 * NS]))
-        .filter(|[a, b]| b - a > GAP)
+        .filter(|[a, b]| b - a > SETTINGS.recording.gap)
         .collect();
     gaps.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut out = Vec::new();
@@ -208,7 +212,7 @@ fn integral(gyro: &Channel) -> Vec<f64> {
     out
 }
 
-/// Median time for which a wheel speed repeats its last value, s; runs of a second are standstill, not a hold.
+/// Median time for which a wheel speed repeats its last value, s; longer runs are standstill, not a hold.
 fn hold(wheel: &Channel) -> f64 {
     let time: Vec<f64> = seconds(wheel).collect();
     let mut runs = Vec::new();
@@ -219,7 +223,7 @@ fn hold(wheel: &Channel) -> f64 {
             start = i;
         }
     }
-    runs.retain(|r| *r < GAP);
+    runs.retain(|r| *r < SETTINGS.recording.standstill);
     runs.sort_by(f64::total_cmp);
     runs.get(runs.len() / 2).copied().unwrap_or(0.0)
 }

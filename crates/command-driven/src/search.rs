@@ -7,23 +7,11 @@ use inference::robust::mean_with_error;
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
+use crate::settings::{Fit, SETTINGS, Weighing};
 use crate::windows::{FOLDS, Windows};
 
-/// Iterations of a fit, and of one that starts beside its optimum.
-const ITERATIONS: [usize; 2] = [25, 10];
-/// A fit has converged when its cost falls by less than this share.
-const CONVERGED: f64 = 1e-6;
-/// First damping; longest step and finite step, shares of a constant (of its scale where that is more).
-const DAMPING: f64 = 1e-2;
-const LONGEST: f64 = 0.7;
-const DIFFERENCE: f64 = 1e-3;
-/// Log odds against an element before anything was seen: one in twenty. An element stays when z²/2 exceeds it.
-pub(crate) const PRIOR: f64 = 3.0;
-/// Sandwich intervals are widened by this. Of 100 made-up robots, 90 % intervals then held the truth in 90 to 99, a lag's in
-/// 81: every window starts from a noisy measurement, which a short lag forgets sooner.
-const WIDER: f64 = 1.5;
-/// What raises the left-out loss by less than this share is not worth a constant.
-const RELEVANT: f64 = 0.005;
+const FIT: Fit = SETTINGS.fit;
+const WEIGHING: Weighing = SETTINGS.evidence;
 
 /// A part of the response that is fitted on its own: command to wheel, or wheel to body.
 pub(crate) trait Part: Sync {
@@ -92,13 +80,14 @@ pub(crate) fn evidence(windows: &Windows, without: &[f64], with: &[f64]) -> Evid
     let (level, _) = mean_with_error(&windows.by_block(|i| with[i]));
     let z = if error > 0.0 { rise / error } else { 0.0 };
     let level = level.max(1e-12);
-    let relevant = rise > RELEVANT * level;
-    let score = if relevant { 0.5 * z * z.abs() - PRIOR } else { (0.5 * z * z.abs()).min(0.0) - PRIOR };
+    let relevant = rise > WEIGHING.relevant * level;
+    let prior = WEIGHING.prior;
+    let score = if relevant { 0.5 * z * z.abs() - prior } else { (0.5 * z * z.abs()).min(0.0) - prior };
     Evidence { rise: rise / level, standard_error: error / level, score }
 }
 
 fn step_of(c: &ResponseConstant, v: f64) -> f64 {
-    DIFFERENCE * v.abs().max(c.scale)
+    FIT.difference * v.abs().max(c.scale)
 }
 
 /// Derivatives of the residuals by the free constants, one column each.
@@ -138,10 +127,14 @@ fn fit<P: Part>(
         let c = &part.constants()[k];
         let [least, largest] = c.bounds;
         let constant = FreeConstant::new(start.x[k].clamp(least, largest), c.scale).within(least, largest);
-        FreeConstant { relative: true, longest: LONGEST, difference: DIFFERENCE, ..constant }
+        FreeConstant { relative: true, longest: FIT.longest, difference: FIT.difference, ..constant }
     };
-    let settings =
-        Settings { iterations, first_damping: DAMPING, least_relative_fall: CONVERGED, ..Settings::default() };
+    let settings = Settings {
+        iterations,
+        first_damping: FIT.first_damping,
+        least_relative_fall: FIT.converged,
+        ..Settings::default()
+    };
 
     let residuals = Residuals::new(free.iter().map(constant).collect(), misfit).with_loss(Loss::Huber(1.0));
     residuals.fit(&settings).map_or_else(
@@ -162,6 +155,7 @@ pub(crate) fn attempt<P: Part>(
     let law = part.restrict(law, base.law, elements);
     let mut free: Vec<usize> = elements.iter().flat_map(|e| part.free(law, *e)).collect();
     free.sort_unstable();
+
     let mut start = Model { law, x: base.x.clone() };
     for &k in &free {
         // Limits that the simulation has not are infinite: begin at what the data reach.
@@ -172,6 +166,8 @@ pub(crate) fn attempt<P: Part>(
             start.x[k] = t.model.x[k];
         }
     }
+
+    // On all windows, from each place that may lie in another valley of the cost.
     let everything = vec![true; windows.list.len()];
     let (valley, places) = part.starts();
     let starts: Vec<Model<P::Law>> = if near.is_none() && free.contains(&valley) {
@@ -187,10 +183,12 @@ pub(crate) fn attempt<P: Part>(
     let fits: Vec<(Model<P::Law>, f64)> = if free.is_empty() {
         starts.into_iter().map(|s| (s, 0.0)).collect()
     } else {
-        starts.par_iter().map(|s| fit(part, s, &free, &everything, ITERATIONS[0])).collect()
+        starts.par_iter().map(|s| fit(part, s, &free, &everything, FIT.iterations)).collect()
     };
     let best = fits.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let model = best.map_or_else(|| base.clone(), |b| b.0);
+
+    // Without each fold, from there; a window's loss is that of the fit which has not seen it.
     let folds: Vec<Model<P::Law>> = (0..FOLDS)
         .into_par_iter()
         .map(|f| {
@@ -198,7 +196,7 @@ pub(crate) fn attempt<P: Part>(
             if free.is_empty() || !used.contains(&true) {
                 return model.clone();
             }
-            fit(part, &model, &free, &used, ITERATIONS[1]).0
+            fit(part, &model, &free, &used, FIT.iterations_beside).0
         })
         .collect();
     let by_fold: Vec<Vec<f64>> = folds.par_iter().map(|m| losses(part, m)).collect();
@@ -270,5 +268,7 @@ pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
     let spread = &inverse * &scores;
     let blocks = windows.blocks as f64;
     let few = blocks / (blocks - n as f64).max(1.0);
-    (0..n).map(|i| Some(WIDER * (few * spread.row(i).iter().map(|s| s * s).sum::<f64>()).sqrt())).collect()
+    (0..n)
+        .map(|i| Some(SETTINGS.answer.wider * (few * spread.row(i).iter().map(|s| s * s).sum::<f64>()).sqrt()))
+        .collect()
 }

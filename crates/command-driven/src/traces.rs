@@ -5,12 +5,11 @@ use inference::experiment::Comparison;
 use crate::compare::{Motion, Simulated};
 use crate::ground::{Poses, misses};
 use crate::run::{ResponseRun, STEP, WINDOW};
+use crate::settings::{SETTINGS, Usual};
 use crate::windows::{Window, Windows};
 use verdict::{Compared, Trace, instant, rounded};
 
-/// Usual sizes of an error: of a wheel's speed, rad/s, and of a pose, m or rad.
-const WHEEL: f64 = 0.3;
-const POSE: f64 = 0.1;
+const USUAL: Usual = SETTINGS.traces;
 
 /// Every recording with what was simulated for it.
 pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, folds: &[Simulated]) -> Vec<Trace> {
@@ -81,6 +80,8 @@ fn channels(windows: &Windows, three: &[Motion; 3], own: &[(usize, &Window)]) ->
         }
     };
     let mut out = vec![wheel(0), wheel(1)];
+
+    // Headings of forecasts begin at zero in every window.
     let heading =
         |(_, w): &(usize, &Window)| windows.pieces[w.piece].heading.as_ref().map(|h| &h[w.start..w.start + WINDOW]);
     if own.iter().all(|w| heading(w).is_some()) {
@@ -117,8 +118,8 @@ fn errors(windows: &Windows, Motion { wheels, poses }: &Motion) -> Vec<f64> {
         let wheel: f64 = (w.start..w.start + WINDOW)
             .flat_map(|i| [0, 1].map(|j| (wheels[w.piece][i][j] - measured[i][j]).powi(2)))
             .sum();
-        let pose: f64 = misses(windows, w, p).iter().flatten().map(|m| (m / POSE).powi(2)).sum();
-        (wheel / (2.0 * WHEEL * WHEEL) + pose / 3.0) / WINDOW as f64
+        let pose: f64 = misses(windows, w, p).iter().flatten().map(|m| (m / USUAL.pose).powi(2)).sum();
+        (wheel / (2.0 * USUAL.wheel * USUAL.wheel) + pose / 3.0) / WINDOW as f64
     };
     windows.list.iter().zip(poses).map(of_window).collect()
 }

@@ -1,9 +1,10 @@
 //! Windows of 2 s, and the command steps that are the independent blocks.
 
 use crate::run::{Piece, ResponseRun, WINDOW};
+use crate::settings::SETTINGS;
 
 /// Folds in which windows are left out of a fit.
-pub(crate) const FOLDS: usize = 5;
+pub(crate) const FOLDS: usize = SETTINGS.windows.folds;
 
 /// A window of one piece.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,10 @@
 use verdict::{Advice, Contender, Manoeuvre};
 
 use crate::expected_information::entropy;
+use crate::settings::SETTINGS;
 
 /// A gain this small, bits, is none.
-pub const LEAST_BITS: f64 = 0.005;
+pub const LEAST_BITS: f64 = SETTINGS.information.least;
 
 /// Advice among contenders, without any drive yet.
 pub fn among(rivals: impl Iterator<Item = Contender>) -> Advice {

@@ -4,9 +4,10 @@ use faer::Mat;
 
 use crate::evidence::normalised;
 use crate::robust::normal_quantile;
+use crate::settings::SETTINGS;
 
 /// Points of the quasi-random sum.
-const POINTS: usize = 256;
+const POINTS: usize = SETTINGS.information.points;
 /// Bases of Halton's sequence, one for each rival of the truth.
 const BASES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
 

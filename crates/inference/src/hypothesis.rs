@@ -6,6 +6,8 @@ use robot_model::{Active, Effect, EffectSpec, effects};
 
 use verdict::{EffectAt, Side};
 
+use crate::settings::SETTINGS;
+
 /// An effect at values, present somewhere.
 #[derive(Clone)]
 pub struct Dose {
@@ -53,7 +55,7 @@ pub struct Variant {
 pub struct Free {
     /// Index in the card's parameters; `None` for the disc's x, y and radius.
     pub parameter: Option<usize>,
-    /// Size of one unit of it: a medium strength, a usual shape, 0.3 m.
+    /// Size of one unit of it: a medium strength, a usual shape, a length on the ground.
     pub unit: f64,
     /// Least and largest value.
     pub bounds: [f64; 2],
@@ -106,9 +108,10 @@ impl Variant {
             }
         }
         if self.place == Place::Disc {
-            let far = 1e3;
-            for (unit, bounds) in [(0.3, [-far, far]), (0.3, [-far, far]), (0.3, [0.3, 6.0])] {
-                out.push(Free { parameter: None, unit, bounds, usual: 1.2 });
+            let disc = SETTINGS.disc;
+            let anywhere = [-disc.farthest, disc.farthest];
+            for bounds in [anywhere, anywhere, disc.radius] {
+                out.push(Free { parameter: None, unit: disc.unit, bounds, usual: disc.start });
             }
         }
         out

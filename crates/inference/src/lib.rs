@@ -10,6 +10,7 @@
 //! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
 //! * `corrected`: a correction as a robot and effects that a plant takes.
 //! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
+//! * `settings`: every tuned number, with unit and source.
 //! * `words`: names and numbers for people.
 
 #[cfg(feature = "solver")]
@@ -28,8 +29,15 @@ pub mod hypothesis;
 pub mod least_squares;
 mod options;
 pub mod robust;
+#[cfg_attr(not(feature = "solver"), expect(dead_code, reason = "some numbers are those of what solves equations"))]
+mod settings;
 pub mod words;
 
 pub use corrected::{Corrected, active, in_catalogue};
 pub use error::DiagnosisError;
 pub use options::Options;
+
+/// Every tuned number of this crate, for the page of settings; without those of the solver.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

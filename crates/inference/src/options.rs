@@ -1,9 +1,11 @@
-//! Settings of a diagnosis, each with its source.
+//! Settings of a diagnosis.
+
+use crate::settings::{SETTINGS, Usual};
 
 /// Settings of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Integration step, s. At 1 ms the plant's error is a quarter of the fault-free residual.
+    /// Integration step, s.
     pub step: f64,
     /// Length of a segment over which the model runs free, s.
     pub segment: f64,
@@ -17,6 +19,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { step: 1e-3, segment: 2.0, temper: 0.15, kappa: 3.0, next: None }
+        let Usual { step, segment, temper, kappa } = SETTINGS.options;
+        Self { step, segment, temper, kappa, next: None }
     }
 }

@@ -3,13 +3,9 @@
 use weak_form::{Gram, Law as Ridge, Shape, WeakForm};
 
 use super::rows::{ACCEL, DIRECTION, DRIVE, GYRO, Grid, ONE, RATE, SIGNALS, SPEED};
+use crate::settings::{Regression, SETTINGS};
 
-/// Rows of a window, rows between windows, exponent of the bump.
-const WINDOW: (usize, usize, u32) = (49, 12, 4);
-/// Penalty of the regressions, in squares of each regressor.
-const PENALTY: f64 = 1e-4;
-/// Fewest windows from which a law is learned: ten for each coefficient.
-const LEAST_WINDOWS: u64 = 160;
+const REGRESSION: Regression = SETTINGS.law;
 
 /// Windows of the rows of a piece.
 #[derive(Debug, Clone)]
@@ -20,7 +16,7 @@ pub(super) struct Windows {
 impl Windows {
     /// The windows of a piece: nothing of the size rows × columns is stored.
     pub(super) fn new(grid: &Grid, piece: &recordings::Recording) -> Option<Self> {
-        let shape = Shape::new(SIGNALS, WINDOW.0, WINDOW.1, WINDOW.2).ok()?;
+        let shape = Shape::new(SIGNALS, REGRESSION.rows, REGRESSION.stride, REGRESSION.exponent).ok()?;
         let mut weak = WeakForm::new(shape);
         weak.push(&grid.rows(piece)).ok()?;
         let gram = weak.gram();
@@ -73,13 +69,13 @@ impl Law {
     /// `None` where there are too few windows.
     pub(super) fn new(grid: &Grid, pieces: &[Windows]) -> Option<Self> {
         let all = sum(pieces.iter())?;
-        if pieces.len() < 2 || all.count() < LEAST_WINDOWS {
+        if pieces.len() < 2 || all.count() < REGRESSION.least_windows {
             return None;
         }
         let learn = |windows: &Windows| -> Option<Vec<(Target, Ridge)>> {
             targets(grid, &windows.gram.shape())
                 .into_iter()
-                .map(|t| Some((windows.gram.ridge(&[t.column], &t.regressors, PENALTY).ok()?, t)))
+                .map(|t| Some((windows.gram.ridge(&[t.column], &t.regressors, REGRESSION.penalty).ok()?, t)))
                 .map(|fit| fit.map(|(ridge, target)| (target, ridge)))
                 .collect()
         };

@@ -17,20 +17,17 @@ use recordings::{Recording, RecordingError};
 use serde::{Deserialize, Serialize};
 use verdict::{Chosen, ComparedWith, Coverage};
 
+use crate::settings::{Pieces, SETTINGS};
 use law::{Law, Windows};
 use pool::{Member, Pool};
 use rows::Grid;
 
+const PIECES: Pieces = SETTINGS.pieces;
+
 /// Length of a piece, s.
-pub const PIECE: f64 = 60.0;
+pub const PIECE: f64 = PIECES.length;
 /// Recorded time on which a diagnosis rests at most unless set otherwise, s.
-pub const BUDGET: f64 = 600.0;
-/// Shortest piece that is worth choosing, s.
-const SHORTEST: f64 = 10.0;
-/// Pieces at the beginning that stand for the references where there are none.
-const BEGINNING: usize = 10;
-/// Pieces of references for the law: shorter than a minute, so that short references leave something to compare with.
-const REFERENCE_PIECE_NS: i64 = 12_000_000_000;
+pub const BUDGET: f64 = PIECES.budget;
 
 /// A piece for the diagnosis.
 #[derive(Debug, Clone)]
@@ -79,7 +76,7 @@ impl Screening {
     pub fn new(references: &[&Recording], budget: f64) -> Self {
         let grid = references.iter().find_map(|r| Grid::new(r));
         let windows = grid.iter().flat_map(|grid| {
-            let pieces = references.iter().flat_map(|r| r.pieces(REFERENCE_PIECE_NS));
+            let pieces = references.iter().flat_map(|r| r.pieces(PIECES.reference_ns));
             pieces.filter_map(|piece| Windows::new(grid, &thin::thinned(&piece).ok()?)).collect::<Vec<_>>()
         });
         let law = grid.and_then(|grid| Law::new(&grid, &windows.collect::<Vec<_>>()));
@@ -88,7 +85,7 @@ impl Screening {
             grid: grid.filter(|_| law.is_some()),
             law,
             waiting: Vec::new(),
-            pool: Pool::new(((budget / PIECE).round() as usize).max(3)),
+            pool: Pool::new(((budget / PIECE).round() as usize).max(PIECES.least)),
             seen: Vec::new(),
             at: None,
         }
@@ -124,7 +121,7 @@ impl Screening {
             .collect::<Result<_, RecordingError>>()?;
         for piece in looked {
             self.waiting.push(piece);
-            if self.law.is_some() || self.waiting.len() >= BEGINNING {
+            if self.law.is_some() || self.waiting.len() >= PIECES.beginning {
                 self.judge();
             }
         }
@@ -152,7 +149,7 @@ impl Screening {
             let told = Some(unlike).filter(|u| u.is_finite());
             self.seen.push(Screen { recording: piece.stretch.of.clone(), interval, unlike: told });
             // The rest at the end of a recording may be too short for anything.
-            if piece.length >= SHORTEST || number == 0 {
+            if piece.length >= PIECES.shortest || number == 0 {
                 self.pool.offer(&Member {
                     number,
                     unlike: if unlike.is_nan() { 0.0 } else { unlike },

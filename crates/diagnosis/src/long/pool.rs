@@ -4,6 +4,7 @@ use faer::Mat;
 use verdict::Why;
 
 use super::rows::SIGNALS;
+use crate::settings::SETTINGS;
 use inference::algebra::solve_spd;
 
 type Information = [[f64; SIGNALS]; SIGNALS];
@@ -89,9 +90,9 @@ impl<T: Clone> Pool<T> {
     }
 }
 
-/// `ln det(Σ information + 10⁻³ I)`.
+/// `ln det(Σ information + ridge I)`.
 fn log_determinant<'a, T: 'a>(members: impl Iterator<Item = &'a Member<T>>) -> f64 {
-    let mut sum = Mat::from_fn(SIGNALS, SIGNALS, |i, j| if i == j { 1e-3 } else { 0.0 });
+    let mut sum = Mat::from_fn(SIGNALS, SIGNALS, |i, j| if i == j { SETTINGS.choice.ridge } else { 0.0 });
     for member in members {
         for i in 0..SIGNALS {
             for j in 0..SIGNALS {

@@ -4,6 +4,8 @@ use std::array::from_fn;
 
 use recordings::{Channel, Recording, Signal};
 
+use crate::settings::{Raster, SETTINGS};
+
 /// Signals of a row: what drives each side, wheel speeds, wheel accelerations, directions, yaw rate, specific force, one.
 pub(super) const SIGNALS: usize = 12;
 /// Places of a row's signals.
@@ -15,13 +17,7 @@ pub(super) const GYRO: usize = 8;
 pub(super) const ACCEL: [usize; 2] = [9, 10];
 pub(super) const ONE: usize = 11;
 
-/// Finest and coarsest grid, s.
-const FINEST: f64 = 0.01;
-const COARSEST: f64 = 0.1;
-/// Longest gap that is bridged, in rows.
-const BRIDGED: usize = 10;
-/// Wheel speed over which a direction changes its sign, rad/s.
-const AT_REST: f64 = 0.3;
+const RASTER: Raster = SETTINGS.grid;
 
 /// What drives the wheels: the first pair that a recording has.
 const DRIVES: [[Signal; 2]; 3] = [
@@ -51,10 +47,10 @@ impl Grid {
         if !(by_angle || has(Signal::WheelSpeedLeft) && has(Signal::WheelSpeedRight)) {
             return None;
         }
-        let mut grid = Self { drive, by_angle, gyro: has(Signal::GyroZ), accel: false, period: FINEST };
+        let mut grid = Self { drive, by_angle, gyro: has(Signal::GyroZ), accel: false, period: RASTER.finest };
         grid.accel = has(Signal::AccelX) && has(Signal::AccelY);
-        let spacing = grid.signals().filter_map(|s| recording.get(s)).map(spacing).fold(FINEST, f64::max);
-        grid.period = spacing.min(COARSEST);
+        let spacing = grid.signals().filter_map(|s| recording.get(s)).map(spacing).fold(RASTER.finest, f64::max);
+        grid.period = spacing.min(RASTER.coarsest);
         Some(grid)
     }
 
@@ -93,7 +89,7 @@ impl Grid {
                 row[DRIVE[j]] = drive[j][k];
                 row[SPEED[j]] = speed[j][k];
                 row[RATE[j]] = rate[j][k];
-                row[DIRECTION[j]] = (speed[j][k] / AT_REST).tanh();
+                row[DIRECTION[j]] = (speed[j][k] / RASTER.at_rest).tanh();
                 row[ACCEL[j]] = accel[j][k];
             }
             row[GYRO] = gyro[k];
@@ -105,9 +101,9 @@ impl Grid {
 
 /// Usual time between samples, s.
 fn spacing(channel: &Channel) -> f64 {
-    let mut gaps: Vec<i64> = channel.t_ns().windows(2).take(2000).map(|w| w[1] - w[0]).collect();
+    let mut gaps: Vec<i64> = channel.t_ns().windows(2).take(RASTER.spacings).map(|w| w[1] - w[0]).collect();
     let middle = gaps.len() / 2;
-    if gaps.is_empty() { COARSEST } else { *gaps.select_nth_unstable(middle).1 as f64 * 1e-9 }
+    if gaps.is_empty() { RASTER.coarsest } else { *gaps.select_nth_unstable(middle).1 as f64 * 1e-9 }
 }
 
 /// Mean of the samples in each step; short gaps are bridged by straight lines.
@@ -127,7 +123,7 @@ fn binned(channel: &Channel, from_ns: i64, step_ns: f64, count: usize) -> Vec<f6
         if out[k].is_nan() {
             continue;
         }
-        if let Some(before) = last.filter(|&before| k - before > 1 && k - before <= BRIDGED) {
+        if let Some(before) = last.filter(|&before| k - before > 1 && k - before <= RASTER.bridged) {
             let (a, b) = (out[before], out[k]);
             for i in before + 1..k {
                 out[i] = a + (b - a) * (i - before) as f64 / (k - before) as f64;

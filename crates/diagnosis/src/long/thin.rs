@@ -2,10 +2,11 @@
 
 use recordings::{Channel, Recording, RecordingError, Signal};
 
+use crate::settings::{SETTINGS, Thinning};
+
+const THINNING: Thinning = SETTINGS.thinning;
 /// Time between the rows that are left, ns.
-const STEP_NS: i64 = 10_000_000;
-/// Channels with fewer samples than this per step stay as they are.
-const WORTH_IT: f64 = 2.0;
+const STEP_NS: i64 = THINNING.step_ns;
 
 /// What stands for the samples of a step.
 enum Stands {
@@ -21,7 +22,8 @@ enum Stands {
 pub(super) fn thinned(piece: &Recording) -> Result<Recording, RecordingError> {
     let channels = piece.channels().iter().map(|channel| {
         let (from, until) = channel.span_ns().unwrap_or_default();
-        if channel.len() as f64 * STEP_NS as f64 <= 0.9 * WORTH_IT * (until - from) as f64 {
+        let few = THINNING.complete * THINNING.worth_it;
+        if channel.len() as f64 * STEP_NS as f64 <= few * (until - from) as f64 {
             return Ok(channel.clone());
         }
         let (t_ns, values) = thin(channel, &stands(channel));

@@ -19,7 +19,7 @@ pub struct Settings {
     /// Damping beyond which no step is tried. Default 1e6; a guess: steps are then a millionth of a gradient
     /// step in scales.
     pub most_damping: f64,
-    /// Fall of the cost by which a fit has arrived, nats. Default 0.
+    /// Fall of the cost by which a fit has arrived, nats. Default 0; a guess: the share below is enough.
     pub least_fall: f64,
     /// The same as a share of the cost. Default 1e-9; a guess: far below what a size is told to.
     pub least_relative_fall: f64,

@@ -1,0 +1,155 @@
+//! The tuned numbers of this crate.
+
+::settings::settings! {
+    /// Tuned numbers of the diagnosis of command-driven robots.
+    pub(crate) struct Settings;
+
+    /// Recordings on one grid, cut where a channel is silent.
+    recording: Recording {
+        /// Grid on which commands, wheels and pose are compared.
+        step: f64 = 0.05, "s",
+            "drives answer within tenths of a second, and the open data sets of this kind are sampled so";
+        /// A channel that is silent for longer cuts the recording.
+        gap: f64 = 1.0, "s", "guess";
+        /// Stamps are rounded: a sample this much later than a row still counts as of that row.
+        stamp: f64 = 1e-3, "s", "guess";
+        /// A wheel speed that repeats for as long stands still; what repeats for less is sample-held.
+        standstill: f64 = 1.0, "s", "guess";
+        /// Wheel speeds that repeat for longer are worth telling.
+        telling_hold: f64 = 0.04, "s", "guess";
+    }
+
+    /// Windows that are forecast, and folds in which they are left out.
+    windows: Windows {
+        /// Rows of a window, which is 2 s; the row that would close it opens the next one.
+        rows: usize = 40, "1", "guess";
+        /// Folds in which windows are left out of a fit.
+        folds: usize = 5, "1", "guess";
+        /// Command steps in each fold, fewer than which nothing can be left out.
+        steps_per_fold: usize = 2, "1", "guess";
+    }
+
+    /// The controller and the lag of the wheels, run forward.
+    integration: Integration {
+        /// Integration steps per row.
+        substeps: usize = 2, "1", "guess";
+        /// Squarings of the matrix exponential of a second-order lag.
+        squarings: i32 = 12, "1", "the largest frequency and damping give a norm below 0.03 after as many halvings";
+    }
+
+    /// Residuals of a fit.
+    residuals: Residual {
+        /// Errors of a wheel beyond this share of the rms wheel speed count linearly only.
+        wheel: f64 = 0.2, "1", "chosen after a look at the open data";
+        /// Errors of the pose beyond this count linearly only.
+        pose: f64 = 0.1, "m; rad", "guess; lidar poses jump";
+    }
+
+    /// Where the fit of wheel speeds to commands starts.
+    drive_starts: DriveStarts {
+        /// Dead times from each of which a fit begins, for the cost has several valleys.
+        dead_times: [f64; 3] = [0.05, 0.15, 0.3], "s", "guess";
+        /// Dead time.
+        dead_time: f64 = 0.15, "s", "guess; a usual one";
+        /// Time constant of a lag of first order.
+        lag: f64 = 0.15, "s", "guess; a usual one";
+        /// Natural frequency of a lag of second order.
+        frequency: f64 = 10.0, "rad/s", "guess; a usual one";
+        /// Damping of a lag of second order.
+        damping: f64 = 0.9, "1", "guess; a usual one";
+        /// Quantile of the measured turning at which its limit starts.
+        turn_limit: f64 = 0.95, "1", "guess";
+        /// Quantile of the measured forward speed at which its limit starts.
+        forward_limit: f64 = 0.98, "1", "guess";
+        /// Quantile of the faster wheel's measured speed at which the limit of a wheel starts.
+        wheel_limit: f64 = 0.97, "1", "guess";
+        /// Quantile of the measured change of forward speed at which its ramp, and that of a side, starts.
+        forward_ramp: f64 = 0.98, "1", "guess";
+        /// Quantile of the measured change of turning at which its ramp starts.
+        turn_ramp: f64 = 0.98, "1", "guess";
+        /// Rows over which a change is measured.
+        change_rows: usize = 5, "1", "guess; longer than a sample-hold";
+        /// Least limit or ramp at which a fit starts.
+        least: f64 = 0.1, "rad/s; rad/s²", "guess";
+    }
+
+    /// Where the fit of the body's motion to wheel speeds starts.
+    ground_starts: GroundStarts {
+        /// Factors of the track from each of which a fit begins, for the cost has several valleys.
+        tracks: [f64; 2] = [1.0, 2.0], "1", "guess";
+        /// Factor of the track.
+        track: f64 = 1.5, "1", "guess; skid-steer robots turn less than their track says";
+        /// Forward speed lost in turns.
+        turn_slip: f64 = 0.1, "s²/rad²", "guess";
+        /// Lag of the body.
+        body_lag: f64 = 0.1, "s", "guess";
+    }
+
+    /// The fit of constants.
+    fit: Fit {
+        /// Iterations of a fit at most.
+        iterations: usize = 25, "1", "guess";
+        /// Iterations at most of a fit that starts beside its optimum: without a fold.
+        iterations_beside: usize = 10, "1", "guess";
+        /// A fit has converged when its cost falls by less than this share.
+        converged: f64 = 1e-6, "1", "guess";
+        /// Damping of the first step, share of each diagonal.
+        first_damping: f64 = 1e-2, "1", "guess";
+        /// Longest step, share of a constant (of its scale where that is more).
+        longest: f64 = 0.7, "1", "guess";
+        /// Step of finite differences, share of a constant (of its scale where that is more).
+        difference: f64 = 1e-3, "1", "guess";
+    }
+
+    /// Which elements earn their place.
+    evidence: Weighing {
+        /// Log odds against an element before anything was seen, one in twenty: an element stays when z²/2 exceeds it.
+        prior: f64 = 3.0, "nats", "guess";
+        /// What raises the left-out loss by less than this share is not worth a constant.
+        relevant: f64 = 0.005, "1", "guess";
+    }
+
+    /// Intervals of fitted constants, and which causes are listed.
+    answer: Answer {
+        /// Factor by which sandwich intervals are widened: every window starts from a noisy measurement,
+        /// which a short lag forgets sooner.
+        wider: f64 = 1.5, "1",
+            "of 100 made-up robots, 90 % intervals then held the truth in 90 to 99, a lag's in 81";
+        /// Causes below this probability are not listed.
+        listed: f64 = 0.1, "1", "above the 0.05 that what left-out windows say nothing about keeps of its prior";
+        /// Beyond this probability the way from command to ground orders causes.
+        sure: f64 = 0.999, "1", "guess";
+    }
+
+    /// The best wrong cause.
+    placebo: Placebo {
+        /// Up to this many constants a placebo takes nothing that was named.
+        few: usize = 4, "1", "guess";
+        /// Bounds of the coefficients of odd powers of a side's own command, which is in units of the largest command.
+        power_bounds: [f64; 2] = [-50.0, 50.0], "1", "guess";
+        /// Scale of these coefficients.
+        power_scale: f64 = 0.3, "1", "guess";
+    }
+
+    /// Usual sizes of an error, in units of which traces show how far forecasts are off.
+    traces: Usual {
+        /// Of a wheel's speed.
+        wheel: f64 = 0.3, "rad/s", "guess";
+        /// Of a pose.
+        pose: f64 = 0.1, "m; rad", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_has_its_unit_meaning_and_source() {
+        let bare: Vec<&str> = Settings::ALL.iter().filter(|s| !s.is_documented()).map(|s| s.name).collect();
+        assert!(bare.is_empty(), "{bare:?}");
+    }
+}

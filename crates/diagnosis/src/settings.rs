@@ -1,0 +1,82 @@
+//! The tuned numbers of screening long recordings.
+
+::settings::settings! {
+    /// Tuned numbers of screening long recordings.
+    pub(crate) struct Settings;
+
+    /// Pieces into which recordings are cut, and how many of them a diagnosis rests on.
+    pieces: Pieces {
+        /// Length of a piece.
+        length: f64 = 60.0, "s", "guess";
+        /// Recorded time on which a diagnosis rests at most unless set otherwise.
+        budget: f64 = 600.0, "s", "guess";
+        /// Pieces that are kept at least, however small the budget.
+        least: usize = 3, "1", "guess; one for each reason to keep a piece";
+        /// Shortest piece that is worth choosing.
+        shortest: f64 = 10.0, "s", "guess";
+        /// Pieces at the beginning that stand for the references where there are none.
+        beginning: usize = 10, "1", "guess";
+        /// Length of a piece of the references: shorter than those of recordings, so that short references leave something
+        /// to compare with.
+        reference_ns: i64 = 12_000_000_000, "ns", "guess";
+    }
+
+    /// Recordings with fewer rows.
+    thinning: Thinning {
+        /// Time between the rows that are left.
+        step_ns: i64 = 10_000_000, "ns", "guess";
+        /// Channels with fewer samples than this per step stay as they are.
+        worth_it: f64 = 2.0, "1", "guess";
+        /// Share of these samples above which a channel is thinned all the same.
+        complete: f64 = 0.9, "1", "guess";
+    }
+
+    /// Signals on a common grid.
+    grid: Raster {
+        /// Finest grid.
+        finest: f64 = 0.01, "s", "guess";
+        /// Coarsest grid.
+        coarsest: f64 = 0.1, "s", "guess";
+        /// Times between samples, at the beginning of a channel, whose median says how finely it was taken.
+        spacings: usize = 2000, "1", "guess";
+        /// Longest gap that is bridged, rows.
+        bridged: usize = 10, "1", "guess";
+        /// Wheel speed over which a direction changes its sign.
+        at_rest: f64 = 0.3, "rad/s", "guess";
+    }
+
+    /// The law among signals that the references follow, by weak form.
+    law: Regression {
+        /// Rows of a window.
+        rows: usize = 49, "1", "guess; half a second on the finest grid";
+        /// Rows between the beginnings of windows.
+        stride: usize = 12, "1", "guess; a quarter of a window";
+        /// Exponent of the bump that weighs the rows of a window.
+        exponent: u32 = 4, "1", "guess";
+        /// Penalty of the regressions, in squares of each regressor.
+        penalty: f64 = 1e-4, "1", "guess";
+        /// Fewest windows from which a law is learned.
+        least_windows: u64 = 160, "1", "ten for each coefficient";
+    }
+
+    /// The pieces whose driving tells most.
+    choice: Choice {
+        /// Added to the diagonal of the information of the kept pieces, which are in units of the signals' mean squares:
+        /// a signal that none of them excites leaves the determinant finite.
+        ridge: f64 = 1e-3, "1", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_has_its_unit_meaning_and_source() {
+        let bare: Vec<&str> = Settings::ALL.iter().filter(|s| !s.is_documented()).map(|s| s.name).collect();
+        assert!(bare.is_empty(), "{bare:?}");
+    }
+}
