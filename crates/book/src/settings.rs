@@ -11,9 +11,10 @@ type Room = (&'static str, &'static str, Vec<&'static Setting>);
 fn rooms() -> Vec<Room> {
     vec![
         ("inference", "what all kinds of robots share", inference::settings().collect()),
-        // ("torque-driven", "robots whose torques are known", torque_driven::settings().collect()),
-        // ("speed-driven", "robots whose wheel speeds and currents are known", speed_driven::settings().collect()),
+        ("torque-driven", "robots whose torques are known", torque_driven::settings().collect()),
+        ("speed-driven", "robots whose wheel speeds and currents are known", speed_driven::settings().collect()),
         ("command-driven", "robots of which only commands and motion are known", command_driven::settings().collect()),
+        ("weak-form", "screening without simulation", weak_form::settings().collect()),
         ("diagnosis", "which minutes of a long recording are diagnosed", diagnosis::settings().collect()),
     ]
 }
