@@ -29,7 +29,6 @@ pub mod hypothesis;
 pub mod least_squares;
 mod options;
 pub mod robust;
-#[cfg_attr(not(feature = "solver"), expect(dead_code, reason = "some numbers are those of what solves equations"))]
 mod settings;
 pub mod words;
 
