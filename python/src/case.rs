@@ -173,12 +173,6 @@ pub(crate) fn folder(
 /// Drives one by one: references, recordings, held-out drives.
 pub(crate) fn drives(robot: &RobotGiven, parts: [Part; 3], name: Option<&str>, options: ReadOptions) -> Result<Opened> {
     let robot = robot.open()?;
-    ensure!(
-        !parts[0].is_empty() || !robot.causality.needs_references(),
-        "robot '{}' is {}: give drives in which its simulation was right as reference",
-        robot.name,
-        robot.causality.name()
-    );
     ensure!(!parts[1].is_empty(), "there is nothing to diagnose; give drives as recordings");
     let paths: Vec<PathBuf> = parts.iter().flat_map(|part| part.paths.clone()).collect();
     let mapping = needed(name, &paths)?;

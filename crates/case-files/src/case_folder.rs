@@ -265,7 +265,7 @@ impl CaseFolder {
 }
 
 /// The robot of a case folder (`robot.json` or `robot.toml`, or the one that is named) and its three parts, of which only
-/// the recordings must be there, and the references where the robot needs them.
+/// the recordings must be there.
 ///
 /// # Errors
 /// What is missing.
@@ -280,7 +280,7 @@ pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [V
         Some(name) => robot(name)?,
         None => robot(&robot_of(folder)?.display().to_string())?,
     };
-    for (name, what) in &FOLDERS[usize::from(!robot.causality.needs_references())..2] {
+    for (name, what) in &FOLDERS[1..2] {
         ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
     }
     Ok((robot, folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() })))

@@ -1,6 +1,6 @@
 //! A robot with its references, read and calibrated once for all of its recordings.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use case_files::case_folder::{CaseFolder, file_names, robot};
 use case_files::inputs::Loaded;
 use case_files::which_mapping::named_or_built_in;
@@ -36,13 +36,6 @@ impl Prepared {
     pub(crate) fn new(setup: &Setup, settings: &Settings) -> Result<Self> {
         let key = key::of_setup(setup, settings);
         let robot = robot(&setup.robot)?;
-        ensure!(
-            !(setup.reference.is_empty() && robot.causality.needs_references()),
-            "robot '{}' is {}: give drives in which its simulation was right (reference/ of the case, the column \
-             `reference`, or --reference)",
-            robot.name,
-            robot.causality.name()
-        );
         let name = setup.mapping.as_deref();
         let known = name.is_some() || !setup.reference.is_empty();
         let mapping = known.then(|| named_or_built_in(name, &setup.reference)).transpose()?;

@@ -29,11 +29,6 @@ impl Causality {
             Self::CommandDriven => "command-driven",
         }
     }
-
-    /// Whether a diagnosis needs drives in which the simulation was right: the others are compared with the robot file.
-    pub const fn needs_references(self) -> bool {
-        matches!(self, Self::TorqueDriven)
-    }
 }
 
 /// What a robot file says.

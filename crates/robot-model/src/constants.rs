@@ -81,14 +81,14 @@ impl<T: Scalar> Constant<T> {
 
     /// Re-tuned by `exp(δ)`; `sigma` is relative.
     const fn factor(mut self, order: usize, sigma: f64, source: &'static str, apply: Apply<T>) -> Self {
-        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Factor, unit: "-", sigma, source, apply });
+        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Factor, unit: "-", sigma, source, between_visits: 0.0, apply });
         self
     }
 
     /// Re-tuned by adding `δ`; `sigma` is in the constant's unit.
     const fn offset(mut self, order: usize, sigma: f64, source: &'static str, apply: Apply<T>) -> Self {
         let unit = self.unit;
-        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Offset, unit, sigma, source, apply });
+        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Offset, unit, sigma, source, between_visits: 0.0, apply });
         self
     }
 
@@ -96,6 +96,15 @@ impl<T: Scalar> Constant<T> {
     const fn tuned_as(mut self, id: &'static str) -> Self {
         if let Some(mut tuning) = self.tuning {
             tuning.id = id;
+            self.tuning = Some(tuning);
+        }
+        self
+    }
+
+    /// Moves between visits by this share of its sigma.
+    const fn between_visits(mut self, share: f64) -> Self {
+        if let Some(mut tuning) = self.tuning {
+            tuning.between_visits = share;
             self.tuning = Some(tuning);
         }
         self
@@ -148,6 +157,12 @@ const GUESS: &str = "guess: what a careful user misses by";
 /// Source of a spread that makes up for a law that the plant does not have.
 const DISCREPANCY: &str = "guess: stands for what the plant's own law misses";
 
+/// Shares of a constant's sigma by which it moves between visits. All three are guesses: ground, grease and magnets follow
+/// weather and warmth, a body what is loaded, while what stands for a law that the plant lacks stays.
+const WEATHER: f64 = 0.6;
+const LOAD: f64 = 0.6;
+const FORM: f64 = 0.25;
+
 /// Largest share of the adhesion that is left in full sliding.
 const MOST_SHARE: f64 = 1.3;
 const SHARES: Bounds = Bounds::Within(0.0, MOST_SHARE);
@@ -161,15 +176,20 @@ impl<T: Scalar> Robot<T> {
     #[rustfmt::skip]
     pub const CONSTANTS: &'static [Constant<T>] = &[
         row!("mass", "kg", Bounds::Positive, Usual::Needed, "weight and inertia", |r| r.mass)
-            .factor(12, 0.01, GUESS, |r, d| r.mass *= d.exp()),
+            .factor(12, 0.01, GUESS, |r, d| r.mass *= d.exp())
+            .between_visits(LOAD),
         row!("yaw_inertia", "kg m2", Bounds::Positive, Usual::Needed, "turning", |r| r.yaw_inertia)
-            .factor(6, 0.06, GUESS, |r, d| r.yaw_inertia *= d.exp()),
+            .factor(6, 0.06, GUESS, |r, d| r.yaw_inertia *= d.exp())
+            .between_visits(LOAD),
         row!("com_x", "m", Bounds::BetweenAxles, Usual::Value(0.0), "wheel loads", |r| r.com[0])
-            .offset(7, 0.004, GUESS, |r, d| r.com[0] += d),
+            .offset(7, 0.004, GUESS, |r, d| r.com[0] += d)
+            .between_visits(LOAD),
         row!("com_y", "m", Bounds::BetweenWheels, Usual::Value(0.0), "wheel loads", |r| r.com[1])
-            .offset(8, 0.004, GUESS, |r, d| r.com[1] += d),
+            .offset(8, 0.004, GUESS, |r, d| r.com[1] += d)
+            .between_visits(LOAD),
         row!("com_height", "m", Bounds::Positive, Usual::Needed, "wheel loads", |r| r.com[2])
-            .factor(13, 0.05, GUESS, |r, d| r.com[2] *= d.exp()),
+            .factor(13, 0.05, GUESS, |r, d| r.com[2] *= d.exp())
+            .between_visits(LOAD),
         row!("wheelbase", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
             |r| r.half_wheelbase + r.half_wheelbase, |r, x| r.half_wheelbase = x * real(0.5)),
         row!("track", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
@@ -177,26 +197,34 @@ impl<T: Scalar> Robot<T> {
         row!("wheel_radius", "m", Bounds::Positive, Usual::Needed, "wheels", |r| r.wheel_radius),
         row!("wheel_inertia", "kg m2", Bounds::Positive, Usual::Needed, "wheels", |r| r.wheel_inertia),
         row!("motor_inertia", "kg m2", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.motor_inertia)
-            .factor(10, 0.06, GUESS, |r, d| r.motor_inertia *= d.exp()),
+            .factor(10, 0.06, GUESS, |r, d| r.motor_inertia *= d.exp())
+            .between_visits(LOAD),
         row!("adhesion", "-", Bounds::Positive, Usual::Needed, "ground", |r| r.adhesion)
-            .factor(0, 0.10, GUESS, |r, d| r.adhesion *= d.exp()),
+            .factor(0, 0.10, GUESS, |r, d| r.adhesion *= d.exp())
+            .between_visits(WEATHER),
         row!("slip_at_peak", "-", Bounds::Positive, Usual::Value(0.12), "ground", |r| r.slip_at_peak)
-            .factor(1, 0.6, GUESS, |r, d| r.slip_at_peak *= d.exp()),
+            .factor(1, 0.6, GUESS, |r, d| r.slip_at_peak *= d.exp())
+            .between_visits(FORM),
         row!("sliding_share", "-", SHARES, Usual::Value(USUAL_SLIDING_SHARE), "ground", |r| r.sliding_share)
             .offset(16, 0.1, DISCREPANCY, |r, d| {
                 r.sliding_share = (r.sliding_share + d).max(T::zero()).min(real(MOST_SHARE));
-            }),
+            })
+            .between_visits(FORM),
         row!("rest_speed", "m/s", Bounds::Positive, Usual::Value(USUAL_REST_SPEED), "ground", |r| r.rest_speed),
         row!("lateral_factor", "-", Bounds::Positive, Usual::Value(1.0), "ground", |r| r.lateral_factor)
-            .factor(9, 0.15, GUESS, |r, d| r.lateral_factor *= d.exp()),
+            .factor(9, 0.15, GUESS, |r, d| r.lateral_factor *= d.exp())
+            .between_visits(FORM),
         row!("rolling_resistance", "-", Bounds::NotNegative, Usual::Needed, "ground", |r| r.rolling_resistance)
-            .factor(2, 0.13, GUESS, |r, d| r.rolling_resistance *= d.exp()),
+            .factor(2, 0.13, GUESS, |r, d| r.rolling_resistance *= d.exp())
+            .between_visits(WEATHER),
         row!("coulomb_left", "N m", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.coulomb[0])
             .of_side("coulomb")
-            .factor(3, 0.14, GUESS, |r, d| r.coulomb[0] *= d.exp()),
+            .factor(3, 0.14, GUESS, |r, d| r.coulomb[0] *= d.exp())
+            .between_visits(WEATHER),
         row!("coulomb_right", "N m", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.coulomb[1])
             .of_side("coulomb")
-            .factor(4, 0.14, GUESS, |r, d| r.coulomb[1] *= d.exp()),
+            .factor(4, 0.14, GUESS, |r, d| r.coulomb[1] *= d.exp())
+            .between_visits(WEATHER),
         // One tuning for both sides, since a difference in damping hides behind one in dry friction.
         row!("viscous_left", "N m s/rad", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.viscous[0])
             .of_side("viscous")
@@ -204,16 +232,19 @@ impl<T: Scalar> Robot<T> {
                 r.viscous[0] *= d.exp();
                 r.viscous[1] *= d.exp();
             })
-            .tuned_as("viscous"),
+            .tuned_as("viscous")
+            .between_visits(WEATHER),
         row!("viscous_right", "N m s/rad", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.viscous[1])
             .of_side("viscous"),
         // A re-tuning may make friction fall towards rest.
         row!("stribeck", "N m", Bounds::Finite, Usual::Value(0.0), "drivetrain", |r| r.stribeck)
-            .offset(15, 0.12, DISCREPANCY, |r, d| r.stribeck += d),
+            .offset(15, 0.12, DISCREPANCY, |r, d| r.stribeck += d)
+            .between_visits(FORM),
         row!("hitch_x", "m", Bounds::Finite, Usual::RearAxle, "trailer", |r| r.hitch_x),
         row!("torque_gain", "-", Bounds::Positive, Usual::Value(1.0), "motors", |r| r.drive.gain)
             .factor(11, 0.015, GUESS, |r, d| r.drive.gain *= d.exp())
-            .tuned_as("torque_constant"),
+            .tuned_as("torque_constant")
+            .between_visits(WEATHER),
         // A re-tuning may make a lead of a small lag.
         row!("motor_delay", "s", Bounds::Finite, Usual::Value(0.0), "motors", |r| r.drive.delay),
         row!("motor_lag", "s", Bounds::NotNegative, Usual::Value(0.0), "motors", |r| r.drive.lag)
@@ -222,7 +253,8 @@ impl<T: Scalar> Robot<T> {
                 let (lag, least) = (r.drive.lag + d, real(LEAST_LAG));
                 r.drive.lag = lag.max(least);
                 r.drive.delay += (lag - least).min(T::zero());
-            }),
+            })
+            .between_visits(FORM),
         row!("second_lag", "s", Bounds::NotNegative, Usual::Value(0.0), "motors", |r| r.drive.extra_lag),
         row!("dead_band", "N m", Bounds::NotNegative, Usual::Value(0.0), "motors", |r| r.drive.dead_band),
         row!("torque_limit", "N m", Bounds::Positive, Usual::Unlimited, "motors", |r| r.drive.limit),

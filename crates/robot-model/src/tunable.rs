@@ -27,6 +27,8 @@ pub struct Tunable<T: Scalar> {
     pub sigma: f64,
     /// Where this sigma comes from.
     pub source: &'static str,
+    /// How far it moves from one visit (drives of one day, place and load) to another: one sigma, as a share of `sigma`.
+    pub between_visits: f64,
     /// Applies the tuning `δ`.
     pub apply: Apply<T>,
 }

@@ -15,7 +15,7 @@ use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
-use crate::{locate, words};
+use crate::{locate, retuned, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -274,6 +274,7 @@ impl Judged<'_> {
             accusations: self.calibration.gate.accusations.clone(),
             screened,
             tuning,
+            retuned: retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
             correction,
             traces: located.traces,
             steady: None,

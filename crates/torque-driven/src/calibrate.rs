@@ -3,19 +3,20 @@
 use faer::Mat;
 use inference::robust::median;
 use robot_model::Robot;
-use robot_model::tunable::COUNT as NUISANCES;
+use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::case::Case;
 use crate::drives::Drives;
-use crate::fit::{Columns, Hypothesis, PER_RUN, Problem};
+use crate::fit::{Columns, Fitted, Hypothesis, PER_RUN, Problem};
 use crate::gate::Gate;
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
-use inference::algebra::solve_spd;
+use inference::algebra::{inverse_spd, solve_spd};
 use inference::{DiagnosisError, Options};
 
 /// What the references teach.
+#[derive(Clone)]
 pub(crate) struct Calibration {
     pub(crate) theta: [f64; NUISANCES],
     /// Prior information about θ for the recordings.
@@ -89,6 +90,7 @@ pub(crate) fn calibrate(
         robot,
         sigma: *sigma,
         cuts,
+        has_references: true,
         variance: CALIBRATING.first_sigma.map(|s| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),
@@ -133,6 +135,55 @@ pub(crate) fn calibrate(
         regimes,
         gate,
     })
+}
+
+impl Calibration {
+    /// Without references: the robot file's constants as sure as it states, and what simulations of such robots leave.
+    pub(crate) fn by_file() -> Self {
+        let at = |id: &str| tunables::<f64>().iter().position(|t| t.id == id);
+        let mut covariance = Mat::<f64>::identity(NUISANCES, NUISANCES);
+        let wider = ["yaw_inertia", "com_height", "slip_at_peak"].map(|id| (id, CALIBRATING.wider));
+        for (id, factor) in wider.into_iter().chain([("motor_inertia", CALIBRATING.wider_motor_inertia)]) {
+            if let Some(k) = at(id) {
+                covariance[(k, k)] = factor.powi(2);
+            }
+        }
+        if let (Some(left), Some(right)) = (at("coulomb_left"), at("coulomb_right")) {
+            covariance[(left, right)] = CALIBRATING.coulomb_correlation;
+            covariance[(right, left)] = CALIBRATING.coulomb_correlation;
+        }
+        Self {
+            theta: [0.0; NUISANCES],
+            information: inverse_spd(&covariance).unwrap_or_else(|| Mat::identity(NUISANCES, NUISANCES)),
+            variance: CALIBRATING.usual_residual.map(|s| s * s),
+            spread: CALIBRATING.usual_spread,
+            regimes: Regimes::default(),
+            gate: Gate::default(),
+        }
+    }
+
+    /// The same for drives of another visit: constants may have moved since the references.
+    pub(crate) fn on_another_visit(mut self) -> Self {
+        let moves = tunables::<f64>().map(|t| t.between_visits.powi(2));
+        if let Some(mut covariance) = inverse_spd(&self.information) {
+            (0..NUISANCES).for_each(|k| covariance[(k, k)] += moves[k]);
+            self.information = inverse_spd(&covariance).unwrap_or(self.information);
+        }
+        self
+    }
+
+    /// Raises the variance of each channel to what the best hypothesis leaves of it, never below the usual; whether any
+    /// changed so much that the hypotheses must be weighed again.
+    pub(crate) fn learn_noise(&mut self, problem: &Problem<'_>, best: &Fitted) -> bool {
+        let left = channel_variance(problem, &best.response);
+        let mut changed = false;
+        for c in 0..CHANNELS {
+            let learnt = left[c].max(CALIBRATING.usual_residual[c].powi(2));
+            changed |= (learnt / self.variance[c]).sqrt().ln().abs() > CALIBRATING.repeat_change;
+            self.variance[c] = learnt;
+        }
+        changed
+    }
 }
 
 fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNELS] {
@@ -201,6 +252,7 @@ pub(crate) fn problem<'a>(
         robot,
         sigma: case.sigma,
         cuts,
+        has_references: !case.references.is_empty(),
         variance: calibration.variance,
         regime: calibration.regimes.of(cuts),
         information: calibration.information.clone(),

@@ -6,7 +6,7 @@ use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::trial::{Found, Trial};
 use crate::visits;
-use inference::hypothesis::Place;
+use inference::hypothesis::{Place, Variant};
 
 const PRICES: Prices = SETTINGS.prices;
 const UNKNOWN: Unknown = SETTINGS.unknown;
@@ -28,6 +28,16 @@ pub(crate) struct Decision {
     pub(crate) unknown: f64,
 }
 
+impl Decision {
+    /// The same with another probability that the cause is not in the catalogue.
+    pub(crate) fn with_unknown(mut self, unknown: f64) -> Self {
+        let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
+        self.none *= factor;
+        self.scored.iter_mut().for_each(|s| s.probability *= factor);
+        Self { unknown, ..self }
+    }
+}
+
 /// Penalty of a hypothesis.
 pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
     let mut at = 0;
@@ -44,6 +54,18 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, PRICES.size_width);
     }
     sum
+}
+
+/// Penalty of sizes that the form of the plant's own laws may show: references take that in, a robot file does not.
+fn penalty_of_form(h: &Hypothesis, effects: &[f64]) -> f64 {
+    let mut rest = effects;
+    let of = |v: &Variant| {
+        let (own, others) = rest.split_at(v.free(1.0).len());
+        rest = others;
+        let least = PRICES.form_errors * v.spec().form_error;
+        penalty_of_smallness(v.magnitude(own), least, PRICES.size_width)
+    };
+    h.variants().map(of).sum()
 }
 
 /// Cost that a fault-free drive of these segments would have: each as far from its expectation as
@@ -73,7 +95,9 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
         .map(|t| {
             let visits = visits::supporting(problem, base, t);
             let once = if visits.is_some_and(|n| n < SETTINGS.visits.needed) { PRICES.one_visit } else { 0.0 };
-            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, &t.fitted.point.effects) - once;
+            let effects = &t.fitted.point.effects;
+            let form = if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects) };
+            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, effects) - once - form;
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
@@ -84,6 +108,11 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
+    if std::env::var_os("DEBUG_DECIDE").is_some() {
+        let top: Vec<String> = scored.iter().take(4).map(|s| format!("{}:{:.1}(cost {:.1})", s.trial.hypothesis.ids().join("+"), s.score, s.trial.fitted.cost)).collect();
+        eprintln!("DECIDE excess {excess:.3} left {left:.3} base {:.1} ff {fault_free:.1} none {none:.1} var {:?} top {}", base.cost, problem.variance.map(|v| (v.sqrt()*1e4).round()/1e4), top.join(" "));
+        eprintln!("THETA {:?}", base.point.theta.map(|t| (t*100.0).round()/100.0));
+    }
     let unknown = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let scores: Vec<f64> = std::iter::once(none).chain(scored.iter().map(|s| s.score)).collect();

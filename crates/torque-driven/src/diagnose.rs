@@ -9,11 +9,14 @@ use crate::judged::Judged;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::search;
+use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
 
 use crate::next;
+
+const CALIBRATING: Calibrating = SETTINGS.calibration;
 
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
@@ -33,12 +36,12 @@ impl Calibrated {
 
     /// The same with effects that scale with the torque probed up to `largest_torque`, N m.
     fn up_to(largest_torque: f64, case: &Case, options: &Options) -> Result<Self, DiagnosisError> {
-        if case.references.is_empty() {
-            return Err(DiagnosisError::Empty { what: "reference" });
-        }
         let robot = case.robot.checked()?;
+        if case.references.is_empty() {
+            return Ok(Self { references: Vec::new(), calibration: Calibration::by_file(), largest_torque });
+        }
         let references = cut_all(&case.references, &check(&case.references, &[]), case, &robot, options)?;
-        let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
+        let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?.on_another_visit();
         Ok(Self { references, calibration, largest_torque })
     }
 
@@ -63,23 +66,38 @@ impl Calibrated {
         let sensors = check(&case.recordings, &case.references);
         let recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
         let largest = largest_torque(&case.recordings).max(self.largest_torque);
-        let anew;
-        let calibration = if largest > self.largest_torque {
-            anew = calibrate(&robot, &case.sigma, &self.references, largest, options)?;
-            &anew
+        let mut calibration = if largest > self.largest_torque && !self.references.is_empty() {
+            calibrate(&robot, &case.sigma, &self.references, largest, options)?.on_another_visit()
         } else {
-            &self.calibration
+            self.calibration.clone()
         };
-        let problem = problem(&robot, case, &recordings, calibration, largest, options);
-        let found = search(&problem, progress);
-        let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
+        let weigh = |calibration: &Calibration| {
+            let problem = problem(&robot, case, &recordings, calibration, largest, options);
+            let found = search(&problem, progress);
+            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
+            (found, decision)
+        };
+        let (mut found, mut decision) = weigh(&calibration);
+        let unknown = decision.unknown;
+        // Without references the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
+        for _ in 1..if self.references.is_empty() { CALIBRATING.most_searches } else { 1 } {
+            let before = problem(&robot, case, &recordings, &calibration, largest, options);
+            let best = decision.scored.first().filter(|s| s.probability > decision.none);
+            if !calibration.learn_noise(&before, best.map_or(&found.retuned, |s| &s.trial.fitted)) {
+                break;
+            }
+            (found, decision) = weigh(&calibration);
+            // Noise that is learnt from what is left cannot say that too much is left.
+            decision = decision.with_unknown(unknown);
+        }
+        let problem = problem(&robot, case, &recordings, &calibration, largest, options);
         progress("comparing on data that was not fitted");
         let answer = Judged {
             case,
             options,
             problem: &problem,
             references: &self.references,
-            calibration,
+            calibration: &calibration,
             sensors: &sensors,
             decision: &decision,
         };
@@ -97,7 +115,9 @@ impl Calibrated {
 /// # Errors
 /// When there is nothing to compare with, or the recordings do not determine the model.
 pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
-    progress("calibrating on the references");
+    if !case.references.is_empty() {
+        progress("calibrating on the references");
+    }
     let largest = largest_torque(&case.references).max(largest_torque(&case.recordings));
     Calibrated::up_to(largest, case, options)?.diagnose(case, options, progress)
 }

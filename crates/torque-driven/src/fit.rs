@@ -78,6 +78,8 @@ pub(crate) struct Problem<'a> {
     /// One sigma of each tunable.
     pub(crate) sigma: [f64; NUISANCES],
     pub(crate) cuts: &'a [Cut],
+    /// Whether drives in which the simulation was right taught constants and noise; otherwise the robot file did.
+    pub(crate) has_references: bool,
     /// Mean squared residual of each channel on the references.
     pub(crate) variance: [f64; CHANNELS],
     /// Expected q/D of each segment's regime.

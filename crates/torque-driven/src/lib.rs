@@ -14,6 +14,7 @@
 //! * `search`, `fit`, `normal`, `trial`: refits of the finalists in free run; `disc`, `onset`:
 //!   place and time.
 //! * `decide`, `judged`, `visits`: from fits to probabilities.
+//! * `retuned`: constants that moved farther than they are known.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
@@ -44,6 +45,7 @@ mod onset;
 pub mod output_error;
 mod predict;
 mod redundancy;
+mod retuned;
 mod rms;
 mod run;
 mod screen;

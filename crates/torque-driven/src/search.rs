@@ -40,11 +40,11 @@ fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
 }
 
 /// Finalists: alternately from both rankings until their places are taken, with a second form of an effect that has one close by.
-fn finalists(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
+fn finalists(first: &[Candidate], second: &[Candidate], places: [usize; 2]) -> Vec<Candidate> {
     let (a, b) = (by_id(first), by_id(second));
     let mut ids: Vec<&'static str> = Vec::new();
     let mut out: Vec<Candidate> = Vec::new();
-    let mut places = Places(FINALISTS.places);
+    let mut places = Places(places);
     for i in 0..a.len().max(b.len()) {
         for list in [&a, &b] {
             if let Some(c) = list.get(i)
@@ -103,7 +103,8 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     let second = screen(problem, &retuned, &all, &none);
 
     progress("fitting the finalists");
-    let mut singles: Vec<Trial> = finalists(&first, &second)
+    let places = if problem.has_references { FINALISTS.places } else { FINALISTS.places_by_file };
+    let mut singles: Vec<Trial> = finalists(&first, &second, places)
         .into_iter()
         .map(|c| {
             let h = Hypothesis::single(c.variant, c.onsets.clone());
@@ -127,12 +128,16 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     }
     best_first(&mut singles);
 
-    // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning.
-    if let Some(top) = singles.first()
-        && retuned.cost - top.fitted.cost < RETUNING.small_gain
-    {
-        let point = Point { effects: Vec::new(), ..top.fitted.point.clone() };
-        let start = problem.begin(&none, point, Some(top.fitted.columns.clone()));
+    // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning. Where only
+    // the robot file holds the constants, an effect can spare "nothing" a long way: it starts from several.
+    let starts = if problem.has_references {
+        usize::from(singles.first().is_some_and(|top| retuned.cost - top.fitted.cost < RETUNING.small_gain))
+    } else {
+        RETUNING.starts
+    };
+    for single in singles.iter().take(starts) {
+        let point = Point { effects: Vec::new(), ..single.fitted.point.clone() };
+        let start = problem.begin(&none, point, Some(single.fitted.columns.clone()));
         let again = problem.refine(&none, start, RETUNING.last_steps, Some(2));
         if again.cost < retuned.cost {
             retuned = again;

@@ -112,6 +112,7 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         robot,
         sigma: usual_sigma(),
         cuts,
+        has_references: true,
         variance: [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08].map(|s: f64| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),

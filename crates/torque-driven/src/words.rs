@@ -15,12 +15,20 @@ pub(crate) fn fault(f: &Fault) -> String {
     if card.strengths().count() > 1 { format!("{name}: {}", card.parameters[f.parameter].name) } else { name }
 }
 
+/// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
+const TOLD: usize = 4;
+
 /// The answer in sentences, the most important one first.
 pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
     let mut out = Vec::new();
     let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
-        Verdict::NoMismatch => out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned()),
+        Verdict::NoMismatch if d.retuned.is_empty() => {
+            out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned());
+        }
+        Verdict::NoMismatch => out.push(
+            "Nothing is missing: the simulation explains these recordings once its constants are re-tuned.".to_owned(),
+        ),
         Verdict::Unknown => {
             out.push(
                 "The simulation lacks something that is not in the catalogue: no effect of the \
@@ -53,6 +61,10 @@ pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
             }
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
+    }
+    if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
+        let told = d.retuned.iter().take(TOLD);
+        out.extend(told.map(|constant| format!("Re-tune: {}.", constant.sentence())));
     }
     for class in &d.indistinguishable {
         out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Trace, Trial,
+    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Retuned, Trace,
+    Trial,
 };
 
 /// Version of the JSON of a diagnosis.
@@ -61,6 +62,9 @@ pub struct Diagnosis {
     pub screened: Vec<(String, f64)>,
     /// Constants of the robot as re-tuned together with the named effects, relative to sigma.
     pub tuning: BTreeMap<String, f64>,
+    /// Constants that moved farther than they are known, the farthest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub retuned: Vec<Retuned>,
     /// The simulation as this diagnosis would have it: what held-out drives are predicted with.
     pub correction: Correction,
     /// Recordings beside the simulation.
@@ -100,6 +104,7 @@ impl Diagnosis {
             accusations: Vec::new(),
             screened: Vec::new(),
             tuning: BTreeMap::new(),
+            retuned: Vec::new(),
             correction: Correction::default(),
             traces: Vec::new(),
             steady: None,

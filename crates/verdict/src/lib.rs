@@ -25,6 +25,7 @@ mod located;
 mod prediction;
 mod response;
 mod response_constants;
+mod retuned;
 mod trace;
 mod trial;
 
@@ -48,6 +49,7 @@ pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, Resi
 pub use prediction::Prediction;
 pub use response::{Alternative, Earned, Element, Parameter, Response, ResponseModel, Scaling};
 pub use response_constants::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseError};
+pub use retuned::Retuned;
 pub use trace::{Compared, Trace, instant, rounded};
 pub use trial::Trial;
 

@@ -15,7 +15,7 @@ use inference::Options;
 use recordings::Mapping;
 use verdict::Verdict;
 
-use super::{Outcome, Reading, Usage, report};
+use super::{Outcome, Reading, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -213,13 +213,6 @@ pub(crate) fn located(args: &Input) -> Result<Located> {
         }
         (None, None) => bail!("no robot was named; do so with --robot"),
     };
-    if paths[0].is_empty() && robot.causality.needs_references() {
-        bail!(Usage(format!(
-            "robot '{}' is {}: give drives in which its simulation was right with --reference",
-            robot.name,
-            robot.causality.name()
-        )));
-    }
     let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
     Ok(Located { robot, paths, mapping })
 }

@@ -249,6 +249,9 @@ pub struct EffectSpec {
     pub load_term: Option<LoadTerm>,
     /// Size, in the unit of the magnitude, below which nobody would act; zero when any size matters.
     pub interest: f64,
+    /// Size of it that a robot without it may show, because its true laws differ in form from the plant's: one sigma.
+    /// References take it in; without them smaller sizes are not told from the form.
+    pub form_error: f64,
     /// Penalty in nats because few robots have it: 0 for what most studies of such robots name, 3 for what some robots
     /// have, 6 for the exotic and for look-alikes of a commoner effect.
     pub rarity: f64,
@@ -277,6 +280,7 @@ impl EffectSpec {
         redundancy: Redundancy::None,
         load_term: None,
         interest: 0.0,
+        form_error: 0.0,
         rarity: 0.0,
         revealed_by: "",
         resembles: "",

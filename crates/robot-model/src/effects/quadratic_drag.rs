@@ -15,6 +15,8 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Costs more the faster it drives, hardly anything in spins.",
     parameters: &[Parameter::strength("c", "N s²/m²", [0.0, 200.0], &[4.0])],
     interest: 1.6,
+    // Brush tyres and warm grease: prototype without references, on the development cases.
+    form_error: 2.5,
     revealed_by: "straight drives at three speeds",
     resembles: "viscous_friction over a narrow range of speed",
     source: "fluid drag",

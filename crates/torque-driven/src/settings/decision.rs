@@ -23,6 +23,8 @@
         none: f64 = 12.0, "nats", "an earlier recipe, tuned on the 72 development cases";
         /// Width of the penalty about the smallest size of interest, in the logarithm of the size.
         size_width: f64 = 0.35, "1", "guess";
+        /// Without references: sizes below so many times the error of the plant's form are not told from it.
+        form_errors: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
         /// Temperature that turns scores into probabilities.
         temperature: f64 = 4.0, "nats", "guess";
     }
@@ -68,6 +70,18 @@
         rival: f64 = 0.1, "1", "guess";
         /// Parts of a window in which the path is straight enough to tell which wheels are inside a disc.
         path_parts: usize = 5, "1", "guess";
+    }
+
+    /// Constants that are told as re-tuned.
+    retune: Retune {
+        /// Least move, in the sigmas that the robot file states.
+        least_sigmas: f64 = 1.0, "1", "definition: within one stated sigma nothing moved";
+        /// Least move, in sigmas of what is known of the constant afterwards.
+        least_known: f64 = 2.0, "1", "guess";
+        /// Share of its sigma that a constant moves between visits at least, if it is one that can be measured on a robot.
+        measurable: f64 = 0.5, "1", "formula: below it stand constants that make up for the form of the plant's laws";
+        /// What holds an effect's size that shows nowhere.
+        ridge: f64 = 1e-6, "1", "numerical guard";
     }
 
     /// Forecasts of recordings that were left out of the fit.

@@ -58,6 +58,20 @@ use crate::windows::CHANNELS;
         usual_spread: f64 = 1.3, "1", "guess";
         /// Width of that prior in the logarithm.
         spread_width: f64 = 0.6, "1", "guess";
+        /// Correlation of the errors of left and right dry friction in a robot file.
+        coulomb_correlation: f64 = 0.8, "1", "guess: one owner, one gearbox type, one measurement";
+        /// Without references: what a tuned simulation of a robot leaves in each channel.
+        usual_residual: [f64; CHANNELS] = [0.12, 0.12, 0.03, 0.02, 0.012, 0.12, 0.10],
+            "rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²", "references of the 72 development cases (fault-free drives)";
+        /// Without references: sigmas of yaw inertia, height of the centre of mass and slip at the peak of adhesion, in
+        /// those of the robot file: fault-free robots push these constants, since their true laws are not the plant's.
+        wider: f64 = 2.0, "1", "a prototype without references and a look at the 72 development cases";
+        /// Without references: sigmas of the motor inertia, for the same reason.
+        wider_motor_inertia: f64 = 4.0, "1", "a look at the 72 development cases without their references";
+        /// Without references: change of a channel's residual beyond which the search is repeated.
+        repeat_change: f64 = 0.12, "1", "the same prototype";
+        /// Without references: searches at most.
+        most_searches: usize = 3, "1", "guess";
         /// Segments at the middle that a kernel mean over kinds of driving begins with.
         pseudo_counts: f64 = 2.0, "1", "guess";
     }

@@ -60,6 +60,8 @@
     finalists: Finalists {
         /// Finalists that are refitted: common effects, and rare ones, which take no place from a common one.
         places: [usize; 2] = [6, 2], "1", "guess";
+        /// The same without references, where local forms of effects show large evidence before constants are re-tuned.
+        places_by_file: [usize; 2] = [9, 2], "1", "a look at the 72 development cases without their references";
         /// Gauss–Newton steps of a first refit.
         steps: usize = 4, "1", "guess";
         /// Gauss–Newton steps of those that may win.
@@ -82,6 +84,8 @@
         small_gain: f64 = 25.0, "nats", "guess";
         /// Gauss–Newton steps from there.
         last_steps: usize = 6, "1", "guess";
+        /// Without references: single effects whose tuning "nothing" is started from.
+        starts: usize = 3, "1", "guess";
     }
 
     /// Refits of two effects together.

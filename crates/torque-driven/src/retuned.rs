@@ -1,0 +1,92 @@
+//! Constants of the robot that moved farther than they are known: "re-tune" as an answer.
+
+use faer::Mat;
+use inference::algebra::inverse_spd;
+use inference::robust::NINETY;
+use robot_model::Robot;
+use robot_model::constants::Constant;
+use robot_model::tunable::{Tunable, tunables, tuned};
+use verdict::Retuned;
+
+use crate::fit::{Columns, Fitted, Hypothesis, Problem};
+use crate::settings::decision::{Retune, SETTINGS};
+
+const RETUNE: Retune = SETTINGS.retune;
+
+/// Constants that a fit moved from where the references, or the robot file, have them; the farthest first.
+///
+/// What stands for a law that the plant lacks is not among them: nobody can measure it on a robot.
+pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
+    let Some(covariance) = covariance(p, h, fitted) else { return Vec::new() };
+    let [before, after] = [&p.centre, &fitted.point.theta].map(|theta| tuned(p.robot, &p.sigma, theta));
+    let of = |(k, tunable): (usize, &Tunable<f64>)| {
+        let constant = constant_of(tunable).filter(|_| tunable.between_visits >= RETUNE.measurable)?;
+        let moved = fitted.point.theta[k] - p.centre[k];
+        let known = covariance[(k, k)].max(0.0).sqrt();
+        if moved.abs() < RETUNE.least_sigmas || moved.abs() < RETUNE.least_known * known {
+            return None;
+        }
+
+        let (from, to) = ((constant.get)(&before), (constant.get)(&after));
+        let half_width = NINETY * known * ((to - from) / moved).abs();
+        Some(Retuned {
+            constant: tunable.id.to_owned(),
+            unit: constant.unit.to_owned(),
+            from,
+            to,
+            half_width,
+            sigmas: moved,
+        })
+    };
+    let mut out: Vec<Retuned> = tunables::<f64>().iter().enumerate().filter_map(of).collect();
+    out.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
+    out
+}
+
+/// The constant that a tuning moves.
+fn constant_of(tunable: &Tunable<f64>) -> Option<&'static Constant<f64>> {
+    Robot::<f64>::CONSTANTS.iter().find(|c| c.tuning.is_some_and(|t| t.id == tunable.id))
+}
+
+/// Covariance of the constants, in their sigmas, at a fit.
+fn covariance(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Option<Mat<f64>> {
+    let columns =
+        if h.parts.is_empty() { Columns(Vec::new()) } else { p.effect_columns(&fitted.point, h, &fitted.response) };
+    let mut normal = p.normal(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
+    p.with_prior(&fitted.point, &mut normal);
+    for i in p.centre.len()..normal.matrix.nrows() {
+        normal.matrix[(i, i)] += RETUNE.ridge;
+    }
+    inverse_spd(&normal.matrix)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use robot_model::tunable::usual_sigma;
+    use testing::robot;
+
+    #[test]
+    fn a_constant_that_moved_is_told_with_its_values_and_one_that_did_not_is_not() {
+        let robot = robot();
+        let at = tunables::<f64>().iter().position(|t| t.id == "rolling_resistance").expect("tunable");
+        let mut theta = [0.0; robot_model::tunable::COUNT];
+        theta[at] = 3.0;
+        let moved = tuned(&robot, &usual_sigma(), &theta);
+        let cuts = [cut(&driven(&moved, &[], 16.0), &cutting())];
+        let p = problem(&robot, &cuts);
+
+        let none = Hypothesis::default();
+        let fitted = p.refine(&none, p.begin(&none, p.origin(), None), 6, Some(2));
+        let found = retuned(&p, &none, &fitted);
+        let first = found.first().expect("a constant that moved");
+        assert_eq!(first.constant, "rolling_resistance", "{found:?}");
+        assert!((first.to - moved.rolling_resistance).abs() < 2.0 * first.half_width, "{first:?}");
+        approx::assert_relative_eq!(first.from, robot.rolling_resistance, epsilon = 1e-12);
+
+        let at_rest = p.begin(&none, p.origin(), None);
+        assert!(retuned(&p, &none, &at_rest).is_empty());
+    }
+}

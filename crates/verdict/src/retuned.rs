@@ -1,0 +1,55 @@
+//! Constants of the robot file that the recordings want elsewhere.
+
+use serde::{Deserialize, Serialize};
+
+/// A constant that explains better than at its value in the robot file, or since the references.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Retuned {
+    /// Its name, as in robot files.
+    pub constant: String,
+    /// Its unit; "-" when it has none.
+    pub unit: String,
+    /// Value that the robot file, or the references, have.
+    pub from: f64,
+    /// Value that these recordings want.
+    pub to: f64,
+    /// Half width of the 90 % interval of that value.
+    pub half_width: f64,
+    /// How far it moved, in the sigmas that the robot file states.
+    pub sigmas: f64,
+}
+
+impl Retuned {
+    /// For people: "adhesion 0.600 -> 0.510 ± 0.020, 1.3 of the sigma that the robot file states".
+    pub fn sentence(&self) -> String {
+        let unit = if self.unit == "-" { String::new() } else { format!(" {}", self.unit) };
+        let digits = (1.0 - self.half_width.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
+        format!(
+            "{} {:.digits$} -> {:.digits$} ± {:.digits$}{unit} (90 %), {:.1} of the sigma that the robot file states",
+            self.constant.replace('_', " "),
+            self.from,
+            self.to,
+            self.half_width,
+            self.sigmas.abs()
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_re_tuning_is_told_with_both_values_its_interval_and_its_sigmas() {
+        let retuned = Retuned {
+            constant: "rolling_resistance".to_owned(),
+            unit: "-".to_owned(),
+            from: 0.02,
+            to: 0.0261,
+            half_width: 0.0012,
+            sigmas: 2.04,
+        };
+        let text = "rolling resistance 0.0200 -> 0.0261 ± 0.0012 (90 %), 2.0 of the sigma that the robot file states";
+        assert_eq!(retuned.sentence(), text);
+    }
+}
