@@ -283,7 +283,7 @@ impl Judged<'_> {
             coverage: BTreeMap::new(),
             predictions,
         };
-        out.sentences = words::sentences(&out);
+        out.sentences = words::sentences(&out, p.has_references);
         out
     }
 
@@ -326,6 +326,15 @@ impl Judged<'_> {
 
     fn limits(&self) -> Vec<String> {
         let mut out = Vec::new();
+        if !self.problem.has_references {
+            out.push(
+                "no drive in which the simulation was right was given: constants are taken at the robot file's values, as \
+                 sure as it states, and the noise is learnt from these recordings. What a constant can stand for within its \
+                 sigma is re-tuned, not named; a drive of two minutes in which nothing is wrong, given as reference, would \
+                 show smaller effects"
+                    .to_owned(),
+            );
+        }
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
             out.push(

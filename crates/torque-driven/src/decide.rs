@@ -108,11 +108,6 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
-    if std::env::var_os("DEBUG_DECIDE").is_some() {
-        let top: Vec<String> = scored.iter().take(4).map(|s| format!("{}:{:.1}(cost {:.1})", s.trial.hypothesis.ids().join("+"), s.score, s.trial.fitted.cost)).collect();
-        eprintln!("DECIDE excess {excess:.3} left {left:.3} base {:.1} ff {fault_free:.1} none {none:.1} var {:?} top {}", base.cost, problem.variance.map(|v| (v.sqrt()*1e4).round()/1e4), top.join(" "));
-        eprintln!("THETA {:?}", base.point.theta.map(|t| (t*100.0).round()/100.0));
-    }
     let unknown = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let scores: Vec<f64> = std::iter::once(none).chain(scored.iter().map(|s| s.score)).collect();

@@ -9,25 +9,29 @@ use robot_model::tunable::{Tunable, tunables, tuned};
 use verdict::Retuned;
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
-use crate::settings::decision::{Retune, SETTINGS};
+use crate::settings::decision::{Answer, Retune, SETTINGS};
 
 const RETUNE: Retune = SETTINGS.retune;
+const ANSWER: Answer = SETTINGS.answer;
 
 /// Constants that a fit moved from where the references, or the robot file, have them; the farthest first.
 ///
 /// What stands for a law that the plant lacks is not among them: nobody can measure it on a robot.
 pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
-    let Some(covariance) = covariance(p, h, fitted) else { return Vec::new() };
-    let [before, after] = [&p.centre, &fitted.point.theta].map(|theta| tuned(p.robot, &p.sigma, theta));
+    let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
+    let Some((covariance, prior)) = known else { return Vec::new() };
+    let [at_first, at_last] = [&p.centre, &fitted.point.theta].map(|theta| tuned(p.robot, &p.sigma, theta));
     let of = |(k, tunable): (usize, &Tunable<f64>)| {
         let constant = constant_of(tunable).filter(|_| tunable.between_visits >= RETUNE.measurable)?;
         let moved = fitted.point.theta[k] - p.centre[k];
-        let known = covariance[(k, k)].max(0.0).sqrt();
-        if moved.abs() < RETUNE.least_sigmas || moved.abs() < RETUNE.least_known * known {
+        let sigma = |of: &Mat<f64>| of[(k, k)].max(0.0).sqrt();
+        let known = ANSWER.curvature * sigma(&covariance);
+        let far = RETUNE.least_sigmas.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(&prior));
+        if moved.abs() < far {
             return None;
         }
 
-        let (from, to) = ((constant.get)(&before), (constant.get)(&after));
+        let (from, to) = ((constant.get)(&at_first), (constant.get)(&at_last));
         let half_width = NINETY * known * ((to - from) / moved).abs();
         Some(Retuned {
             constant: tunable.id.to_owned(),

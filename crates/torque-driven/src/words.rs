@@ -19,13 +19,20 @@ pub(crate) fn fault(f: &Fault) -> String {
 const TOLD: usize = 4;
 
 /// The answer in sentences, the most important one first.
-pub(crate) fn sentences(d: &Diagnosis) -> Vec<String> {
+///
+/// `calibrated`: whether references taught the constants of the robot.
+pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
     let mut out = Vec::new();
     let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
-        Verdict::NoMismatch if d.retuned.is_empty() => {
+        Verdict::NoMismatch if d.retuned.is_empty() && calibrated => {
             out.push("No mismatch: the calibrated simulation explains these recordings.".to_owned());
         }
+        Verdict::NoMismatch if d.retuned.is_empty() => out.push(
+            "No mismatch: the simulation explains these recordings, its constants within the uncertainty that the robot \
+             file states."
+                .to_owned(),
+        ),
         Verdict::NoMismatch => out.push(
             "Nothing is missing: the simulation explains these recordings once its constants are re-tuned.".to_owned(),
         ),

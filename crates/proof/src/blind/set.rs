@@ -44,6 +44,12 @@ pub(super) struct Drawing {
     /// Length of references and recordings.
     #[arg(long, value_name = "SECONDS", default_value_t = Settings::default().duration_s)]
     duration: f64,
+    /// Drives in which the simulation is right.
+    #[arg(long, value_name = "NUMBER", default_value_t = Settings::default().references)]
+    references: usize,
+    /// How far each constant of the robot moves after these at most, in the sigmas that its file states.
+    #[arg(long, value_name = "SIGMAS", default_value_t = Settings::default().moved)]
+    moved: f64,
     /// Leave out the pose.
     #[arg(long)]
     no_pose: bool,
@@ -68,6 +74,8 @@ impl Drawing {
             accelerometer: !self.no_accel,
             noise: self.noise,
             duration_s: self.duration,
+            references: self.references,
+            moved: self.moved,
             ..Settings::default()
         };
         examiner::set(self.seed, self.count(), self.mix.unwrap_or_default(), &settings)
@@ -84,13 +92,15 @@ impl Drawing {
             (false, false) => "",
         };
         format!(
-            "Set of {} cases, seed {}: {law}, {setting} effects, {} robots, {} rows/s, {} s, noise x {}{without}.",
+            "Set of {} cases, seed {}: {law}, {setting} effects, {} robots, {} rows/s, {} s, noise x {}, {} references, constants moved by up to {} sigma{without}.",
             self.count(),
             self.seed,
             format!("{:?}", self.class).to_lowercase(),
             self.rate,
             self.duration,
-            self.noise
+            self.noise,
+            self.references,
+            self.moved
         )
     }
 }

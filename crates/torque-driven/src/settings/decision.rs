@@ -78,6 +78,8 @@
         least_sigmas: f64 = 1.0, "1", "definition: within one stated sigma nothing moved";
         /// Least move, in sigmas of what is known of the constant afterwards.
         least_known: f64 = 2.0, "1", "guess";
+        /// Least move, in sigmas of what was known of the constant before.
+        least_prior: f64 = 1.5, "1", "guess";
         /// Share of its sigma that a constant moves between visits at least, if it is one that can be measured on a robot.
         measurable: f64 = 0.5, "1", "formula: below it stand constants that make up for the form of the plant's laws";
         /// What holds an effect's size that shows nowhere.
