@@ -23,7 +23,6 @@ fn constants_that_moved_within_a_third_of_their_sigma_are_re_tuned_and_not_named
 }
 
 #[test]
-#[ignore = "seed 301: torque_constant 0.59; seed 401: viscous_friction and adhesion_patch 0.97"]
 fn constants_that_moved_within_their_sigma_are_re_tuned_and_not_named() {
     for seed in [301, 401] {
         nothing_is_missing(&diagnosed(seed, &Settings { moved: 1.0, ..strong(&[]) }).1);

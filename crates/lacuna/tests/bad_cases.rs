@@ -10,8 +10,15 @@ fn no_such_folder() {
     bench.run(&["diagnose", "nowhere"]).failed(&["no case folder 'nowhere'", "make one"]);
     let flags = ["diagnose", "--robot", "case/robot.toml", "--reference", "ref", "--recordings", "case/recordings"];
     bench.run(&flags).failed(&["no file or folder 'ref'"]);
+}
+
+#[test]
+fn a_case_without_references_is_answered_and_says_what_that_costs() {
+    let bench = Bench::new();
     bench.remove("case/reference");
-    bench.refuses(&["'case' has no folder 'reference/'", "make it"]);
+    let done = bench.run(&["diagnose", "case"]);
+    let out = done.out();
+    assert!(out.contains("no real drive in which the simulation was right was given"), "{out}{}", done.err());
 }
 
 #[test]

@@ -327,8 +327,15 @@ impl Judged<'_> {
     fn limits(&self) -> Vec<String> {
         let mut out = Vec::new();
         if !self.problem.has_references {
+            if !self.case.references.is_empty() {
+                out.push(
+                    "the references look like a simulator's logs, for their sensors show no noise while the robot stands: \
+                     they say nothing about noise and were not used"
+                        .to_owned(),
+                );
+            }
             out.push(
-                "no drive in which the simulation was right was given: constants are taken at the robot file's values, as \
+                "no real drive in which the simulation was right was given: constants are taken at the robot file's values, as \
                  sure as it states, and the noise is learnt from these recordings. What a constant can stand for within its \
                  sigma is re-tuned, not named; a drive of two minutes in which nothing is wrong, given as reference, would \
                  show smaller effects"

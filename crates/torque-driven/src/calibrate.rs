@@ -9,6 +9,7 @@ use crate::case::Case;
 use crate::drives::Drives;
 use crate::fit::{Columns, Fitted, Hypothesis, PER_RUN, Problem};
 use crate::gate::Gate;
+use crate::run::Run;
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
@@ -252,7 +253,7 @@ pub(crate) fn problem<'a>(
         robot,
         sigma: case.sigma,
         cuts,
-        has_references: !case.references.is_empty(),
+        has_references: !case.references.iter().all(Run::is_noise_free),
         variance: calibration.variance,
         regime: calibration.regimes.of(cuts),
         information: calibration.information.clone(),

@@ -37,7 +37,8 @@ impl Calibrated {
     /// The same with effects that scale with the torque probed up to `largest_torque`, N m.
     fn up_to(largest_torque: f64, case: &Case, options: &Options) -> Result<Self, DiagnosisError> {
         let robot = case.robot.checked()?;
-        if case.references.is_empty() {
+        // A simulator's log says what the simulation believes, as the robot file does, and nothing about noise.
+        if case.references.iter().all(Run::is_noise_free) {
             return Ok(Self { references: Vec::new(), calibration: Calibration::by_file(), largest_torque });
         }
         let references = cut_all(&case.references, &check(&case.references, &[]), case, &robot, options)?;
@@ -115,7 +116,7 @@ impl Calibrated {
 /// # Errors
 /// When there is nothing to compare with, or the recordings do not determine the model.
 pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
-    if !case.references.is_empty() {
+    if !case.references.iter().all(Run::is_noise_free) {
         progress("calibrating on the references");
     }
     let largest = largest_torque(&case.references).max(largest_torque(&case.recordings));

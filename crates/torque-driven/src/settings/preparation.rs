@@ -4,6 +4,14 @@
     /// What recordings are turned into before any force law.
     pub(crate) struct Settings;
 
+    /// Telling a simulator's log from a recording.
+    logs: Logs {
+        /// Samples of a standing robot that tell noise from none, of each sensor at least.
+        least_samples: usize = 10, "1", "guess";
+        /// Spread within which samples are the same.
+        same: f64 = 1e-7, "rad/s, m/s²", "numerical guard: far below the resolution of any inertial sensor";
+    }
+
     /// Laying a recording on a grid of rows.
     runs: Runs {
         /// Fewest rows of a recording.
