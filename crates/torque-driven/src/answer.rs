@@ -15,6 +15,7 @@ use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
+use crate::settings::fit;
 use crate::{locate, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
@@ -137,7 +138,7 @@ impl Judged<'_> {
         p.with_prior(&fitted.point, &mut normal);
         let n = normal.matrix.nrows();
         for i in NUISANCES..n {
-            normal.matrix[(i, i)] += 1e-6;
+            normal.matrix[(i, i)] += fit::SETTINGS.fit.whiff_of_sigmas;
         }
         let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
         let free = h.free(p.largest_torque);
