@@ -49,7 +49,7 @@ mod _lacuna {
         module.add("__version__", case_files::envelope::Program::default().version)
     }
 
-    /// The cards of all effects that a diagnosis can name.
+    /// The specifications of all effects that a diagnosis can name.
     ///
     /// Returns
     /// -------

@@ -1,7 +1,7 @@
 //! Rows as the page of a fleet.
 
 use case_files::envelope::Program;
-use report::fleet::{Named, Seen, Told, render};
+use report::fleet::{Finding, Named, Seen, render};
 use verdict::Verdict;
 
 use super::row::{Row, RowCause};
@@ -16,13 +16,13 @@ pub fn seen(row: &Row) -> Seen {
         id: row.id.clone(),
         robot: row.robot_id.clone(),
         date: row.date.map(super::Date::milliseconds),
-        told: match row.verdict {
-            None => Told::Failed(row.error.clone().unwrap_or_default()),
-            Some(Verdict::Withheld) => Told::Withheld(why()),
-            Some(Verdict::NoMismatch) => Told::NoMismatch,
-            Some(Verdict::Unknown) => Told::Unknown,
+        finding: match row.verdict {
+            None => Finding::Failed(row.error.clone().unwrap_or_default()),
+            Some(Verdict::Withheld) => Finding::Withheld(why()),
+            Some(Verdict::NoMismatch) => Finding::NoMismatch,
+            Some(Verdict::Unknown) => Finding::Unknown,
             Some(Verdict::Explained) => {
-                Told::Explained(row.causes.iter().filter(|c| c.probability > LIKELY).map(named).collect())
+                Finding::Explained(row.causes.iter().filter(|c| c.probability > LIKELY).map(named).collect())
             }
         },
     }

@@ -1,5 +1,6 @@
-//! What the development commands share: the tables that they print, figures with what is asked of them, the program that
-//! is examined, processes that are watched, and the commit at which a page was printed.
+#![doc = include_str!("../README.md")]
+//!
+//! # How a command is started
 //!
 //! ```text
 //! cargo xtask COMMAND ── xtask (light) ──┬─ reproduce, learn, compare, growth, instructions, cold

@@ -13,7 +13,7 @@ use crate::settings::SETTINGS;
 pub struct Dose {
     /// The effect.
     pub effect: &'static dyn Effect<f64>,
-    /// One value for each parameter of its card, in the units there.
+    /// One value for each parameter of its specification, in the units there.
     pub values: Vec<f64>,
     /// When, where and on which side it is present.
     pub presence: Presence<f64>,
@@ -44,7 +44,7 @@ pub enum Place {
 pub struct Variant {
     /// The effect.
     pub effect: &'static dyn Effect<f64>,
-    /// Which of the card's axes, where it has several.
+    /// Which of its axes, where it has several.
     pub axis: Option<usize>,
     /// Where it is present.
     pub place: Place,
@@ -53,7 +53,7 @@ pub struct Variant {
 /// A number that a fit may change.
 #[derive(Debug, Clone, Copy)]
 pub struct Free {
-    /// Index in the card's parameters; `None` for the disc's x, y and radius.
+    /// Index in its parameters; `None` for the disc's x, y and radius.
     pub parameter: Option<usize>,
     /// Size of one unit of it: a medium strength, a usual shape, a length on the ground.
     pub unit: f64,
@@ -67,7 +67,7 @@ pub struct Free {
 pub type Onsets = Vec<Option<f64>>;
 
 impl Variant {
-    /// The card of the effect.
+    /// What is known about the effect.
     pub fn spec(&self) -> &'static EffectSpec {
         self.effect.spec()
     }
@@ -95,10 +95,10 @@ impl Variant {
 
     /// Everything a fit may change, strengths first, then shapes, then the disc.
     pub fn free(&self, largest_torque: f64) -> Vec<Free> {
-        let card = self.spec();
+        let spec = self.spec();
         let mut out = Vec::new();
         for role in [false, true] {
-            for (i, p) in card.parameters.iter().enumerate() {
+            for (i, p) in spec.parameters.iter().enumerate() {
                 if (p.role == Role::Shape) != role || (!role && !self.strengths().contains(&i)) {
                     continue;
                 }
@@ -119,8 +119,8 @@ impl Variant {
 
     /// The doses of run `run` at the free values `e`.
     pub fn dose(&self, e: &[f64], onset: Option<f64>) -> Dose {
-        let card = self.spec();
-        let mut values: Vec<f64> = card.parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+        let spec = self.spec();
+        let mut values: Vec<f64> = spec.parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
         let mut presence = Presence::default();
         let mut disc = Vec::new();
         // Bounds and scale do not matter here, only the order.
@@ -141,13 +141,13 @@ impl Variant {
 
     /// The same for files: by name, with onsets by recording.
     pub fn at(&self, e: &[f64], onsets: &Onsets, recordings: &[&str]) -> EffectAt {
-        let card = self.spec();
-        let mut out = EffectAt { effect: card.id.to_owned(), ..EffectAt::default() };
+        let spec = self.spec();
+        let mut out = EffectAt { effect: spec.id.to_owned(), ..EffectAt::default() };
         let mut disc = Vec::new();
         for (f, &v) in self.free(1.0).iter().zip(e) {
             match f.parameter {
                 Some(i) => {
-                    out.values.insert(card.parameters[i].name.to_owned(), v);
+                    out.values.insert(spec.parameters[i].name.to_owned(), v);
                 }
                 None => disc.push(v),
             }
@@ -168,7 +168,7 @@ impl Variant {
         out
     }
 
-    /// Size of the effect in the unit of its card: the norm of its strengths, or the one that is free with its sign.
+    /// Size of the effect in its unit: the norm of its strengths, or the one that is free with its sign.
     pub fn magnitude(&self, e: &[f64]) -> f64 {
         match self.strengths().len() {
             1 => e[0],
@@ -183,15 +183,15 @@ impl Variant {
 pub fn variants(pose: bool) -> Vec<Variant> {
     let mut out = Vec::new();
     for effect in effects::catalogue::<f64>() {
-        let card = effect.spec();
-        let of_gyro = matches!(card.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
-        if card.redundancy != Redundancy::None && (pose || !of_gyro) {
+        let spec = effect.spec();
+        let of_gyro = matches!(spec.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
+        if spec.redundancy != Redundancy::None && (pose || !of_gyro) {
             continue;
         }
         let axes: Vec<Option<usize>> =
-            if card.axes.is_empty() { vec![None] } else { (0..card.axes.len()).map(Some).collect() };
+            if spec.axes.is_empty() { vec![None] } else { (0..spec.axes.len()).map(Some).collect() };
         for axis in axes {
-            let scopes = card.scopes;
+            let scopes = spec.scopes;
             if scopes.side {
                 out.extend((0..2).map(|s| Variant { effect, axis, place: Place::Side(s) }));
             } else if scopes.everywhere {

@@ -1,5 +1,5 @@
 //! The tuned numbers that all kinds of robots share. Those of the solver are the defaults of
-//! `least_squares::Settings` and of `least_squares::Constant`.
+//! `least_squares::Settings`.
 
 ::settings::settings! {
     /// Tuned numbers that all kinds of robots share.
@@ -27,6 +27,14 @@
         radius: [f64; 2] = [0.3, 6.0], "m", "guess";
         /// Farthest coordinate of a centre.
         farthest: f64 = 1e3, "m", "guess";
+    }
+
+    /// A constant of a fit by residuals unless set otherwise.
+    constant: Fitting {
+        /// Step of finite differences, in scales of the constant.
+        difference: f64 = 1e-4, "1", "guess; halves the digits of an f64";
+        /// Added to its diagonal, per square of its scale.
+        ridge: f64 = 1e-9, "1", "guess; nothing beside what is determined at all";
     }
 
     /// Expected information of a drive.

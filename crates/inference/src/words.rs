@@ -17,16 +17,16 @@ pub fn named(name: &str, on: Option<usize>) -> String {
 }
 
 /// Unit of an effect's magnitude: that of its first strength.
-pub fn unit(card: &EffectSpec) -> &'static str {
-    card.strengths().next().map_or("-", |i| card.parameters[i].unit)
+pub fn unit(spec: &EffectSpec) -> &'static str {
+    spec.strengths().next().map_or("-", |i| spec.parameters[i].unit)
 }
 
 /// Name of an effect in one of its forms: with axis, side and place.
 pub fn variant(v: &Variant) -> String {
-    let card = v.spec();
-    let mut out = card.name.to_owned();
+    let spec = v.spec();
+    let mut out = spec.name.to_owned();
     if let Some(a) = v.axis {
-        out = format!("{out}, along {}", card.axes[a]);
+        out = format!("{out}, along {}", spec.axes[a]);
     }
     match v.place {
         Place::Whole => out,

@@ -1,4 +1,4 @@
-//! Pages that are one file and open offline, with charts and tables; tables of plain text for a terminal.
+#![doc = include_str!("../README.md")]
 
 pub mod chart;
 pub mod escape;

@@ -1,8 +1,4 @@
-//! What proves: robots drawn with something hidden, real recordings with the effect concealed, exported models in another
-//! simulator, and whether advice on the next drive pays.
-//!
-//! All of it examines `lacuna` as it is shipped, a program of its own, and never looks at the truth before the answers
-//! are written.
+#![doc = include_str!("../README.md")]
 
 use std::process::ExitCode;
 

@@ -1,20 +1,4 @@
-//! Tests that need what is no part of this repository: recordings beside it, a browser, a Python with MuJoCo.
-//!
-//! Where it is not there, the test is shown as ignored, with the reason, and never as passed. The built-in harness can
-//! only ignore what was marked before the tests were compiled; `libtest-mimic` looks the same and can do it at run time.
-//! A test target that uses this has `harness = false` and lists its tests once:
-//!
-//! ```no_run
-//! use skipping::{Outcome, beside};
-//!
-//! fn the_recordings_are_there() -> Outcome {
-//!     let folder = beside("data/husky-open")?;
-//!     assert!(folder.is_dir());
-//!     Ok(())
-//! }
-//!
-//! skipping::tests![the_recordings_are_there];
-//! ```
+#![doc = include_str!("../README.md")]
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -107,7 +107,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
 
 fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
-    let card = variant.spec();
+    let spec = variant.spec();
     let (values, sigma) = e.of(part);
     let parameters = variant
         .free(1.0)
@@ -116,16 +116,16 @@ fn cause(e: &Named, part: usize, probability: f64) -> Cause {
         .filter_map(|(f, (&value, &sigma))| {
             let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
             let estimate = Estimate { value, sigma: Some(sigma).filter(|s| s.is_finite()), at_bound };
-            f.parameter.map(|i| (card.parameters[i].name.to_owned(), estimate))
+            f.parameter.map(|i| (spec.parameters[i].name.to_owned(), estimate))
         })
         .collect();
     Cause {
         magnitude: Some(variant.magnitude(values)),
         sigma: sigma.first().copied().filter(|s| s.is_finite()),
-        unit: inference::words::unit(card).into(),
+        unit: inference::words::unit(spec).into(),
         parameters,
         side: if let Place::Side(s) = variant.place { Some(inference::words::side(s).into()) } else { None },
-        ..Cause::plain(card.id, &inference::words::variant(variant), probability)
+        ..Cause::plain(spec.id, &inference::words::variant(variant), probability)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the tests of several engines share: a robot, and recordings that are made up.
+#![doc = include_str!("../README.md")]
 
 use recordings::{Channel, Clock, Recording, Signal};
 use robot_model::Robot;

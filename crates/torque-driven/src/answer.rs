@@ -15,6 +15,7 @@ use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
+use crate::settings::fit;
 use crate::{locate, retuned, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
@@ -54,14 +55,14 @@ impl Judged<'_> {
         let fault = !self.sensors.faults.is_empty();
         for f in &self.sensors.faults {
             out.push(Cause {
-                effect: f.card.id.to_owned(),
+                effect: f.spec.id.to_owned(),
                 name: words::fault(f),
                 probability: ANSWER.sure,
                 magnitude: Some(f.magnitude),
                 sigma: Some(f.sigma),
-                unit: inference::words::unit(f.card).into(),
+                unit: inference::words::unit(f.spec).into(),
                 parameters: BTreeMap::from([(
-                    f.card.parameters[f.parameter].name.to_owned(),
+                    f.spec.parameters[f.parameter].name.to_owned(),
                     Estimate { value: f.magnitude, sigma: Some(f.sigma), at_bound: false },
                 )]),
                 side: f.side.map(|s| inference::words::side(s).into()),
@@ -84,7 +85,7 @@ impl Judged<'_> {
         let free = variant.free(self.problem.largest_torque);
         let e = &trial.fitted.point.effects[before..before + free.len()];
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
-        let card = variant.spec();
+        let spec = variant.spec();
         let strengths = variant.strengths().len();
         let mut place = None;
         let mut of_disc = ["x", "y", "radius"].into_iter();
@@ -93,7 +94,7 @@ impl Judged<'_> {
             .zip(e)
             .enumerate()
             .filter_map(|(i, (f, &value))| {
-                let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(card.parameters[i].name))?;
+                let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(spec.parameters[i].name))?;
                 let model = if f.parameter.is_some() { ANSWER.model_error * value } else { 0.0 };
                 let sigma = sigmas.as_ref().map(|s| (ANSWER.curvature * s[before + i]).hypot(model));
                 let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
@@ -116,12 +117,12 @@ impl Judged<'_> {
             (ANSWER.curvature.powi(2) * curvature + (ANSWER.model_error * variant.magnitude(e)).powi(2)).sqrt()
         });
         Cause {
-            effect: card.id.to_owned(),
+            effect: spec.id.to_owned(),
             name: inference::words::variant(variant),
             probability: probability.min(1.0),
             magnitude: Some(variant.magnitude(e)),
             sigma,
-            unit: inference::words::unit(card).into(),
+            unit: inference::words::unit(spec).into(),
             parameters,
             side: side.map(|s| inference::words::side(s).into()),
             place,
@@ -137,7 +138,7 @@ impl Judged<'_> {
         p.with_prior(&fitted.point, &mut normal);
         let n = normal.matrix.nrows();
         for i in NUISANCES..n {
-            normal.matrix[(i, i)] += 1e-6;
+            normal.matrix[(i, i)] += fit::SETTINGS.fit.whiff_of_sigmas;
         }
         let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
         let free = h.free(p.largest_torque);
@@ -315,7 +316,10 @@ impl Judged<'_> {
         let rivals: Vec<String> = ranked
             .iter()
             .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
-            .filter(|c| c.probability > ANSWER.rival * best && c.probability < ANSWER.sure || as_good.contains(&c.effect.as_str()))
+            .filter(|c| {
+                c.probability > ANSWER.rival * best && c.probability < ANSWER.sure
+                    || as_good.contains(&c.effect.as_str())
+            })
             .map(|c| c.effect.clone())
             .collect();
         if rivals.is_empty() {
@@ -360,7 +364,7 @@ impl Judged<'_> {
         if held > 0 {
             out.push(format!("{held} torque samples were missing; each was replaced by the value before it"));
         }
-        if self.sensors.faults.iter().any(|f| f.card.redundancy == Redundancy::FrozenAngle) {
+        if self.sensors.faults.iter().any(|f| f.spec.redundancy == Redundancy::FrozenAngle) {
             out.push("windows next to rows with a frozen encoder were left out".to_owned());
         }
         out

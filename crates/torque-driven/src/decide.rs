@@ -126,7 +126,7 @@ mod tests {
     use testing::robot;
 
     #[test]
-    fn without_any_hypothesis_a_healthy_drive_has_nothing_missing() {
+    fn without_any_hypothesis_a_fault_free_drive_has_nothing_missing() {
         let robot = robot();
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let problem = problem(&robot, &cuts);

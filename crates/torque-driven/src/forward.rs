@@ -258,12 +258,12 @@ mod tests {
     #[test]
     fn sensor_faults_show_and_physics_moves() {
         let with = |effect: &str, value: f64| {
-            let card = robot_model::effects::catalogue::<f64>()
+            let spec = robot_model::effects::catalogue::<f64>()
                 .into_iter()
                 .find(|e| e.spec().id == effect)
                 .expect("known")
                 .spec();
-            let values = [(card.parameters[0].name.to_owned(), value)].into();
+            let values = [(spec.parameters[0].name.to_owned(), value)].into();
             let correction = Correction {
                 effects: vec![EffectAt { effect: effect.to_owned(), values, ..EffectAt::default() }],
                 ..Correction::default()

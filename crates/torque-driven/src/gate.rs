@@ -92,8 +92,8 @@ mod tests {
 
     #[test]
     fn a_reference_with_an_effect_raises_the_null_score_and_fault_free_ones_do_not() {
-        let (healthy, ill) = (highest(0.0), highest(0.3));
-        assert!(healthy < 0.0 && ill > healthy + 10.0, "fault-free {healthy}, with friction {ill}");
+        let (fault_free, ill) = (highest(0.0), highest(0.3));
+        assert!(fault_free < 0.0 && ill > fault_free + 10.0, "fault-free {fault_free}, with friction {ill}");
     }
 
     #[test]

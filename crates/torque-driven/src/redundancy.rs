@@ -23,10 +23,10 @@ mod wheels;
 /// A sensor fault found by redundancy.
 #[derive(Debug, Clone)]
 pub(crate) struct Fault {
-    pub(crate) card: &'static EffectSpec,
-    /// Which number of the card it is.
+    pub(crate) spec: &'static EffectSpec,
+    /// Which of its parameters it is.
     pub(crate) parameter: usize,
-    /// In the unit of the card, with sign.
+    /// In its unit, with sign.
     pub(crate) magnitude: f64,
     /// One sigma of it.
     pub(crate) sigma: f64,
@@ -37,8 +37,8 @@ impl Fault {
     /// The effect that shows it.
     pub(crate) fn effect(&self) -> EffectAt {
         EffectAt {
-            effect: self.card.id.to_owned(),
-            values: BTreeMap::from([(self.card.parameters[self.parameter].name.to_owned(), self.magnitude)]),
+            effect: self.spec.id.to_owned(),
+            values: BTreeMap::from([(self.spec.parameters[self.parameter].name.to_owned(), self.magnitude)]),
             side: self.side.map(Side::of),
             ..EffectAt::default()
         }
@@ -54,7 +54,7 @@ pub(crate) struct Redundant {
 }
 
 /// The effect that a redundancy shows; of several that look the same in it, the commonest.
-fn card(kind: Redundancy) -> Option<&'static EffectSpec> {
+fn spec(kind: Redundancy) -> Option<&'static EffectSpec> {
     let all = effects::catalogue::<f64>();
     let alike = all.iter().map(|e| e.spec()).filter(|c| c.redundancy == kind);
     alike.min_by(|a, b| a.rarity.total_cmp(&b.rarity))

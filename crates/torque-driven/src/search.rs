@@ -19,9 +19,9 @@ const PAIRS: Pairs = SETTINGS.pairs;
 struct Places([usize; 2]);
 
 impl Places {
-    /// Takes a place for `card`, if one is left.
-    fn take(&mut self, card: &EffectSpec) -> bool {
-        let left = &mut self.0[usize::from(card.rarity > 0.0)];
+    /// Takes a place for `spec`, if one is left.
+    fn take(&mut self, spec: &EffectSpec) -> bool {
+        let left = &mut self.0[usize::from(spec.rarity > 0.0)];
         let free = *left > 0;
         *left -= usize::from(free);
         free
@@ -191,11 +191,11 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
     let mut ids: Vec<&'static str> = Vec::new();
     let mut firsts = Places(PAIRS.firsts);
     for first in singles {
-        let card = first.hypothesis.parts[0].0.spec();
-        let id = card.id;
+        let spec = first.hypothesis.parts[0].0.spec();
+        let id = spec.id;
         // A rare effect that is no better than a common one is not worth a search of its own.
-        let behind = card.rarity > 0.0 && !ids.is_empty();
-        if ids.contains(&id) || behind || !firsts.take(card) {
+        let behind = spec.rarity > 0.0 && !ids.is_empty();
+        if ids.contains(&id) || behind || !firsts.take(spec) {
             continue;
         }
         ids.push(id);

@@ -10,9 +10,9 @@ use verdict::{Cause, Diagnosis, Verdict};
 
 /// Name of a sensor fault: with its side, and with its number where the effect has several.
 pub(crate) fn fault(f: &Fault) -> String {
-    let card = f.card;
-    let name = named(card.name, f.side);
-    if card.strengths().count() > 1 { format!("{name}: {}", card.parameters[f.parameter].name) } else { name }
+    let spec = f.spec;
+    let name = named(spec.name, f.side);
+    if spec.strengths().count() > 1 { format!("{name}: {}", spec.parameters[f.parameter].name) } else { name }
 }
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.

@@ -34,11 +34,11 @@ pub struct Cause {
 /// A fitted number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Its value in the unit of the card.
+    /// Its value in the unit of its specification.
     pub value: f64,
     /// One sigma, where it is known.
     pub sigma: Option<f64>,
-    /// Whether the fit stopped at the end of what the card calls sensible: the value is then no estimate.
+    /// Whether the fit stopped at the end of what its specification calls sensible: the value is then no estimate.
     pub at_bound: bool,
 }
 

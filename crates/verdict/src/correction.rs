@@ -27,7 +27,7 @@ pub struct Correction {
 pub struct EffectAt {
     /// Its id.
     pub effect: String,
-    /// Values by parameter name, in the units of the card; one that is missing is neutral.
+    /// Values by parameter name, in the units of its specification; one that is missing is neutral.
     pub values: BTreeMap<String, f64>,
     /// Only on this side.
     #[serde(default, skip_serializing_if = "Option::is_none")]

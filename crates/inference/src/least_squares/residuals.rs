@@ -4,6 +4,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use crate::algebra::solve_spd;
+use crate::settings::{Fitting, SETTINGS};
 
 use super::{Loss, Normal, Outcome, Parameter, Problem, Settings, Step, Stopped, minimise};
 
@@ -20,9 +21,9 @@ pub struct Constant {
     pub bounds: [f64; 2],
     /// Longest step, scales.
     pub longest: f64,
-    /// Step of finite differences, scales. Default 1e-4; a guess: halves the digits of an f64.
+    /// Step of finite differences, scales. Its default is a setting of this crate.
     pub difference: f64,
-    /// Added to its diagonal, per scale². Default 1e-9; a guess: nothing beside what is determined at all.
+    /// Added to its diagonal, per scale². Its default is a setting of this crate.
     pub ridge: f64,
     /// What is known of it beforehand: a mean and one standard deviation, in its unit.
     pub prior: Option<[f64; 2]>,
@@ -33,8 +34,8 @@ impl Constant {
     #[must_use]
     pub fn new(start: f64, scale: f64) -> Self {
         let bounds = [f64::NEG_INFINITY, f64::INFINITY];
-        let (longest, difference, ridge) = (f64::INFINITY, 1e-4, 1e-9);
-        Self { start, scale, relative: false, bounds, longest, difference, ridge, prior: None }
+        let Fitting { difference, ridge } = SETTINGS.constant;
+        Self { start, scale, relative: false, bounds, longest: f64::INFINITY, difference, ridge, prior: None }
     }
 
     /// The same within bounds.

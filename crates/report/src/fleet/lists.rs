@@ -1,6 +1,6 @@
 //! Recordings without an answer.
 
-use super::seen::{Seen, Told};
+use super::seen::{Finding, Seen};
 use super::series::{Fleet, day, natural};
 use crate::page::{Cell, Page};
 
@@ -9,13 +9,13 @@ const MOST: usize = 100;
 
 /// Adds the section, where there is any.
 pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
-    let of = |why: fn(&Told) -> Option<&str>| -> Vec<(&Seen, &str)> {
-        let mut out: Vec<(&Seen, &str)> = all.seen.iter().filter_map(|s| Some((s, why(&s.told)?))).collect();
+    let of = |why: fn(&Finding) -> Option<&str>| -> Vec<(&Seen, &str)> {
+        let mut out: Vec<(&Seen, &str)> = all.seen.iter().filter_map(|s| Some((s, why(&s.finding)?))).collect();
         out.sort_by(|a, b| natural(&a.0.id, &b.0.id));
         out
     };
-    let failed = of(|told| if let Told::Failed(why) = told { Some(why) } else { None });
-    let withheld = of(|told| if let Told::Withheld(why) = told { Some(why) } else { None });
+    let failed = of(|finding| if let Finding::Failed(why) = finding { Some(why) } else { None });
+    let withheld = of(|finding| if let Finding::Withheld(why) = finding { Some(why) } else { None });
     if failed.is_empty() && withheld.is_empty() {
         return;
     }

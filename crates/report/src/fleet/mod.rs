@@ -11,7 +11,7 @@ mod trend;
 
 use crate::page::Page;
 
-pub use seen::{Named, Seen, Told};
+pub use seen::{Finding, Named, Seen};
 pub use since::{Change, Since, since};
 pub use trend::{Trend, trend};
 

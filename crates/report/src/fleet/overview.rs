@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Told;
+use super::Finding;
 use super::series::{Fleet, day};
 use crate::facts::Facts;
 use crate::figure::{Drawing, Figure, Interval, Intervals};
@@ -21,7 +21,7 @@ fn plural(count: usize, word: &str) -> String {
 
 /// What one would tell a colleague.
 pub(super) fn heading(all: &Fleet<'_>) -> String {
-    let ill = all.robots.iter().filter(|r| r.seen.iter().any(|s| s.told.is_mismatch())).count();
+    let ill = all.robots.iter().filter(|r| r.seen.iter().any(|s| s.finding.is_mismatch())).count();
     format!(
         "{ill} of {} {} simulation in {}.",
         plural(all.robots.len(), "robot"),
@@ -55,14 +55,14 @@ fn facts(all: &Fleet<'_>) -> String {
     };
     facts.add("", "recordings", &all.seen.len().to_string(), &span);
     facts.add("", "robots", &all.robots.len().to_string(), "");
-    let answers = all.count(Told::is_answer);
-    let mismatches = all.count(Told::is_mismatch);
+    let answers = all.count(Finding::is_answer);
+    let mismatches = all.count(Finding::is_mismatch);
     let share = if answers > 0 { 100.0 * mismatches as f64 / answers as f64 } else { 0.0 };
-    let unknown = all.count(|t| matches!(t, Told::Unknown));
+    let unknown = all.count(|t| matches!(t, Finding::Unknown));
     let more = format!("{mismatches} of {answers} answers, {unknown} of them unknown");
     facts.add("before", "with a mismatch", &format!("{share:.0} %"), &more);
-    let withheld = all.count(|t| matches!(t, Told::Withheld(_)));
-    let failed = all.count(|t| matches!(t, Told::Failed(_)));
+    let withheld = all.count(|t| matches!(t, Finding::Withheld(_)));
+    let failed = all.count(|t| matches!(t, Finding::Failed(_)));
     facts.add(
         "",
         "without an answer",

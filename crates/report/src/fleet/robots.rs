@@ -1,7 +1,7 @@
 //! Robots by effects: what is there, how large, since when.
 
 use super::charts::since_in_words;
-use super::seen::Told;
+use super::seen::Finding;
 use super::series::{Fleet, RobotSeen, Series, day};
 use crate::page::{Cell, Page, Tone};
 use crate::words::{number, probability};
@@ -62,18 +62,18 @@ fn effect(s: &Series<'_>) -> Vec<Cell> {
 }
 
 fn robot(r: &RobotSeen<'_>) -> Vec<Cell> {
-    let count = |is: &dyn Fn(&Told) -> bool| r.seen.iter().filter(|s| is(&s.told)).count();
+    let count = |is: &dyn Fn(&Finding) -> bool| r.seen.iter().filter(|s| is(&s.finding)).count();
     let plain = |n: usize| Cell::from(n.to_string());
     let bad = |n: usize| Cell { text: n.to_string(), tone: if n > 0 { Tone::Bad } else { Tone::Plain } };
     let dates = || r.seen.iter().filter_map(|s| s.date);
     vec![
         r.name.into(),
         plain(r.seen.len()),
-        plain(count(&|t| matches!(t, Told::Explained(_)))),
-        plain(count(&|t| matches!(t, Told::Unknown))),
-        plain(count(&|t| matches!(t, Told::NoMismatch))),
-        plain(count(&|t| matches!(t, Told::Withheld(_)))),
-        bad(count(&|t| matches!(t, Told::Failed(_)))),
+        plain(count(&|t| matches!(t, Finding::Explained(_)))),
+        plain(count(&|t| matches!(t, Finding::Unknown))),
+        plain(count(&|t| matches!(t, Finding::NoMismatch))),
+        plain(count(&|t| matches!(t, Finding::Withheld(_)))),
+        bad(count(&|t| matches!(t, Finding::Failed(_)))),
         day(dates().min()).into(),
         day(dates().max()).into(),
     ]

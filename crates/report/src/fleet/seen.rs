@@ -10,12 +10,12 @@ pub struct Seen {
     /// When it was recorded, ms since 1970.
     pub date: Option<i64>,
     /// What was found.
-    pub told: Told,
+    pub finding: Finding,
 }
 
 /// What was found in a recording.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub enum Told {
+pub enum Finding {
     /// Nothing is missing.
     #[default]
     NoMismatch,
@@ -29,7 +29,7 @@ pub enum Told {
     Failed(String),
 }
 
-impl Told {
+impl Finding {
     /// Whether it says that there is, or is not, a mismatch.
     pub(super) fn is_answer(&self) -> bool {
         !matches!(self, Self::Withheld(_) | Self::Failed(_))

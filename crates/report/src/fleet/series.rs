@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use chrono::DateTime;
 
-use super::seen::{Named, Seen, Told};
+use super::seen::{Finding, Named, Seen};
 use super::since::{Since, since};
 use super::trend::{Trend, trend};
 
@@ -77,24 +77,24 @@ impl<'a> Fleet<'a> {
     }
 
     /// How many recordings are of a kind.
-    pub(super) fn count(&self, is: impl Fn(&Told) -> bool) -> usize {
-        self.seen.iter().filter(|s| is(&s.told)).count()
+    pub(super) fn count(&self, is: impl Fn(&Finding) -> bool) -> usize {
+        self.seen.iter().filter(|s| is(&s.finding)).count()
     }
 }
 
 impl<'a> RobotSeen<'a> {
     fn new(name: &'a str, mut seen: Vec<&'a Seen>) -> Self {
         // What could not be read tells no date, and has no size to be dated.
-        let dated = seen.iter().all(|s| s.date.is_some() || !s.told.is_answer());
+        let dated = seen.iter().all(|s| s.date.is_some() || !s.finding.is_answer());
         seen.sort_by(|a, b| {
             let date = |one: &Seen| (one.date.is_none(), one.date);
             let by_date = if dated { date(a).cmp(&date(b)) } else { Ordering::Equal };
             by_date.then_with(|| natural(&a.id, &b.id))
         });
-        let answers: Vec<&Seen> = seen.iter().copied().filter(|s| s.told.is_answer()).collect();
+        let answers: Vec<&Seen> = seen.iter().copied().filter(|s| s.finding.is_answer()).collect();
         let mut points: BTreeMap<(&str, Option<&str>), Vec<Point<'_>>> = BTreeMap::new();
         for (number, &one) in answers.iter().enumerate() {
-            let Told::Explained(all) = &one.told else { continue };
+            let Finding::Explained(all) = &one.finding else { continue };
             let x = one.date.filter(|_| dated).map_or((number + 1) as f64, |ms| ms as f64 / DAY_MS);
             for named in all {
                 let key = (named.effect.as_str(), named.side.as_deref());

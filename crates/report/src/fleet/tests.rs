@@ -120,9 +120,9 @@ fn worn(robot: &str, healthy: u32, ill: u32, growth: f64) -> Vec<Seen> {
             id: format!("{robot}/run_{week}"),
             robot: robot.to_owned(),
             date: Some(1_767_225_600_000 + 604_800_000 * i64::from(week)),
-            told: match week.checked_sub(healthy) {
-                None => Told::NoMismatch,
-                Some(n) => Told::Explained(vec![named(1.0 + growth * f64::from(n))]),
+            finding: match week.checked_sub(healthy) {
+                None => Finding::NoMismatch,
+                Some(n) => Finding::Explained(vec![named(1.0 + growth * f64::from(n))]),
             },
         })
         .collect()
@@ -133,7 +133,12 @@ fn the_page_says_who_differs_by_what_since_when_and_whether_it_grows() {
     let mut seen = worn("unit-17", 8, 9, 0.2);
     seen.extend(worn("unit-2", 6, 0, 0.0));
     seen.extend(worn("unit-3", 0, 3, 0.0));
-    seen.push(Seen { id: "x".into(), robot: "unit-2".into(), date: None, told: Told::Failed("no <b>rows</b>".into()) });
+    seen.push(Seen {
+        id: "x".into(),
+        robot: "unit-2".into(),
+        date: None,
+        finding: Finding::Failed("no <b>rows</b>".into()),
+    });
     seen.reverse();
     let html = render(&seen, "lacuna 1");
     for part in [
@@ -167,7 +172,7 @@ fn thousands_of_recordings_make_a_page_that_says_what_it_left_out() {
     let mut seen: Vec<Seen> = (0..400).flat_map(|i| worn(&format!("unit-{i}"), 4, 8, 0.1)).collect();
     seen.extend(worn("old", 100, 1500, 0.01));
     for one in &mut seen[..300] {
-        one.told = Told::Failed("cut off".to_owned());
+        one.finding = Finding::Failed("cut off".to_owned());
     }
     let html = render(&seen, "lacuna 1");
     for part in ["24 of ", "the first 100 of 300", "more are in the table of rows", "weighted mean of 8 recordings"] {

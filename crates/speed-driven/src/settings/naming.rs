@@ -35,11 +35,11 @@
         unnamed_straight: f64 = 1.45, "1", "given, for cold drive trains (docs/evidence.md)";
         /// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
         plausible: f64 = 3.0, "1", "guess";
-        /// Mass of the robot for which the cards' medium sizes are meant.
+        /// Mass of the robot for which the effects' medium sizes are meant.
         medium_mass: f64 = 20.0, "kg", "guess";
-        /// Torque m g r of the robot for which the cards' medium sizes are meant.
+        /// Torque m g r of the robot for which the effects' medium sizes are meant.
         medium_torque: f64 = 20.0, "N m", "guess";
-        /// Wheelbase of the robot for which the cards' medium sizes are meant.
+        /// Wheelbase of the robot for which the effects' medium sizes are meant.
         medium_wheelbase: f64 = 0.36, "m", "guess";
         /// Price of naming an effect.
         per_effect: f64 = 3.0, "nats", "guess";

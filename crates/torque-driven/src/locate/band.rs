@@ -110,8 +110,8 @@ pub(crate) fn residual_torque(cuts: &[Cut], followed: &[Followed], references: &
             let found = find(&y, null, reference.sense, threshold);
             let valid = || bins.iter().filter(|b| b.torque.is_finite());
             let n = (valid().count() as f64).max(1.0);
-            let healthy = (valid().map(|b| bands[j].variance(b.driving, None)).sum::<f64>() / n).sqrt();
-            let half = NINETY_FIVE * healthy;
+            let fault_free = (valid().map(|b| bands[j].variance(b.driving, None)).sum::<f64>() / n).sqrt();
+            let half = NINETY_FIVE * fault_free;
             out.push(ResidualTorque {
                 recording: cut.name.clone(),
                 side: inference::words::side(j).into(),

@@ -6,7 +6,7 @@ use inference::robust::discoveries;
 
 use crate::fit::Problem;
 use crate::locate::compare::{Block, null_of, probability};
-use crate::locate::healthy::{Energy, Healthy};
+use crate::locate::fault_free::{Energy, FaultFree};
 use crate::settings::locate::{Cells, SETTINGS};
 use crate::windows::{CHANNEL_NAMES, CHANNELS, WINDOW};
 use verdict::{Cell, Finding};
@@ -97,9 +97,14 @@ fn range((axis, i, j): Key, edge: f64) -> Vec<[f64; 2]> {
 }
 
 /// Mismatch of every cell with enough driving, those that stand out from the references marked.
-pub(crate) fn cells(problem: &Problem<'_>, references: &Problem<'_>, energy: &Energy, healthy: &Healthy) -> Vec<Cell> {
+pub(crate) fn cells(
+    problem: &Problem<'_>,
+    references: &Problem<'_>,
+    energy: &Energy,
+    fault_free: &FaultFree,
+) -> Vec<Cell> {
     let edge = edge(problem);
-    let (own, known) = (blocks(problem, energy, edge), blocks(references, &healthy.energy, edge));
+    let (own, known) = (blocks(problem, energy, edge), blocks(references, &fault_free.energy, edge));
     let window = problem.cuts.first().map_or(WINDOW, |c| c.rows_per_window as f64 * c.period);
     let nulls: Vec<_> =
         (0..AXES.len()).map(|axis| null_of(known.iter().filter(|(k, _)| k.0 == axis).flat_map(|(_, b)| b))).collect();
@@ -142,9 +147,9 @@ fn channel_blocks(energy: &Energy, c: usize) -> Vec<Block> {
 }
 
 /// Probability of each channel's level on fault-free drives; `None` where there is nothing to compare.
-pub(crate) fn channel_probabilities(energy: &Energy, healthy: &Healthy) -> [Option<f64>; CHANNELS] {
+pub(crate) fn channel_probabilities(energy: &Energy, fault_free: &FaultFree) -> [Option<f64>; CHANNELS] {
     std::array::from_fn(|c| {
-        let known = channel_blocks(&healthy.energy, c);
+        let known = channel_blocks(&fault_free.energy, c);
         let own = channel_blocks(energy, c);
         null_of(known.iter()).filter(|_| !own.is_empty()).map(|null| probability(&own, &known, &null))
     })

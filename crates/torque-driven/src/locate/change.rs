@@ -239,7 +239,7 @@ mod tests {
     const BLOCK: usize = 4;
 
     /// Fault-free runs with scatter between runs and correlation within.
-    fn healthy(draws: &mut Draws, runs: usize) -> Vec<Vec<f64>> {
+    fn fault_free(draws: &mut Draws, runs: usize) -> Vec<Vec<f64>> {
         (0..runs)
             .map(|_| {
                 let (own, mut last) = (0.25 * draws.normal(), 0.0);
@@ -254,19 +254,19 @@ mod tests {
     }
 
     fn reference(draws: &mut Draws, channels: usize) -> Reference {
-        let series: Vec<Vec<Vec<f64>>> = (0..channels).map(|_| healthy(draws, 3)).collect();
+        let series: Vec<Vec<Vec<f64>>> = (0..channels).map(|_| fault_free(draws, 3)).collect();
         let nulls = series.iter().map(|s| Null::new(s, 0.25, 0.1)).collect();
         Reference { series, nulls, sense: Sense::Rise }
     }
 
     #[test]
-    fn healthy_runs_show_a_change_in_at_most_one_of_twenty() {
+    fn fault_free_runs_show_a_change_in_at_most_one_of_twenty() {
         let mut draws = Draws::new(3);
         let (mut alarms, mut runs) = (0, 0);
         for _ in 0..100 {
             let reference = reference(&mut draws, 3);
             let threshold = reference.threshold(BINS, BLOCK);
-            let new: Vec<Vec<Vec<f64>>> = (0..3).map(|_| healthy(&mut draws, 3)).collect();
+            let new: Vec<Vec<Vec<f64>>> = (0..3).map(|_| fault_free(&mut draws, 3)).collect();
             for r in 0..3 {
                 runs += 1;
                 let any = (0..3).any(|c| {
@@ -286,7 +286,7 @@ mod tests {
         for _ in 0..50 {
             let reference = reference(&mut draws, 1);
             let threshold = reference.threshold(BINS, BLOCK);
-            let mut y = healthy(&mut draws, 1).remove(0);
+            let mut y = fault_free(&mut draws, 1).remove(0);
             for v in &mut y[14..30] {
                 *v += 3.0;
             }
@@ -307,7 +307,7 @@ mod tests {
     fn a_fall_counts_only_where_either_way_is_asked_for() {
         let mut draws = Draws::new(9);
         let null = reference(&mut draws, 1).nulls[0].expect("values");
-        let mut y = healthy(&mut draws, 1).remove(0);
+        let mut y = fault_free(&mut draws, 1).remove(0);
         for v in &mut y[20..] {
             *v -= 5.0;
         }

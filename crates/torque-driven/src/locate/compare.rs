@@ -47,14 +47,14 @@ pub(crate) fn probability(blocks: &[Block], own: &[Block], null: &Null) -> f64 {
     }
     let mean = blocks.iter().map(Block::level).sum::<f64>() / n;
     let m = own.len() as f64 + LEVELS.pseudo_blocks;
-    let healthy = (own.iter().map(Block::level).sum::<f64>() + LEVELS.pseudo_blocks * null.mean) / m;
+    let fault_free = (own.iter().map(Block::level).sum::<f64>() + LEVELS.pseudo_blocks * null.mean) / m;
     let most = blocks.iter().map(|b| b.run).max().unwrap_or(0);
     let runs: f64 = (0..=most).map(|r| (blocks.iter().filter(|b| b.run == r).count() as f64 / n).powi(2)).sum();
     let within = null.within.powi(2) * (1.0 / n + 1.0 / m.min(null.values));
     let between = null.between.powi(2) * (runs + 1.0 / null.runs);
     let total = within + between;
     let freedom = total * total / (within * within / (null.values - null.runs) + between * between / null.freedom());
-    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(1.0, |t| t.sf((mean - healthy) / total.sqrt()))
+    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(1.0, |t| t.sf((mean - fault_free) / total.sqrt()))
 }
 
 #[cfg(test)]
@@ -65,7 +65,7 @@ mod tests {
     use crate::locate::change::Draws;
 
     #[test]
-    fn healthy_cells_are_reported_in_at_most_one_of_twenty_cases() {
+    fn fault_free_cells_are_reported_in_at_most_one_of_twenty_cases() {
         let mut draws = Draws::new(11);
         let mut run = |raised: f64| -> Vec<Vec<Block>> {
             let mut cells = vec![Vec::new(); 12];
@@ -80,13 +80,13 @@ mod tests {
         };
         let (mut alarms, mut hits) = (0, 0);
         for _ in 0..200 {
-            let (references, healthy, ill) = (run(0.0), run(0.0), run(4.0));
+            let (references, fault_free, ill) = (run(0.0), run(0.0), run(4.0));
             let null = null_of(references.iter().flatten()).expect("blocks");
             let found = |cells: &[Vec<Block>]| {
                 let p: Vec<f64> = cells.iter().zip(&references).map(|(c, r)| probability(c, r, &null)).collect();
                 discoveries(&p, LEVELS.discoveries)
             };
-            alarms += i32::from(found(&healthy).contains(&true));
+            alarms += i32::from(found(&fault_free).contains(&true));
             hits += i32::from(found(&ill)[0]);
         }
         assert!(alarms <= 10, "{alarms} of 200");

@@ -5,7 +5,7 @@ mod band;
 mod cells;
 mod change;
 mod compare;
-mod healthy;
+mod fault_free;
 mod network;
 mod null;
 mod remainder;

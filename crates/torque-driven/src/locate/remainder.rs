@@ -1,7 +1,7 @@
 //! What the best answer leaves: how much, in which signal, in what kind of driving.
 
 use crate::fit::Problem;
-use crate::locate::healthy::Energy;
+use crate::locate::fault_free::Energy;
 use crate::settings::locate::{Remaining, SETTINGS};
 use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use verdict::{Regime, Remainder};

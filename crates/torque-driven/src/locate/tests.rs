@@ -7,7 +7,7 @@ use robot_model::presence::Presence;
 use crate::fit::{Hypothesis, Problem};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
-use crate::locate::healthy::Healthy;
+use crate::locate::fault_free::FaultFree;
 use crate::locate::remainder::{excess, remainder, sentence};
 use crate::locate::side::side;
 use crate::locate::times::spans;
@@ -51,19 +51,19 @@ struct Found {
 }
 
 fn located(p: &Problem<'_>, references: &Problem<'_>) -> Found {
-    let healthy = Healthy::new(references);
-    let energy = healthy.energy_of(p, &p.response(&p.origin(), &Hypothesis::default()));
-    let findings = findings(p, &energy, &channel_probabilities(&energy, &healthy));
+    let fault_free = FaultFree::new(references);
+    let energy = fault_free.energy_of(p, &p.response(&p.origin(), &Hypothesis::default()));
+    let findings = findings(p, &energy, &channel_probabilities(&energy, &fault_free));
     Found {
         excess: excess(&energy),
-        cells: cells(p, references, &energy, &healthy),
-        spans: spans(p, &energy, &healthy),
+        cells: cells(p, references, &energy, &fault_free),
+        spans: spans(p, &energy, &fault_free),
         findings,
     }
 }
 
 #[test]
-fn healthy_drives_show_no_place_and_no_time() {
+fn fault_free_drives_show_no_place_and_no_time() {
     let robot = robot();
     let mut alarms = 0;
     for seed in 0..10 {
@@ -82,8 +82,8 @@ fn a_brake_is_located_on_its_side_from_its_onset_on_whether_or_not_the_identifie
     let runs = drives(1, 3, &[brake(1, 0.6, ONSET)]);
     let (references, recordings) = (drives(2, 3, &[]), cuts(&runs));
     let known = cuts(&references);
-    let (p, healthy) = (problem(&robot, &recordings), problem(&robot, &known));
-    let found = located(&p, &healthy);
+    let (p, fault_free) = (problem(&robot, &recordings), problem(&robot, &known));
+    let found = located(&p, &fault_free);
     let first = found.findings.first().expect("signals");
     assert!(first.significant, "{first:?}");
     for cut in &recordings {
@@ -93,7 +93,7 @@ fn a_brake_is_located_on_its_side_from_its_onset_on_whether_or_not_the_identifie
         assert!(from <= ONSET && ONSET <= until && until - from < 3.0, "{span:?}");
         assert_eq!(span.end, None, "{span:?}");
     }
-    let energy = Healthy::new(&healthy).energy_of(&p, &p.response(&p.origin(), &Hypothesis::default()));
+    let energy = FaultFree::new(&fault_free).energy_of(&p, &p.response(&p.origin(), &Hypothesis::default()));
     let told = remainder(&p, 0.4, &energy, &[Some(1e-9); 7]);
     assert!(sentence(&told).starts_with("40 % of the mismatch is still unexplained, mostly "), "{}", sentence(&told));
     // Beside the identifier.
@@ -101,7 +101,7 @@ fn a_brake_is_located_on_its_side_from_its_onset_on_whether_or_not_the_identifie
         runs.iter().zip(cuts).map(|(r, c)| follow(r, c, &robot, &[], 5.0).expect("gains")).collect::<Vec<_>>()
     };
     let torque = residual_torque(&recordings, &identify(&runs, &recordings), &identify(&references, &known));
-    let again = located(&p, &healthy);
+    let again = located(&p, &fault_free);
     assert_eq!((&again.findings, &again.cells, &again.spans), (&found.findings, &found.cells, &found.spans));
     assert_eq!(side(&found.excess, &again.findings, &torque), Some("right"), "{torque:?}");
     let right: Vec<_> = torque.iter().filter(|t| t.side == "right").collect();

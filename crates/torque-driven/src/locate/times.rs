@@ -3,7 +3,7 @@
 use crate::fit::Problem;
 use crate::locate::change::{Change, Reference, Sense, find};
 use crate::locate::compare::level;
-use crate::locate::healthy::{Energy, Healthy};
+use crate::locate::fault_free::{Energy, FaultFree};
 use crate::locate::null::Null;
 use crate::settings::locate::{Levels, SETTINGS, Spans};
 use crate::windows::{CHANNEL_NAMES, CHANNELS, Cut};
@@ -45,14 +45,14 @@ pub(crate) fn span(cut: &Cut, signal: &str, side: Option<usize>, change: &Change
 }
 
 /// Stretches in which each signal of each recording mismatches the calibrated simulation.
-pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, healthy: &Healthy) -> Vec<Span> {
+pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, fault_free: &FaultFree) -> Vec<Span> {
     let longest = energy.iter().map(|run| run.iter().map(Vec::len).sum::<usize>()).max().unwrap_or(0);
     let width = SPANS.windows * longest.div_ceil(SPANS.windows * SPANS.most_bins).max(1);
     let known: Vec<Vec<Vec<f64>>> =
-        (0..CHANNELS).map(|c| healthy.energy.iter().map(|run| series(run, c, width)).collect()).collect();
+        (0..CHANNELS).map(|c| fault_free.energy.iter().map(|run| series(run, c, width)).collect()).collect();
     let nulls = known.iter().map(|k| Null::new(k, LEVELS.between, LEVELS.least_within)).collect();
     let reference = Reference { series: known, nulls, sense: Sense::Rise };
-    let segment = healthy.energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    let segment = fault_free.energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
     let threshold = reference.threshold(longest.div_ceil(width), (segment / width).max(1));
     let mut out = Vec::new();
     for (cut, run) in problem.cuts.iter().zip(energy) {

@@ -238,8 +238,8 @@ mod tests {
         // The weights take the hidden torque up, so the following error alone would hide it: the energy of the error
         // hardly grows, that of the estimate does.
         let energy = |f: &Followed| f.estimate.iter().skip(100).map(|t| t[0] * t[0]).sum::<f64>();
-        let (healthy, ill) = (seen(&[]), seen(&[brake(0, 0.4)]));
-        assert!(energy(&ill) > 30.0 * energy(&healthy), "{} {}", energy(&ill), energy(&healthy));
+        let (fault_free, ill) = (seen(&[]), seen(&[brake(0, 0.4)]));
+        assert!(energy(&ill) > 30.0 * energy(&fault_free), "{} {}", energy(&ill), energy(&fault_free));
     }
 
     #[test]

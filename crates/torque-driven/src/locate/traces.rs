@@ -2,15 +2,15 @@
 
 use crate::fit::Problem;
 use crate::leave_out::Simulated;
-use crate::locate::healthy::{Energy, Healthy};
+use crate::locate::fault_free::{Energy, FaultFree};
 use crate::windows::{CHANNEL_NAMES, CHANNEL_UNITS, CHANNELS, Cut, FORWARD};
 use verdict::{Compared, Trace, instant, rounded};
 
 /// Every recording with what was simulated for it.
-pub(crate) fn traces(p: &Problem<'_>, healthy: &Healthy, simulated: &[Simulated]) -> Vec<Trace> {
-    let nominal = healthy.energy_of(p, &simulated.iter().map(|s| s.responses.nominal.clone()).collect());
+pub(crate) fn traces(p: &Problem<'_>, fault_free: &FaultFree, simulated: &[Simulated]) -> Vec<Trace> {
+    let nominal = fault_free.energy_of(p, &simulated.iter().map(|s| s.responses.nominal.clone()).collect());
     let best = simulated.iter().map(|s| s.responses.best().clone()).collect();
-    let after = healthy.energy_of(p, &best);
+    let after = fault_free.energy_of(p, &best);
     let of =
         |(r, (cut, s)): (usize, (&Cut, &Simulated))| trace(p, cut, s, [mismatch(&nominal, r), mismatch(&after, r)]);
     p.cuts.iter().zip(simulated).enumerate().map(of).collect()

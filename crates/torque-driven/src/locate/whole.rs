@@ -6,7 +6,7 @@ use crate::judged::Judged;
 use crate::leave_out::{Forecasts, Simulated};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
-use crate::locate::healthy::Healthy;
+use crate::locate::fault_free::FaultFree;
 use crate::locate::network::{LeftOut, residual_model};
 use crate::locate::remainder::{excess, remainder};
 use crate::locate::side::{contradiction, side};
@@ -66,28 +66,28 @@ pub(crate) fn locate(
     let p = answer.problem;
     let references =
         problem(p.robot, answer.case, answer.references, answer.calibration, p.largest_torque, answer.options);
-    let healthy = Healthy::new(&references);
-    let energy = healthy.energy_of(p, calibrated);
-    let findings = findings(p, &energy, &channel_probabilities(&energy, &healthy));
+    let fault_free = FaultFree::new(&references);
+    let energy = fault_free.energy_of(p, calibrated);
+    let findings = findings(p, &energy, &channel_probabilities(&energy, &fault_free));
     let torque =
         residual_torque(p.cuts, &followed(p, &answer.case.recordings), &followed(&references, &answer.case.references));
-    let left = healthy.energy_of(p, &best.response);
+    let left = fault_free.energy_of(p, &best.response);
     let side = side(&excess(&energy), &findings, &torque);
     let likely = decision::SETTINGS.answer.likely;
     let named: Vec<Cause> = ranked.iter().filter(|c| c.probability > likely).cloned().collect();
     Whereabouts {
         contradiction: contradiction(&named, side, &torque),
-        cells: cells(p, &references, &energy, &healthy),
+        cells: cells(p, &references, &energy, &fault_free),
         told: Located {
-            spans: spans(p, &energy, &healthy),
+            spans: spans(p, &energy, &fault_free),
             torque,
-            remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &healthy))),
+            remainder: unexplained.map(|share| remainder(p, share, &left, &channel_probabilities(&left, &fault_free))),
             side: side.map(Into::into),
             residual_model: unexplained
                 .filter(|share| *share > SETTINGS.network.left)
                 .and_then(|_| network(answer, best, &forecasts.simulated)),
         },
         findings,
-        traces: traces(p, &healthy, &forecasts.simulated),
+        traces: traces(p, &fault_free, &forecasts.simulated),
     }
 }

@@ -8,7 +8,7 @@ use robot_model::EffectSpec;
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, beyond, least_squares};
-use super::{Fault, card};
+use super::{Fault, spec};
 use crate::motion::{GyroError, Smoothed};
 use crate::run::Run;
 use crate::settings::redundancy::{Acceleration, SETTINGS};
@@ -70,18 +70,18 @@ fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
 pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], out: &mut Vec<Fault>) {
     let of = |runs: &[Run], gyro| runs.iter().map(|r| errors(r, gyro)).collect::<Vec<_>>();
     let (here, there) = (of(runs, gyro[0]), of(references, gyro[1]));
-    let mut tell = |card: &'static EffectSpec, parameter: usize, i: usize| {
+    let mut tell = |spec: &'static EffectSpec, parameter: usize, i: usize| {
         let pick = |all: &[[Option<Measured>; 3]]| all.iter().map(|e| e[i]).collect::<Vec<_>>();
-        if let Some(d) = beyond(&pick(&here), &pick(&there), card.interest).filter(|d| d.is_told(card.interest)) {
-            out.push(Fault { card, parameter, magnitude: d.value, sigma: d.sigma, side: None });
+        if let Some(d) = beyond(&pick(&here), &pick(&there), spec.interest).filter(|d| d.is_told(spec.interest)) {
+            out.push(Fault { spec, parameter, magnitude: d.value, sigma: d.sigma, side: None });
         }
     };
-    if let Some(card) = card(Redundancy::AccelOffset) {
-        tell(card, 0, 0);
-        tell(card, 1, 1);
+    if let Some(spec) = spec(Redundancy::AccelOffset) {
+        tell(spec, 0, 0);
+        tell(spec, 1, 1);
     }
-    if let Some(card) = card(Redundancy::AccelTurn) {
-        tell(card, 0, 2);
+    if let Some(spec) = spec(Redundancy::AccelTurn) {
+        tell(spec, 0, 2);
     }
 }
 
@@ -111,7 +111,7 @@ mod tests {
     fn a_bias_is_found_on_its_axis() {
         let found = told(&effects::accelerometer_bias::Law, &[0.5, -0.4]);
         assert_eq!(
-            found.iter().map(|f| (f.card.id, f.parameter)).collect::<Vec<_>>(),
+            found.iter().map(|f| (f.spec.id, f.parameter)).collect::<Vec<_>>(),
             [("accelerometer_bias", 0), ("accelerometer_bias", 1)]
         );
         approx::assert_abs_diff_eq!(found[0].magnitude, 0.5, epsilon = 0.02);
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_tilt_reads_as_the_commoner_bias() {
         let found = told(&effects::imu_tilt::Law, &[0.0, 0.06]);
-        assert_eq!((found.len(), found[0].card.id, found[0].parameter), (1, "accelerometer_bias", 1));
+        assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "accelerometer_bias", 1));
         approx::assert_abs_diff_eq!(found[0].magnitude, 9.81 * 0.06_f64.sin(), epsilon = 0.02);
     }
 
@@ -130,7 +130,7 @@ mod tests {
         for angle in [0.1, -0.3] {
             let found = told(&effects::imu_misalignment::Law, &[angle]);
             assert_eq!(found.len(), 1, "{found:?}");
-            assert_eq!(found[0].card.id, "imu_misalignment");
+            assert_eq!(found[0].spec.id, "imu_misalignment");
             approx::assert_abs_diff_eq!(found[0].magnitude, angle, epsilon = 0.02);
         }
     }

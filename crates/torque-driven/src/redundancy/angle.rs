@@ -3,7 +3,7 @@
 use robot_model::effect::Redundancy;
 
 use super::pool::median;
-use super::{Fault, card};
+use super::{Fault, spec};
 use crate::motion::frozen_rows;
 use crate::run::Run;
 use crate::settings::redundancy::{Jumps, SETTINGS};
@@ -12,7 +12,7 @@ const JUMPS: Jumps = SETTINGS.jumps;
 
 /// Share of rows with a frozen angle, beyond what the references show.
 pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
-    let Some(card) = card(Redundancy::FrozenAngle) else { return };
+    let Some(spec) = spec(Redundancy::FrozenAngle) else { return };
     for side in 0..2 {
         let shares = |runs: &[Run]| -> Vec<f64> {
             runs.iter()
@@ -22,9 +22,9 @@ pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let mean = |shares: &[f64]| shares.iter().sum::<f64>() / shares.len().max(1) as f64;
         let here = shares(runs);
         let share = mean(&here) - mean(&shares(references));
-        if share > card.interest {
+        if share > spec.interest {
             let sigma = median(&here).map_or(0.0, |m| m.1);
-            out.push(Fault { card, parameter: 0, magnitude: share, sigma, side: Some(side) });
+            out.push(Fault { spec, parameter: 0, magnitude: share, sigma, side: Some(side) });
         }
     }
 }
@@ -53,10 +53,10 @@ pub(super) fn jumps_of(angle: &[Option<f64>], least: f64) -> Vec<(usize, f64)> {
 
 /// Jumps of the angle that the references do not have.
 pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
-    let Some(card) = card(Redundancy::JumpingAngle).filter(|_| !references.is_empty()) else { return };
+    let Some(spec) = spec(Redundancy::JumpingAngle).filter(|_| !references.is_empty()) else { return };
     for side in 0..2 {
         let found = |runs: &[Run]| -> Vec<f64> {
-            runs.iter().flat_map(|r| jumps_of(&r.angle[side], card.interest)).map(|j| j.1).collect()
+            runs.iter().flat_map(|r| jumps_of(&r.angle[side], spec.interest)).map(|j| j.1).collect()
         };
         let (here, there) = (found(runs), found(references));
         // Counts per run, with the spread of rare events.
@@ -65,7 +65,7 @@ pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         if more > JUMPS.sure * (there.len() as f64).sqrt() / m
             && let Some((magnitude, sigma)) = median(&here)
         {
-            out.push(Fault { card, parameter: 0, magnitude, sigma, side: Some(side) });
+            out.push(Fault { spec, parameter: 0, magnitude, sigma, side: Some(side) });
         }
     }
 }
@@ -104,7 +104,7 @@ mod tests {
             let found = check(&dropped, &runs());
             assert_eq!(found.faults.len(), 1, "{:?}", found.faults);
             let fault = &found.faults[0];
-            assert_eq!((fault.card.redundancy, fault.side), (Redundancy::FrozenAngle, Some(1)));
+            assert_eq!((fault.spec.redundancy, fault.side), (Redundancy::FrozenAngle, Some(1)));
             approx::assert_relative_eq!(fault.magnitude, share, max_relative = 0.1);
         }
     }
@@ -118,7 +118,7 @@ mod tests {
             }
             let found = check(&slipped, &runs()).faults;
             assert_eq!(found.len(), 1, "{found:?}");
-            assert_eq!((found[0].card.redundancy, found[0].side), (Redundancy::JumpingAngle, Some(0)));
+            assert_eq!((found[0].spec.redundancy, found[0].side), (Redundancy::JumpingAngle, Some(0)));
             approx::assert_abs_diff_eq!(found[0].magnitude, jump, epsilon = 0.01);
             // The references do the same: nothing is missing.
             assert!(check(&slipped, &slipped).faults.is_empty());

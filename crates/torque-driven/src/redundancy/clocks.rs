@@ -7,7 +7,7 @@
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, beyond, least_squares};
-use super::{Fault, card};
+use super::{Fault, spec};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
 use crate::settings::redundancy::{Clocks, SETTINGS};
@@ -79,7 +79,7 @@ fn wheel_turning(run: &Run) -> Vec<Option<[f64; 4]>> {
 
 /// Offset and drift of the clocks of IMU and pose.
 pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
-    let (Some(offset), Some(drift)) = (card(Redundancy::Delay), card(Redundancy::DelayGrowth)) else { return };
+    let (Some(offset), Some(drift)) = (spec(Redundancy::Delay), spec(Redundancy::DelayGrowth)) else { return };
     let (here, there): (Vec<Delays>, Vec<Delays>) =
         (runs.iter().map(delays).collect(), references.iter().map(delays).collect());
     let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64| {
@@ -96,9 +96,9 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     // The sensor that moved against the wheels is the late one.
     let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest).map_or(0.0, |m| m.value.abs()));
     let pose = usize::from(moved[1] > moved[0]);
-    let mut tell = |card, m: Measured| {
+    let mut tell = |spec, m: Measured| {
         let magnitude = if pose == 1 { -m.value } else { m.value };
-        out.push(Fault { card, parameter: pose, magnitude, sigma: m.sigma, side: None });
+        out.push(Fault { spec, parameter: pose, magnitude, sigma: m.sigma, side: None });
     };
     if let Some(growth) = growth {
         tell(drift, growth);
@@ -147,13 +147,13 @@ mod tests {
         for rows in [-3.0, 3.0, 8.0] {
             let found = check(&imu_late(rows, 0.0), &runs(&[])).faults;
             assert_eq!(found.len(), 1, "{found:?}");
-            assert_eq!((found[0].card.id, found[0].parameter), ("clock_offset", 0));
+            assert_eq!((found[0].spec.id, found[0].parameter), ("clock_offset", 0));
             approx::assert_abs_diff_eq!(found[0].magnitude, 0.01 * rows, epsilon = 2e-3);
         }
         let mut all = runs(&[]);
         all.iter_mut().flat_map(|r| &mut r.pose).for_each(|p| late(p, 5.0, 0.0));
         let found = check(&all, &runs(&[])).faults;
-        assert_eq!((found.len(), found[0].card.id, found[0].parameter), (1, "clock_offset", 1));
+        assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "clock_offset", 1));
         approx::assert_abs_diff_eq!(found[0].magnitude, 0.05, epsilon = 2e-3);
     }
 
@@ -161,7 +161,7 @@ mod tests {
     fn a_clock_that_runs_slow_is_found_with_its_rate() {
         let found = check(&imu_late(0.0, 4e-3), &runs(&[])).faults;
         assert_eq!(found.len(), 1, "{found:?}");
-        assert_eq!(found[0].card.id, "clock_drift");
+        assert_eq!(found[0].spec.id, "clock_drift");
         approx::assert_abs_diff_eq!(found[0].magnitude, 4e-3, epsilon = 4e-4);
     }
 

@@ -23,14 +23,14 @@ impl Redundant {
 
 fn correct(fault: &Fault, run: &mut Cow<'_, Run>) {
     let size = fault.magnitude;
-    match (fault.card.redundancy, fault.side) {
+    match (fault.spec.redundancy, fault.side) {
         (Redundancy::WheelScale, Some(side)) => {
             for a in run.to_mut().angle[side].iter_mut().flatten() {
                 *a /= 1.0 + size;
             }
         }
         (Redundancy::JumpingAngle, Some(side)) => {
-            for (row, jump) in jumps_of(&run.angle[side], fault.card.interest) {
+            for (row, jump) in jumps_of(&run.angle[side], fault.spec.interest) {
                 for a in run.to_mut().angle[side][row..].iter_mut().flatten() {
                     *a -= jump;
                 }
@@ -51,7 +51,7 @@ fn correct(fault: &Fault, run: &mut Cow<'_, Run>) {
             }
         }
         (Redundancy::Delay | Redundancy::DelayGrowth, _) => {
-            let growing = fault.card.redundancy == Redundancy::DelayGrowth;
+            let growing = fault.spec.redundancy == Redundancy::DelayGrowth;
             let shift = |channel: &mut Vec<Option<f64>>, period: f64| {
                 let shown = channel.clone();
                 channel.fill(None);
@@ -92,8 +92,9 @@ mod tests {
     }
 
     fn fault(kind: Redundancy, parameter: usize, magnitude: f64, side: Option<usize>) -> Redundant {
-        let card = effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.redundancy == kind).expect("a card");
-        Redundant { faults: vec![Fault { card, parameter, magnitude, sigma: 0.0, side }], ..Redundant::default() }
+        let spec =
+            effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.redundancy == kind).expect("an effect");
+        Redundant { faults: vec![Fault { spec, parameter, magnitude, sigma: 0.0, side }], ..Redundant::default() }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use robot_model::EffectSpec;
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, alone, beyond, least_squares};
-use super::{Fault, Redundant, card};
+use super::{Fault, Redundant, spec};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
 use crate::settings::redundancy::{Gyro, SETTINGS};
@@ -45,14 +45,14 @@ fn found(runs: &[Run]) -> Found {
 }
 
 /// The error over all runs, if it matters and is sure.
-fn pooled(card: &EffectSpec, runs: &[Option<Measured>]) -> Option<Measured> {
-    alone(runs, card.interest).filter(|m| m.is_told(card.interest))
+fn pooled(spec: &EffectSpec, runs: &[Option<Measured>]) -> Option<Measured> {
+    alone(runs, spec.interest).filter(|m| m.is_told(spec.interest))
 }
 
 /// What is to be corrected in the gyro of these runs.
 pub(super) fn errors(runs: &[Run]) -> GyroError {
     let [bias, scale] =
-        found(runs).map(|(kind, all)| card(kind).and_then(|c| pooled(c, &all)).map_or(0.0, |m| m.value));
+        found(runs).map(|(kind, all)| spec(kind).and_then(|c| pooled(c, &all)).map_or(0.0, |m| m.value));
     GyroError { bias, scale }
 }
 
@@ -63,13 +63,13 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Redundant) {
     let [bias, scale] = found(runs);
     let [known_bias, known_scale] = found(references);
     for ((kind, all), (_, before), own) in [(scale, known_scale, known.scale), (bias, known_bias, known.bias)] {
-        let Some(card) = card(kind) else { continue };
-        let Some(here) = pooled(card, &all) else { continue };
+        let Some(spec) = spec(kind) else { continue };
+        let Some(here) = pooled(spec, &all) else { continue };
         // References that say nothing of it are no reason to doubt what the runs show.
-        let sure = beyond(&all, &before, card.interest).is_none_or(|m| m.is_told(card.interest));
+        let sure = beyond(&all, &before, spec.interest).is_none_or(|m| m.is_told(spec.interest));
         let magnitude = here.value - own;
-        if sure && magnitude.abs() > card.interest {
-            out.faults.push(Fault { card, parameter: 0, magnitude, sigma: here.sigma, side: None });
+        if sure && magnitude.abs() > spec.interest {
+            out.faults.push(Fault { spec, parameter: 0, magnitude, sigma: here.sigma, side: None });
         }
     }
 }

@@ -17,8 +17,6 @@ pub(super) struct Measured {
 
 /// Sigma of a median over that of a mean.
 const MEDIAN: f64 = 1.25;
-/// Share of a column's square that keeps collinear columns apart: what it decides gets a huge sigma.
-const RIDGE: f64 = 1e-9;
 
 impl Measured {
     /// Whether it is large enough to act on and far enough from zero to be believed.
@@ -89,7 +87,7 @@ pub(super) fn least_squares<const N: usize>(rows: &[([f64; N], f64)], alike: f64
         }
     }
     let scale = scale.map(|s| if s > 0.0 { s.sqrt() } else { 1.0 });
-    let mut m = Mat::from_fn(N, N, |i, j| if i == j { RIDGE } else { 0.0 });
+    let mut m = Mat::from_fn(N, N, |i, j| if i == j { POOL.ridge } else { 0.0 });
     let mut b: Mat<f64> = Mat::zeros(N, 1);
     for (row, y) in rows {
         for i in 0..N {

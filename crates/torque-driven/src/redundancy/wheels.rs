@@ -2,12 +2,12 @@
 //!
 //! Slip looks like a wrong scale, but drags the wheel back when braking and lets it run ahead when driving; a wheel of
 //! another radius looks the same to every sensor. So only a scale that both kinds of driving agree on counts, and it
-//! must be one that no wheel's radius has: the interest of the card.
+//! must be one that no wheel's radius has: the effect's interest.
 
 use robot_model::effect::Redundancy;
 
 use super::pool::{Measured, beyond, median};
-use super::{Fault, card};
+use super::{Fault, spec};
 use crate::run::Run;
 use crate::settings::redundancy::{SETTINGS, Wheels};
 
@@ -52,14 +52,14 @@ fn scales(run: &Run) -> [Option<Measured>; 2] {
 
 /// Encoder scale of each side.
 pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
-    let Some(card) = card(Redundancy::WheelScale) else { return };
+    let Some(spec) = spec(Redundancy::WheelScale) else { return };
     let (here, there): (Vec<_>, Vec<_>) = (runs.iter().map(scales).collect(), references.iter().map(scales).collect());
     for side in 0..2 {
         let of = |all: &[[Option<Measured>; 2]]| all.iter().map(|s| s[side]).collect::<Vec<_>>();
-        let Some(d) = beyond(&of(&here), &of(&there), card.interest) else { continue };
+        let Some(d) = beyond(&of(&here), &of(&there), spec.interest) else { continue };
         let scale = Measured { value: d.value.exp() - 1.0, sigma: d.value.exp() * d.sigma };
-        if scale.is_told(card.interest) {
-            out.push(Fault { card, parameter: 0, magnitude: scale.value, sigma: scale.sigma, side: Some(side) });
+        if scale.is_told(spec.interest) {
+            out.push(Fault { spec, parameter: 0, magnitude: scale.value, sigma: scale.sigma, side: Some(side) });
         }
     }
 }
@@ -99,7 +99,7 @@ mod tests {
         for scale in [0.5, 1.4, 2.0] {
             let found = check(&straight(0.02, scale), &straight(0.02, 1.0)).faults;
             assert_eq!(found.len(), 1, "{found:?}");
-            assert_eq!((found[0].card.redundancy, found[0].side), (Redundancy::WheelScale, Some(1)));
+            assert_eq!((found[0].spec.redundancy, found[0].side), (Redundancy::WheelScale, Some(1)));
             approx::assert_abs_diff_eq!(found[0].magnitude, scale - 1.0, epsilon = 0.02);
         }
     }

@@ -7,7 +7,7 @@ use crate::locate::INPUTS;
     pub(crate) struct Settings;
 
     /// Fault-free driving: each reference seen by a calibration without it.
-    healthy: HealthyDriving {
+    fault_free: FaultFreeDriving {
         /// Gauss–Newton steps of a calibration without one reference, from the one with all.
         steps: usize = 2, "1", "guess";
         /// Windows to each side over which the growth of the residual since the restart is averaged.

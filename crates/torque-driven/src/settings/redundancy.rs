@@ -14,6 +14,8 @@
         worth: f64 = 4.0, "1", "guess";
         /// A run has a say when its sigma is below this share of the size that matters.
         determined: f64 = 0.5, "1", "guess";
+        /// Share of a column's square that keeps collinear columns apart: what it decides gets a huge sigma.
+        ridge: f64 = 1e-9, "1", "numerical guard";
     }
 
     /// Encoders against the speed of the pose.

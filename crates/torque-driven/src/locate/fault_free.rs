@@ -8,11 +8,11 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::calibrate::kernel_mean;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
-use crate::settings::locate::{HealthyDriving, SETTINGS};
+use crate::settings::locate::{FaultFreeDriving, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::{CHANNELS, Cut};
 
-const DRIVING: HealthyDriving = SETTINGS.healthy;
+const DRIVING: FaultFreeDriving = SETTINGS.fault_free;
 
 /// Squared residuals over their expectation in fault-free driving: run, segment, window, channel;
 /// not a number where invalid.
@@ -22,7 +22,7 @@ pub(crate) type Energy = Vec<Vec<Vec<[f64; CHANNELS]>>>;
 type Known = (usize, [f64; 3], [f64; CHANNELS]);
 
 /// The expectation in fault-free driving, and the references seen with it.
-pub(crate) struct Healthy {
+pub(crate) struct FaultFree {
     /// Mean growth of the squared residual with the windows since the restart.
     growth: Vec<[f64; CHANNELS]>,
     known: Vec<Known>,
@@ -30,7 +30,7 @@ pub(crate) struct Healthy {
     pub(crate) energy: Energy,
 }
 
-impl Healthy {
+impl FaultFree {
     /// From the references, with the calibrated constants as their centre.
     pub(crate) fn new(references: &Problem<'_>) -> Self {
         let plain = whitened(references, &left_out(references));
