@@ -8,14 +8,15 @@
 //!
 //! * `run`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
 //!   turns.
+//! * `standstill`: a body that stands while its wheels turn; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
-//! * `answer`, `words`: probabilities, classes, limits; sentences.
+//! * `answer`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
+//! * `headline`, `words`: what leads the sentences; sentences.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
-//! * `scrub`, `turning`, `standstill`: turning on other ground, turning without a gyro, a stuck
-//!   body.
+//! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
 //! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
@@ -27,6 +28,8 @@ mod clock;
 mod compare;
 mod extract;
 mod forecast;
+mod found;
+mod headline;
 mod jumps;
 mod law;
 mod level;
@@ -42,6 +45,8 @@ mod standstill;
 mod straight;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 mod traces;
 mod turning;
 mod words;
@@ -104,14 +109,21 @@ pub fn diagnose_steady(
     }
     let robot = case.robot.checked()?;
     progress("measuring steady loads");
-    let (reference_loads, mut withheld) = all_loads(&case.references);
+    // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
+    let mut marked = case.clone();
+    let of_file = standstill::track_of_file(&robot);
+    let standing_references = standstill::mark(&mut marked.references, of_file);
+    let (reference_loads, mut withheld) = all_loads(&marked.references);
     for w in &mut withheld {
         w.recording = format!("reference {}", w.recording);
     }
+    let standstills =
+        standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
+    let case = &marked;
     let (loads, not_given) = all_loads(&case.recordings);
     let by_file = case.references.is_empty();
     let refs = if by_file { from_file(case, &robot, &loads) } else { references(&reference_loads) };
-    if refs.is_empty() {
+    if refs.is_empty() && standstills.is_empty() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
@@ -139,20 +151,21 @@ pub fn diagnose_steady(
     withheld.extend(not_given);
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
-    let loads = within(case, &robot, known_loads, (ratios, pooled), withheld);
+    let loads = Loads { standstills, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
-    let mut out = verdict(case, naming.as_ref(), loads, &forecasts);
+    let (mut out, of_loads) = verdict(case, naming.as_ref(), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
-    if out.verdict == Verdict::NoMismatch {
+    if of_loads == Verdict::NoMismatch {
         out.correction.effects.clear();
     }
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
-    if out.verdict == Verdict::Explained {
+    out.limits.extend(standing_references.iter().map(words::standing_reference));
+    if of_loads == Verdict::Explained {
         let wrong = placebo.map(|named| inference::words::variants(&named.parts));
         out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
     }
@@ -195,7 +208,12 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
         .collect()
 }
 
-/// What is inside the recordings: changes, turning, standstills, forecasts, clocks.
+/// Effective track of references, m.
+fn track_of(refs: &[Reference]) -> Option<f64> {
+    refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
+}
+
+/// What is inside the recordings: changes, turning, forecasts, clocks.
 fn within(
     case: &SteadyCase,
     robot: &Robot<f64>,
@@ -210,7 +228,7 @@ fn within(
     }
     let straight = usual.iter().flatten().next().copied();
     let turning_load = of(Quantity::SpinSum).chain(of(Quantity::ArcSum)).next().map(|r| r.centre.exp());
-    let track = of(Quantity::EffectiveTrack).next().map(|r| r.centre.exp());
+    let track = track_of(refs);
     let weight = robot.mass * robot.gravity * robot.wheel_radius;
     let nominal =
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
@@ -234,9 +252,6 @@ fn within(
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
             out.turning.extend(turning::turning(run, straight));
-        }
-        if let Some(track) = track {
-            out.standstills.extend(standstill::standstills(run, track));
         }
         if let Some(nominal) = &nominal {
             out.forecasts.extend(forecast::forecasts(run, nominal));

@@ -1,8 +1,8 @@
 //! What a speed-driven case says in sentences.
 
 use crate::Alignment;
+use crate::headline::headline;
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
-use inference::words::{quantity, revealed_by};
 use robot_model::effect::LoadTerm;
 use verdict::{
     ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
@@ -10,50 +10,10 @@ use verdict::{
 
 const SENTENCES: Sentences = NAMING.sentences;
 
-/// The answer of a speed-driven case in sentences.
-pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
+/// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
+pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
     let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
-    let mut out = Vec::new();
-    match d.verdict {
-        Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
-        Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
-            out.push("No mismatch: the loads of steady driving need no cause that the simulation lacks.".to_owned());
-        }
-        Verdict::NoMismatch => {
-            out.push(
-                "No mismatch over whole recordings: their loads need no cause that the simulation \
-                 lacks. Within recordings the load changes, as listed here."
-                    .to_owned(),
-            );
-        }
-        Verdict::Unknown => {
-            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
-        }
-        Verdict::Explained => {
-            let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
-            for class in &d.indistinguishable {
-                let names: Vec<String> = class.iter().map(|i| name(i)).collect();
-                let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
-                let tail = if names.len() > 1 {
-                    "; these recordings cannot tell them apart".to_owned()
-                } else {
-                    format!(", {size}")
-                };
-                out.push(format!("Missing: {}{tail}.", names.join(" or ")));
-                // The drives that reveal the members split the class; the first ones are enough to begin with.
-                let mut drives: Vec<&str> = Vec::new();
-                for drive in class.iter().filter_map(|id| revealed_by(id)) {
-                    if !drives.contains(&drive) && drives.len() < SENTENCES.drives {
-                        drives.push(drive);
-                    }
-                }
-                if class.len() > 1 {
-                    out.push(format!("To tell them apart, record: {}.", drives.join("; ")));
-                }
-            }
-        }
-    }
-
+    let mut out = headline(d, of_loads, loads);
     let pooled = |r: &&Ratio| {
         !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
     };
@@ -61,7 +21,9 @@ pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<S
         out.push(load(r, theirs));
     }
 
-    out.extend(loads.standstills.iter().map(standstill));
+    if loads.standstills.len() > 1 {
+        out.extend(loads.standstills.iter().map(standstill));
+    }
     out.extend(loads.changes.found.iter().map(change));
     out.extend(loads.turning_changes.iter().map(turning_change));
     out.extend(hidden(&loads.changes.hidden));
@@ -141,13 +103,24 @@ fn load(r: &Ratio, theirs: &str) -> String {
 
 fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
+    format!("{}: from {from:.1} s to {until:.1} s the body stands: {}.", s.recording, how_it_stands(s))
+}
+
+/// By what a body is seen to stand.
+pub(crate) fn how_it_stands(s: &Standstill) -> String {
     format!(
-        "{}: from {from:.1} s to {until:.1} s the body stands although its wheels are commanded \
-         to turn it (yaw rate {:.0} % of what they ask for, {:.0} N m on the more loaded side): \
-         it is dug in, or its wheels spin.",
-        s.recording,
+        "it turns at {:.0} % of the rate that its wheels ask for, with {:.0} N m on the more loaded side",
         100.0 * s.share,
         s.load
+    )
+}
+
+/// What a reference that stands does to the answer.
+pub(crate) fn standing_reference(s: &Standstill) -> String {
+    let [from, until] = s.interval;
+    format!(
+        "reference {}: from {from:.1} s to {until:.1} s the body stands while its wheels turn; these rows are not used",
+        s.recording
     )
 }
 

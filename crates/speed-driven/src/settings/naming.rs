@@ -74,6 +74,8 @@
             left rolling resistance alone although every straight drive goes one way";
         /// What is this much less probable than "nothing is missing" stands in for nothing.
         least_plausible: f64 = 2.0, "nats", "guess";
+        /// Probability of a body that was seen to stand: a gyro that is off looks alike.
+        standing: f64 = 0.99, "1", "guess";
         /// Causes below this probability are not listed.
         listed: f64 = 1e-3, "1", "guess";
     }
