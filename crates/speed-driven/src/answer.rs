@@ -33,7 +33,7 @@ pub(super) fn verdict(
         }
     }
     let of_loads = out.verdict;
-    found::add(&mut out, &loads);
+    found::add(&mut out, naming, &loads);
     out.sentences = sentences(&out, of_loads, &loads, case.recordings.iter().any(|r| r.set_points));
     out.steady = Some(loads);
     (out, of_loads)
@@ -109,7 +109,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
         .collect()
 }
 
-fn cause(e: &Named, part: usize, probability: f64) -> Cause {
+pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
     let card = variant.spec();
     let (values, sigma) = e.of(part);

@@ -39,6 +39,8 @@ pub(crate) struct Named {
     pub(crate) sigma: Vec<f64>,
     /// Log evidence over "nothing is missing", nats.
     pub(crate) score: f64,
+    /// What it explains of the differences before its price, nats.
+    pub(crate) gain: f64,
 }
 
 impl Named {
@@ -206,9 +208,9 @@ impl<'a> Comparison<'a> {
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
         let paid = fitted.occam() + parts.iter().map(|v| PRIORS.per_effect + v.spec().rarity).sum::<f64>();
-        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost - paid;
+        let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
-        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score })
+        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score: gain - paid, gain })
     }
 
     /// Residuals of unit variance that do not go together.

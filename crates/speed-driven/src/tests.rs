@@ -37,3 +37,43 @@ fn a_body_that_stands_leads_the_answer_and_its_rows_touch_nothing_else() {
         assert!(f.corrected < f.retuned, "{f:?}");
     }
 }
+
+/// No headline says that nothing is wrong above a sentence that reports a difference.
+fn agrees_with_itself(d: &Diagnosis) {
+    let nothing = d.sentences[0].starts_with("No mismatch") || d.verdict == Verdict::NoMismatch;
+    let differs = |s: &String| s.contains(": it differs.") || s.contains("Cause: ") || s.contains("times the torque");
+    assert!(!nothing || !d.sentences.iter().any(differs), "{:?}", d.sentences);
+}
+
+#[test]
+fn another_track_is_a_difference_though_the_loads_are_alike() {
+    let slides: Vec<Leg> = rounds(3).into_iter().map(|leg| Leg { turned: 0.8, ..leg }).collect();
+    let d = diagnosis(&[&slides]);
+    assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
+    assert!(d.sentences[0].starts_with("Difference: in 0 the effective track is 0.9"), "{:?}", d.sentences);
+    assert!(d.sentences.iter().any(|s| s.starts_with("The body turns by 20 % less")), "{:?}", d.sentences);
+    assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
+    assert_eq!(d.indistinguishable, [["effective_track"]]);
+    agrees_with_itself(&d);
+}
+
+#[test]
+fn the_verdict_never_contradicts_a_sentence() {
+    for (scrub, straight) in
+        [(20.0, 1.0), (23.0, 1.0), (26.0, 1.0), (32.0, 1.0), (14.0, 1.0), (20.0, 1.6), (20.0, 3.0), (10.0, 0.6)]
+    {
+        let other = |leg: Leg| Leg { scrub, straight: straight * leg.straight, ..leg };
+        let d = diagnosis(&[&rounds(3).into_iter().map(other).collect::<Vec<_>>()]);
+        agrees_with_itself(&d);
+        let none = d.ranked.iter().find(|c| c.effect == "none").map_or(0.0, |c| c.probability);
+        assert!(d.verdict == Verdict::NoMismatch || none < 0.5, "{scrub} {straight}: {:?}", d.ranked);
+    }
+}
+
+#[test]
+fn a_slope_inside_a_recording_is_a_change_and_no_quiet_verdict() {
+    let d = diagnosis(&[&[rounds(2), vec![Leg::straight(15.0).slope(5.0), Leg::straight(20.0)], rounds(2)].concat()]);
+    agrees_with_itself(&d);
+    assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
+    assert!(d.sentences.iter().any(|s| s.contains("uphill")), "{:?}", d.sentences);
+}

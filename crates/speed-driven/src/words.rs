@@ -1,6 +1,7 @@
 //! What a speed-driven case says in sentences.
 
 use crate::Alignment;
+use crate::compare::{Judgement, judgement, no_difference, told};
 use crate::headline::headline;
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
@@ -13,13 +14,8 @@ const SENTENCES: Sentences = NAMING.sentences;
 /// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
 pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
     let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
-    let mut out = headline(d, of_loads, loads);
-    let pooled = |r: &&Ratio| {
-        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
-    };
-    for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
-        out.push(load(r, theirs));
-    }
+    let mut out = headline(d, of_loads, loads, theirs);
+    out.extend(told(loads).map(|r| load(r, theirs)));
 
     if loads.standstills.len() > 1 {
         out.extend(loads.standstills.iter().map(standstill));
@@ -57,6 +53,23 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
     })
 }
 
+/// How a load compares with `theirs`.
+pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
+    let [a, b] = r.interval;
+    match r.quantity {
+        Quantity::EffectiveTrack => format!(
+            "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
+            r.value, r.half, r.ratio
+        ),
+        Quantity::Asymmetry => format!(
+            "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
+            r.ratio.abs(),
+            if r.ratio < 0.0 { "below" } else { "above" }
+        ),
+        _ => format!("{:.2} times {theirs} (90 % interval {a:.2} to {b:.2})", r.ratio),
+    }
+}
+
 /// A load, how it compares with `theirs`, and whether its interval shows a difference.
 fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
@@ -68,29 +81,13 @@ fn load(r: &Ratio, theirs: &str) -> String {
         _ => String::new(),
     };
 
-    let [a, b] = r.interval;
-    let compared = match r.quantity {
-        Quantity::EffectiveTrack => format!(
-            "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
-            r.value, r.half, r.ratio
-        ),
-        Quantity::Asymmetry => format!(
-            "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
-            r.ratio.abs(),
-            if r.ratio < 0.0 { "below" } else { "above" }
-        ),
-        _ => format!("{:.2} times {theirs} (90 % interval {a:.2} to {b:.2})", r.ratio),
-    };
-
-    let none = if r.quantity.is_difference() { 0.0 } else { 1.0 };
-    let unnamed = NAMING.priors.unnamed_straight;
-    let is_within_cold = a < unnamed && b > 1.0 / unnamed;
-    let judgement = if a <= none && none <= b {
-        format!("no difference is shown, since the interval contains {none}")
-    } else if r.quantity == Quantity::StraightLoad && is_within_cold {
-        "it differs, but a cold drive train varies as much, so no cause is named".to_owned()
-    } else {
-        "it differs".to_owned()
+    let compared = compared(r, theirs);
+    let judgement = match judgement(r) {
+        Judgement::Alike => {
+            format!("no difference is shown, since the interval contains {}", no_difference(r.quantity))
+        }
+        Judgement::Unnamed => "it differs, but a cold drive train varies as much, so no cause is named".to_owned(),
+        Judgement::Differs => "it differs".to_owned(),
     };
     let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
     format!(
@@ -125,7 +122,7 @@ pub(crate) fn standing_reference(s: &Standstill) -> String {
 }
 
 /// "196.6 s", or "between 183.8 s and 200.9 s" where it is hidden.
-fn moment([a, b]: [f64; 2]) -> String {
+pub(crate) fn moment([a, b]: [f64; 2]) -> String {
     if b - a < SENTENCES.moment { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
 }
 
@@ -134,8 +131,8 @@ fn term_name(effect: &str) -> Option<&'static str> {
     catalogue::find(effect)?.effect?.load_term.map(LoadTerm::name)
 }
 
-fn change(c: &LoadChange) -> String {
-    let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
+/// Where a change of the straight load is and how large.
+pub(crate) fn what_changes(c: &LoadChange) -> String {
     let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
     let size = if c.bound {
         format!("at least {:.1}° {way}", c.slope.abs())
@@ -153,17 +150,15 @@ fn change(c: &LoadChange) -> String {
         ),
         None => format!("the slope is {size}"),
     };
-    format!(
-        "{}: from {} until {}: {what}. Cause: {} ({}).",
-        c.recording,
-        moment(c.onset),
-        moment(c.end),
-        causes.join(" or "),
-        c.reason
-    )
+    format!("{}: from {} until {}: {what}", c.recording, moment(c.onset), moment(c.end))
 }
 
-fn turning_change(c: &TurningChange) -> String {
+fn change(c: &LoadChange) -> String {
+    let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
+    format!("{}. Cause: {} ({}).", what_changes(c), causes.join(" or "), c.reason)
+}
+
+pub(crate) fn turning_change(c: &TurningChange) -> String {
     format!(
         "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
          measured over {:.0} s: the ground is another.",

@@ -76,6 +76,12 @@
         least_plausible: f64 = 2.0, "nats", "guess";
         /// Probability of a body that was seen to stand: a gyro that is off looks alike.
         standing: f64 = 0.99, "1", "guess";
+        /// Probability that a change inside a recording is one: it is told where its 90 % interval shows it.
+        changed: f64 = 0.9, "1", "definition of the interval";
+        /// Effects that fit a difference too small to name one, at most.
+        fitting: usize = 3, "1", "field study: longer classes cannot be acted upon";
+        /// They explain at least this share of what the best of them does.
+        fits: f64 = 0.5, "1", "guess";
         /// Causes below this probability are not listed.
         listed: f64 = 1e-3, "1", "guess";
     }
