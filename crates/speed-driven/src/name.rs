@@ -218,18 +218,23 @@ impl<'a> Comparison<'a> {
         (0..r.len()).map(|i| (0..=i).map(|k| self.whitening[(i, k)] * r[k]).sum()).collect()
     }
 
-    /// Evidence for a factor of its own for each quantity, which nothing ties together.
-    fn unknown(&self) -> Option<f64> {
+    /// Evidence for a factor of its own for each quantity, which nothing ties together. What the best effect may leave is
+    /// nothing unknown: a factor costs no less than a number of that effect, and there must be more factors than these.
+    fn unknown(&self, best: Option<&Named>) -> Option<f64> {
         let mut quantities: Vec<Quantity> = self.differences.iter().map(|d| d.here.at.quantity).collect();
         quantities.sort_unstable();
         quantities.dedup();
         let (n, m) = (self.differences.len(), quantities.len());
+        if best.is_some_and(|b| m <= b.values.len()) {
+            return Some(f64::NEG_INFINITY);
+        }
         let a = Mat::from_fn(n, m, |i, q| f64::from(self.differences[i].here.at.quantity == quantities[q]));
         let r = Mat::from_fn(n, 1, |i, _| self.plain[i]);
         let g = a.transpose() * &self.weight * &r;
         let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
         let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
-        Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown) * m as f64)
+        let named = best.map_or(0.0, |b| (b.gain - b.score) / b.values.len().max(1) as f64);
+        Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown).max(named) * m as f64)
     }
 }
 
@@ -259,7 +264,8 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
     let mut effects = singles.clone();
     effects.extend(pairs);
     best_first(&mut effects);
-    Some(Naming { effects, unknown: comparison.unknown()? })
+    let unknown = comparison.unknown(effects.first())?;
+    Some(Naming { effects, unknown })
 }
 
 fn best_first(list: &mut [Named]) {

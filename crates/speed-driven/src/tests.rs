@@ -77,3 +77,15 @@ fn a_slope_inside_a_recording_is_a_change_and_no_quiet_verdict() {
     assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
     assert!(d.sentences.iter().any(|s| s.contains("uphill")), "{:?}", d.sentences);
 }
+
+#[test]
+fn one_strong_number_is_no_unknown_cause() {
+    // Turning only: no straight load stands beside the sum of both.
+    for scrub in [45.0, 70.0, 110.0] {
+        let turns = [Leg { scrub, ..Leg::turn(30.0) }, Leg { scrub, ..Leg::right(30.0) }];
+        let d = diagnosis(&[&turns]);
+        let unknown = d.ranked.iter().find(|c| c.effect == "unknown").expect("ranked");
+        assert!(unknown.probability < 0.05, "{scrub}: {:?}", d.ranked);
+        assert_eq!(d.verdict, Verdict::Explained, "{scrub}: {:?} {:?}", d.sentences, d.ranked);
+    }
+}
