@@ -7,6 +7,9 @@ use inference::least_squares::{Constant, Residuals, Settings};
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::effect::Role;
+use robot_model::effects::{
+    com_offset, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity, wheel_radius_mismatch,
+};
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
@@ -20,6 +23,23 @@ use robot_model::tunable::tuned;
 
 const PRIORS: Priors = NAMING.priors;
 const EFFECTS: EffectFits = NAMING.effects;
+
+/// Effects that need a hand on the robot: its mass, motors and wheels do not change by themselves.
+const BY_HAND: [&str; 7] = [
+    payload::SPEC.id,
+    com_offset::SPEC.id,
+    torque_constant::SPEC.id,
+    torque_saturation::SPEC.id,
+    motor_lag::SPEC.id,
+    wheel_radius_mismatch::SPEC.id,
+    wheel_eccentricity::SPEC.id,
+];
+
+/// Price of naming an effect, nats.
+fn price(v: &Variant) -> f64 {
+    let spec = v.spec();
+    PRIORS.per_effect + spec.rarity + if BY_HAND.contains(&spec.id) { PRIORS.by_hand } else { 0.0 }
+}
 
 /// One difference between a recording and the references, on the comparison scale.
 #[derive(Debug, Clone)]
@@ -207,7 +227,7 @@ impl<'a> Comparison<'a> {
         }
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
-        let paid = fitted.occam() + parts.iter().map(|v| PRIORS.per_effect + v.spec().rarity).sum::<f64>();
+        let paid = fitted.occam() + parts.iter().map(price).sum::<f64>();
         let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
         Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score: gain - paid, gain })

@@ -89,3 +89,16 @@ fn one_strong_number_is_no_unknown_cause() {
         assert_eq!(d.verdict, Verdict::Explained, "{scrub}: {:?} {:?}", d.sentences, d.ranked);
     }
 }
+
+#[test]
+fn another_ground_comes_before_another_robot() {
+    // Everything takes more: the signature of mass and torque constant, and of soft ground.
+    for factor in [1.6, 2.0] {
+        let harder = |leg: Leg| Leg { scrub: factor * leg.scrub, straight: factor * leg.straight, ..leg };
+        let d = diagnosis(&[&rounds(3).into_iter().map(harder).collect::<Vec<_>>()]);
+        let probability = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability);
+        let ground = probability("turning_resistance").max(probability("adhesion_patch"));
+        let robot = probability("payload").max(probability("torque_constant"));
+        assert!(ground > robot, "{factor}: {:?}", d.ranked);
+    }
+}

@@ -43,6 +43,8 @@
         medium_wheelbase: f64 = 0.36, "m", "guess";
         /// Price of naming an effect.
         per_effect: f64 = 3.0, "nats", "guess";
+        /// What an effect costs more that needs a hand on the robot: its mass, motors, torque constant, wheels.
+        by_hand: f64 = 3.0, "nats", "guess: ground and slope differ between places, bodies do not change by themselves";
         /// Price of each factor of "unknown".
         per_unknown: f64 = 4.0, "nats", "guess";
     }
@@ -90,6 +92,8 @@
     sentences: Sentences {
         /// Drives that are named to split a class: the first ones are enough to begin with.
         drives: usize = 3, "1", "guess";
+        /// Members of a class that are named in a sentence; the table has all.
+        members: usize = 3, "1", "field study: longer lists cannot be acted upon";
         /// Speeds of pooled recordings that differ by more than this are given as a range.
         one_speed: f64 = 0.05, "m/s", "guess";
         /// Times closer than this are one moment.
