@@ -9,7 +9,7 @@ use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict
 use crate::compare::{Judgement, judgement, told};
 use crate::found::{longest, strongest};
 use crate::settings::{NAMING, naming::Sentences};
-use crate::words::{compared, how_it_stands, turning_change, what_changes};
+use crate::words::{change, compared, how_it_stands, turning_change};
 
 const SENTENCES: Sentences = NAMING.sentences;
 
@@ -39,14 +39,14 @@ fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
     let largest = turning.iter().max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()));
-    let Some(clearest) = steepest.map(|c| format!("{}.", what_changes(c))).or(largest.map(turning_change)) else {
+    let Some(clearest) = steepest.map(change).or_else(|| largest.map(turning_change)) else {
         return vec![whole.to_owned()];
     };
     let count = straight.len() + turning.len();
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
     let rest = match of_loads {
         Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
-        _ => "Over whole recordings the loads need no cause that the simulation lacks.",
+        _ => "Beside that the loads need no cause that the simulation lacks.",
     };
     vec![format!("Change inside a recording{how_many}: {clearest}"), rest.to_owned()]
 }

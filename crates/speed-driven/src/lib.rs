@@ -119,10 +119,16 @@ pub fn diagnose_steady(
     }
     let standstills =
         standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
+    let references_of = |loads: &[Load]| {
+        if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
+    };
+    // What changes inside a recording is told by itself and is no load of the whole.
+    let usual = usual(&references_of(&all_loads(&marked.recordings).0));
+    let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
+    let (loads, not_given) = all_loads(&marked.recordings);
+    let refs = references_of(&loads);
     let case = &marked;
-    let (loads, not_given) = all_loads(&case.recordings);
     let by_file = case.references.is_empty();
-    let refs = if by_file { from_file(case, &robot, &loads) } else { references(&reference_loads) };
     if refs.is_empty() && standstills.is_empty() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
@@ -151,7 +157,7 @@ pub fn diagnose_steady(
     withheld.extend(not_given);
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
-    let loads = Loads { standstills, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
+    let loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
     let (mut out, of_loads) = verdict(case, naming.as_ref(), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
@@ -213,7 +219,16 @@ fn track_of(refs: &[Reference]) -> Option<f64> {
     refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
 }
 
-/// What is inside the recordings: changes, turning, forecasts, clocks.
+/// Straight load of references by speed class, N m.
+fn usual(refs: &[Reference]) -> pieces::Usual {
+    let mut out = pieces::Usual::default();
+    for r in refs.iter().filter(|r| r.quantity == Quantity::StraightLoad) {
+        out[r.class] = Some(r.centre.exp());
+    }
+    out
+}
+
+/// What is inside the recordings beside changes of the straight load: turning, forecasts, clocks.
 fn within(
     case: &SteadyCase,
     robot: &Robot<f64>,
@@ -222,14 +237,9 @@ fn within(
     withheld: Vec<Withheld>,
 ) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
-    let mut usual = pieces::Usual::default();
-    for r in of(Quantity::StraightLoad) {
-        usual[r.class] = Some(r.centre.exp());
-    }
-    let straight = usual.iter().flatten().next().copied();
+    let straight = usual(refs).iter().flatten().next().copied();
     let turning_load = of(Quantity::SpinSum).chain(of(Quantity::ArcSum)).next().map(|r| r.centre.exp());
     let track = track_of(refs);
-    let weight = robot.mass * robot.gravity * robot.wheel_radius;
     let nominal =
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
     let mut out = Loads {
@@ -245,9 +255,6 @@ fn within(
         clocks: Vec::new(),
     };
     for run in &case.recordings {
-        let found = changes::changes(run, &usual, weight);
-        out.changes.found.extend(found.found);
-        out.changes.hidden.extend(found.hidden);
         out.turning_changes.extend(scrub::turning_changes(run, turning_load));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {

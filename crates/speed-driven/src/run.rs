@@ -34,6 +34,8 @@ pub struct SpeedRun {
     pub body_rates: Option<BodyRates>,
     /// Whether the body stands at a row although its wheels turn it: such rows say nothing of loads or tracks.
     pub standing: Vec<bool>,
+    /// Whether the straight load at a row belongs to a change inside the recording, which is told by itself.
+    pub changed: Vec<bool>,
 }
 
 /// Turning rates of the body, averaged over steps.
@@ -129,6 +131,7 @@ impl SpeedRun {
             alignment: None,
             body_rates: BodyRates::new(recording),
             standing: vec![false; time.len()],
+            changed: vec![false; time.len()],
             name,
             time,
             speed,
@@ -165,6 +168,7 @@ impl SpeedRun {
             torque: [0, 1].map(|j| cut(&self.torque[j])),
             yaw_rate: self.yaw_rate.as_ref().map(cut),
             standing: self.standing[..rows].to_vec(),
+            changed: self.changed[..rows].to_vec(),
             ..self.clone()
         }
     }

@@ -95,6 +95,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         yaw_rate: Some(yaw),
         body_rates,
         standing: vec![false; time.len()],
+        changed: vec![false; time.len()],
         time,
     }
 }

@@ -102,3 +102,13 @@ fn another_ground_comes_before_another_robot() {
         assert!(ground > robot, "{factor}: {:?}", d.ranked);
     }
 }
+
+#[test]
+fn what_changes_inside_a_recording_is_no_load_of_the_whole() {
+    let climb = Leg::straight(40.0).slope(6.0);
+    let d = diagnosis(&[&[rounds(2), vec![climb, Leg::straight(12.0)], rounds(1)].concat()]);
+    let straight = ratio(&d, Quantity::StraightLoad);
+    assert!((straight.ratio - 1.0).abs() < 0.06, "{straight:?}");
+    assert!(d.sentences[0].starts_with("Change inside a recording: 0: from between 71."), "{:?}", d.sentences);
+    assert!(d.ranked.iter().any(|c| c.effect == "grade" && c.intervals.is_some()), "{:?}", d.ranked);
+}

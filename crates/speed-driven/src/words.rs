@@ -20,8 +20,10 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
     if loads.standstills.len() > 1 {
         out.extend(loads.standstills.iter().map(standstill));
     }
-    out.extend(loads.changes.found.iter().map(change));
-    out.extend(loads.turning_changes.iter().map(turning_change));
+    let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
+    // One that leads has been said.
+    let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
+    out.extend(more);
     out.extend(hidden(&loads.changes.hidden));
     out.extend(turning(&loads.turning));
     if set_points && !loads.ratios.is_empty() {
@@ -122,7 +124,7 @@ pub(crate) fn standing_reference(s: &Standstill) -> String {
 }
 
 /// "196.6 s", or "between 183.8 s and 200.9 s" where it is hidden.
-pub(crate) fn moment([a, b]: [f64; 2]) -> String {
+fn moment([a, b]: [f64; 2]) -> String {
     if b - a < SENTENCES.moment { format!("{:.1} s", 0.5 * (a + b)) } else { format!("between {a:.1} s and {b:.1} s") }
 }
 
@@ -131,8 +133,8 @@ fn term_name(effect: &str) -> Option<&'static str> {
     catalogue::find(effect)?.effect?.load_term.map(LoadTerm::name)
 }
 
-/// Where a change of the straight load is and how large.
-pub(crate) fn what_changes(c: &LoadChange) -> String {
+pub(crate) fn change(c: &LoadChange) -> String {
+    let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
     let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
     let size = if c.bound {
         format!("at least {:.1}° {way}", c.slope.abs())
@@ -150,12 +152,14 @@ pub(crate) fn what_changes(c: &LoadChange) -> String {
         ),
         None => format!("the slope is {size}"),
     };
-    format!("{}: from {} until {}: {what}", c.recording, moment(c.onset), moment(c.end))
-}
-
-fn change(c: &LoadChange) -> String {
-    let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
-    format!("{}. Cause: {} ({}).", what_changes(c), causes.join(" or "), c.reason)
+    format!(
+        "{}: from {} until {}: {what}. Cause: {} ({}).",
+        c.recording,
+        moment(c.onset),
+        moment(c.end),
+        causes.join(" or "),
+        c.reason
+    )
 }
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {
