@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use catalogue::{CauseSpec, answer, command_driven};
+use catalogue::{CauseSpec, answer, command_driven, speed_driven};
 use robot_model::{EffectSpec, Kind};
 
 /// Kinds in the order of the page: kind, heading, what they have in common.
@@ -18,7 +18,7 @@ pub(super) fn page() -> String {
     let mut out = format!(
         "# Effects\n\n\
          Written by `cargo xtask book --docs` from the catalogue; do not edit. These {} effects, the causes of\n\
-         [command-driven robots](#command-driven-robots) and [two answers](#answers-that-name-no-cause) are what a diagnosis\n\
+         [command-driven](#command-driven-robots) and [speed-driven robots](#speed-driven-robots) and [two answers](#answers-that-name-no-cause) are what a diagnosis\n\
          can name; `lacuna explain NAME` tells the same at the command line. To add an effect:\n\
          [writing an effect](writing-an-effect.md).\n\n\
          Bounds are those within which a fit looks. \"Matters from\" is the size below which nobody would act.\n\n\
@@ -39,6 +39,10 @@ pub(super) fn page() -> String {
 
     out += "\n## Command-driven robots\n\nNeither torques nor currents are known: elements of the way from command to wheel to ground.\n";
     for cause in command_driven::ALL {
+        without_law(&mut out, cause, &effects);
+    }
+    out += "\n## Speed-driven robots\n\nThe loads of steady driving name effects; what the body does beside its wheels names these.\n";
+    for cause in speed_driven::ALL {
         without_law(&mut out, cause, &effects);
     }
     out += "\n## Answers that name no cause\n";

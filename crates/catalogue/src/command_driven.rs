@@ -53,7 +53,7 @@ pub const LAG: CauseSpec = CauseSpec {
 pub const EFFECTIVE_TRACK: CauseSpec = CauseSpec {
     id: "effective_track",
     name: "effective track: the body turns otherwise than the track says",
-    robots: ROBOTS,
+    robots: "command-driven, speed-driven",
     meaning: "The yaw rate is the difference of the sides' rim speeds over another length than the track: wheels that \
         are steered by skidding slip sideways.",
     size: "effective track",

@@ -1,5 +1,6 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
+use crate::found;
 use crate::name::{Named, Naming};
 use crate::settings::{NAMING, naming::Answer};
 use crate::traces::Forecasts;
@@ -12,12 +13,13 @@ use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
 
 const ANSWER: Answer = NAMING.answer;
 
+/// The answer, and the verdict of the loads alone.
 pub(super) fn verdict(
     case: &SteadyCase,
     naming: Option<&Naming>,
     loads: Loads,
     forecasts: &Forecasts<'_>,
-) -> Diagnosis {
+) -> (Diagnosis, Verdict) {
     let mut out = Diagnosis::withheld();
     if let Some(naming) = naming {
         weigh(naming, &mut out);
@@ -30,9 +32,11 @@ pub(super) fn verdict(
             class.extend(more);
         }
     }
-    out.sentences = sentences(&out, &loads, case.recordings.iter().any(|r| r.set_points));
+    let of_loads = out.verdict;
+    found::add(&mut out, naming, &loads);
+    out.sentences = sentences(&out, of_loads, &loads, case.recordings.iter().any(|r| r.set_points));
     out.steady = Some(loads);
-    out
+    (out, of_loads)
 }
 
 /// Probabilities, kind of answer and classes from the evidence.
@@ -105,7 +109,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
         .collect()
 }
 
-fn cause(e: &Named, part: usize, probability: f64) -> Cause {
+pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
     let spec = variant.spec();
     let (values, sigma) = e.of(part);

@@ -62,6 +62,19 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     Changes { found, hidden: hidden(run, &readings) }
 }
 
+/// Finds the changes of these recordings and marks their rows: what is told as a change is no load of the whole.
+pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes {
+    let mut out = Changes::default();
+    for run in runs {
+        let own = changes(run, usual, weight);
+        let inside = |t: f64| own.found.iter().any(|c| c.interval[0] <= t && t <= c.interval[1]);
+        run.changed = run.time.iter().map(|t| inside(*t)).collect();
+        out.found.extend(own.found);
+        out.hidden.extend(own.hidden);
+    }
+    out
+}
+
 /// Driving that shows no straight load for a while.
 fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
     let seen = |i: &usize| readings[*i].is_some();

@@ -1,9 +1,9 @@
 //! Loads of the recordings over those of the references, with honest intervals.
 
 use std::collections::BTreeMap;
-use verdict::{Load, Quantity, Ratio};
+use verdict::{Load, Loads, Quantity, Ratio};
 
-use crate::settings::{MEASURING, measuring::Ratios};
+use crate::settings::{MEASURING, NAMING, measuring::Ratios};
 use inference::robust::NINETY;
 
 const RATIOS: Ratios = MEASURING.ratios;
@@ -17,6 +17,50 @@ pub(crate) struct Reference {
     pub(crate) centre: f64,
     pub(crate) error: f64,
     pub(crate) speed: [f64; 2],
+}
+
+/// What the interval of a ratio says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Judgement {
+    /// It contains no difference.
+    Alike,
+    /// It excludes that, but drive trains between cold and warm differ as much.
+    Unnamed,
+    /// It excludes both.
+    Differs,
+}
+
+pub(crate) fn judgement(r: &Ratio) -> Judgement {
+    let [a, b] = r.interval;
+    let none = no_difference(r.quantity);
+    let unnamed = NAMING.priors.unnamed_straight;
+    if a <= none && none <= b {
+        Judgement::Alike
+    } else if r.quantity == Quantity::StraightLoad && a < unnamed && b > 1.0 / unnamed {
+        Judgement::Unnamed
+    } else {
+        Judgement::Differs
+    }
+}
+
+/// The ratio, or difference, of what is alike.
+pub(crate) fn no_difference(quantity: Quantity) -> f64 {
+    if quantity.is_difference() { 0.0 } else { 1.0 }
+}
+
+/// How many sigmas a ratio is away from no difference.
+pub(crate) fn sigmas(r: &Ratio) -> f64 {
+    let scale = |x: f64| if r.quantity.is_difference() { x } else { x.max(1e-9).ln() };
+    let [a, b] = r.interval.map(scale);
+    scale(r.ratio).abs() / ((b - a) / (2.0 * NINETY)).max(1e-9)
+}
+
+/// The ratios that sentences tell: pooled ones, and of single recordings those that no pooled one stands for.
+pub(crate) fn told(loads: &Loads) -> impl Iterator<Item = &Ratio> {
+    let stands_for =
+        |p: &Ratio, r: &Ratio| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording);
+    let single = move |r: &&Ratio| !loads.pooled.iter().any(|p| stands_for(p, r));
+    loads.pooled.iter().chain(loads.ratios.iter().filter(single))
 }
 
 /// The scale on which a load is compared: its logarithm, or itself.

@@ -95,7 +95,8 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let all = || 0..run.time.len();
 
     let straight: Vec<usize> = all()
-        .filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, MEASURING.straight.hold_of_means))
+        .filter(|&i| run.reads(i, 0) && run.reads(i, 1) && !run.changed[i])
+        .filter(|&i| is_straight(run, i, MEASURING.straight.hold_of_means))
         .collect();
     let speed = |i: usize| run.forward(i).abs();
     for class in STRETCHES.classes.windows(2) {

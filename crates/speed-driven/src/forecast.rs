@@ -30,7 +30,8 @@ impl Nominal {
 }
 
 fn turning_seconds(run: &SpeedRun, from: usize, until: usize) -> f64 {
-    (from..until).filter(|&i| run.difference(i).abs() > MEASURING.aligning.turn).count() as f64 * run.period()
+    let turns = |i: &usize| !run.standing[*i] && run.difference(*i).abs() > MEASURING.aligning.turn;
+    (from..until).filter(turns).count() as f64 * run.period()
 }
 
 /// Forecasts of torques and yaw rate; none of a recording that is short or does not turn in both parts.
@@ -62,7 +63,7 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
         // By the effective track, behind the set speeds by the lag that fits best.
         let of_track = |b: f64, lag: f64, from: usize, until: usize| {
             let follow = followed(run, lag);
-            rms_of_known((from..until).map(|i| follow[i] / b - yaw[i]))
+            rms_of_known((from..until).filter(|&i| !run.standing[i]).map(|i| follow[i] / b - yaw[i]))
         };
         let lag_of = |b: f64| {
             SPLIT
@@ -72,9 +73,10 @@ pub(crate) fn forecasts(run: &SpeedRun, nominal: &Nominal) -> Vec<Forecast> {
                 .unwrap_or(0.0)
         };
         let own = effective_track(&run.head(split)).unwrap_or(nominal.track);
-        let known: Vec<f64> = yaw[..split].iter().copied().filter(|w| w.is_finite()).collect();
+        let moving = |i: &usize| !run.standing[*i] && yaw[*i].is_finite();
+        let known: Vec<f64> = (0..split).filter(moving).map(|i| yaw[i]).collect();
         let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
-        let level = rms_of_known(yaw[split..].iter().map(|w| w - mean));
+        let level = rms_of_known((split..rows).filter(moving).map(|i| yaw[i] - mean));
         out.push(Forecast {
             recording: run.name.clone(),
             quantity: "yaw rate, rad/s".into(),
@@ -98,9 +100,10 @@ fn effective_track(run: &SpeedRun) -> Option<f64> {
     extract(run).0.into_iter().find(|l| l.quantity == Quantity::EffectiveTrack).map(|l| l.value)
 }
 
-/// Mean torques of the rows before `until`.
+/// Mean torques of the rows before `until` at which the body moves.
 fn level(run: &SpeedRun, until: usize) -> [f64; 2] {
-    [0, 1].map(|j| run.torque[j][..until].iter().sum::<f64>() / until.max(1) as f64)
+    let moving = || (0..until).filter(|&i| !run.standing[i]);
+    [0, 1].map(|j| moving().map(|i| run.torque[j][i]).sum::<f64>() / moving().count().max(1) as f64)
 }
 
 /// Difference of the speeds behind a first-order lag, m/s.

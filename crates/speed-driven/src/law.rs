@@ -5,6 +5,7 @@
 //! drive follows its set speeds with a lag. Unsigned currents show what drives and nothing of what brakes.
 
 use inference::least_squares::{Constant, Loss, Residuals, Settings};
+use inference::robust::rms;
 use robot_model::effect::LoadTerm;
 
 use crate::run::SpeedRun;
@@ -126,7 +127,8 @@ pub(crate) fn fit(law: Law, run: &SpeedRun, until: usize, straight: f64) -> Cons
     };
     let misfit = |x: &[f64]| -> Vec<f64> {
         let rows = torques(law, &std::array::from_fn(|k| x[k]), run);
-        (0..until).flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
+        let moves = (0..until).filter(|&i| !run.standing[i]);
+        moves.flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j))).collect()
     };
     let settings = Settings { iterations: FIT.steps, first_damping: FIT.damping, ..Settings::default() };
 
@@ -140,10 +142,10 @@ fn recorded(run: &SpeedRun, i: usize, side: usize) -> f64 {
     if run.magnitude_only { torque.abs() } else { torque }
 }
 
-/// Root mean squared error of forecast torques over the rows from `from`, N m.
+/// Root mean squared error of forecast torques over the rows from `from` at which the body moves, N m.
 pub(crate) fn error(rows: &[[f64; 2]], run: &SpeedRun, from: usize) -> f64 {
-    let squares = (from..run.time.len()).flat_map(|i| [0, 1].map(|j| (rows[i][j] - recorded(run, i, j)).powi(2)));
-    (squares.sum::<f64>() / (2 * (run.time.len() - from)).max(1) as f64).sqrt()
+    let moves = (from..run.time.len()).filter(|&i| !run.standing[i]);
+    rms(moves.flat_map(|i| [0, 1].map(|j| rows[i][j] - recorded(run, i, j)))).unwrap_or(0.0)
 }
 
 #[cfg(test)]

@@ -8,14 +8,15 @@
 //!
 //! * `run`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
 //!   turns.
+//! * `standstill`: a body that stands while its wheels turn; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
-//! * `answer`, `words`: probabilities, classes, limits; sentences.
+//! * `answer`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
+//! * `headline`, `words`: what leads the sentences; sentences.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
-//! * `scrub`, `turning`, `standstill`: turning on other ground, turning without a gyro, a stuck
-//!   body.
+//! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
 //! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
@@ -27,6 +28,8 @@ mod clock;
 mod compare;
 mod extract;
 mod forecast;
+mod found;
+mod headline;
 mod jumps;
 mod law;
 mod level;
@@ -42,6 +45,8 @@ mod standstill;
 mod straight;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
 mod traces;
 mod turning;
 mod words;
@@ -104,14 +109,27 @@ pub fn diagnose_steady(
     }
     let robot = case.robot.checked()?;
     progress("measuring steady loads");
-    let (reference_loads, mut withheld) = all_loads(&case.references);
+    // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
+    let mut marked = case.clone();
+    let of_file = standstill::track_of_file(&robot);
+    let standing_references = standstill::mark(&mut marked.references, of_file);
+    let (reference_loads, mut withheld) = all_loads(&marked.references);
     for w in &mut withheld {
         w.recording = format!("reference {}", w.recording);
     }
-    let (loads, not_given) = all_loads(&case.recordings);
+    let standstills =
+        standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
+    let references_of = |loads: &[Load]| {
+        if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
+    };
+    // What changes inside a recording is told by itself and is no load of the whole.
+    let usual = usual(&references_of(&all_loads(&marked.recordings).0));
+    let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
+    let (loads, not_given) = all_loads(&marked.recordings);
+    let refs = references_of(&loads);
+    let case = &marked;
     let by_file = case.references.is_empty();
-    let refs = if by_file { from_file(case, &robot, &loads) } else { references(&reference_loads) };
-    if refs.is_empty() {
+    if refs.is_empty() && standstills.is_empty() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
@@ -139,20 +157,21 @@ pub fn diagnose_steady(
     withheld.extend(not_given);
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
-    let loads = within(case, &robot, known_loads, (ratios, pooled), withheld);
+    let loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
-    let mut out = verdict(case, naming.as_ref(), loads, &forecasts);
+    let (mut out, of_loads) = verdict(case, naming.as_ref(), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
-    if out.verdict == Verdict::NoMismatch {
+    if of_loads == Verdict::NoMismatch {
         out.correction.effects.clear();
     }
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
-    if out.verdict == Verdict::Explained {
+    out.limits.extend(standing_references.iter().map(words::standing_reference));
+    if of_loads == Verdict::Explained {
         let wrong = placebo.map(|named| inference::words::variants(&named.parts));
         out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
     }
@@ -195,7 +214,21 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
         .collect()
 }
 
-/// What is inside the recordings: changes, turning, standstills, forecasts, clocks.
+/// Effective track of references, m.
+fn track_of(refs: &[Reference]) -> Option<f64> {
+    refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
+}
+
+/// Straight load of references by speed class, N m.
+fn usual(refs: &[Reference]) -> pieces::Usual {
+    let mut out = pieces::Usual::default();
+    for r in refs.iter().filter(|r| r.quantity == Quantity::StraightLoad) {
+        out[r.class] = Some(r.centre.exp());
+    }
+    out
+}
+
+/// What is inside the recordings beside changes of the straight load: turning, forecasts, clocks.
 fn within(
     case: &SteadyCase,
     robot: &Robot<f64>,
@@ -204,14 +237,9 @@ fn within(
     withheld: Vec<Withheld>,
 ) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
-    let mut usual = pieces::Usual::default();
-    for r in of(Quantity::StraightLoad) {
-        usual[r.class] = Some(r.centre.exp());
-    }
-    let straight = usual.iter().flatten().next().copied();
+    let straight = usual(refs).iter().flatten().next().copied();
     let turning_load = of(Quantity::SpinSum).chain(of(Quantity::ArcSum)).next().map(|r| r.centre.exp());
-    let track = of(Quantity::EffectiveTrack).next().map(|r| r.centre.exp());
-    let weight = robot.mass * robot.gravity * robot.wheel_radius;
+    let track = track_of(refs);
     let nominal =
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
     let mut out = Loads {
@@ -227,16 +255,10 @@ fn within(
         clocks: Vec::new(),
     };
     for run in &case.recordings {
-        let found = changes::changes(run, &usual, weight);
-        out.changes.found.extend(found.found);
-        out.changes.hidden.extend(found.hidden);
         out.turning_changes.extend(scrub::turning_changes(run, turning_load));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
             out.turning.extend(turning::turning(run, straight));
-        }
-        if let Some(track) = track {
-            out.standstills.extend(standstill::standstills(run, track));
         }
         if let Some(nominal) = &nominal {
             out.forecasts.extend(forecast::forecasts(run, nominal));

@@ -144,9 +144,9 @@ impl Rows {
         mean(self.errors(run, i).map(|error| error * error))
     }
 
-    /// What lies in the dead band on both accounts counts as right.
+    /// What lies in the dead band on both accounts counts as right; a body that stands has none.
     fn errors<'a>(&'a self, run: &'a SpeedRun, i: usize) -> impl Iterator<Item = f64> + 'a {
-        (0..2).filter_map(move |j| {
+        (0..2).filter(move |_| !run.standing[i]).filter_map(move |j| {
             let shown = self.torque[j][i]?;
             let measured = run.torque[j][i];
             let measured = if run.magnitude_only { measured.abs().max(run.dead_band) } else { measured };

@@ -7,6 +7,9 @@ use inference::least_squares::{Constant, Residuals, Settings};
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::effect::Role;
+use robot_model::effects::{
+    com_offset, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity, wheel_radius_mismatch,
+};
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
@@ -20,6 +23,23 @@ use robot_model::tunable::tuned;
 
 const PRIORS: Priors = NAMING.priors;
 const EFFECTS: EffectFits = NAMING.effects;
+
+/// Effects that need a hand on the robot: its mass, motors and wheels do not change by themselves.
+const BY_HAND: [&str; 7] = [
+    payload::SPEC.id,
+    com_offset::SPEC.id,
+    torque_constant::SPEC.id,
+    torque_saturation::SPEC.id,
+    motor_lag::SPEC.id,
+    wheel_radius_mismatch::SPEC.id,
+    wheel_eccentricity::SPEC.id,
+];
+
+/// Price of naming an effect, nats.
+fn price(v: &Variant) -> f64 {
+    let spec = v.spec();
+    PRIORS.per_effect + spec.rarity + if BY_HAND.contains(&spec.id) { PRIORS.by_hand } else { 0.0 }
+}
 
 /// One difference between a recording and the references, on the comparison scale.
 #[derive(Debug, Clone)]
@@ -39,6 +59,8 @@ pub(crate) struct Named {
     pub(crate) sigma: Vec<f64>,
     /// Log evidence over "nothing is missing", nats.
     pub(crate) score: f64,
+    /// What it explains of the differences before its price, nats.
+    pub(crate) gain: f64,
 }
 
 impl Named {
@@ -205,10 +227,10 @@ impl<'a> Comparison<'a> {
         }
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
-        let paid = fitted.occam() + parts.iter().map(|v| PRIORS.per_effect + v.spec().rarity).sum::<f64>();
-        let score = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost - paid;
+        let paid = fitted.occam() + parts.iter().map(price).sum::<f64>();
+        let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
-        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score })
+        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score: gain - paid, gain })
     }
 
     /// Residuals of unit variance that do not go together.
@@ -216,18 +238,23 @@ impl<'a> Comparison<'a> {
         (0..r.len()).map(|i| (0..=i).map(|k| self.whitening[(i, k)] * r[k]).sum()).collect()
     }
 
-    /// Evidence for a factor of its own for each quantity, which nothing ties together.
-    fn unknown(&self) -> Option<f64> {
+    /// Evidence for a factor of its own for each quantity, which nothing ties together. What the best effect may leave is
+    /// nothing unknown: a factor costs no less than a number of that effect, and there must be more factors than these.
+    fn unknown(&self, best: Option<&Named>) -> Option<f64> {
         let mut quantities: Vec<Quantity> = self.differences.iter().map(|d| d.here.at.quantity).collect();
         quantities.sort_unstable();
         quantities.dedup();
         let (n, m) = (self.differences.len(), quantities.len());
+        if best.is_some_and(|b| m <= b.values.len()) {
+            return Some(f64::NEG_INFINITY);
+        }
         let a = Mat::from_fn(n, m, |i, q| f64::from(self.differences[i].here.at.quantity == quantities[q]));
         let r = Mat::from_fn(n, 1, |i, _| self.plain[i]);
         let g = a.transpose() * &self.weight * &r;
         let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
         let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
-        Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown) * m as f64)
+        let named = best.map_or(0.0, |b| (b.gain - b.score) / b.values.len().max(1) as f64);
+        Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown).max(named) * m as f64)
     }
 }
 
@@ -257,7 +284,8 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
     let mut effects = singles.clone();
     effects.extend(pairs);
     best_first(&mut effects);
-    Some(Naming { effects, unknown: comparison.unknown()? })
+    let unknown = comparison.unknown(effects.first())?;
+    Some(Naming { effects, unknown })
 }
 
 fn best_first(list: &mut [Named]) {

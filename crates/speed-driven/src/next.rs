@@ -225,7 +225,13 @@ mod tests {
 
     fn named(id: &str, value: f64, score: f64) -> Named {
         let form = variants(true).into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
-        Named { parts: vec![form.expect("in the catalogue")], values: vec![value], sigma: vec![0.1 * value], score }
+        Named {
+            parts: vec![form.expect("in the catalogue")],
+            values: vec![value],
+            sigma: vec![0.1 * value],
+            score,
+            gain: score,
+        }
     }
 
     fn advised(effects: Vec<Named>) -> Advice {

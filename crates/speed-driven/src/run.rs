@@ -32,6 +32,10 @@ pub struct SpeedRun {
     pub alignment: Option<Alignment>,
     /// Turning rates of the body about all three axes, on the gyro's clock; `None` where one is missing.
     pub body_rates: Option<BodyRates>,
+    /// Whether the body stands at a row although its wheels turn it: such rows say nothing of loads or tracks.
+    pub standing: Vec<bool>,
+    /// Whether the straight load at a row belongs to a change inside the recording, which is told by itself.
+    pub changed: Vec<bool>,
 }
 
 /// Turning rates of the body, averaged over steps.
@@ -126,6 +130,8 @@ impl SpeedRun {
             yaw_rate: None,
             alignment: None,
             body_rates: BodyRates::new(recording),
+            standing: vec![false; time.len()],
+            changed: vec![false; time.len()],
             name,
             time,
             speed,
@@ -161,6 +167,8 @@ impl SpeedRun {
             speed: [0, 1].map(|j| cut(&self.speed[j])),
             torque: [0, 1].map(|j| cut(&self.torque[j])),
             yaw_rate: self.yaw_rate.as_ref().map(cut),
+            standing: self.standing[..rows].to_vec(),
+            changed: self.changed[..rows].to_vec(),
             ..self.clone()
         }
     }
@@ -185,9 +193,10 @@ impl SpeedRun {
         0.5 * (self.speed[0][i] + self.speed[1][i])
     }
 
-    /// Whether both speeds were within `tolerance` of row `i`'s for `seconds` before it.
+    /// Whether both speeds were within `tolerance` of row `i`'s for `seconds` before it, and the body did not stand.
     pub(crate) fn held(&self, i: usize, tolerance: f64, seconds: f64) -> bool {
-        let near = |k: usize| (0..2).all(|j| (self.speed[j][k] - self.speed[j][i]).abs() <= tolerance);
+        let near =
+            |k: usize| !self.standing[k] && (0..2).all(|j| (self.speed[j][k] - self.speed[j][i]).abs() <= tolerance);
         let long_enough = |k: &usize| self.time[i] - self.time[*k] >= seconds;
         (0..=i).rev().take_while(|&k| near(k)).any(|k| long_enough(&k))
     }
@@ -203,7 +212,7 @@ impl SpeedRun {
         let mut k = i;
         while k + 1 < self.time.len() && self.time[k] - self.time[i] < seconds {
             k += 1;
-            if (0..2).any(|j| (self.speed[j][k] - self.speed[j][i]).abs() > tolerance) {
+            if self.standing[k] || (0..2).any(|j| (self.speed[j][k] - self.speed[j][i]).abs() > tolerance) {
                 return false;
             }
         }

@@ -1,53 +1,142 @@
 //! Wheels that are commanded to turn the robot while its body does not turn: dug in, or spinning free.
+//!
+//! Looked for before anything else is measured: a body that stands has neither loads nor a track.
 
+use robot_model::Robot;
+use verdict::{Quantity, Standstill};
+
+use crate::model::{Operating, predicted};
+use crate::pieces::pieces;
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, changes::Stuck, measuring::Turns};
-use verdict::Standstill;
 
 const STUCK: Stuck = CHANGES.standstill;
 const TURNS: Turns = MEASURING.turns;
+
+/// The effective track that the robot file predicts for a turn on the spot, m.
+pub(crate) fn track_of_file(robot: &Robot<f64>) -> f64 {
+    let speed = [-TURNS.difference, TURNS.difference];
+    predicted(robot, &[], Operating { quantity: Quantity::EffectiveTrack, speed }).exp()
+}
 
 /// Stretches of a recording in which the body stood although the wheels were commanded to turn it;
 /// `track` in m.
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
+    let commanded = |i: usize| run.difference(i).abs() > STUCK.turn;
     let share = |i: usize| yaw[i] * track / run.difference(i);
-    let stands = |i: usize| {
-        run.difference(i).abs() > STUCK.turn && run.held(i, TURNS.steady, TURNS.hold) && share(i).abs() < STUCK.share
-    };
-    let rows: Vec<usize> = (0..run.time.len()).collect();
-    let stretch = |rows: &[usize]| {
-        let (first, last) = (rows[0], rows[rows.len() - 1]);
-        let seconds = run.time[last] - run.time[first];
-        (stands(first) && seconds >= STUCK.least_seconds).then(|| {
-            let mean = |f: &dyn Fn(usize) -> f64| rows.iter().map(|&i| f(i)).sum::<f64>() / rows.len() as f64;
-            Standstill {
-                recording: run.name.clone(),
-                interval: [run.time[first], run.time[last]],
-                share: mean(&share),
-                load: mean(&|i| run.torque[0][i].abs().max(run.torque[1][i].abs())),
-            }
+    // What was commanded one way for a while, and what came of it.
+    let answered = |i: usize| {
+        let way = run.difference(i).signum();
+        let begin = run.time.partition_point(|t| *t < run.time[i] - STUCK.mean);
+        let whole = run.time[i] - run.time[0] >= STUCK.mean;
+        let same = |k: usize| commanded(k) && run.difference(k) * way > 0.0;
+        (whole && (begin..=i).all(same)).then(|| {
+            let sum = |f: &dyn Fn(usize) -> f64| (begin..=i).map(f).sum::<f64>();
+            sum(&|k| yaw[k]) * track / sum(&|k| run.difference(k))
         })
     };
-    rows.chunk_by(|&a, &b| stands(a) == stands(b)).filter_map(stretch).collect()
+    let answers: Vec<Option<f64>> = (0..run.time.len()).map(answered).collect();
+    let stands = |i: &usize| answers[*i].is_some_and(|share| share.abs() < STUCK.share);
+    let turns = |i: usize| answers[i].is_some_and(|share| share.abs() >= STUCK.share);
+
+    let mut found: Vec<[usize; 2]> = Vec::new();
+    for piece in pieces(&run.time, (0..run.time.len()).filter(stands), STUCK.mean) {
+        let last = piece[piece.len() - 1];
+        // It stood from the command on, before that could be told.
+        let mut first = piece[0];
+        while first > 0 && commanded(first - 1) && share(first - 1).abs() < STUCK.share {
+            first -= 1;
+        }
+        match found.last_mut() {
+            Some([_, end]) if run.time[first] - run.time[*end] <= STUCK.bridge && !(*end..first).any(turns) => {
+                *end = last;
+            }
+            _ => found.push([first, last]),
+        }
+    }
+
+    found.retain(|[first, last]| run.time[*last] - run.time[*first] >= STUCK.least_seconds);
+    let told = |[first, last]: [usize; 2]| {
+        let rows: Vec<usize> = (first..=last).filter(|&i| commanded(i)).collect();
+        let mean = |f: &dyn Fn(usize) -> f64| rows.iter().map(|&i| f(i)).sum::<f64>() / rows.len().max(1) as f64;
+        Standstill {
+            recording: run.name.clone(),
+            interval: [run.time[first], run.time[last]],
+            share: mean(&share),
+            load: mean(&|i| run.torque[0][i].abs().max(run.torque[1][i].abs())),
+        }
+    };
+    found.into_iter().map(told).collect()
+}
+
+/// Finds where the bodies of these recordings stand, and marks the rows: they leave all else.
+pub(crate) fn mark(runs: &mut [SpeedRun], track: f64) -> Vec<Standstill> {
+    let mut out = Vec::new();
+    for run in runs {
+        let found = standstills(run, track);
+        let stands = |t: f64| found.iter().any(|s| s.interval[0] <= t && t <= s.interval[1]);
+        run.standing = run.time.iter().map(|t| stands(*t)).collect();
+        out.extend(found);
+    }
+    out
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::run::tests::{CONSTANT, GROUND, Ground, RADIUS, recording};
+    use crate::testing::value;
+
+    const SPIN: [f64; 2] = [-0.2, 0.2];
+    const AHEAD: [f64; 2] = [0.5, 0.5];
+
+    fn run(track: f64, legs: &[([f64; 2], f64)]) -> SpeedRun {
+        SpeedRun::new(&recording(Ground { track, ..GROUND }, legs, None), RADIUS, CONSTANT).expect("a run")
+    }
 
     #[test]
     fn a_body_that_does_not_turn_is_told_from_one_that_does() {
-        let run = |track: f64| {
-            let legs = [([0.5, 0.5], 5.0), ([-0.2, 0.2], 8.0), ([0.5, 0.5], 5.0)];
-            SpeedRun::new(&recording(Ground { track, ..GROUND }, &legs, None), RADIUS, CONSTANT).expect("a run")
-        };
-        assert_eq!(standstills(&run(GROUND.track), GROUND.track), []);
-        let found = standstills(&run(100.0), GROUND.track);
-        assert_eq!(found.len(), 1);
-        let [from, until] = found[0].interval;
-        assert!((5.9..6.4).contains(&from) && (12.5..13.1).contains(&until), "{found:?}");
-        assert!(found[0].share < 0.05);
+        let legs = [(AHEAD, 5.0), (SPIN, 8.0), (AHEAD, 5.0)];
+        assert_eq!(standstills(&run(GROUND.track, &legs), GROUND.track), []);
+        // A third of the expected rate is what dug-in wheels drag a body along with.
+        for (track, share) in [(100.0, 0.05), (GROUND.track / 0.3, 0.31)] {
+            let found = standstills(&run(track, &legs), GROUND.track);
+            assert_eq!(found.len(), 1, "{found:?}");
+            let [from, until] = found[0].interval;
+            assert!((4.8..5.6).contains(&from) && (12.5..13.1).contains(&until), "{found:?}");
+            assert!(found[0].share < share);
+        }
+        assert_eq!(standstills(&run(GROUND.track / 0.4, &legs), GROUND.track), []);
+    }
+
+    #[test]
+    fn what_is_driven_between_two_vain_turns_stands_too_and_a_turn_that_succeeds_ends_it() {
+        let legs = [(AHEAD, 5.0), (SPIN, 5.0), (AHEAD, 3.0), ([0.2, -0.2], 5.0), (AHEAD, 5.0)];
+        let found = standstills(&run(100.0, &legs), GROUND.track);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].interval[1] > 17.0, "{found:?}");
+    }
+
+    #[test]
+    fn rows_of_a_body_that_stands_leave_loads_and_track() {
+        let turning = [(AHEAD, 10.0), (SPIN, 8.0), (AHEAD, 10.0), ([0.2, -0.2], 8.0), (AHEAD, 10.0)];
+        let mut both = run(GROUND.track, &turning);
+        let until = both.time.partition_point(|t| *t < 30.0);
+        // In its first turn the body stands, and the wheels dig with three times the torque.
+        for i in 0..until {
+            if both.difference(i) > 0.1 {
+                if let Some(yaw) = both.yaw_rate.as_mut() {
+                    yaw[i] *= 0.1;
+                }
+                both.torque.iter_mut().for_each(|side| side[i] *= 3.0);
+            }
+        }
+        let spin = 0.5 * GROUND.straight + GROUND.turning;
+        assert!(value(&both, Quantity::SpinSum).is_some_and(|s| s > 1.5 * spin));
+        let mut runs = [both];
+        assert_eq!(mark(&mut runs, GROUND.track).len(), 1);
+        assert!(value(&runs[0], Quantity::SpinSum).is_some_and(|s| (s / spin - 1.0).abs() < 0.01));
+        assert!(value(&runs[0], Quantity::EffectiveTrack).is_none_or(|b| (b / GROUND.track - 1.0).abs() < 0.05));
     }
 }

@@ -1,7 +1,14 @@
 //! Drives with a known load, for tests.
 
+use inference::Options;
+use robot_model::Robot;
+use robot_model::paper::Parameters;
+use robot_model::tunable::tunables;
+use verdict::{Diagnosis, Load, Quantity};
+
 use crate::clock::Alignment;
 use crate::run::{BodyRates, SpeedRun};
+use crate::{SteadyCase, diagnose_steady};
 
 /// Torque of the robot's weight at a wheel's radius, N m, and the usual straight load, N m.
 pub(crate) const WEIGHT: f64 = 121.5;
@@ -10,7 +17,7 @@ const RATE: f64 = 6.5;
 const RATE_STEP: f64 = 0.1;
 
 /// A part of a drive: speeds of the sides, m/s; how long, s; slope uphill along the body, degrees; straight load and
-/// scrub couple, N m.
+/// scrub couple, N m; share of its yaw rate that the body takes; what each side reads of its torque.
 #[derive(Clone, Copy)]
 pub(crate) struct Leg {
     pub(crate) speed: [f64; 2],
@@ -18,15 +25,22 @@ pub(crate) struct Leg {
     pub(crate) slope: f64,
     pub(crate) straight: f64,
     pub(crate) scrub: f64,
+    pub(crate) turned: f64,
+    pub(crate) sides: [f64; 2],
 }
 
 impl Leg {
     pub(crate) const fn straight(seconds: f64) -> Self {
-        Self { speed: [0.24, 0.24], seconds, slope: 0.0, straight: STRAIGHT, scrub: 20.0 }
+        Self { speed: [0.24, 0.24], seconds, slope: 0.0, straight: STRAIGHT, scrub: 20.0, turned: 1.0, sides: [1.0; 2] }
     }
 
     pub(crate) const fn turn(seconds: f64) -> Self {
         Self { speed: [0.08, 0.24], ..Self::straight(seconds) }
+    }
+
+    /// A turn to the right.
+    pub(crate) const fn right(seconds: f64) -> Self {
+        Self { speed: [0.24, 0.08], ..Self::straight(seconds) }
     }
 
     pub(crate) const fn slope(self, slope: f64) -> Self {
@@ -51,12 +65,12 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
                 let way = leg.speed[0].signum();
                 let pull = WEIGHT * leg.slope.to_radians().sin();
                 let own = 0.5 * (leg.straight * way + pull) + if side == 1 { turn } else { -turn } * leg.scrub;
-                let shown = own * leg.speed[side].signum() + scatter(i + 3 * side);
+                let shown = leg.sides[side] * own * leg.speed[side].signum() + scatter(i + 3 * side);
                 if shown > DEAD_BAND { shown } else { 0.0 }
             })
             .collect()
     };
-    let yaw: Vec<f64> = rows.iter().map(|leg| (leg.speed[1] - leg.speed[0]) / TRACK).collect();
+    let yaw: Vec<f64> = rows.iter().map(|leg| leg.turned * (leg.speed[1] - leg.speed[0]) / TRACK).collect();
     let steps = (time[time.len() - 1] / RATE_STEP) as usize;
     let grid: Vec<f64> = (0..=steps).map(|k| k as f64 * RATE_STEP).collect();
     let row = |t: f64| ((t * RATE) as usize).min(rows.len() - 1);
@@ -80,6 +94,50 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         alignment: Some(Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() }),
         yaw_rate: Some(yaw),
         body_rates,
+        standing: vec![false; time.len()],
+        changed: vec![false; time.len()],
         time,
     }
+}
+
+/// Straight driving and turns both ways, some rounds of it.
+pub(crate) fn rounds(n: usize) -> Vec<Leg> {
+    let round = [Leg::straight(12.0), Leg::turn(8.0), Leg::straight(12.0), Leg::right(8.0)];
+    round.into_iter().cycle().take(4 * n).collect()
+}
+
+/// A Husky, about.
+pub(crate) fn robot() -> Robot<f64> {
+    Robot {
+        mass: 75.0,
+        yaw_inertia: 5.0,
+        half_wheelbase: 0.256,
+        half_track: 0.2854,
+        wheel_radius: 0.1651,
+        adhesion: 0.6,
+        rest_speed: 0.03,
+        lateral_factor: 0.7,
+        coulomb: [3.0; 2],
+        ..Robot::from(&Parameters::SET_C)
+    }
+}
+
+/// The diagnosis of drives against one of three rounds.
+pub(crate) fn diagnosis(recordings: &[&[Leg]]) -> Diagnosis {
+    let recordings =
+        recordings.iter().enumerate().map(|(k, legs)| SpeedRun { name: k.to_string(), ..drive(legs, false) });
+    let case = SteadyCase {
+        robot: robot(),
+        sigma: tunables::<f64>().map(|constant| constant.sigma),
+        torque_sigma: 0.1,
+        references: vec![drive(&rounds(3), false)],
+        recordings: recordings.collect(),
+    };
+    diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis")
+}
+
+/// A load of a recording.
+pub(crate) fn value(run: &SpeedRun, quantity: Quantity) -> Option<f64> {
+    let loads: Vec<Load> = crate::extract::extract(run).0;
+    loads.into_iter().find(|l| l.quantity == quantity).map(|l| l.value)
 }

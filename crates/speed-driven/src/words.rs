@@ -1,8 +1,9 @@
 //! What a speed-driven case says in sentences.
 
 use crate::Alignment;
+use crate::compare::{Judgement, judgement, no_difference, told};
+use crate::headline::headline;
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
-use inference::words::{quantity, revealed_by};
 use robot_model::effect::LoadTerm;
 use verdict::{
     ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
@@ -10,60 +11,19 @@ use verdict::{
 
 const SENTENCES: Sentences = NAMING.sentences;
 
-/// The answer of a speed-driven case in sentences.
-pub(crate) fn sentences(d: &Diagnosis, loads: &Loads, set_points: bool) -> Vec<String> {
+/// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
+pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
     let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
-    let mut out = Vec::new();
-    match d.verdict {
-        Verdict::Withheld => out.push("These recordings permit no answer: too little steady driving.".to_owned()),
-        Verdict::NoMismatch if loads.changes.found.is_empty() && loads.turning_changes.is_empty() => {
-            out.push("No mismatch: the loads of steady driving need no cause that the simulation lacks.".to_owned());
-        }
-        Verdict::NoMismatch => {
-            out.push(
-                "No mismatch over whole recordings: their loads need no cause that the simulation \
-                 lacks. Within recordings the load changes, as listed here."
-                    .to_owned(),
-            );
-        }
-        Verdict::Unknown => {
-            out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
-        }
-        Verdict::Explained => {
-            let name = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(id.to_owned(), |c| c.name.clone());
-            for class in &d.indistinguishable {
-                let names: Vec<String> = class.iter().map(|i| name(i)).collect();
-                let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
-                let tail = if names.len() > 1 {
-                    "; these recordings cannot tell them apart".to_owned()
-                } else {
-                    format!(", {size}")
-                };
-                out.push(format!("Missing: {}{tail}.", names.join(" or ")));
-                // The drives that reveal the members split the class; the first ones are enough to begin with.
-                let mut drives: Vec<&str> = Vec::new();
-                for drive in class.iter().filter_map(|id| revealed_by(id)) {
-                    if !drives.contains(&drive) && drives.len() < SENTENCES.drives {
-                        drives.push(drive);
-                    }
-                }
-                if class.len() > 1 {
-                    out.push(format!("To tell them apart, record: {}.", drives.join("; ")));
-                }
-            }
-        }
-    }
+    let mut out = headline(d, of_loads, loads, theirs);
+    out.extend(told(loads).map(|r| load(r, theirs)));
 
-    let pooled = |r: &&Ratio| {
-        !loads.pooled.iter().any(|p| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording))
-    };
-    for r in loads.pooled.iter().chain(loads.ratios.iter().filter(pooled)) {
-        out.push(load(r, theirs));
+    if loads.standstills.len() > 1 {
+        out.extend(loads.standstills.iter().map(standstill));
     }
-
-    out.extend(loads.standstills.iter().map(standstill));
-    out.extend(loads.changes.found.iter().map(change));
-    out.extend(loads.turning_changes.iter().map(turning_change));
+    let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
+    // One that leads has been said.
+    let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
+    out.extend(more);
     out.extend(hidden(&loads.changes.hidden));
     out.extend(turning(&loads.turning));
     if set_points && !loads.ratios.is_empty() {
@@ -95,6 +55,23 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
     })
 }
 
+/// How a load compares with `theirs`.
+pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
+    let [a, b] = r.interval;
+    match r.quantity {
+        Quantity::EffectiveTrack => format!(
+            "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
+            r.value, r.half, r.ratio
+        ),
+        Quantity::Asymmetry => format!(
+            "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
+            r.ratio.abs(),
+            if r.ratio < 0.0 { "below" } else { "above" }
+        ),
+        _ => format!("{:.2} times {theirs} (90 % interval {a:.2} to {b:.2})", r.ratio),
+    }
+}
+
 /// A load, how it compares with `theirs`, and whether its interval shows a difference.
 fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
@@ -106,29 +83,13 @@ fn load(r: &Ratio, theirs: &str) -> String {
         _ => String::new(),
     };
 
-    let [a, b] = r.interval;
-    let compared = match r.quantity {
-        Quantity::EffectiveTrack => format!(
-            "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
-            r.value, r.half, r.ratio
-        ),
-        Quantity::Asymmetry => format!(
-            "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
-            r.ratio.abs(),
-            if r.ratio < 0.0 { "below" } else { "above" }
-        ),
-        _ => format!("{:.2} times {theirs} (90 % interval {a:.2} to {b:.2})", r.ratio),
-    };
-
-    let none = if r.quantity.is_difference() { 0.0 } else { 1.0 };
-    let unnamed = NAMING.priors.unnamed_straight;
-    let is_within_cold = a < unnamed && b > 1.0 / unnamed;
-    let judgement = if a <= none && none <= b {
-        format!("no difference is shown, since the interval contains {none}")
-    } else if r.quantity == Quantity::StraightLoad && is_within_cold {
-        "it differs, but a cold drive train varies as much, so no cause is named".to_owned()
-    } else {
-        "it differs".to_owned()
+    let compared = compared(r, theirs);
+    let judgement = match judgement(r) {
+        Judgement::Alike => {
+            format!("no difference is shown, since the interval contains {}", no_difference(r.quantity))
+        }
+        Judgement::Unnamed => "it differs, but a cold drive train varies as much, so no cause is named".to_owned(),
+        Judgement::Differs => "it differs".to_owned(),
     };
     let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
     format!(
@@ -141,13 +102,24 @@ fn load(r: &Ratio, theirs: &str) -> String {
 
 fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
+    format!("{}: from {from:.1} s to {until:.1} s the body stands: {}.", s.recording, how_it_stands(s))
+}
+
+/// By what a body is seen to stand.
+pub(crate) fn how_it_stands(s: &Standstill) -> String {
     format!(
-        "{}: from {from:.1} s to {until:.1} s the body stands although its wheels are commanded \
-         to turn it (yaw rate {:.0} % of what they ask for, {:.0} N m on the more loaded side): \
-         it is dug in, or its wheels spin.",
-        s.recording,
+        "it turns at {:.0} % of the rate that its wheels ask for, with {:.0} N m on the more loaded side",
         100.0 * s.share,
         s.load
+    )
+}
+
+/// What a reference that stands does to the answer.
+pub(crate) fn standing_reference(s: &Standstill) -> String {
+    let [from, until] = s.interval;
+    format!(
+        "reference {}: from {from:.1} s to {until:.1} s the body stands while its wheels turn; these rows are not used",
+        s.recording
     )
 }
 
@@ -161,7 +133,7 @@ fn term_name(effect: &str) -> Option<&'static str> {
     catalogue::find(effect)?.effect?.load_term.map(LoadTerm::name)
 }
 
-fn change(c: &LoadChange) -> String {
+pub(crate) fn change(c: &LoadChange) -> String {
     let causes: Vec<&str> = c.causes.iter().map(|id| term_name(id).unwrap_or(id)).collect();
     let way = if c.slope > 0.0 { "uphill" } else { "downhill" };
     let size = if c.bound {
@@ -190,7 +162,7 @@ fn change(c: &LoadChange) -> String {
     )
 }
 
-fn turning_change(c: &TurningChange) -> String {
+pub(crate) fn turning_change(c: &TurningChange) -> String {
     format!(
         "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
          measured over {:.0} s: the ground is another.",

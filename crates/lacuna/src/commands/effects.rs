@@ -66,7 +66,7 @@ fn render() -> String {
     }
 
     format!(
-        "{}\nCauses of command-driven robots, and answers that name no cause:\n\n{}\n`lacuna explain NAME` shows all about \
+        "{}\nCauses of command-driven and speed-driven robots, and answers that name no cause:\n\n{}\n`lacuna explain NAME` shows all about \
          one.\n",
         effects.render(),
         causes.render()

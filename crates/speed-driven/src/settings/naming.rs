@@ -43,6 +43,8 @@
         medium_wheelbase: f64 = 0.36, "m", "guess";
         /// Price of naming an effect.
         per_effect: f64 = 3.0, "nats", "guess";
+        /// What an effect costs more that needs a hand on the robot: its mass, motors, torque constant, wheels.
+        by_hand: f64 = 3.0, "nats", "guess: ground and slope differ between places, bodies do not change by themselves";
         /// Price of each factor of "unknown".
         per_unknown: f64 = 4.0, "nats", "guess";
     }
@@ -74,6 +76,14 @@
             left rolling resistance alone although every straight drive goes one way";
         /// What is this much less probable than "nothing is missing" stands in for nothing.
         least_plausible: f64 = 2.0, "nats", "guess";
+        /// Probability of a body that was seen to stand: a gyro that is off looks alike.
+        standing: f64 = 0.99, "1", "guess";
+        /// Probability that a change inside a recording is one: it is told where its 90 % interval shows it.
+        changed: f64 = 0.9, "1", "definition of the interval";
+        /// Effects that fit a difference too small to name one, at most.
+        fitting: usize = 3, "1", "field study: longer classes cannot be acted upon";
+        /// They explain at least this share of what the best of them does.
+        fits: f64 = 0.5, "1", "guess";
         /// Causes below this probability are not listed.
         listed: f64 = 1e-3, "1", "guess";
     }
@@ -82,6 +92,8 @@
     sentences: Sentences {
         /// Drives that are named to split a class: the first ones are enough to begin with.
         drives: usize = 3, "1", "guess";
+        /// Members of a class that are named in a sentence; the table has all.
+        members: usize = 3, "1", "field study: longer lists cannot be acted upon";
         /// Speeds of pooled recordings that differ by more than this are given as a range.
         one_speed: f64 = 0.05, "m/s", "guess";
         /// Times closer than this are one moment.

@@ -1,0 +1,19 @@
+//! Causes of speed-driven robots that have no law in a plant: the loads of steady driving do not show them, the body does.
+
+use crate::CauseSpec;
+
+/// Wheels turn, the body does not.
+pub const STANDING: CauseSpec = CauseSpec {
+    id: "standing",
+    name: "the body stands while its wheels turn: dug in, or the wheels spin",
+    robots: "speed-driven",
+    meaning: "The wheels are driven at speeds that would turn the robot, and the body does not turn with them.",
+    size: "yaw rate over what the wheels' speeds and the effective track of the references give",
+    unit: "-",
+    recognised: "For three seconds or more the gyro shows less than about a third of the yaw rate that the wheels ask for.",
+    revealed_by: "turns both ways, a gyro recorded",
+    resembles: "a gyro that is off or of another scale; a track that is much longer than thought",
+};
+
+/// All of them.
+pub const ALL: [&CauseSpec; 1] = [&STANDING];

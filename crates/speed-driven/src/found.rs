@@ -1,0 +1,171 @@
+//! Causes that were measured, beside those that the loads of whole recordings name: a body that stands, intervals that
+//! exclude no difference, changes inside recordings.
+
+use std::collections::BTreeMap;
+
+use catalogue::answer::NONE;
+use catalogue::command_driven::EFFECTIVE_TRACK;
+use catalogue::speed_driven::STANDING;
+use inference::robust::NINETY;
+use robot_model::effect::LoadTerm;
+use statrs::distribution::{ContinuousCDF, Normal};
+use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
+
+use crate::answer;
+use crate::compare::{Judgement, judgement, sigmas, told};
+use crate::name::{Named, Naming};
+use crate::pieces::GRADE;
+use crate::settings::{NAMING, naming::Answer};
+
+const ANSWER: Answer = NAMING.answer;
+
+/// Adds what was found; the verdict follows. Where the loads name no cause, ratios whose intervals exclude no difference are
+/// causes to look for, then changes inside recordings; a body that stands is one always, and comes first.
+pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
+    if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
+        for difference in strongest(loads) {
+            match difference.quantity {
+                Quantity::EffectiveTrack => insert(out, vec![track(difference)]),
+                _ => fitting(out, naming, difference),
+            }
+        }
+        if out.verdict != Verdict::Explained {
+            changes(loads).into_iter().for_each(|class| insert(out, class));
+        }
+    }
+    if let Some(cause) = standing(&loads.standstills) {
+        insert(out, vec![cause]);
+        out.indistinguishable.rotate_right(1);
+    }
+}
+
+/// The clearest difference of the effective track and that of the loads, the clearer first.
+pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
+    let of = |track: bool| {
+        let own = told(loads).filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
+        own.filter(|r| judgement(r) == Judgement::Differs).max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))
+    };
+    let mut out: Vec<&Ratio> = [of(true), of(false)].into_iter().flatten().collect();
+    out.sort_by(|a, b| sigmas(b).total_cmp(&sigmas(a)));
+    out
+}
+
+/// Probability that a ratio differs, by its interval.
+fn differs(r: &Ratio) -> f64 {
+    1.0 - 2.0 * Normal::standard().cdf(-sigmas(r))
+}
+
+fn track(r: &Ratio) -> Cause {
+    let spec = EFFECTIVE_TRACK;
+    Cause {
+        magnitude: Some(r.value),
+        sigma: Some(r.half / NINETY),
+        unit: spec.unit.into(),
+        ..Cause::plain(spec.id, spec.name, differs(r))
+    }
+}
+
+/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
+fn fitting(out: &mut Diagnosis, naming: Option<&Naming>, difference: &Ratio) {
+    let none = |c: &&Cause| c.effect == NONE.id;
+    let before = out.ranked.iter().find(none).map_or(0.0, |c| c.probability);
+    let after = before.min(1.0 - differs(difference));
+    for c in &mut out.ranked {
+        c.probability *=
+            if c.effect == NONE.id { after / before.max(1e-9) } else { (1.0 - after) / (1.0 - before).max(1e-9) };
+    }
+    let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.parts.len() == 1);
+    let most = singles().map(|e| e.gain).fold(0.0, f64::max);
+    let mut class: Vec<&Named> = Vec::new();
+    for e in singles().filter(|e| e.gain > 0.0 && e.gain >= ANSWER.fits * most) {
+        if class.len() < ANSWER.fitting && class.iter().all(|other| other.ids() != e.ids()) {
+            class.push(e);
+        }
+    }
+    if class.is_empty() {
+        // Whatever it is, no law of the catalogue makes it.
+        out.verdict = Verdict::Unknown;
+        return;
+    }
+    let ranked = |id: &str| out.ranked.iter().find(|c| c.effect == id).cloned();
+    let class = class.into_iter().map(|e| ranked(e.ids()[0]).unwrap_or_else(|| answer::cause(e, 0, 0.0))).collect();
+    insert(out, class);
+}
+
+/// Classes of causes of what changes inside recordings.
+fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
+    let known = |id: &str, of: usize| {
+        let name = catalogue::find(id).and_then(|e| e.effect).map_or(id, |e| e.name);
+        Cause::plain(id, name, ANSWER.changed / of as f64)
+    };
+    let mut classes: Vec<Vec<Cause>> = Vec::new();
+    let found = &loads.changes.found;
+    for change in found {
+        if classes
+            .iter()
+            .any(|class| class.iter().map(|c| c.effect.as_str()).eq(change.causes.iter().map(|c| c.as_ref())))
+        {
+            continue;
+        }
+        let alike = || found.iter().filter(|c| c.causes == change.causes);
+        let intervals = by_recording(alike().map(|c| (c.recording.as_str(), c.interval)));
+        let steepest = alike().max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
+        let cause = |id: &verdict::Word| {
+            let slope = steepest.filter(|_| *id == GRADE);
+            Cause {
+                magnitude: slope.map(|c| c.slope.to_radians()),
+                sigma: slope.map(|c| c.slope_half.to_radians() / NINETY),
+                unit: if *id == GRADE { "rad".into() } else { "-".into() },
+                intervals: Some(intervals.clone()),
+                ..known(id, change.causes.len())
+            }
+        };
+        classes.push(change.causes.iter().map(cause).collect());
+    }
+    if !loads.turning_changes.is_empty() {
+        let intervals = by_recording(loads.turning_changes.iter().map(|c| (c.recording.as_str(), c.interval)));
+        classes
+            .push(vec![Cause { intervals: Some(intervals), ..known(catalogue::of_load_term(LoadTerm::Turning), 1) }]);
+    }
+    classes
+}
+
+/// The stretch in which a body stood longest.
+pub(crate) fn longest(all: &[Standstill]) -> Option<&Standstill> {
+    let seconds = |s: &Standstill| s.interval[1] - s.interval[0];
+    all.iter().max_by(|a, b| seconds(a).total_cmp(&seconds(b)))
+}
+
+fn standing(all: &[Standstill]) -> Option<Cause> {
+    let longest = longest(all)?;
+    let intervals = by_recording(all.iter().map(|s| (s.recording.as_str(), s.interval)));
+    Some(Cause {
+        magnitude: Some(longest.share),
+        intervals: Some(intervals),
+        ..Cause::plain(STANDING.id, STANDING.name, ANSWER.standing)
+    })
+}
+
+fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<String, Vec<[f64; 2]>> {
+    let mut out: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
+    for (recording, interval) in all {
+        out.entry(recording.to_owned()).or_default().push(interval);
+    }
+    out
+}
+
+/// Ranks a class of causes of something that was measured. That nothing is missing is then no likelier than that the
+/// class is not there.
+fn insert(out: &mut Diagnosis, class: Vec<Cause>) {
+    out.indistinguishable.push(class.iter().map(|c| c.effect.clone()).collect());
+    let left = 1.0 - class.iter().map(|c| c.probability).sum::<f64>().min(1.0);
+    for none in out.ranked.iter_mut().filter(|c| c.effect == NONE.id) {
+        none.probability = none.probability.min(left);
+    }
+    for cause in class {
+        out.ranked.retain(|c| c.effect != cause.effect);
+        out.ranked.push(cause);
+    }
+    out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    out.verdict = Verdict::Explained;
+}

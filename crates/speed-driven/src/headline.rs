@@ -1,0 +1,158 @@
+//! What leads the sentences: the strongest thing that was found.
+//!
+//! A body that stands; causes that the loads name; ratios whose intervals exclude no difference; changes inside
+//! recordings; nothing.
+
+use inference::words::{quantity, revealed_by};
+use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict};
+
+use crate::compare::{Judgement, judgement, told};
+use crate::found::{longest, strongest};
+use crate::settings::{NAMING, naming::Sentences};
+use crate::words::{change, compared, how_it_stands, turning_change};
+
+const SENTENCES: Sentences = NAMING.sentences;
+
+/// The first sentences; `of_loads` is the verdict of the loads alone, `theirs` what they are compared with.
+pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
+    let standing = standing(&loads.standstills);
+    let leads = standing.is_empty();
+    let rest = match of_loads {
+        Verdict::Explained => named(d),
+        Verdict::Unknown => unknown(loads, theirs),
+        Verdict::NoMismatch | Verdict::Withheld => {
+            let differences = differences(d, loads, theirs);
+            if differences.is_empty() { changes(of_loads, loads, leads) } else { differences }
+        }
+    };
+    [standing, rest].concat()
+}
+
+/// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.
+fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
+    let whole = match of_loads {
+        Verdict::Withheld if leads => "These recordings permit no answer: too little steady driving.",
+        Verdict::Withheld => "What is left is too little steady driving to compare any load.",
+        _ if leads => "No mismatch: the loads of steady driving need no cause that the simulation lacks.",
+        _ => "What is left shows no mismatch: its loads need no cause that the simulation lacks.",
+    };
+    let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
+    let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
+    let largest = turning.iter().max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()));
+    let Some(clearest) = steepest.map(change).or_else(|| largest.map(turning_change)) else {
+        return vec![whole.to_owned()];
+    };
+    let count = straight.len() + turning.len();
+    let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
+    let rest = match of_loads {
+        Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
+        _ => "Beside that the loads need no cause that the simulation lacks.",
+    };
+    vec![format!("Change inside a recording{how_many}: {clearest}"), rest.to_owned()]
+}
+
+/// The clearest differences, though none of their causes is likely enough to be named; the class that fits each.
+fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
+    let strongest = strongest(loads);
+    let mut out: Vec<String> = strongest.iter().map(|r| difference(r, theirs)).collect();
+    let all = told(loads).filter(|r| judgement(r) == Judgement::Differs).count();
+    if all > strongest.len() {
+        out.push(format!("In all, {all} comparisons exclude that nothing differs; each is listed below."));
+    }
+    for r in strongest {
+        out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d) });
+    }
+    out
+}
+
+fn difference(r: &Ratio, theirs: &str) -> String {
+    let tentative = if r.firm { "" } else { " (tentative: short)" };
+    format!("Difference: in {} the {} is {}{tentative}.", r.recording, r.quantity.name(), compared(r, theirs))
+}
+
+/// What another effective track means, and what to do.
+fn slips(r: &Ratio) -> String {
+    let percent = 100.0 * (1.0 - 1.0 / r.ratio).abs();
+    let how = if r.ratio > 1.0 { "less" } else { "more" };
+    format!(
+        "The body turns by {percent:.0} % {how} than the same wheel speeds turned it before: ground that gives way or holds \
+         otherwise, or other tyres. Give the simulation this track, and spin both ways on both grounds to be sure."
+    )
+}
+
+/// The class of effects that fit a difference of the loads, and what tells them apart.
+fn fits(d: &Diagnosis) -> Vec<String> {
+    let of_catalogue = |class: &&Vec<String>| class.iter().any(|id| revealed_by(id).is_some());
+    let Some(class) = d.indistinguishable.iter().find(of_catalogue) else {
+        return vec!["No effect of the catalogue makes such a difference of the loads.".to_owned()];
+    };
+    let names = names(d, class);
+    let mut out = vec![format!("What fits the loads best: {}; none of them stands out.", names.join(" or "))];
+    out.extend(apart(class));
+    out
+}
+
+/// Loads that no effect explains.
+fn unknown(loads: &Loads, theirs: &str) -> Vec<String> {
+    let mut out: Vec<String> = strongest(loads).into_iter().map(|r| difference(r, theirs)).collect();
+    out.push("The loads differ, but in a way that no effect in the catalogue explains.".to_owned());
+    out
+}
+
+/// Where the body stands longest, how that is seen, and what to do.
+fn standing(all: &[Standstill]) -> Vec<String> {
+    let Some(s) = longest(all) else { return Vec::new() };
+    let [from, until] = s.interval;
+    let more = match all.len() - 1 {
+        0 => String::new(),
+        1 => ", and once more".to_owned(),
+        n => format!(", and {n} times more"),
+    };
+    vec![
+        format!(
+            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body does not{more}.",
+            s.recording
+        ),
+        format!(
+            "There {}: it is dug in, or its wheels spin. Nothing else here uses these rows; look at the robot and the \
+             ground there before you change the simulation.",
+            how_it_stands(s)
+        ),
+    ]
+}
+
+/// The causes that the loads name, and what tells the members of a class apart.
+fn named(d: &Diagnosis) -> Vec<String> {
+    let of_loads = |class: &&Vec<String>| class.iter().all(|id| *id != catalogue::speed_driven::STANDING.id);
+    let mut out = Vec::new();
+    for class in d.indistinguishable.iter().filter(of_loads) {
+        let mut names = names(d, class);
+        let less = names.len().saturating_sub(SENTENCES.members);
+        if less > 1 {
+            names.truncate(SENTENCES.members);
+            names.push(format!("one of {less} less likely ones"));
+        }
+        let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
+        let tail =
+            if names.len() > 1 { "; these recordings cannot tell them apart".to_owned() } else { format!(", {size}") };
+        out.push(format!("Missing: {}{tail}.", names.join(" or ")));
+        out.extend(apart(class));
+    }
+    out
+}
+
+fn names(d: &Diagnosis, class: &[String]) -> Vec<String> {
+    let name = |id: &String| d.ranked.iter().find(|c| c.effect == *id).map_or(id.clone(), |c| c.name.clone());
+    class.iter().map(name).collect()
+}
+
+/// The drives that reveal the members of a class split it; the first ones are enough to begin with.
+fn apart(class: &[String]) -> Option<String> {
+    let mut drives: Vec<&str> = Vec::new();
+    for drive in class.iter().filter_map(|id| revealed_by(id)) {
+        if !drives.contains(&drive) && drives.len() < SENTENCES.drives {
+            drives.push(drive);
+        }
+    }
+    (class.len() > 1).then(|| format!("To tell them apart, record: {}.", drives.join("; ")))
+}

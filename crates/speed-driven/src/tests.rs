@@ -1,0 +1,114 @@
+//! Whole diagnoses: what leads the answer, and that nothing below contradicts it.
+
+use verdict::{Diagnosis, Quantity, Ratio, Verdict};
+
+use crate::testing::{Leg, diagnosis, rounds};
+
+fn ratio(d: &Diagnosis, quantity: Quantity) -> &Ratio {
+    let loads = d.steady.as_ref().expect("loads");
+    loads.ratios.iter().find(|r| r.quantity == quantity).expect("a ratio")
+}
+
+fn is_alike(r: &Ratio) -> bool {
+    r.interval[0] <= 1.0 && 1.0 <= r.interval[1]
+}
+
+#[test]
+fn the_references_drive_again_is_no_mismatch() {
+    let d = diagnosis(&[&rounds(3)]);
+    assert_eq!(d.verdict, Verdict::NoMismatch, "{:?}", d.sentences);
+    assert!(d.sentences[0].starts_with("No mismatch"), "{:?}", d.sentences);
+}
+
+#[test]
+fn a_body_that_stands_leads_the_answer_and_its_rows_touch_nothing_else() {
+    let stuck = Leg { scrub: 60.0, turned: 0.05, ..Leg::turn(20.0) };
+    let d = diagnosis(&[&[rounds(3), vec![stuck], rounds(1)].concat()]);
+    assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Explained, "standing"), "{:?}", d.ranked);
+    assert!(d.sentences[0].starts_with("Standing: in 0 from 120."), "{:?}", d.sentences);
+    assert!(d.ranked.iter().all(|c| c.effect != "none" || c.probability < 0.02), "{:?}", d.ranked);
+    for quantity in [Quantity::StraightLoad, Quantity::TurningLoad, Quantity::EffectiveTrack] {
+        assert!(is_alike(ratio(&d, quantity)), "{:?}", ratio(&d, quantity));
+    }
+    let loads = d.steady.expect("loads");
+    assert_eq!(loads.turning_changes, []);
+    // Forecasts of what moves are no worse for it.
+    for f in loads.forecasts {
+        assert!(f.corrected < f.retuned, "{f:?}");
+    }
+}
+
+/// No headline says that nothing is wrong above a sentence that reports a difference.
+fn agrees_with_itself(d: &Diagnosis) {
+    let nothing = d.sentences[0].starts_with("No mismatch") || d.verdict == Verdict::NoMismatch;
+    let differs = |s: &String| s.contains(": it differs.") || s.contains("Cause: ") || s.contains("times the torque");
+    assert!(!nothing || !d.sentences.iter().any(differs), "{:?}", d.sentences);
+}
+
+#[test]
+fn another_track_is_a_difference_though_the_loads_are_alike() {
+    let slides: Vec<Leg> = rounds(3).into_iter().map(|leg| Leg { turned: 0.8, ..leg }).collect();
+    let d = diagnosis(&[&slides]);
+    assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
+    assert!(d.sentences[0].starts_with("Difference: in 0 the effective track is 0.9"), "{:?}", d.sentences);
+    assert!(d.sentences.iter().any(|s| s.starts_with("The body turns by 20 % less")), "{:?}", d.sentences);
+    assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
+    assert_eq!(d.indistinguishable, [["effective_track"]]);
+    agrees_with_itself(&d);
+}
+
+#[test]
+fn the_verdict_never_contradicts_a_sentence() {
+    for (scrub, straight) in
+        [(20.0, 1.0), (23.0, 1.0), (26.0, 1.0), (32.0, 1.0), (14.0, 1.0), (20.0, 1.6), (20.0, 3.0), (10.0, 0.6)]
+    {
+        let other = |leg: Leg| Leg { scrub, straight: straight * leg.straight, ..leg };
+        let d = diagnosis(&[&rounds(3).into_iter().map(other).collect::<Vec<_>>()]);
+        agrees_with_itself(&d);
+        let none = d.ranked.iter().find(|c| c.effect == "none").map_or(0.0, |c| c.probability);
+        assert!(d.verdict == Verdict::NoMismatch || none < 0.5, "{scrub} {straight}: {:?}", d.ranked);
+    }
+}
+
+#[test]
+fn a_slope_inside_a_recording_is_a_change_and_no_quiet_verdict() {
+    let d = diagnosis(&[&[rounds(2), vec![Leg::straight(15.0).slope(5.0), Leg::straight(20.0)], rounds(2)].concat()]);
+    agrees_with_itself(&d);
+    assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
+    assert!(d.sentences.iter().any(|s| s.contains("uphill")), "{:?}", d.sentences);
+}
+
+#[test]
+fn one_strong_number_is_no_unknown_cause() {
+    // Turning only: no straight load stands beside the sum of both.
+    for scrub in [45.0, 70.0, 110.0] {
+        let turns = [Leg { scrub, ..Leg::turn(30.0) }, Leg { scrub, ..Leg::right(30.0) }];
+        let d = diagnosis(&[&turns]);
+        let unknown = d.ranked.iter().find(|c| c.effect == "unknown").expect("ranked");
+        assert!(unknown.probability < 0.05, "{scrub}: {:?}", d.ranked);
+        assert_eq!(d.verdict, Verdict::Explained, "{scrub}: {:?} {:?}", d.sentences, d.ranked);
+    }
+}
+
+#[test]
+fn another_ground_comes_before_another_robot() {
+    // Everything takes more: the signature of mass and torque constant, and of soft ground.
+    for factor in [1.6, 2.0] {
+        let harder = |leg: Leg| Leg { scrub: factor * leg.scrub, straight: factor * leg.straight, ..leg };
+        let d = diagnosis(&[&rounds(3).into_iter().map(harder).collect::<Vec<_>>()]);
+        let probability = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability);
+        let ground = probability("turning_resistance").max(probability("adhesion_patch"));
+        let robot = probability("payload").max(probability("torque_constant"));
+        assert!(ground > robot, "{factor}: {:?}", d.ranked);
+    }
+}
+
+#[test]
+fn what_changes_inside_a_recording_is_no_load_of_the_whole() {
+    let climb = Leg::straight(40.0).slope(6.0);
+    let d = diagnosis(&[&[rounds(2), vec![climb, Leg::straight(12.0)], rounds(1)].concat()]);
+    let straight = ratio(&d, Quantity::StraightLoad);
+    assert!((straight.ratio - 1.0).abs() < 0.06, "{straight:?}");
+    assert!(d.sentences[0].starts_with("Change inside a recording: 0: from between 71."), "{:?}", d.sentences);
+    assert!(d.ranked.iter().any(|c| c.effect == "grade" && c.intervals.is_some()), "{:?}", d.ranked);
+}
