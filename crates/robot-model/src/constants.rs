@@ -81,14 +81,32 @@ impl<T: Scalar> Constant<T> {
 
     /// Re-tuned by `exp(δ)`; `sigma` is relative.
     const fn factor(mut self, order: usize, sigma: f64, source: &'static str, apply: Apply<T>) -> Self {
-        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Factor, unit: "-", sigma, source, between_visits: 0.0, apply });
+        self.tuning = Some(Tunable {
+            id: self.id,
+            order,
+            tuning: Tuning::Factor,
+            unit: "-",
+            sigma,
+            source,
+            between_visits: 0.0,
+            apply,
+        });
         self
     }
 
     /// Re-tuned by adding `δ`; `sigma` is in the constant's unit.
     const fn offset(mut self, order: usize, sigma: f64, source: &'static str, apply: Apply<T>) -> Self {
         let unit = self.unit;
-        self.tuning = Some(Tunable { id: self.id, order, tuning: Tuning::Offset, unit, sigma, source, between_visits: 0.0, apply });
+        self.tuning = Some(Tunable {
+            id: self.id,
+            order,
+            tuning: Tuning::Offset,
+            unit,
+            sigma,
+            source,
+            between_visits: 0.0,
+            apply,
+        });
         self
     }
 
