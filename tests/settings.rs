@@ -139,7 +139,8 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
         let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         if ["settings", "tests", "testing"].contains(&stem) {
             continue;
-        } else if path.is_dir() {
+        }
+        if path.is_dir() {
             out.extend(sources(&path));
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             out.push(path);
@@ -176,7 +177,7 @@ fn no_tuned_number_stands_bare() {
 
 #[test]
 fn the_search_sees_constants_functions_and_macros_and_leaves_formulas_and_tests_out() {
-    let source = r#"
+    let source = r"
         /// Not 0.7 of a comment.
         const LENGTH: f64 = 2.0;
         const MOVES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, -1.0]];
@@ -191,7 +192,7 @@ fn the_search_sees_constants_functions_and_macros_and_leaves_formulas_and_tests_
         fn is_sure() { assert!(sure(8.5)) }
         #[cfg(test)]
         mod tests { const FAR: f64 = 70.0; }
-    "#;
+    ";
     let bare = |item: &str, literal: &str| Bare { item: item.into(), literal: literal.into() };
     assert_eq!(
         Search::of(source),

@@ -18,6 +18,7 @@ mod examples;
 mod growth;
 mod instructions;
 mod learn;
+mod mutants;
 mod reproduce;
 
 /// Development commands of Lacuna.
@@ -44,6 +45,8 @@ enum Command {
     Cold(cold::Args),
     /// Write the file of a new effect, to be filled with its law.
     Effect(effect::Args),
+    /// Change the code that decides, one thing at a time, and ask whether a test notices.
+    Mutants(mutants::Args),
     /// Open the pages in a browser and test them there.
     Browser,
 }
@@ -70,6 +73,7 @@ fn main() -> ExitCode {
         Command::Instructions(args) => instructions::run(&args),
         Command::Cold(args) => cold::run(&args),
         Command::Effect(args) => effect::run(&args),
+        Command::Mutants(args) => mutants::run(&args),
         Command::Browser => browser::run(),
     })
 }
