@@ -8,6 +8,7 @@ use catalogue::command_driven::EFFECTIVE_TRACK;
 use catalogue::speed_driven::STANDING;
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
+use robot_model::effects::coulomb_side;
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
 
@@ -124,8 +125,12 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     }
     if !loads.turning_changes.is_empty() {
         let intervals = by_recording(loads.turning_changes.iter().map(|c| (c.recording.as_str(), c.interval)));
-        classes
-            .push(vec![Cause { intervals: Some(intervals), ..known(catalogue::of_load_term(LoadTerm::Turning), 1) }]);
+        // Turns one way only do not tell the ground from a side that drags.
+        let one_way = loads.turning_changes.iter().all(|c| c.one_way.is_some());
+        let ids = [catalogue::of_load_term(LoadTerm::Turning), coulomb_side::SPEC.id];
+        let ids = if one_way { &ids[..] } else { &ids[..1] };
+        let cause = |id: &&str| Cause { intervals: Some(intervals.clone()), ..known(id, ids.len()) };
+        classes.push(ids.iter().map(cause).collect());
     }
     classes
 }

@@ -163,9 +163,19 @@ pub(crate) fn change(c: &LoadChange) -> String {
 }
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {
+    let what = match c.one_way {
+        None => "the ground is another".to_owned(),
+        Some(way) => {
+            let way = if way == Way::Left { "left" } else { "right" };
+            format!(
+                "the robot turned to the {way} only there, so that it may be its side as well as the ground; turn both \
+                 ways on the spot to tell"
+            )
+        }
+    };
     format!(
         "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
-         measured over {:.0} s: the ground is another.",
+         measured over {:.0} s: {what}.",
         c.recording,
         moment(c.onset),
         moment(c.end),

@@ -219,6 +219,9 @@ pub struct TurningChange {
     pub ratio: f64,
     /// Half of its 90 % interval.
     pub half: f64,
+    /// The one way in which the robot turned there; `None` if it turned both ways.
+    #[serde(default)]
+    pub one_way: Option<Way>,
 }
 
 /// Which way a robot turns.

@@ -106,6 +106,8 @@ const fn degrees(x: f64) -> f64 {
         scatter: f64 = 0.08, "1", "guess";
         /// Least steady turning that shows a change.
         least: f64 = 3.0, "s", "guess";
+        /// A way counts as turned to, or a side as known, after so much steady turning.
+        one_way: f64 = 1.5, "s", "guess";
         /// What turning costs on the references' ground is known after so much of it.
         known: f64 = 5.0, "s", "guess";
     }
