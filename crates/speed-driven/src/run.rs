@@ -36,6 +36,8 @@ pub struct SpeedRun {
     pub standing: Vec<bool>,
     /// Whether the straight load at a row belongs to a change inside the recording, which is told by itself.
     pub changed: Vec<bool>,
+    /// Signals that were recorded and are not used.
+    pub unused: Vec<Signal>,
 }
 
 /// Turning rates of the body, averaged over steps.
@@ -132,6 +134,7 @@ impl SpeedRun {
             body_rates: BodyRates::new(recording),
             standing: vec![false; time.len()],
             changed: vec![false; time.len()],
+            unused: Vec::new(),
             name,
             time,
             speed,
@@ -156,6 +159,14 @@ impl SpeedRun {
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
             run.alignment = Some(alignment);
         }
+        let rates = [Signal::GyroX, Signal::GyroY];
+        let is_used = |s: &Signal| {
+            speeds[kind].contains(s)
+                || loads[load].contains(s)
+                || *s == Signal::GyroZ
+                || run.body_rates.is_some() && rates.contains(s)
+        };
+        run.unused = recording.channels().iter().map(Channel::signal).filter(|s| !is_used(s)).collect();
         Ok(run)
     }
 
@@ -303,9 +314,23 @@ pub(crate) mod tests {
         approx::assert_relative_eq!(run.speed[0][5], 0.5, epsilon = 1e-12);
         approx::assert_relative_eq!(run.torque[1][5], 12.0, epsilon = 1e-9);
         approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + ROWS.dead_band_slack) * CONSTANT);
+        assert_eq!(run.unused, []);
         // Speeds and gyro share a clock: nothing is to be aligned.
         assert!(run.alignment.expect("a gyro").lag.iter().all(|l| *l == 0.0));
         assert_eq!(run.body_rates, None);
+    }
+
+    #[test]
+    fn what_was_recorded_and_is_not_used_is_known() {
+        let plain = recording(GROUND, &[([0.5, 0.5], 10.0)], None);
+        let times = plain.get(Signal::GyroZ).expect("a gyro").t_ns().to_vec();
+        let level = |s: Signal| Channel::new(s, 0, times.clone(), vec![0.0; times.len()]).expect("a channel");
+        let more = [Signal::AccelX, Signal::GyroX];
+        let all = plain.channels().iter().cloned().chain(more.map(level)).collect();
+        let full = Recording::new("run", plain.clocks().to_vec(), all).expect("a recording");
+        let run = SpeedRun::new(&full, RADIUS, CONSTANT).expect("a run");
+        // One rate of two is missing: the other says nothing of slopes.
+        assert!(run.unused.len() == 2 && more.iter().all(|s| run.unused.contains(s)), "{:?}", run.unused);
     }
 
     #[test]

@@ -96,6 +96,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         body_rates,
         standing: vec![false; time.len()],
         changed: vec![false; time.len()],
+        unused: Vec::new(),
         time,
     }
 }
