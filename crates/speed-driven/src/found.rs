@@ -23,11 +23,14 @@ const ANSWER: Answer = NAMING.answer;
 /// Adds what was found; the verdict follows. Where the loads name no cause, ratios whose intervals exclude no difference are
 /// causes to look for, then changes inside recordings; a body that stands is one always, and comes first.
 pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
+    for difference in strongest(loads).into_iter().filter(|r| r.quantity != Quantity::EffectiveTrack) {
+        weigh_against_nothing(out, difference);
+    }
     if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
         for difference in strongest(loads) {
             match difference.quantity {
                 Quantity::EffectiveTrack => insert(out, vec![track(difference)]),
-                _ => fitting(out, naming, difference),
+                _ => fitting(out, naming),
             }
         }
         if out.verdict != Verdict::Explained {
@@ -66,15 +69,20 @@ fn track(r: &Ratio) -> Cause {
     }
 }
 
-/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
-fn fitting(out: &mut Diagnosis, naming: Option<&Naming>, difference: &Ratio) {
+/// Nothing is missing no likelier than that a ratio whose interval excludes it does not differ.
+fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
     let none = |c: &&Cause| c.effect == NONE.id;
     let before = out.ranked.iter().find(none).map_or(0.0, |c| c.probability);
     let after = before.min(1.0 - differs(difference));
     for c in &mut out.ranked {
-        c.probability *=
-            if c.effect == NONE.id { after / before.max(1e-9) } else { (1.0 - after) / (1.0 - before).max(1e-9) };
+        let [own, of] = if c.effect == NONE.id { [after, before] } else { [1.0 - after, 1.0 - before] };
+        c.probability *= own / of.max(1e-9);
     }
+    out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+}
+
+/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
+fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
     let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.parts.len() == 1);
     let most = singles().map(|e| e.gain).fold(0.0, f64::max);
     let mut class: Vec<&Named> = Vec::new();
