@@ -176,7 +176,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
 /// What was recorded and mapped, and is not used.
 fn unused<'a>(all: impl Iterator<Item = &'a Signal>) -> Option<String> {
     let names: BTreeSet<&str> = all.map(|s| s.name()).collect();
-    let accelerometer = names.iter().any(|n| n.starts_with("accel"));
+    let accelerometer = names.contains(Signal::AccelX.name());
     let slopes = if accelerometer { ": slopes rest on turning rates and loads, not on the accelerometer" } else { "" };
     let names: Vec<&str> = names.into_iter().collect();
     (!names.is_empty()).then(|| format!("recorded but not used: {}{slopes}", names.join(", ")))

@@ -118,7 +118,7 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         }
         let alike = || found.iter().filter(|c| c.causes == change.causes);
         let intervals = by_recording(alike().map(|c| (c.recording.as_str(), c.interval)));
-        let steepest = alike().max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
+        let steepest = alike().filter(|c| !c.relative).max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
         let cause = |id: &verdict::Word| {
             let slope = steepest.filter(|_| *id == GRADE);
             Cause {

@@ -123,6 +123,7 @@ pub fn diagnose_steady(
         if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
     };
     // What changes inside a recording is told by itself and is no load of the whole.
+    attitude::set_level(&case.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
     let (loads, not_given) = all_loads(&marked.recordings);

@@ -1,6 +1,6 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
-use inference::robust::median;
+use inference::robust::{mean, median};
 use recordings::{Channel, Recording, Signal};
 
 use crate::clock::{self, Alignment};
@@ -49,6 +49,9 @@ pub struct BodyRates {
     pub step: f64,
     /// About the forward, left and upward axis, rad/s.
     pub rate: [Vec<f64>; 3],
+    /// Nose up by the accelerometer, averaged and less what the set speeds accelerate, rad; `None` without one, or with one
+    /// that does not stand upright.
+    pub level: Option<Vec<f64>>,
 }
 
 impl BodyRates {
@@ -68,8 +71,29 @@ impl BodyRates {
             let mean = clock::box_mean(&t, values, ROWS.rate_step);
             grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
         });
-        Some(Self { time: grid, step: ROWS.rate_step, rate })
+        Some(Self { time: grid, step: ROWS.rate_step, rate, level: None })
     }
+}
+
+/// Nose up at the steps of the gyro's clock, rad, from the specific force along the body.
+fn level(recording: &Recording, run: &SpeedRun, at: &[f64]) -> Option<Vec<f64>> {
+    let force = recording.get(Signal::AccelX)?;
+    let upward = recording.get(Signal::AccelZ).and_then(|c| mean(c.values().iter().copied()));
+    if upward.is_some_and(|g| (g / ROWS.gravity - 1.0).abs() > ROWS.upright) {
+        return None;
+    }
+    let lag = &run.alignment.as_ref()?.lag;
+    let (t, values) = samples(force, origin(recording));
+    let smooth = clock::box_mean(&t, values, ROWS.level_mean);
+    let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
+    let rows: Vec<f64> = run.time.iter().zip(lag).map(|(t, l)| t + l).collect();
+    let speed = |at: f64| clock::interpolate(&rows, &forward, at);
+    let half = 0.5 * ROWS.level_mean;
+    let of_step = |&at: &f64| {
+        let gained = (speed(at + half) - speed(at - half)) / ROWS.level_mean;
+        ((clock::interpolate(&t, &smooth, at) - gained) / ROWS.gravity).clamp(-1.0, 1.0).asin()
+    };
+    Some(at.iter().map(of_step).collect())
 }
 
 /// The first stamp of a recording, ns: times count from here, whatever epoch the stamps have.
@@ -159,12 +183,18 @@ impl SpeedRun {
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
             run.alignment = Some(alignment);
         }
+        if let Some(mut rates) = run.body_rates.take() {
+            rates.level = level(recording, &run, &rates.time);
+            run.body_rates = Some(rates);
+        }
         let rates = [Signal::GyroX, Signal::GyroY];
+        let levels = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
         let is_used = |s: &Signal| {
             speeds[kind].contains(s)
                 || loads[load].contains(s)
                 || *s == Signal::GyroZ
                 || run.body_rates.is_some() && rates.contains(s)
+                || levels && [Signal::AccelX, Signal::AccelZ].contains(s)
         };
         run.unused = recording.channels().iter().map(Channel::signal).filter(|s| !is_used(s)).collect();
         Ok(run)

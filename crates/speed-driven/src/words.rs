@@ -150,6 +150,9 @@ pub(crate) fn change(c: &LoadChange) -> String {
             "the straight load is {ratio:.2} times that of the rest; a slope \
              that does this is {size}"
         ),
+        None if c.relative => {
+            format!("the body tilts nose {} against the rest of the drive", if c.slope > 0.0 { "up" } else { "down" })
+        }
         None => format!("the slope is {size}"),
     };
     format!(

@@ -40,6 +40,8 @@ const fn degrees(x: f64) -> f64 {
         excess: f64 = 0.7, "1", "one of about ten settings tried on the open Husky runs";
         /// Error of the slope from one second of straight driving.
         from_load: f64 = degrees(2.0), "rad", "one of about ten settings tried on the open Husky runs";
+        /// Error of the accelerometer's mean at least.
+        from_level: f64 = degrees(0.4), "rad", "steps between means of 2 s on the open floor runs are 0.3°";
         /// Miss of a reading beyond which it counts less.
         far_off: f64 = degrees(2.5), "rad", "guess";
     }
