@@ -48,7 +48,7 @@ fn number(v: &Value) -> f64 {
 fn a_ramp_inside_a_run_is_found_by_the_gyro_and_a_calm_run_has_none() -> Outcome {
     let folder = data("husky-open")?;
     let found = floor(&folder, "05")["steady"]["changes"]["found"].as_array().expect("a list").clone();
-    // The accelerometer, which no diagnosis of this kind uses, tilts by 4.3 degrees from 226.0 s to 243.5 s.
+    // The accelerometer, alone and as a mean over 2 s, tilts by 4.3 degrees from 226.0 s to 243.5 s.
     let ramp = found.last().expect("a ramp");
     assert!(
         (number(&ramp["interval"][0]) - 226.0).abs() < 2.0 && (number(&ramp["interval"][1]) - 243.5).abs() < 2.0,

@@ -1,5 +1,7 @@
 //! The answer of a speed-driven case: probabilities, classes, what the data's defects do to it.
 
+use std::collections::BTreeSet;
+
 use crate::found;
 use crate::name::{Named, Naming};
 use crate::settings::{NAMING, naming::Answer};
@@ -9,6 +11,7 @@ use crate::{SpeedRun, SteadyCase};
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::evidence::{is_within_odds, probabilities};
 use inference::hypothesis::Place;
+use recordings::Signal;
 use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
 
 const ANSWER: Answer = NAMING.answer;
@@ -160,6 +163,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
     if !blind.is_empty() {
         out.push(format!("no gyro was recorded in {}: no effective track can be measured there", blind.join(", ")));
     }
+    out.extend(unused(all().flat_map(|r| &r.unused)));
     if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
         out.push("some straight loads are compared with references driven at another speed".to_owned());
     }
@@ -167,4 +171,25 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
         "mass and torque per current cannot be told apart on level ground: loads are compared as ratios".to_owned(),
     );
     out
+}
+
+/// What was recorded and mapped, and is not used.
+fn unused<'a>(all: impl Iterator<Item = &'a Signal>) -> Option<String> {
+    let names: BTreeSet<&str> = all.map(|s| s.name()).collect();
+    let accelerometer = names.contains(Signal::AccelX.name());
+    let slopes = if accelerometer { ": slopes rest on turning rates and loads, not on the accelerometer" } else { "" };
+    let names: Vec<&str> = names.into_iter().collect();
+    (!names.is_empty()).then(|| format!("recorded but not used: {}{slopes}", names.join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_that_are_not_used_are_told() {
+        assert_eq!(unused([].iter()), None);
+        let told = unused([Signal::AccelX, Signal::PoseX, Signal::AccelX].iter()).expect("told");
+        assert!(told.starts_with("recorded but not used: accel_x, pose_x: slopes"), "{told}");
+    }
 }

@@ -3,20 +3,36 @@
 //! The upward direction in the body turns by `u̇ = −ω × u`, for small tilts `u̇x = −ω_y + ω_z u_y` and
 //! `u̇y = ω_x − ω_z u_x`; the straight load shows `S = S₀ (1 + c) + m g r u_x` in the direction of travel. A linear
 //! Kalman filter and Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets and the slow change `c` of the
-//! rolling load (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
+//! rolling load; an accelerometer shows `u_x` (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
 
-use inference::robust::median;
+use inference::robust::{MAD_TO_SIGMA, median};
 use nalgebra::{SMatrix, SVector};
 
 use crate::clock::interpolate;
 use crate::run::SpeedRun;
-use crate::settings::{CHANGES, changes::Filter};
+use crate::settings::{CHANGES, MEASURING, NAMING, changes::Filter};
 use crate::straight::Reading;
 
 type State = SVector<f64, 5>;
 type Square = SMatrix<f64, 5, 5>;
 
 const FILTER: Filter = CHANGES.attitude;
+
+/// Takes what the accelerometer shows on the references, its own tilt in the body, out of the recordings.
+pub(crate) fn set_level(references: &[SpeedRun], recordings: &mut [SpeedRun]) {
+    let rates = references.iter().filter_map(|run| run.body_rates.as_ref());
+    let tilt = median(rates.filter_map(|rates| rates.level.as_ref()).flatten().copied()).unwrap_or(0.0);
+    let own = recordings.iter_mut().filter_map(|run| run.body_rates.as_mut());
+    own.filter_map(|rates| rates.level.as_mut()).flatten().for_each(|level| *level -= tilt);
+}
+
+/// Means of the accelerometer that do not overlap: steps at which they are taken, and their error, rad.
+fn level_of(level: &[f64], step: f64) -> (usize, f64) {
+    let every = ((MEASURING.rows.level_mean / step) as usize).max(1);
+    let means: Vec<f64> = level.iter().step_by(every).copied().collect();
+    let moved = median(means.windows(2).map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0);
+    (every, (MAD_TO_SIGMA / std::f64::consts::SQRT_2 * moved).max(FILTER.from_level))
+}
 
 /// The slope along the heading at the rows of a recording, uphill positive.
 #[derive(Debug, Clone)]
@@ -25,6 +41,8 @@ pub(crate) struct Attitude {
     pub(crate) pitch: Vec<f64>,
     /// One sigma, rad.
     pub(crate) sigma: Vec<f64>,
+    /// Against the rest of the recording only: no accelerometer tells the level of a body on ground that gives way.
+    pub(crate) relative: bool,
 }
 
 /// A filter's estimate after a step, and what it had expected before.
@@ -70,7 +88,9 @@ pub(crate) fn attitude(
 
     // What walks between steps: tilt, offsets, rolling load.
     let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
-    let excess = median(exact).map_or(0.0, |middle| (middle / usual - 1.0).abs());
+    let middle = median(exact).map_or(1.0, |middle| middle / usual);
+    let excess = (middle - 1.0).abs();
+    let relative = rates.level.is_none() && middle > NAMING.priors.unnamed_straight;
     let rolling = FILTER.rolling.max(FILTER.excess * excess) * usual / weight;
     let keep = 1.0 - dt / FILTER.rolling_time;
     let mut walk = Square::zeros();
@@ -78,6 +98,8 @@ pub(crate) fn attitude(
         walk[(k, k)] = q * q * dt;
     }
     walk[(4, 4)] = rolling * rolling * (1.0 - keep * keep);
+
+    let level = rates.level.as_ref().map(|level| (level, level_of(level, dt)));
 
     // Forward: expect by the turning rates, correct by the loads.
     let mut x = State::zeros();
@@ -103,6 +125,13 @@ pub(crate) fn attitude(
 
         for axis in 0..2 {
             update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, FILTER.level * FILTER.level * FILTER.level_every / dt);
+        }
+        if let Some((level, (every, sigma))) = level
+            && k % every == 0
+        {
+            let miss = level[k] - x[0];
+            let variance = sigma * sigma * (1.0 + (miss / FILTER.far_off).powi(2));
+            update(&mut x, &mut p, &State::ith(0, 1.0), level[k], variance);
         }
         for &i in seen {
             let h = State::from([run.speed[0][i].signum(), 0.0, 0.0, 0.0, 1.0]);
@@ -138,5 +167,5 @@ pub(crate) fn attitude(
         let at = |t: f64| if t > first - dt && t < last { interpolate(&rates.time, z, t) } else { unknown };
         run.time.iter().zip(lag).map(|(t, l)| at(t + l)).collect()
     };
-    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma: at_rows(&sigma, f64::INFINITY) })
+    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma: at_rows(&sigma, f64::INFINITY), relative })
 }

@@ -62,13 +62,16 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     Changes { found, hidden: hidden(run, &readings) }
 }
 
-/// Finds the changes of these recordings and marks their rows: what is told as a change is no load of the whole.
+/// Finds the changes of these recordings and marks their rows: what is told as a change is no load of the whole. Changes
+/// that cover most of the straight driving are the load of the whole.
 pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes {
     let mut out = Changes::default();
     for run in runs {
         let own = changes(run, usual, weight);
         let inside = |t: f64| own.found.iter().any(|c| c.interval[0] <= t && t <= c.interval[1]);
-        run.changed = run.time.iter().map(|t| inside(*t)).collect();
+        let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
+        let most = 2 * straight.iter().filter(|t| inside(**t)).count() > straight.len();
+        run.changed = run.time.iter().map(|t| !most && inside(*t)).collect();
         out.found.extend(own.found);
         out.hidden.extend(own.hidden);
     }
@@ -93,7 +96,7 @@ mod tests {
 
     use super::*;
     use crate::pieces::{GRADE, ROLLING};
-    use crate::testing::{Leg, STRAIGHT, WEIGHT, drive};
+    use crate::testing::{Leg, STRAIGHT, WEIGHT, drive, levelled};
 
     const USUAL: Usual = [Some(STRAIGHT), None, None];
 
@@ -177,5 +180,36 @@ mod tests {
         assert_eq!(ground[0].causes, [ROLLING]);
         assert!(near(ground[0].onset, 30.0), "{ground:?}");
         assert_eq!(found(&[Leg::straight(60.0)], true), []);
+    }
+
+    #[test]
+    fn on_soft_ground_the_accelerometer_is_the_level() {
+        // Half of the run goes uphill, on ground that takes another load all the time.
+        let soft = |leg: Leg| Leg { straight: 2.5 * STRAIGHT, ..leg };
+        let legs = [soft(Leg::straight(40.0)), soft(Leg::straight(40.0).slope(8.0))];
+        let slopes = |run: &SpeedRun| -> Vec<LoadChange> {
+            let all = changes(run, &USUAL, WEIGHT).found;
+            all.into_iter().filter(|c| c.causes == [GRADE]).collect()
+        };
+        let mut recordings = [levelled(&legs, 1.5)];
+        crate::attitude::set_level(&[levelled(&[Leg::straight(40.0)], 1.5)], &mut recordings);
+        let found = slopes(&recordings[0]);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0].slope - 8.0).abs() < 1.0 && near(found[0].onset, 40.0), "{found:?}");
+        // Without it the step is shared out: it is no angle against the horizon.
+        let without = slopes(&drive(&legs, true));
+        assert!(without.iter().all(|c| c.relative && c.reason.contains("accelerometer")), "{without:?}");
+        assert!(!found[0].relative);
+    }
+
+    #[test]
+    fn what_covers_most_of_a_recording_is_its_load() {
+        let climb = |seconds: f64| levelled(&[Leg::straight(30.0), Leg::straight(seconds).slope(5.0)], 0.0);
+        let changed = |run: SpeedRun| {
+            let mut runs = [run];
+            assert_eq!(mark(&mut runs, &USUAL, WEIGHT).found.len(), 1);
+            runs[0].changed.iter().any(|c| *c)
+        };
+        assert!(changed(climb(12.0)) && !changed(climb(60.0)));
     }
 }

@@ -95,13 +95,18 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let all = || 0..run.time.len();
 
     let straight: Vec<usize> = all()
-        .filter(|&i| run.reads(i, 0) && run.reads(i, 1) && !run.changed[i])
-        .filter(|&i| is_straight(run, i, MEASURING.straight.hold_of_means))
+        .filter(|&i| run.reads(i, 0) && run.reads(i, 1) && is_straight(run, i, MEASURING.straight.hold_of_means))
         .collect();
     let speed = |i: usize| run.forward(i).abs();
+    // Straight loads with what changes inside the recording: of a turn their half is taken away, where no other is known.
+    let mut whole = Vec::new();
     for class in STRETCHES.classes.windows(2) {
-        let rows: Vec<usize> =
+        let all: Vec<usize> =
             straight.iter().copied().filter(|&i| speed(i) >= class[0] && speed(i) < class[1]).collect();
+        if let Some(c) = clustered(run, &all, |i| run.torque[0][i].abs() + run.torque[1][i].abs()) {
+            whole.push(load(Quantity::StraightLoad, &c, c.mean, c.error));
+        }
+        let rows: Vec<usize> = all.into_iter().filter(|&i| !run.changed[i]).collect();
         if let Some(c) = clustered(run, &rows, |i| run.torque[0][i].abs() + run.torque[1][i].abs()) {
             loads.push(load(Quantity::StraightLoad, &c, c.mean, c.error));
             let signed = |i: usize| (run.torque[1][i].abs() - run.torque[0][i].abs()) / c.mean;
@@ -113,7 +118,7 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     if loads.is_empty() {
         withheld.push(refuse(
             Quantity::StraightLoad,
-            straight.len(),
+            straight.iter().filter(|&&i| !run.changed[i]).count(),
             "steady straight driving with a current on both sides",
         ));
     }
@@ -125,11 +130,11 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     let outer = |i: usize| usize::from(run.speed[1][i].abs() > run.speed[0][i].abs());
     if let Some(c) = clustered(run, &arcs, |i| run.torque[outer(i)][i].abs()) {
         let forward = 0.5 * (c.speed[0] + c.speed[1]).abs();
-        let nearest = loads
-            .iter()
-            .filter(|l| l.quantity == Quantity::StraightLoad)
-            .min_by(|a, b| gap(a, forward).total_cmp(&gap(b, forward)))
-            .cloned();
+        let nearest = |of: &[Load]| {
+            let straight = of.iter().filter(|l| l.quantity == Quantity::StraightLoad);
+            straight.min_by(|a, b| gap(a, forward).total_cmp(&gap(b, forward))).cloned()
+        };
+        let nearest = nearest(&loads).or_else(|| nearest(&whole));
         if let Some(s) = nearest {
             loads.push(load(Quantity::TurningLoad, &c, c.mean - 0.5 * s.value, c.error.hypot(0.5 * s.error)));
         }

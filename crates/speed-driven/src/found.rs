@@ -8,6 +8,7 @@ use catalogue::command_driven::EFFECTIVE_TRACK;
 use catalogue::speed_driven::STANDING;
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
+use robot_model::effects::coulomb_side;
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
 
@@ -22,11 +23,14 @@ const ANSWER: Answer = NAMING.answer;
 /// Adds what was found; the verdict follows. Where the loads name no cause, ratios whose intervals exclude no difference are
 /// causes to look for, then changes inside recordings; a body that stands is one always, and comes first.
 pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
+    for difference in strongest(loads).into_iter().filter(|r| r.quantity != Quantity::EffectiveTrack) {
+        weigh_against_nothing(out, difference);
+    }
     if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
         for difference in strongest(loads) {
             match difference.quantity {
                 Quantity::EffectiveTrack => insert(out, vec![track(difference)]),
-                _ => fitting(out, naming, difference),
+                _ => fitting(out, naming),
             }
         }
         if out.verdict != Verdict::Explained {
@@ -65,15 +69,20 @@ fn track(r: &Ratio) -> Cause {
     }
 }
 
-/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
-fn fitting(out: &mut Diagnosis, naming: Option<&Naming>, difference: &Ratio) {
+/// Nothing is missing no likelier than that a ratio whose interval excludes it does not differ.
+fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
     let none = |c: &&Cause| c.effect == NONE.id;
     let before = out.ranked.iter().find(none).map_or(0.0, |c| c.probability);
     let after = before.min(1.0 - differs(difference));
     for c in &mut out.ranked {
-        c.probability *=
-            if c.effect == NONE.id { after / before.max(1e-9) } else { (1.0 - after) / (1.0 - before).max(1e-9) };
+        let [own, of] = if c.effect == NONE.id { [after, before] } else { [1.0 - after, 1.0 - before] };
+        c.probability *= own / of.max(1e-9);
     }
+    out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+}
+
+/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
+fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
     let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.parts.len() == 1);
     let most = singles().map(|e| e.gain).fold(0.0, f64::max);
     let mut class: Vec<&Named> = Vec::new();
@@ -109,7 +118,7 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         }
         let alike = || found.iter().filter(|c| c.causes == change.causes);
         let intervals = by_recording(alike().map(|c| (c.recording.as_str(), c.interval)));
-        let steepest = alike().max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
+        let steepest = alike().filter(|c| !c.relative).max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
         let cause = |id: &verdict::Word| {
             let slope = steepest.filter(|_| *id == GRADE);
             Cause {
@@ -124,8 +133,12 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     }
     if !loads.turning_changes.is_empty() {
         let intervals = by_recording(loads.turning_changes.iter().map(|c| (c.recording.as_str(), c.interval)));
-        classes
-            .push(vec![Cause { intervals: Some(intervals), ..known(catalogue::of_load_term(LoadTerm::Turning), 1) }]);
+        // Turns one way only do not tell the ground from a side that drags.
+        let one_way = loads.turning_changes.iter().all(|c| c.one_way.is_some());
+        let ids = [catalogue::of_load_term(LoadTerm::Turning), coulomb_side::SPEC.id];
+        let ids = if one_way { &ids[..] } else { &ids[..1] };
+        let cause = |id: &&str| Cause { intervals: Some(intervals.clone()), ..known(id, ids.len()) };
+        classes.push(ids.iter().map(cause).collect());
     }
     classes
 }

@@ -84,6 +84,7 @@ pub(super) fn jumps(
                 slope,
                 slope_half: NINETY * JUMPS.scatter * from / weight * 180.0 / std::f64::consts::PI,
                 bound,
+                relative: false,
                 causes,
                 reason: reason.into(),
             });

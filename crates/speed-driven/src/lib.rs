@@ -123,6 +123,7 @@ pub fn diagnose_steady(
         if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
     };
     // What changes inside a recording is told by itself and is no load of the whole.
+    attitude::set_level(&case.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
     let (loads, not_given) = all_loads(&marked.recordings);
@@ -238,6 +239,7 @@ fn within(
 ) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
     let straight = usual(refs).iter().flatten().next().copied();
+    let sides = scrub::Sides::of(&case.references);
     let turning_load = of(Quantity::SpinSum).chain(of(Quantity::ArcSum)).next().map(|r| r.centre.exp());
     let track = track_of(refs);
     let nominal =
@@ -255,7 +257,7 @@ fn within(
         clocks: Vec::new(),
     };
     for run in &case.recordings {
-        out.turning_changes.extend(scrub::turning_changes(run, turning_load));
+        out.turning_changes.extend(scrub::turning_changes(run, turning_load, sides));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
             out.turning.extend(turning::turning(run, straight));

@@ -1,6 +1,6 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
-use inference::robust::median;
+use inference::robust::{mean, median};
 use recordings::{Channel, Recording, Signal};
 
 use crate::clock::{self, Alignment};
@@ -36,6 +36,8 @@ pub struct SpeedRun {
     pub standing: Vec<bool>,
     /// Whether the straight load at a row belongs to a change inside the recording, which is told by itself.
     pub changed: Vec<bool>,
+    /// Signals that were recorded and are not used.
+    pub unused: Vec<Signal>,
 }
 
 /// Turning rates of the body, averaged over steps.
@@ -47,6 +49,9 @@ pub struct BodyRates {
     pub step: f64,
     /// About the forward, left and upward axis, rad/s.
     pub rate: [Vec<f64>; 3],
+    /// Nose up by the accelerometer, averaged and less what the set speeds accelerate, rad; `None` without one, or with one
+    /// that does not stand upright.
+    pub level: Option<Vec<f64>>,
 }
 
 impl BodyRates {
@@ -66,8 +71,29 @@ impl BodyRates {
             let mean = clock::box_mean(&t, values, ROWS.rate_step);
             grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
         });
-        Some(Self { time: grid, step: ROWS.rate_step, rate })
+        Some(Self { time: grid, step: ROWS.rate_step, rate, level: None })
     }
+}
+
+/// Nose up at the steps of the gyro's clock, rad, from the specific force along the body.
+fn level(recording: &Recording, run: &SpeedRun, at: &[f64]) -> Option<Vec<f64>> {
+    let force = recording.get(Signal::AccelX)?;
+    let upward = recording.get(Signal::AccelZ).and_then(|c| mean(c.values().iter().copied()));
+    if upward.is_some_and(|g| (g / ROWS.gravity - 1.0).abs() > ROWS.upright) {
+        return None;
+    }
+    let lag = &run.alignment.as_ref()?.lag;
+    let (t, values) = samples(force, origin(recording));
+    let smooth = clock::box_mean(&t, values, ROWS.level_mean);
+    let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
+    let rows: Vec<f64> = run.time.iter().zip(lag).map(|(t, l)| t + l).collect();
+    let speed = |at: f64| clock::interpolate(&rows, &forward, at);
+    let half = 0.5 * ROWS.level_mean;
+    let of_step = |&at: &f64| {
+        let gained = (speed(at + half) - speed(at - half)) / ROWS.level_mean;
+        ((clock::interpolate(&t, &smooth, at) - gained) / ROWS.gravity).clamp(-1.0, 1.0).asin()
+    };
+    Some(at.iter().map(of_step).collect())
 }
 
 /// The first stamp of a recording, ns: times count from here, whatever epoch the stamps have.
@@ -132,6 +158,7 @@ impl SpeedRun {
             body_rates: BodyRates::new(recording),
             standing: vec![false; time.len()],
             changed: vec![false; time.len()],
+            unused: Vec::new(),
             name,
             time,
             speed,
@@ -156,6 +183,20 @@ impl SpeedRun {
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
             run.alignment = Some(alignment);
         }
+        if let Some(mut rates) = run.body_rates.take() {
+            rates.level = level(recording, &run, &rates.time);
+            run.body_rates = Some(rates);
+        }
+        let rates = [Signal::GyroX, Signal::GyroY];
+        let levels = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+        let is_used = |s: &Signal| {
+            speeds[kind].contains(s)
+                || loads[load].contains(s)
+                || *s == Signal::GyroZ
+                || run.body_rates.is_some() && rates.contains(s)
+                || levels && [Signal::AccelX, Signal::AccelZ].contains(s)
+        };
+        run.unused = recording.channels().iter().map(Channel::signal).filter(|s| !is_used(s)).collect();
         Ok(run)
     }
 
@@ -303,9 +344,23 @@ pub(crate) mod tests {
         approx::assert_relative_eq!(run.speed[0][5], 0.5, epsilon = 1e-12);
         approx::assert_relative_eq!(run.torque[1][5], 12.0, epsilon = 1e-9);
         approx::assert_relative_eq!(run.dead_band, (DEAD_BAND + ROWS.dead_band_slack) * CONSTANT);
+        assert_eq!(run.unused, []);
         // Speeds and gyro share a clock: nothing is to be aligned.
         assert!(run.alignment.expect("a gyro").lag.iter().all(|l| *l == 0.0));
         assert_eq!(run.body_rates, None);
+    }
+
+    #[test]
+    fn what_was_recorded_and_is_not_used_is_known() {
+        let plain = recording(GROUND, &[([0.5, 0.5], 10.0)], None);
+        let times = plain.get(Signal::GyroZ).expect("a gyro").t_ns().to_vec();
+        let level = |s: Signal| Channel::new(s, 0, times.clone(), vec![0.0; times.len()]).expect("a channel");
+        let more = [Signal::AccelX, Signal::GyroX];
+        let all = plain.channels().iter().cloned().chain(more.map(level)).collect();
+        let full = Recording::new("run", plain.clocks().to_vec(), all).expect("a recording");
+        let run = SpeedRun::new(&full, RADIUS, CONSTANT).expect("a run");
+        // One rate of two is missing: the other says nothing of slopes.
+        assert!(run.unused.len() == 2 && more.iter().all(|s| run.unused.contains(s)), "{:?}", run.unused);
     }
 
     #[test]

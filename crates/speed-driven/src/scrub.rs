@@ -6,24 +6,72 @@ use crate::run::SpeedRun;
 use crate::settings::{CHANGES, changes::Scrub};
 use crate::straight::Reading;
 use inference::robust::{NINETY, median};
-use verdict::TurningChange;
+use verdict::{TurningChange, Way};
 
 const SCRUB: Scrub = CHANGES.scrub;
 
-/// Torque of the outer side in steady arcs, mean of both sides in spins.
-fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
+/// What each side reads as the outer one of a turn, over what both read in the mean: as the robot was on its references.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sides {
+    factor: [f64; 2],
+    known: bool,
+}
+
+impl Sides {
+    /// From the references' turns both ways; sides count as equal where these are missing.
+    pub(crate) fn of(references: &[SpeedRun]) -> Self {
+        let (mut sum, mut seconds, mut rows) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        for run in references {
+            for i in (0..run.time.len()).filter(|&i| is_steady_turn(run, i) && !spins(run, i)) {
+                let side = outer(run, i);
+                sum[side] += run.torque[side][i].abs();
+                seconds[side] += run.period();
+                rows[side] += 1.0;
+            }
+        }
+        let mean = [0, 1].map(|j| sum[j] / f64::max(rows[j], 1.0));
+        let middle = 0.5 * (mean[0] + mean[1]);
+        let known = seconds.iter().all(|s| *s >= SCRUB.one_way) && mean.iter().all(|m| *m > 0.0);
+        Self { factor: if known { mean.map(|m| m / middle) } else { [1.0; 2] }, known }
+    }
+}
+
+fn spins(run: &SpeedRun, i: usize) -> bool {
+    run.speed[0][i] * run.speed[1][i] < 0.0
+}
+
+fn outer(run: &SpeedRun, i: usize) -> usize {
+    usize::from(run.speed[1][i].abs() > run.speed[0][i].abs())
+}
+
+/// Torque of the outer side in steady arcs as if both sides read alike, mean of both sides in spins.
+fn readings(run: &SpeedRun, sides: Sides) -> Vec<Option<Reading>> {
     let of_row = |i: usize| {
         let [l, r] = [0, 1].map(|j| run.torque[j][i].abs());
-        let spins = run.speed[0][i] * run.speed[1][i] < 0.0;
-        let outer = if run.speed[1][i].abs() > run.speed[0][i].abs() { r } else { l };
-        Reading::Exact(if spins { 0.5 * (l + r) } else { outer })
+        let side = outer(run, i);
+        Reading::Exact(if spins(run, i) { 0.5 * (l + r) } else { [l, r][side] / sides.factor[side] })
     };
     (0..run.time.len()).map(|i| is_steady_turn(run, i).then(|| of_row(i))).collect()
 }
 
-/// Changes of what turning costs. `usual` is the references' torque in spins or arcs, N m, where they turned.
-pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<TurningChange> {
-    let readings = readings(run);
+/// The one way in which a robot turned at these rows; `None` of both, and of spins, in which both sides drive.
+fn one_way(run: &SpeedRun, rows: &[usize]) -> Option<Way> {
+    let seconds = |way: &dyn Fn(usize) -> bool| rows.iter().filter(|&&i| way(i)).count() as f64 * run.period();
+    let left = seconds(&|i| spins(run, i) || outer(run, i) == 1);
+    let right = seconds(&|i| spins(run, i) || outer(run, i) == 0);
+    if left < SCRUB.one_way {
+        Some(Way::Right)
+    } else if right < SCRUB.one_way {
+        Some(Way::Left)
+    } else {
+        None
+    }
+}
+
+/// Changes of what turning costs. `usual` is the references' torque in spins or arcs, N m, where they turned, and `sides`
+/// what their sides read.
+pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) -> Vec<TurningChange> {
+    let readings = readings(run, sides);
     let seen: Vec<usize> = (0..readings.len()).filter(|&i| readings[i].is_some()).collect();
     let period = run.period();
     let Some(middle) = median(readings.iter().flatten().map(|r| r.value())) else { return Vec::new() };
@@ -68,6 +116,17 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
             continue;
         }
 
+        let one_way = one_way(run, piece);
+        let rest: Vec<usize> = seen.iter().copied().filter(|&i| other(i) == 0).collect();
+        // Turns one way beside turns the other way tell nothing but the sides, unless these are known.
+        if !sides.known
+            && one_way.is_some()
+            && one_way != self::one_way(run, &rest)
+            && self::one_way(run, &rest).is_some()
+        {
+            continue;
+        }
+
         // It began and ended somewhere since the last turn and before the next.
         let before = seen.iter().rev().find(|&&i| i < first).map_or(run.time[0], |&i| run.time[i]);
         let after = seen.iter().find(|&&i| i > last).map_or(run.time[run.time.len() - 1], |&i| run.time[i]);
@@ -79,6 +138,7 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>) -> Vec<Turning
             seconds,
             ratio,
             half,
+            one_way,
         });
     }
     out
@@ -89,26 +149,48 @@ mod tests {
     use super::*;
     use crate::testing::{Leg, drive};
 
-    /// Straight driving and turns, some rounds of it, at a scrub couple.
+    const EQUAL: Sides = Sides { factor: [1.0; 2], known: true };
+
+    /// Straight driving and turns both ways, some rounds of it, at a scrub couple.
     fn rounds(n: usize, scrub: f64) -> Vec<Leg> {
-        (0..n).flat_map(|_| [Leg::straight(4.0), Leg { scrub, ..Leg::turn(6.0) }]).collect()
+        let turn = |k: usize| if k % 2 == 0 { Leg::turn(6.0) } else { Leg::right(6.0) };
+        (0..n).flat_map(|k| [Leg::straight(4.0), Leg { scrub, ..turn(k) }]).collect()
     }
 
     #[test]
     fn dearer_turning_from_some_moment_on_is_found() {
         let legs = [rounds(4, 20.0), rounds(4, 32.0)].concat();
-        let found = turning_changes(&drive(&legs, false), Some(25.5));
+        let found = turning_changes(&drive(&legs, false), Some(25.5), EQUAL);
         assert_eq!(found.len(), 1, "{found:?}");
         let c = &found[0];
         // The fourth turn ends at 40 s; the next begins at 44 s and is steady a second later.
         assert!(c.onset[0] > 38.0 && c.onset[0] < 41.0 && c.onset[1] > 44.0 && c.onset[1] < 46.5, "{c:?}");
         assert!((c.ratio - 37.5 / 25.5).abs() < c.half, "{c:?}");
+        assert_eq!(c.one_way, None);
     }
 
     #[test]
     fn one_ground_is_no_change_though_it_be_another_one() {
-        assert_eq!(turning_changes(&drive(&rounds(6, 20.0), false), Some(25.5)), []);
-        assert_eq!(turning_changes(&drive(&rounds(6, 32.0), false), Some(25.5)), []);
-        assert_eq!(turning_changes(&drive(&[Leg::straight(30.0)], false), Some(25.5)), []);
+        assert_eq!(turning_changes(&drive(&rounds(6, 20.0), false), Some(25.5), EQUAL), []);
+        assert_eq!(turning_changes(&drive(&rounds(6, 32.0), false), Some(25.5), EQUAL), []);
+        assert_eq!(turning_changes(&drive(&[Leg::straight(30.0)], false), Some(25.5), EQUAL), []);
+    }
+
+    #[test]
+    fn sides_that_differ_as_on_the_references_are_no_other_ground() {
+        // The right side reads a third less than the left one, everywhere.
+        let own = |legs: Vec<Leg>| legs.into_iter().map(|leg| Leg { sides: [1.2, 0.8], ..leg }).collect::<Vec<_>>();
+        let left = || (0..4).flat_map(|_| [Leg::straight(4.0), Leg::turn(6.0)]).collect::<Vec<_>>();
+        let right = || (0..4).flat_map(|_| [Leg::straight(4.0), Leg::right(6.0)]).collect::<Vec<_>>();
+        let run = drive(&own([left(), right()].concat()), false);
+        assert_ne!(turning_changes(&run, Some(25.5), EQUAL), [], "the sides look like two grounds");
+        let sides = Sides::of(&[drive(&own(rounds(6, 20.0)), false)]);
+        assert_eq!(turning_changes(&run, Some(25.5), sides), []);
+        // Nobody knows the sides: two ways of turning are no two grounds.
+        assert_eq!(turning_changes(&run, Some(25.5), Sides::of(&[])), []);
+        // Another ground is still told, and that it was driven one way only.
+        let both = own([left(), right(), vec![Leg { scrub: 45.0, ..Leg::right(12.0) }]].concat());
+        let found = turning_changes(&drive(&both, false), Some(25.5), sides);
+        assert_eq!(found.iter().map(|c| c.one_way).collect::<Vec<_>>(), [Some(Way::Right)], "{found:?}");
     }
 }

@@ -34,6 +34,14 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
     let mut out = Vec::new();
     let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
     let period = run.period();
+    let levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+    let by = if levelled {
+        "gyro and accelerometer measure the tilt"
+    } else if attitude.relative {
+        "the gyro measures the tilt; ground that gives way tilts the body too, which an accelerometer would tell"
+    } else {
+        "the gyro measures the tilt"
+    };
     for piece in pieces(&run.time, (0..run.time.len()).filter(|&i| steep[i]), SLOPES.gap) {
         for piece in piece.chunk_by(|&a, &b| along(a) * along(b) > 0.0) {
             let (first, last) = (piece[0], piece[piece.len() - 1]);
@@ -57,8 +65,9 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
                 slope: mean.to_degrees(),
                 slope_half: (NINETY * sigma).to_degrees(),
                 bound: false,
+                relative: attitude.relative,
                 causes: vec![GRADE],
-                reason: "the gyro measures the tilt".into(),
+                reason: by.into(),
             });
         }
     }

@@ -83,6 +83,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         rate: [vec![0.0; grid.len()], pitch, grid.iter().map(|t| yaw[row(*t)]).collect()],
         time: grid,
         step: RATE_STEP,
+        level: None,
     });
     SpeedRun {
         name: "run".to_owned(),
@@ -96,8 +97,25 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         body_rates,
         standing: vec![false; time.len()],
         changed: vec![false; time.len()],
+        unused: Vec::new(),
         time,
     }
+}
+
+/// The same with an accelerometer that is mounted with its nose up by `tilt`, degrees.
+pub(crate) fn levelled(legs: &[Leg], tilt: f64) -> SpeedRun {
+    let mut run = drive(legs, true);
+    let mut ends = Vec::new();
+    for leg in legs {
+        ends.push((ends.last().map_or(0.0, |e: &(f64, f64)| e.0) + leg.seconds, leg.slope));
+    }
+    let slope = |t: f64| ends.iter().find(|e| t < e.0).map_or(0.0, |e| e.1);
+    if let Some(rates) = &mut run.body_rates {
+        let noise = |k: usize| [0.3, -0.4, 0.2, 0.1, -0.2][k % 5];
+        let level = |(k, t): (usize, &f64)| (slope(*t) + tilt + noise(k / 20)).to_radians();
+        rates.level = Some(rates.time.iter().enumerate().map(level).collect());
+    }
+    run
 }
 
 /// Straight driving and turns both ways, some rounds of it.

@@ -150,6 +150,9 @@ pub(crate) fn change(c: &LoadChange) -> String {
             "the straight load is {ratio:.2} times that of the rest; a slope \
              that does this is {size}"
         ),
+        None if c.relative => {
+            format!("the body tilts nose {} against the rest of the drive", if c.slope > 0.0 { "up" } else { "down" })
+        }
         None => format!("the slope is {size}"),
     };
     format!(
@@ -163,9 +166,19 @@ pub(crate) fn change(c: &LoadChange) -> String {
 }
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {
+    let what = match c.one_way {
+        None => "the ground is another".to_owned(),
+        Some(way) => {
+            let way = if way == Way::Left { "left" } else { "right" };
+            format!(
+                "the robot turned to the {way} only there, so that it may be its side as well as the ground; turn both \
+                 ways on the spot to tell"
+            )
+        }
+    };
     format!(
         "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
-         measured over {:.0} s: the ground is another.",
+         measured over {:.0} s: {what}.",
         c.recording,
         moment(c.onset),
         moment(c.end),

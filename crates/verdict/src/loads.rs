@@ -178,6 +178,10 @@ pub struct LoadChange {
     pub slope_half: f64,
     /// The currents sit in their dead band: ratio and slope are upper bounds.
     pub bound: bool,
+    /// The slope is an angle against the rest of the recording only, not against the horizon: the ground gives way, and no
+    /// accelerometer was recorded.
+    #[serde(default)]
+    pub relative: bool,
     /// Ids of the effects that may be the cause; one if it is decided.
     pub causes: Vec<Word>,
     /// What decided, or why nothing did.
@@ -219,6 +223,9 @@ pub struct TurningChange {
     pub ratio: f64,
     /// Half of its 90 % interval.
     pub half: f64,
+    /// The one way in which the robot turned there; `None` if it turned both ways.
+    #[serde(default)]
+    pub one_way: Option<Way>,
 }
 
 /// Which way a robot turns.

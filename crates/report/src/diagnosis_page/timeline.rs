@@ -37,7 +37,9 @@ fn mismatches(d: &Diagnosis) -> impl Iterator<Item = Stretch<'_>> {
 fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
     let text = |recording: &str, [a, b]: [f64; 2], what: &str| format!("{recording}: {a:.1} to {b:.1} s, {what}");
     let straight = loads.changes.found.iter().map(|c| {
-        let what = format!("slope {:.1} ± {:.1}°. {}", c.slope, c.slope_half, c.reason);
+        let angle =
+            if c.relative { "tilt".to_owned() } else { format!("slope {:.1} ± {:.1}°", c.slope, c.slope_half) };
+        let what = format!("{angle}. {}", c.reason);
         (c.recording.as_str(), "straight load", c.interval, Role::Before, what)
     });
     let turning = loads.turning_changes.iter().map(|c| {

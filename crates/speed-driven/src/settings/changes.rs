@@ -40,6 +40,8 @@ const fn degrees(x: f64) -> f64 {
         excess: f64 = 0.7, "1", "one of about ten settings tried on the open Husky runs";
         /// Error of the slope from one second of straight driving.
         from_load: f64 = degrees(2.0), "rad", "one of about ten settings tried on the open Husky runs";
+        /// Error of the accelerometer's mean at least.
+        from_level: f64 = degrees(0.4), "rad", "steps between means of 2 s on the open floor runs are 0.3°";
         /// Miss of a reading beyond which it counts less.
         far_off: f64 = degrees(2.5), "rad", "guess";
     }
@@ -106,6 +108,8 @@ const fn degrees(x: f64) -> f64 {
         scatter: f64 = 0.08, "1", "guess";
         /// Least steady turning that shows a change.
         least: f64 = 3.0, "s", "guess";
+        /// A way counts as turned to, or a side as known, after so much steady turning.
+        one_way: f64 = 1.5, "s", "guess";
         /// What turning costs on the references' ground is known after so much of it.
         known: f64 = 5.0, "s", "guess";
     }

@@ -14,6 +14,12 @@
         gyro_edge: f64 = 0.5, "s", "guess";
         /// Length of the steps over which turning rates of the body are averaged.
         rate_step: f64 = 0.1, "s", "guess";
+        /// The accelerometer is averaged over this long: wheel vibration puts 1 to 5 m/s² on it.
+        level_mean: f64 = 2.0, "s", "field study";
+        /// Gravity.
+        gravity: f64 = 9.81, "m/s²", "standard";
+        /// An accelerometer whose upward axis reads gravity within this share stands upright.
+        upright: f64 = 0.2, "1", "guess";
         /// Stamps that leave more than this many steps for each sample come from a clock that was set: no rates then.
         sparse: usize = 50, "1", "guess";
         /// Waiting time until a measured speed is steady, as a share of that of a set-point: set-points run ahead.
