@@ -169,9 +169,12 @@ fn joined<'a>(folds: impl Iterator<Item = &'a Vec<Vec<f64>>>) -> Errors {
     out
 }
 
+/// Errors of one fold: by quantity, then by window.
+type OfFold = Vec<Vec<f64>>;
+
 /// Errors of every window, each by fits that left it out.
 pub(crate) fn left_out(folds: &[Simulated]) -> Comparison<Errors> {
-    let of = |which: &dyn Fn(&Comparison<Vec<Vec<f64>>>) -> Option<&Vec<Vec<f64>>>| {
+    let of = |which: &dyn Fn(&Comparison<OfFold>) -> Option<&OfFold>| {
         joined(folds.iter().filter_map(|fold| which(&fold.errors)))
     };
     Comparison {
