@@ -34,7 +34,9 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
             }
         }
         if out.verdict != Verdict::Explained {
-            changes(loads).into_iter().for_each(|class| insert(out, class));
+            for class in changes(loads) {
+                insert(out, class);
+            }
         }
     }
     if let Some(cause) = standing(&loads.standstills) {
@@ -112,7 +114,7 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     for change in found {
         if classes
             .iter()
-            .any(|class| class.iter().map(|c| c.effect.as_str()).eq(change.causes.iter().map(|c| c.as_ref())))
+            .any(|class| class.iter().map(|c| c.effect.as_str()).eq(change.causes.iter().map(AsRef::as_ref)))
         {
             continue;
         }

@@ -57,7 +57,7 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
     let mut out: Vec<String> = strongest.iter().map(|r| difference(r, theirs)).collect();
     let all = told(loads).filter(|r| judgement(r) == Judgement::Differs).count();
     if all > strongest.len() {
-        out.push(format!("In all, {all} comparisons exclude that nothing differs; each is listed below."));
+        out.push(format!("In all, {all} comparisons differ; the others are listed below."));
     }
     for r in strongest {
         out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d) });
@@ -66,8 +66,9 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
 }
 
 fn difference(r: &Ratio, theirs: &str) -> String {
-    let tentative = if r.firm { "" } else { " (tentative: short)" };
-    format!("Difference: in {} the {} is {}{tentative}.", r.recording, r.quantity.name(), compared(r, theirs))
+    let tentative = if r.firm { "" } else { " (tentative)" };
+    let [load, seconds] = [compared(r, theirs), format!("{:.0} s", r.seconds)];
+    format!("Difference: in {} the {} is {load}, measured over {seconds}{tentative}.", r.recording, r.quantity.name())
 }
 
 /// What another effective track means, and what to do.

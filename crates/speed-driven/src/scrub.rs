@@ -153,7 +153,7 @@ mod tests {
 
     /// Straight driving and turns both ways, some rounds of it, at a scrub couple.
     fn rounds(n: usize, scrub: f64) -> Vec<Leg> {
-        let turn = |k: usize| if k % 2 == 0 { Leg::turn(6.0) } else { Leg::right(6.0) };
+        let turn = |k: usize| if k.is_multiple_of(2) { Leg::turn(6.0) } else { Leg::right(6.0) };
         (0..n).flat_map(|k| [Leg::straight(4.0), Leg { scrub, ..turn(k) }]).collect()
     }
 

@@ -15,13 +15,18 @@ const SENTENCES: Sentences = NAMING.sentences;
 pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
     let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
     let mut out = headline(d, of_loads, loads, theirs);
-    out.extend(told(loads).map(|r| load(r, theirs)));
+    // One that leads has been said.
+    let said = |r: &&Ratio| {
+        let of = format!("in {} the {} is", r.recording, r.quantity.name());
+        !out.iter().any(|s| s.contains(&of))
+    };
+    let more: Vec<String> = told(loads).filter(said).map(|r| load(r, theirs)).collect();
+    out.extend(more);
 
     if loads.standstills.len() > 1 {
         out.extend(loads.standstills.iter().map(standstill));
     }
     let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
-    // One that leads has been said.
     let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
     out.extend(more);
     out.extend(hidden(&loads.changes.hidden));
