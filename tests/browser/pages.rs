@@ -14,7 +14,7 @@ use pages::page::Page;
 use pages::reproduction::{Signals, figures};
 use recordings::ReadOptions;
 use report::diagnosis_page::{Provenance, render};
-use report::fleet::{Named, Seen, Told};
+use report::fleet::{Finding, Named, Seen};
 use skipping::{Skipped, beside};
 use speed_driven::diagnose_steady;
 use torque_driven::diagnose;
@@ -188,11 +188,11 @@ pub(crate) fn fleet() -> String {
         id: format!("run_{number} {HOSTILE}"),
         robot: format!("unit-{} {HOSTILE}", number % 3),
         date: Some(1_767_225_600_000 + 86_400_000 * i64::from(number)),
-        told: match number % 3 {
-            0 if number > 20 => Told::Explained(vec![sized(1.0 + 0.02 * f64::from(number))]),
-            1 if number > 3 => Told::Explained(vec![sized(0.7)]),
-            2 if number < 9 => Told::Failed(HOSTILE.to_owned()),
-            _ => Told::NoMismatch,
+        finding: match number % 3 {
+            0 if number > 20 => Finding::Explained(vec![sized(1.0 + 0.02 * f64::from(number))]),
+            1 if number > 3 => Finding::Explained(vec![sized(0.7)]),
+            2 if number < 9 => Finding::Failed(HOSTILE.to_owned()),
+            _ => Finding::NoMismatch,
         },
     });
     report::fleet::render(&seen.collect::<Vec<_>>(), HOSTILE)

@@ -18,8 +18,9 @@ pub(super) fn page() -> String {
     let mut out = format!(
         "# Effects\n\n\
          Written by `cargo xtask book --docs` from the catalogue; do not edit. These {} effects, the causes of\n\
-         [command-driven](#command-driven-robots) and [speed-driven robots](#speed-driven-robots) and [two answers](#answers-that-name-no-cause) are what a diagnosis\n\
-         can name; `lacuna explain NAME` tells the same at the command line. To add an effect:\n\
+         [command-driven](#command-driven-robots) and [speed-driven](#speed-driven-robots) robots and\n\
+         [two answers](#answers-that-name-no-cause) are what a diagnosis can name; `lacuna explain NAME` tells the same at\n\
+         the command line. To add an effect:\n\
          [writing an effect](writing-an-effect.md).\n\n\
          Bounds are those within which a fit looks. \"Matters from\" is the size below which nobody would act.\n\n\
          | effect | name | kind |\n|---|---|---|\n",

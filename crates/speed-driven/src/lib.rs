@@ -6,8 +6,8 @@
 //!
 //! # Files
 //!
-//! * `run`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
-//!   turns.
+//! * `run`, `body_rates`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
+//!   turns; an accelerometer.
 //! * `standstill`: a body that stands while its wheels turn; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
@@ -23,6 +23,7 @@
 
 mod answer;
 mod attitude;
+mod body_rates;
 mod changes;
 mod clock;
 mod compare;
@@ -63,10 +64,11 @@ use compare::{Reference, matching, references, scaled};
 use model::{Measured, tune};
 use name::{Comparison, Difference, name};
 
+pub use body_rates::BodyRates;
 pub use clock::{Alignment, align, box_mean, interpolate};
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming};
-pub use run::{BodyRates, SpeedRun};
+pub use run::SpeedRun;
 use traces::{Fits, Forecasts};
 
 /// Every tuned number of this crate, for the page of settings.

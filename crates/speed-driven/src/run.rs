@@ -1,8 +1,9 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
-use inference::robust::{mean, median};
+use inference::robust::median;
 use recordings::{Channel, Recording, Signal};
 
+use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
 use crate::settings::{MEASURING, measuring::Rows};
 use inference::DiagnosisError;
@@ -40,69 +41,13 @@ pub struct SpeedRun {
     pub unused: Vec<Signal>,
 }
 
-/// Turning rates of the body, averaged over steps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyRates {
-    /// Middle of each step on the gyro's clock, s.
-    pub time: Vec<f64>,
-    /// Length of a step, s.
-    pub step: f64,
-    /// About the forward, left and upward axis, rad/s.
-    pub rate: [Vec<f64>; 3],
-    /// Nose up by the accelerometer, averaged and less what the set speeds accelerate, rad; `None` without one, or with one
-    /// that does not stand upright.
-    pub level: Option<Vec<f64>>,
-}
-
-impl BodyRates {
-    fn new(recording: &Recording) -> Option<Self> {
-        let axes = [Signal::GyroX, Signal::GyroY, Signal::GyroZ].map(|s| recording.get(s));
-        let [Some(x), Some(y), Some(z)] = axes else { return None };
-        let origin = origin(recording);
-        let (time, _) = samples(z, origin);
-        let (first, last) = (*time.first()?, *time.last()?);
-        if ((last - first) / ROWS.rate_step) as usize > ROWS.sparse * time.len() {
-            return None;
-        }
-        let grid: Vec<f64> =
-            (0..=((last - first) / ROWS.rate_step) as usize).map(|k| first + k as f64 * ROWS.rate_step).collect();
-        let rate = [x, y, z].map(|channel| {
-            let (t, values) = samples(channel, origin);
-            let mean = clock::box_mean(&t, values, ROWS.rate_step);
-            grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
-        });
-        Some(Self { time: grid, step: ROWS.rate_step, rate, level: None })
-    }
-}
-
-/// Nose up at the steps of the gyro's clock, rad, from the specific force along the body.
-fn level(recording: &Recording, run: &SpeedRun, at: &[f64]) -> Option<Vec<f64>> {
-    let force = recording.get(Signal::AccelX)?;
-    let upward = recording.get(Signal::AccelZ).and_then(|c| mean(c.values().iter().copied()));
-    if upward.is_some_and(|g| (g / ROWS.gravity - 1.0).abs() > ROWS.upright) {
-        return None;
-    }
-    let lag = &run.alignment.as_ref()?.lag;
-    let (t, values) = samples(force, origin(recording));
-    let smooth = clock::box_mean(&t, values, ROWS.level_mean);
-    let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
-    let rows: Vec<f64> = run.time.iter().zip(lag).map(|(t, l)| t + l).collect();
-    let speed = |at: f64| clock::interpolate(&rows, &forward, at);
-    let half = 0.5 * ROWS.level_mean;
-    let of_step = |&at: &f64| {
-        let gained = (speed(at + half) - speed(at - half)) / ROWS.level_mean;
-        ((clock::interpolate(&t, &smooth, at) - gained) / ROWS.gravity).clamp(-1.0, 1.0).asin()
-    };
-    Some(at.iter().map(of_step).collect())
-}
-
 /// The first stamp of a recording, ns: times count from here, whatever epoch the stamps have.
-fn origin(recording: &Recording) -> i64 {
+pub(crate) fn origin(recording: &Recording) -> i64 {
     recording.channels().iter().filter_map(|c| c.t_ns().first().copied()).min().unwrap_or(0)
 }
 
 /// Times in s from the recording's origin, and values of a channel.
-fn samples(channel: &Channel, origin: i64) -> (Vec<f64>, &[f64]) {
+pub(crate) fn samples(channel: &Channel, origin: i64) -> (Vec<f64>, &[f64]) {
     (channel.t_ns().iter().map(|t| (*t - origin) as f64 * 1e-9).collect(), channel.values())
 }
 

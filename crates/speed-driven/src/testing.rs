@@ -6,8 +6,9 @@ use robot_model::paper::Parameters;
 use robot_model::tunable::tunables;
 use verdict::{Diagnosis, Load, Quantity};
 
+use crate::BodyRates;
 use crate::clock::Alignment;
-use crate::run::{BodyRates, SpeedRun};
+use crate::run::SpeedRun;
 use crate::{SteadyCase, diagnose_steady};
 
 /// Torque of the robot's weight at a wheel's radius, N m, and the usual straight load, N m.
