@@ -265,13 +265,12 @@ fn mistakes_are_refused_before_any_work() {
 }
 
 #[test]
-fn a_robot_without_its_references_is_told_row_by_row() {
+fn a_robot_without_references_is_compared_with_its_file() {
     let bench = Bench::new();
     bench.remove("case/reference");
     let run = bench.run(&["batch", "case", "-o", "out", "--json", "-"]);
-    assert_eq!(run.code(), Some(3), "{}", run.err());
+    assert_eq!(run.code(), Some(0), "{}", run.err());
     let counts: Value = serde_json::from_str(&run.out()).unwrap();
-    let why = counts["failures"][0]["error"].as_str().unwrap();
-    assert!(why.contains("torque-driven") && why.contains("--reference"), "{why}");
-    assert_eq!(text(&rows(&bench.path("out/rows.parquet"))[0]["outcome"]), "failed");
+    assert_eq!(counts["failures"].as_array().map(Vec::len), Some(0), "{counts}");
+    assert_ne!(text(&rows(&bench.path("out/rows.parquet"))[0]["outcome"]), "failed");
 }

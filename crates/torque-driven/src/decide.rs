@@ -1,8 +1,10 @@
 //! From fits to probabilities.
 
+use faer::Mat;
+use inference::algebra::solve_spd;
 use inference::evidence::{logistic, penalty_of_smallness, probabilities};
 
-use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::trial::{Found, Trial};
 use crate::visits;
@@ -29,6 +31,11 @@ pub(crate) struct Decision {
 }
 
 impl Decision {
+    /// Whether nothing is likelier to be missing than something.
+    pub(crate) fn finds_nothing(&self) -> bool {
+        self.none >= self.unknown + self.scored.iter().map(|s| s.probability).sum::<f64>()
+    }
+
     /// The same with another probability that the cause is not in the catalogue.
     pub(crate) fn with_unknown(mut self, unknown: f64) -> Self {
         let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
@@ -54,6 +61,21 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, PRICES.size_width);
     }
     sum
+}
+
+/// Evidence of a fitted hypothesis by the curvature of its cost (Laplace), less its penalty, nats:
+/// `−F − ½ ln det(J + Λ) + ½ ln det Λ`, with unit information about each free value of its effects.
+pub(crate) fn evidence(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Option<f64> {
+    let none = h.parts.is_empty();
+    let columns = if none { Columns(Vec::new()) } else { problem.effect_columns(&fitted.point, h, &fitted.response) };
+    let mut normal = problem.normal(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
+    problem.with_prior(&fitted.point, &mut normal);
+    let n = normal.matrix.nrows();
+    (problem.centre.len()..n).for_each(|i| normal.matrix[(i, i)] += 1.0);
+
+    let log_determinant = |of: &Mat<f64>| solve_spd(of, &Mat::zeros(of.nrows(), 1)).map(|(_, ln)| ln);
+    let occam = 0.5 * (log_determinant(&normal.matrix)? - log_determinant(&problem.information)?);
+    Some(-fitted.cost - occam - penalty(h, &fitted.point.effects))
 }
 
 /// Penalty of sizes that the form of the plant's own laws may show: references take that in, a robot file does not.

@@ -4,12 +4,15 @@ use robot_model::Robot;
 
 use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
-use crate::decide::decide;
+use crate::decide::{Decision, decide, evidence};
+use crate::fit::{Hypothesis, Problem};
 use crate::judged::Judged;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
-use crate::search::search;
+use crate::search::{retune, search};
+use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
+use crate::trial::Found;
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
@@ -17,6 +20,7 @@ use verdict::Diagnosis;
 use crate::next;
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
+const PRICES: Prices = decision::SETTINGS.prices;
 
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
@@ -42,7 +46,7 @@ impl Calibrated {
             return Ok(Self { references: Vec::new(), calibration: Calibration::by_file(), largest_torque });
         }
         let references = cut_all(&case.references, &check(&case.references, &[]), case, &robot, options)?;
-        let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?.on_another_visit();
+        let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
         Ok(Self { references, calibration, largest_torque })
     }
 
@@ -68,7 +72,7 @@ impl Calibrated {
         let recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
         let largest = largest_torque(&case.recordings).max(self.largest_torque);
         let mut calibration = if largest > self.largest_torque && !self.references.is_empty() {
-            calibrate(&robot, &case.sigma, &self.references, largest, options)?.on_another_visit()
+            calibrate(&robot, &case.sigma, &self.references, largest, options)?
         } else {
             self.calibration.clone()
         };
@@ -80,6 +84,16 @@ impl Calibrated {
         };
         let (mut found, mut decision) = weigh(&calibration);
         let unknown = decision.unknown;
+        // References of another visit: what is found may be constants that moved since.
+        if !self.references.is_empty() && !decision.finds_nothing() {
+            let moved = calibration.clone().on_another_visit();
+            let [before, after] =
+                [&calibration, &moved].map(|c| problem(&robot, case, &recordings, c, largest, options));
+            if constants_moved(&before, &after, &found, &decision) {
+                calibration = moved;
+                (found, decision) = weigh(&calibration);
+            }
+        }
         // Without references the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
         for _ in 1..if self.references.is_empty() { CALIBRATING.most_searches } else { 1 } {
             let before = problem(&robot, case, &recordings, &calibration, largest, options);
@@ -109,6 +123,19 @@ impl Calibrated {
         }
         Ok(out)
     }
+}
+
+/// Whether constants that moved between visits explain the recordings better than the best hypothesis does with constants as
+/// the references have them: by the evidence of both (Laplace), to which many constants that need not move cost much.
+fn constants_moved(before: &Problem<'_>, after: &Problem<'_>, found: &Found, decision: &Decision) -> bool {
+    let none = Hypothesis::default();
+    let moved = retune(after, after.begin(&none, after.origin(), None));
+    let as_they_are = decision.scored.first().map_or((&none, &found.retuned), |s| {
+        let trial = &s.trial;
+        (&trial.hypothesis, &trial.fitted)
+    });
+    let evidence = [evidence(after, &none, &moved), evidence(before, as_they_are.0, as_they_are.1)];
+    matches!(evidence, [Some(moved), Some(best)] if moved > best + PRICES.moved)
 }
 
 /// Diagnoses a torque-driven case. `progress` is called with the stage that begins.

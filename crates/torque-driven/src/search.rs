@@ -88,6 +88,13 @@ fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
     trial
 }
 
+/// Re-tunes constants without any effect.
+pub(crate) fn retune(problem: &Problem<'_>, start: Fitted) -> Fitted {
+    let none = Hypothesis::default();
+    let retuned = problem.refine(&none, start, RETUNING.first_steps, Some(1));
+    problem.refine(&none, retuned, RETUNING.second_steps, Some(0))
+}
+
 /// Runs the whole search on the recordings.
 pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     let none = Hypothesis::default();
@@ -97,8 +104,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     let first = screen(problem, &origin, &all, &none);
 
     progress("re-tuning without any effect");
-    let mut retuned = problem.refine(&none, origin.clone(), RETUNING.first_steps, Some(1));
-    retuned = problem.refine(&none, retuned, RETUNING.second_steps, Some(0));
+    let mut retuned = retune(problem, origin.clone());
     retuned.columns = Arc::new(problem.nuisance_columns(&retuned.point, &none, &retuned.response));
     let second = screen(problem, &retuned, &all, &none);
 

@@ -32,9 +32,9 @@ Examples:
 
 A case folder:
   robot.toml    or robot.json; or name a robot with --robot
-  reference/    drives in which the simulation was right, or logs of the
-                simulator itself (may be missing for command-driven robots: the
-                simulation then does what is commanded, without slip)
+  reference/    real drives in which the simulation was right (may be missing:
+                the robot file then stands in their place, as sure as it states,
+                and smaller effects pass for constants)
   recordings/   drives in which it was not
   heldout/      inputs whose response is to be predicted (may be missing)
 
@@ -77,8 +77,8 @@ pub(crate) struct Input {
     /// for bags the built-in one that fits].
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) mapping: Option<String>,
-    /// Files or folders of drives in which the simulation was right; a speed-driven or command-driven
-    /// robot can do without, and is then compared with its robot file.
+    /// Files or folders of real drives in which the simulation was right; without any, recordings are compared with the
+    /// robot file, whose constants are as sure as it states.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     pub(crate) reference: Vec<PathBuf>,
     /// Files or folders of drives in which it was not.
