@@ -3,7 +3,7 @@
 //! A kind of robot differs in *what* is compared: windows of a free run, torques at known wheel speeds, wheels and poses
 //! from commands. It says so as an [`Experiment`]: blocks of data that can be left out, four simulations fitted without a
 //! block, and what each answers to it. [`leave_out`] asks them, [`free_runs`] makes the rows of a verdict, and
-//! [`Forecasts::objection`] says what these rows hold against the correction.
+//! [`Standing::objection`] says what these rows hold against the correction.
 
 use rayon::prelude::*;
 use verdict::FreeRun;
