@@ -142,14 +142,3 @@
 
 /// As this crate uses them.
 pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_number_has_its_unit_meaning_and_source() {
-        let bare: Vec<&str> = Settings::ALL.iter().filter(|s| !s.is_documented()).map(|s| s.name).collect();
-        assert!(bare.is_empty(), "{bare:?}");
-    }
-}

@@ -22,8 +22,14 @@ pub struct Setting {
 
 impl Setting {
     /// Whether unit, meaning and source say anything.
-    pub fn is_documented(&self) -> bool {
-        [self.about, self.unit, self.meaning, self.source].iter().all(|text| !text.trim().is_empty())
+    pub const fn is_documented(&self) -> bool {
+        const fn says_nothing(text: &str) -> bool {
+            text.trim_ascii().is_empty()
+        }
+        !(says_nothing(self.about)
+            || says_nothing(self.unit)
+            || says_nothing(self.meaning)
+            || says_nothing(self.source))
     }
 }
 
@@ -31,6 +37,18 @@ impl Setting {
 /// `Settings::DEFAULT`, and a row for each number in `Settings::ALL`.
 ///
 /// A number reads `name: type = default, "unit", "source";` below a comment that says what it means.
+///
+/// ```compile_fail,E0080
+/// settings::settings! {
+///     /// A number whose unit is blank.
+///     struct Settings;
+///     /// Stopping at a wall.
+///     stopping: Stopping {
+///         /// Distance at which the brake is applied.
+///         distance: f64 = 0.5, " ", "guess";
+///     }
+/// }
+/// ```
 #[macro_export]
 macro_rules! settings {
     (
@@ -88,5 +106,14 @@ macro_rules! settings {
                 source: $source,
             }),+),+];
         }
+
+        // A text of blanks compiles as little as none.
+        const _: () = {
+            let mut i = 0;
+            while i < $Settings::ALL.len() {
+                assert!($Settings::ALL[i].is_documented(), "a setting without a unit, a meaning or a source");
+                i += 1;
+            }
+        };
     };
 }

@@ -34,13 +34,3 @@
 
 /// As this crate uses them.
 pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_number_is_documented() {
-        for row in super::Settings::ALL {
-            assert!(row.is_documented(), "{row:?}");
-        }
-    }
-}

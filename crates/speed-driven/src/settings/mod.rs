@@ -21,13 +21,3 @@ pub(crate) fn all() -> impl Iterator<Item = &'static ::settings::Setting> {
     let stages = [measuring::Settings::ALL, changes::Settings::ALL, naming::Settings::ALL, forecasting::Settings::ALL];
     stages.into_iter().flatten()
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_number_is_documented() {
-        for row in super::all() {
-            assert!(row.is_documented(), "{row:?}");
-        }
-    }
-}

@@ -27,13 +27,3 @@ const STAGES: [&[Setting]; 8] = [
 pub(crate) fn all() -> impl Iterator<Item = &'static Setting> {
     STAGES.into_iter().flatten()
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_number_has_a_unit_a_meaning_and_a_source() {
-        for row in super::all() {
-            assert!(row.is_documented(), "{row:?}");
-        }
-    }
-}
