@@ -91,11 +91,22 @@ impl CaseFolder {
         Ok(Self { coverage, ..Self::new(robot, [reference, recordings, held_out])? })
     }
 
-    /// A case of what was read already: references, recordings, held-out drives.
+    /// A case of what was read already: references, recordings, held-out drives. A few samples that no such robot can
+    /// show are left out and told as lost.
     ///
     /// # Errors
-    /// A recording that is given twice.
-    pub fn new(robot: RobotSpec, [reference, recordings, held_out]: [Loaded; 3]) -> Result<Self> {
+    /// A recording that is given twice, and one whose values no such robot can show.
+    pub fn new(robot: RobotSpec, mut parts: [Loaded; 3]) -> Result<Self> {
+        for loaded in &mut parts {
+            for read in &mut loaded.reads {
+                let files = file_names(read);
+                let (recording, left_out) =
+                    diagnosis::possible(read.recording.clone(), &robot.robot).with_context(|| files)?;
+                read.recording = recording;
+                loaded.impossible.extend(left_out);
+            }
+        }
+        let [reference, recordings, held_out] = parts;
         let case = Self { robot, reference, recordings, held_out, coverage: BTreeMap::new() };
         case.refuse_twins()?;
         Ok(case)

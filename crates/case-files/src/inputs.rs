@@ -14,7 +14,7 @@ use robot_file::RobotSpec;
 use crate::watched::{Pass, Watch, Watched};
 
 /// Recordings read from files, with what was lost.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Loaded {
     /// Recordings in the order of their names.
     pub reads: Vec<Read>,
@@ -26,12 +26,15 @@ pub struct Loaded {
     pub unmatched: Vec<String>,
     /// Other things in the folders, which were not read: no loss, worth telling.
     pub ignored: Vec<String>,
+    /// What was read and cannot be, in sentences: a loss.
+    pub impossible: Vec<String>,
 }
 
 impl Loaded {
     /// What was lost, in sentences.
     pub fn lost(&self) -> impl Iterator<Item = String> + '_ {
-        self.losses.iter().map(ToString::to_string).chain(not_read(&self.unmatched))
+        let left_out = self.impossible.iter().cloned();
+        self.losses.iter().map(ToString::to_string).chain(not_read(&self.unmatched)).chain(left_out)
     }
 }
 
@@ -213,6 +216,7 @@ pub fn load(mapping: &Mapping, paths: &[PathBuf], options: &ReadOptions) -> Resu
         reads: runs.found,
         unmatched: runs.unmatched,
         ignored: runs.ignored,
+        ..Loaded::default()
     })
 }
 

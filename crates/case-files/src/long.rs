@@ -79,6 +79,7 @@ impl Budget {
             reads,
             unmatched: plan.unmatched,
             ignored: plan.ignored,
+            ..Loaded::default()
         };
         Ok((loaded, Some(coverage)))
     }

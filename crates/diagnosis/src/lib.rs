@@ -11,14 +11,17 @@
 //! * `case`: a case of any kind of robot, the engine that diagnoses it, and references made ready once.
 //! * `long/*`: long recordings: screened once by weak form (`law`, `rows`, `thin`), of which the
 //!   minutes that differ most from the references are kept (`pool`) for a diagnosis.
+//! * `possible`: values that no robot of the file can show, and the unit that would explain them.
 //! * `settings`: every tuned number, with unit and source.
 
 mod case;
 pub mod long;
+mod possible;
 mod settings;
 
 pub use case::{Case, Prepared, diagnose};
 pub use inference::{DiagnosisError, Options};
+pub use possible::possible;
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

@@ -21,6 +21,30 @@
         reference_ns: i64 = 12_000_000_000, "ns", "guess";
     }
 
+    /// Values that no robot on wheels can show.
+    possible: Possible {
+        /// Fastest drive.
+        fastest: f64 = 60.0, "m/s", "guess; twice a fast car of motorways, no robot comes near";
+        /// Fastest turn about the upward axis.
+        fastest_turn: f64 = 40.0, "rad/s", "gyros of robots end at 2000 °/s = 35 rad/s";
+        /// Largest specific force.
+        hardest_hit: f64 = 400.0, "m/s²", "accelerometers for hits end at 400 m/s², usual ones at 160 m/s²";
+        /// Largest torque of a side, in weights times the wheels' radius: spinning up heavy wheels takes more than tyres hold.
+        torque: f64 = 20.0, "1", "guess";
+        /// Share of the samples of a channel that may be left out as spikes.
+        spikes: f64 = 0.01, "1", "guess";
+        /// Time over which angles and places are compared with the turning of the wheels.
+        lag: f64 = 0.5, "s", "guess; long beside the noise of a pose";
+        /// How much faster than by its wheels a body seems to move where a unit is wrong.
+        beyond_wheels: f64 = 10.0, "1", "guess; the factors of wrong units are 9.5 (rpm), 57 (degrees) and 1000 (mm), those of faults below 2";
+        /// Added to the turn that wheels give: bias and noise of a gyro.
+        turn: f64 = 0.05, "rad/s", "guess";
+        /// Added to the drive that wheels give: noise of a pose.
+        drive: f64 = 0.1, "m/s", "guess";
+        /// Factor within which an upward accelerometer shows gravity.
+        gravity: f64 = 1.5, "1", "guess; a slope of 45 degrees gives 1.4";
+    }
+
     /// Recordings with fewer rows.
     thinning: Thinning {
         /// Time between the rows that are left.

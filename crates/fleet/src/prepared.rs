@@ -78,7 +78,7 @@ impl Prepared {
         case.coverage = covered.collect();
         let mut diagnosis = self.ready.diagnose(case.case()?, &settings.options, &|_: &str| {})?;
         diagnosis.rest_on(&case.coverage);
-        case.reference = self.reference();
+        case.reference = self.reference.clone();
         case.refuse_twins()?;
         Ok((diagnosis, case))
     }
@@ -94,17 +94,6 @@ impl Prepared {
         settings: &Settings,
     ) -> Result<(Loaded, Option<Coverage>)> {
         settings.budget.load(mapping, paths, &settings.reading, (self.robot.causality, &self.compared))
-    }
-
-    fn reference(&self) -> Loaded {
-        let Loaded { reads, losses, sources, unmatched, ignored } = &self.reference;
-        Loaded {
-            reads: reads.clone(),
-            losses: losses.clone(),
-            sources: sources.clone(),
-            unmatched: unmatched.clone(),
-            ignored: ignored.clone(),
-        }
     }
 }
 

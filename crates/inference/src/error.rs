@@ -38,6 +38,14 @@ pub enum DiagnosisError {
         /// Name of the recording.
         recording: String,
     },
+    /// A recording holds what no robot of the file can show.
+    #[error("recording '{recording}': {what}")]
+    Impossible {
+        /// Name of the recording.
+        recording: String,
+        /// The channel, what it shows, what can be, and what to do.
+        what: String,
+    },
     /// There is nothing to compare with or to diagnose.
     #[error("the case has no {what}; at least one is needed")]
     Empty {
