@@ -1,6 +1,7 @@
 //! From a decision to the verdict: kind of answer, causes with sizes and intervals, places, limits.
 
 use std::collections::BTreeMap;
+use std::iter;
 
 use catalogue::answer::{NONE, UNKNOWN};
 use faer::Mat;
@@ -31,8 +32,8 @@ impl Judged<'_> {
     fn verdict(&self) -> Verdict {
         let d = self.decision;
         let best = d.scored.first().map_or(0.0, |s| s.probability);
-        // A fault that two sensors agree on stands, whatever the motion does besides.
-        if !self.sensors.faults.is_empty() {
+        // A fault that two sensors show stands, whatever the motion does besides.
+        if self.sensors.faults.iter().any(|f| f.probability > ANSWER.likely) {
             Verdict::Explained
         } else if d.unknown > ANSWER.likely {
             Verdict::Unknown
@@ -52,25 +53,11 @@ impl Judged<'_> {
             }
         }
         let mut out: Vec<Cause> = by_effect.into_values().map(|(p, s, i)| self.cause(s, i, p)).collect();
-        let fault = !self.sensors.faults.is_empty();
-        for f in &self.sensors.faults {
-            out.push(Cause {
-                effect: f.spec.id.to_owned(),
-                name: words::fault(f),
-                probability: ANSWER.sure,
-                magnitude: Some(f.magnitude),
-                sigma: Some(f.sigma),
-                unit: inference::words::unit(f.spec).into(),
-                parameters: BTreeMap::from([(
-                    f.spec.parameters[f.parameter].name.to_owned(),
-                    Estimate { value: f.magnitude, sigma: Some(f.sigma), at_bound: false },
-                )]),
-                side: f.side.map(|s| inference::words::side(s).into()),
-                place: None,
-                intervals: None,
-            });
+        let mut none = self.decision.none;
+        for fault in &self.sensors.faults {
+            out.extend(fault.causes());
+            none *= 1.0 - fault.probability;
         }
-        let none = if fault { self.decision.none * (1.0 - ANSWER.sure) } else { self.decision.none };
         out.push(Cause::plain(NONE.id, NONE.name, none));
         out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, self.decision.unknown));
         out.retain(|c| c.probability >= ANSWER.listed || c.effect == NONE.id || c.effect == UNKNOWN.id);
@@ -301,10 +288,26 @@ impl Judged<'_> {
         self.decision.scored.iter().map(row).collect()
     }
 
-    /// Effects of the same kind of probability as the best, and a wrong cause that forecasts left-out recordings as
-    /// well: these recordings cannot tell them apart.
+    /// Classes of causes that these recordings cannot tell apart: sensor faults that show in the same redundancy, and the
+    /// rivals of the best hypothesis.
     fn rivals(&self, ranked: &[Cause], verdict: Verdict, as_good: Option<&Scored>) -> Vec<Vec<String>> {
-        let Some(winner) = self.winner().filter(|_| verdict == Verdict::Explained) else { return Vec::new() };
+        let of_sensors = self.sensors.faults.iter().map(|f| iter::once(f.spec).chain(f.alike()));
+        let mut out: Vec<Vec<String>> = of_sensors.map(|all| all.map(|s| s.id.to_owned()).collect()).collect();
+        out.retain(|class| class.len() > 1);
+        out.sort_unstable();
+        out.dedup();
+        out.extend(self.rivals_of_winner(ranked, verdict, as_good));
+        out
+    }
+
+    fn is_of_sensor(&self, effect: &str) -> bool {
+        self.sensors.faults.iter().any(|f| f.spec.id == effect || f.alike().any(|s| s.id == effect))
+    }
+
+    /// The best hypothesis with effects of the same kind of probability, and with a wrong cause that forecasts left-out
+    /// recordings as well.
+    fn rivals_of_winner(&self, ranked: &[Cause], verdict: Verdict, as_good: Option<&Scored>) -> Option<Vec<String>> {
+        let winner = self.winner().filter(|_| verdict == Verdict::Explained)?;
         // Alternatives to the best hypothesis, not its own second member.
         let members = winner.trial.hypothesis.ids();
         let best = members
@@ -317,15 +320,12 @@ impl Judged<'_> {
             .iter()
             .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
             .filter(|c| {
-                c.probability > ANSWER.rival * best && c.probability < ANSWER.sure
-                    || as_good.contains(&c.effect.as_str())
+                let competes = c.probability > ANSWER.rival * best && !self.is_of_sensor(&c.effect);
+                competes || as_good.contains(&c.effect.as_str())
             })
             .map(|c| c.effect.clone())
             .collect();
-        if rivals.is_empty() {
-            return Vec::new();
-        }
-        vec![members.iter().map(|m| (*m).to_owned()).chain(rivals).collect()]
+        (!rivals.is_empty()).then(|| members.iter().map(|m| (*m).to_owned()).chain(rivals).collect())
     }
 
     fn limits(&self) -> Vec<String> {

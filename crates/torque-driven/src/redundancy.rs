@@ -4,13 +4,18 @@
 //! the same robot without the fault. Only the check of the gyro's own zero and gain needs no reference.
 
 use std::collections::BTreeMap;
+use std::iter;
 
 use robot_model::effect::Redundancy;
-use robot_model::{EffectSpec, effects};
+use robot_model::{Effect, EffectSpec, effects};
 
 use crate::motion::GyroError;
 use crate::run::Run;
-use verdict::{EffectAt, Side};
+use crate::settings::redundancy::{Faults, SETTINGS};
+use crate::words;
+use inference::evidence::logistic;
+use pool::Measured;
+use verdict::{Cause, EffectAt, Estimate, Side};
 
 mod acceleration;
 mod angle;
@@ -19,6 +24,8 @@ mod correct;
 mod gyro;
 mod pool;
 mod wheels;
+
+const FAULTS: Faults = SETTINGS.faults;
 
 /// A sensor fault found by redundancy.
 #[derive(Debug, Clone)]
@@ -31,9 +38,42 @@ pub(crate) struct Fault {
     /// One sigma of it.
     pub(crate) sigma: f64,
     pub(crate) side: Option<usize>,
+    /// That it is there at all.
+    pub(crate) probability: f64,
 }
 
 impl Fault {
+    /// A fault of an effect's parameter that was measured so.
+    fn new((spec, parameter): (&'static EffectSpec, usize), measured: Measured, side: Option<usize>) -> Self {
+        let Measured { value: magnitude, sigma } = measured;
+        Self { spec, parameter, magnitude, sigma, side, probability: probability(measured, spec) }
+    }
+
+    /// Other effects that show in the same redundancy: these recordings cannot tell them from it.
+    pub(crate) fn alike(&self) -> impl Iterator<Item = &'static EffectSpec> {
+        let (kind, id) = (self.spec.redundancy, self.spec.id);
+        effects::catalogue::<f64>().into_iter().map(Effect::spec).filter(move |s| s.redundancy == kind && s.id != id)
+    }
+
+    /// It as a cause, then those that would show alike, each with its share by how rare it is.
+    pub(crate) fn causes(&self) -> impl Iterator<Item = Cause> {
+        let share = |rarity: f64| (-rarity).exp();
+        let all = share(self.spec.rarity) + self.alike().map(|s| share(s.rarity)).sum::<f64>();
+        let probability = self.probability;
+        let of = move |rarity: f64| probability * share(rarity) / all;
+        let parameter = self.spec.parameters[self.parameter].name.to_owned();
+        let estimate = Estimate { value: self.magnitude, sigma: Some(self.sigma), at_bound: false };
+        let first = Cause {
+            magnitude: Some(self.magnitude),
+            sigma: Some(self.sigma),
+            unit: inference::words::unit(self.spec).into(),
+            parameters: BTreeMap::from([(parameter, estimate)]),
+            side: self.side.map(|s| inference::words::side(s).into()),
+            ..Cause::plain(self.spec.id, &words::fault(self), of(self.spec.rarity))
+        };
+        iter::once(first).chain(self.alike().map(move |s| Cause::plain(s.id, s.name, of(s.rarity))))
+    }
+
     /// The effect that shows it.
     pub(crate) fn effect(&self) -> EffectAt {
         EffectAt {
@@ -51,6 +91,19 @@ pub(crate) struct Redundant {
     pub(crate) faults: Vec<Fault>,
     /// Correction of the gyro to apply before anything else.
     pub(crate) gyro: GyroError,
+}
+
+/// Probability of a number that was measured beside that of none: the ratio of evidences of a normal distribution whose
+/// sizes are some that matter, times what is known of such faults beforehand.
+///
+/// `ln B = ½ ln(σ²/(σ² + s²)) + ½ z² s²/(σ² + s²)` with `z = value/σ`.
+fn probability(measured: Measured, spec: &EffectSpec) -> f64 {
+    let squared = measured.sigma.max(f64::MIN_POSITIVE).powi(2);
+    let usual = (FAULTS.usual * spec.interest).powi(2);
+    let z2 = measured.value.powi(2) / squared;
+    let shrunk = usual / (squared + usual);
+    let evidence = 0.5 * ((1.0 - shrunk).ln() + z2 * shrunk);
+    logistic(evidence - FAULTS.price - spec.rarity).min(FAULTS.surest)
 }
 
 /// The effect that a redundancy shows; of several that look the same in it, the commonest.

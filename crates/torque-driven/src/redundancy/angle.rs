@@ -2,8 +2,8 @@
 
 use robot_model::effect::Redundancy;
 
-use super::pool::median;
-use super::{Fault, spec};
+use super::pool::{Measured, median};
+use super::{FAULTS, Fault, spec};
 use crate::motion::frozen_rows;
 use crate::run::Run;
 use crate::settings::redundancy::{Jumps, SETTINGS};
@@ -24,7 +24,7 @@ pub(super) fn frozen(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let share = mean(&here) - mean(&shares(references));
         if share > spec.interest {
             let sigma = median(&here).map_or(0.0, |m| m.1);
-            out.push(Fault { spec, parameter: 0, magnitude: share, sigma, side: Some(side) });
+            out.push(Fault::new((spec, 0), Measured { value: share, sigma }, Some(side)));
         }
     }
 }
@@ -65,7 +65,9 @@ pub(super) fn jumps(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         if more > JUMPS.sure * (there.len() as f64).sqrt() / m
             && let Some((magnitude, sigma)) = median(&here)
         {
-            out.push(Fault { spec, parameter: 0, magnitude, sigma, side: Some(side) });
+            // Nothing else makes an angle jump between steps that agree.
+            let jump = Fault::new((spec, 0), Measured { value: magnitude, sigma }, Some(side));
+            out.push(Fault { probability: FAULTS.surest, ..jump });
         }
     }
 }

@@ -97,8 +97,8 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest).map_or(0.0, |m| m.value.abs()));
     let pose = usize::from(moved[1] > moved[0]);
     let mut tell = |spec, m: Measured| {
-        let magnitude = if pose == 1 { -m.value } else { m.value };
-        out.push(Fault { spec, parameter: pose, magnitude, sigma: m.sigma, side: None });
+        let value = if pose == 1 { -m.value } else { m.value };
+        out.push(Fault::new((spec, pose), Measured { value, ..m }, None));
     };
     if let Some(growth) = growth {
         tell(drift, growth);

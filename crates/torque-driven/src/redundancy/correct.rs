@@ -83,6 +83,7 @@ mod tests {
     use robot_model::effects;
 
     use super::super::check;
+    use super::super::pool::Measured;
     use super::*;
     use crate::testing::driven;
     use testing::robot;
@@ -94,7 +95,10 @@ mod tests {
     fn fault(kind: Redundancy, parameter: usize, magnitude: f64, side: Option<usize>) -> Redundant {
         let spec =
             effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.redundancy == kind).expect("an effect");
-        Redundant { faults: vec![Fault { spec, parameter, magnitude, sigma: 0.0, side }], ..Redundant::default() }
+        Redundant {
+            faults: vec![Fault::new((spec, parameter), Measured { value: magnitude, sigma: 0.0 }, side)],
+            ..Redundant::default()
+        }
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Redundant) {
         let sure = beyond(&all, &before, spec.interest).is_none_or(|m| m.is_told(spec.interest));
         let magnitude = here.value - own;
         if sure && magnitude.abs() > spec.interest {
-            out.faults.push(Fault { spec, parameter: 0, magnitude, sigma: here.sigma, side: None });
+            out.faults.push(Fault::new((spec, 0), Measured { value: magnitude, ..here }, None));
         }
     }
 }

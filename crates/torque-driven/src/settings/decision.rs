@@ -62,8 +62,6 @@
     answer: Answer {
         /// Probability above which something is said to be so.
         likely: f64 = 0.5, "1", "formula: likelier than not";
-        /// Probability of a sensor fault that a redundancy shows.
-        sure: f64 = 0.99, "1", "guess";
         /// One sigma of a size, in sigmas of the curvature.
         curvature: f64 = 2.0, "1",
             "15 effects named on our own generator's plant, whose 90 % intervals by curvature alone held the truth 8 times";

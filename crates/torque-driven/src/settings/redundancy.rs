@@ -4,6 +4,16 @@
     /// What the checks of sensors against each other were tuned with.
     pub(crate) struct Settings;
 
+    /// Probability of a fault of a sensor.
+    faults: Faults {
+        /// Usual size of a fault, in the size that matters.
+        usual: f64 = 3.0, "1", "guess";
+        /// Price of any fault of a sensor, to which its rarity is added.
+        price: f64 = 3.0, "nats", "guess: one robot in twenty";
+        /// The surest that a fault can be: what the checks do not know of may look like it.
+        surest: f64 = 0.99, "1", "guess";
+    }
+
     /// Recordings judged against references.
     pool: Pool {
         /// A difference is reported when it exceeds so many sigma, and what matters.
