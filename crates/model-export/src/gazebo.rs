@@ -34,7 +34,7 @@ pub(crate) fn slip_plugin(v: &Vehicle, grips: &[Grip; 4]) -> Element {
 
 /// Place of a wheel's shape in its link: at angle zero the axle is `cosine` higher above the ground than its middle.
 pub(crate) fn shape_place(v: &Vehicle, wheel: usize) -> [f64; 3] {
-    let [cosine, sine] = v.eccentric[wheel % 2];
+    let [cosine, sine] = v.eccentric[wheel];
     [sine, 0.0, -cosine]
 }
 

@@ -27,7 +27,7 @@ pub(crate) fn vehicle(model: &Model<'_>, engine: Engine) -> Result<Vehicle, Expo
         robot: *model.robot,
         coefficients: model.robot.coefficients(),
         payload: None,
-        eccentric: [[0.0; 2]; 2],
+        eccentric: [[0.0; 2]; 4],
         patches: Vec::new(),
         drag: 0.0,
         sensors: Sensors { up: [0.0; 2], left: 0.0, encoder: [1.0; 2], late: [0.0; 2], gyro: 0.0, accel: [0.0; 2] },
@@ -78,8 +78,9 @@ fn carry(carrier: Carrier, at: &At<'_>, v: &mut Vehicle) {
         },
         Carrier::WheelCentre => {
             for side in sides() {
-                v.eccentric[side][0] += a;
-                v.eccentric[side][1] += b;
+                let [_, _, front_cosine, front_sine] = *at.values();
+                add([a + front_cosine, b + front_sine], &mut v.eccentric[side]);
+                add([a - front_cosine, b - front_sine], &mut v.eccentric[side + 2]);
             }
         }
         Carrier::Drag => v.drag += a,

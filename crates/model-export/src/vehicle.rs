@@ -17,8 +17,8 @@ pub(crate) struct Vehicle {
     pub(crate) coefficients: Coefficients<f64>,
     /// A load that is a body of its own; part of `robot` too.
     pub(crate) payload: Option<Payload>,
-    /// How far the axle of each side's wheels is off their middle: cosine and sine, m.
-    pub(crate) eccentric: [[f64; 2]; 2],
+    /// How far the axle of each wheel is off its middle: cosine and sine, m.
+    pub(crate) eccentric: [[f64; 2]; 4],
     /// Discs of other grip: x, y, radius, share of the adhesion that is left.
     pub(crate) patches: Vec<[f64; 4]>,
     /// Quadratic drag, N s²/m².

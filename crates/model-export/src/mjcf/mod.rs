@@ -110,7 +110,7 @@ fn drag(v: &Vehicle) -> Element {
 /// friction along the axle from friction across it.
 fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let (part, grip) = (&parts.wheels[i], crate::contact::grips(v)[i]);
-    let [cosine, sine] = v.eccentric[i % 2];
+    let [cosine, sine] = v.eccentric[i];
     // At angle zero the axle is `cosine` higher above the ground than the middle of the wheel.
     let shape = element("geom")
         .with("name", WHEELS[i])

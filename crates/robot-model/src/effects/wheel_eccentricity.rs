@@ -6,18 +6,23 @@ use crate::effect::{
 };
 use crate::scalar::Scalar;
 
-/// r(θ) = r + e_c cos θ + e_s sin θ on one side
+/// r(θ) = r + (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel and − at its rear wheel
+///
+/// Two wheels are out of true by amounts and at angles of their own; `√(e_c² + e_s² + d_c² + d_s²)` is the root mean
+/// square of their amounts.
 pub struct Law;
 
 /// What is known about it.
 pub const SPEC: EffectSpec = EffectSpec {
     id: "wheel_eccentricity",
     name: "wheels of one side out of true",
-    law: "r(θ) = r + e_c cos θ + e_s sin θ on one side",
+    law: "r(θ) = r + (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel, − at its rear wheel",
     seen: "Speed and heading ripple once per turn of the wheel.",
     parameters: &[
         Parameter::strength("cosine", "m", [-0.05, 0.05], &[0.003]),
         Parameter::strength("sine", "m", [-0.05, 0.05], &[0.003]),
+        Parameter::strength("front cosine", "m", [-0.05, 0.05], &[0.003]),
+        Parameter::strength("front sine", "m", [-0.05, 0.05], &[0.003]),
     ],
     scopes: Scopes::ONE_SIDE,
     interest: 0.0018,
@@ -43,9 +48,8 @@ impl<T: Scalar> Effect<T> for Law {
     fn apply(&self, v: &Values<T>, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
         for j in 0..2 {
             let (sin, cos) = at.wheel_angle[j].sin_cos();
-            for r in [j, j + 2] {
-                c.radius[r] += v[0] * cos + v[1] * sin;
-            }
+            c.radius[j] += (v[0] + v[2]) * cos + (v[1] + v[3]) * sin;
+            c.radius[j + 2] += (v[0] - v[2]) * cos + (v[1] - v[3]) * sin;
         }
     }
 }
