@@ -5,14 +5,14 @@ use robot_model::Robot;
 use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
 use crate::decide::{Decision, decide, evidence};
-use crate::fit::{Hypothesis, Problem};
+use crate::fit::{Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::{retune, search};
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
-use crate::trial::Found;
+use crate::trial::{Found, Trial};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
@@ -76,22 +76,23 @@ impl Calibrated {
         } else {
             self.calibration.clone()
         };
-        let weigh = |calibration: &Calibration| {
+        let weigh = |calibration: &Calibration, known: Vec<Trial>| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
-            let found = search(&problem, progress);
+            let mut found = search(&problem, progress);
+            known.into_iter().for_each(|trial| found.include(trial));
             let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
             (found, decision)
         };
-        let (mut found, mut decision) = weigh(&calibration);
+        let (mut found, mut decision) = weigh(&calibration, Vec::new());
         let unknown = decision.unknown;
         // References of another visit: what is found may be constants that moved since.
         if !self.references.is_empty() && !decision.finds_nothing() {
             let moved = calibration.clone().on_another_visit();
             let [before, after] =
                 [&calibration, &moved].map(|c| problem(&robot, case, &recordings, c, largest, options));
-            if constants_moved(&before, &after, &found, &decision) {
+            if let Some(known) = constants_moved(&before, &after, &found, &decision) {
                 calibration = moved;
-                (found, decision) = weigh(&calibration);
+                (found, decision) = weigh(&calibration, known);
             }
         }
         // Without references the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
@@ -101,7 +102,7 @@ impl Calibrated {
             if !calibration.learn_noise(&before, best.map_or(&found.retuned, |s| &s.trial.fitted)) {
                 break;
             }
-            (found, decision) = weigh(&calibration);
+            (found, decision) = weigh(&calibration, Vec::new());
             // Noise that is learnt from what is left cannot say that too much is left.
             decision = decision.with_unknown(unknown);
         }
@@ -125,17 +126,30 @@ impl Calibrated {
     }
 }
 
-/// Whether constants that moved between visits explain the recordings better than the best hypothesis does with constants as
-/// the references have them: by the evidence of both (Laplace), to which many constants that need not move cost much.
-fn constants_moved(before: &Problem<'_>, after: &Problem<'_>, found: &Found, decision: &Decision) -> bool {
-    let none = Hypothesis::default();
-    let moved = retune(after, after.begin(&none, after.origin(), None));
-    let as_they_are = decision.scored.first().map_or((&none, &found.retuned), |s| {
-        let trial = &s.trial;
-        (&trial.hypothesis, &trial.fitted)
-    });
-    let evidence = [evidence(after, &none, &moved), evidence(before, as_they_are.0, as_they_are.1)];
-    matches!(evidence, [Some(moved), Some(best)] if moved > best + PRICES.moved)
+/// Fits of the best hypothesis and of its effects alone, where constants that moved between visits, with these or without
+/// any effect, explain the recordings better than the best hypothesis does with constants as the references have them: by
+/// the evidence of both (Laplace), to which many constants that need not move cost much.
+fn constants_moved(
+    before: &Problem<'_>,
+    after: &Problem<'_>,
+    found: &Found,
+    decision: &Decision,
+) -> Option<Vec<Trial>> {
+    let none = Trial { hypothesis: Hypothesis::default(), fitted: found.retuned.clone() };
+    let best = decision.scored.first().map_or(&none, |s| &s.trial);
+    let least = evidence(before, &best.hypothesis, &best.fitted)? + PRICES.moved;
+    // From where the constants are without such moves: from the origin a fit may end far from either.
+    let with_moved = |hypothesis: Hypothesis, effects: Vec<f64>| {
+        let start = if effects.is_empty() { after.origin() } else { best.fitted.point.clone() };
+        let point = Point { effects, ..start };
+        let fitted = retune(after, &hypothesis, after.begin(&hypothesis, point, None));
+        Trial { hypothesis, fitted }
+    };
+    let is_better = |t: &Trial| evidence(after, &t.hypothesis, &t.fitted).is_some_and(|moved| moved > least);
+    let effects = best.hypothesis.with_each_alone(&best.fitted.point.effects);
+    let trials: Vec<Trial> = effects.into_iter().map(|(h, e)| with_moved(h, e)).collect();
+    let moved = trials.iter().any(is_better) || is_better(&with_moved(Hypothesis::default(), Vec::new()));
+    moved.then(|| trials.into_iter().filter(|t| !t.hypothesis.parts.is_empty()).collect())
 }
 
 /// Diagnoses a torque-driven case. `progress` is called with the stage that begins.

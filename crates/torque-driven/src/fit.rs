@@ -53,6 +53,18 @@ impl Hypothesis {
         self.parts.iter().map(|(variant, _)| variant)
     }
 
+    /// It with the values of its effects, and of several effects each one alone.
+    pub(crate) fn with_each_alone(&self, effects: &[f64]) -> Vec<(Self, Vec<f64>)> {
+        let mut out = vec![(self.clone(), effects.to_vec())];
+        let mut rest = effects;
+        for part in self.parts.iter().filter(|_| self.parts.len() > 1) {
+            let (own, others) = rest.split_at(part.0.free(1.0).len());
+            rest = others;
+            out.push((Self { parts: vec![part.clone()] }, own.to_vec()));
+        }
+        out
+    }
+
     pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
         self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
     }

@@ -88,11 +88,10 @@ fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
     trial
 }
 
-/// Re-tunes constants without any effect.
-pub(crate) fn retune(problem: &Problem<'_>, start: Fitted) -> Fitted {
-    let none = Hypothesis::default();
-    let retuned = problem.refine(&none, start, RETUNING.first_steps, Some(1));
-    problem.refine(&none, retuned, RETUNING.second_steps, Some(0))
+/// Re-tunes constants, beside the effects of a hypothesis.
+pub(crate) fn retune(problem: &Problem<'_>, h: &Hypothesis, start: Fitted) -> Fitted {
+    let retuned = problem.refine(h, start, RETUNING.first_steps, Some(1));
+    problem.refine(h, retuned, RETUNING.second_steps, Some(0))
 }
 
 /// Runs the whole search on the recordings.
@@ -104,7 +103,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
     let first = screen(problem, &origin, &all, &none);
 
     progress("re-tuning without any effect");
-    let mut retuned = retune(problem, origin.clone());
+    let mut retuned = retune(problem, &none, origin.clone());
     retuned.columns = Arc::new(problem.nuisance_columns(&retuned.point, &none, &retuned.response));
     let second = screen(problem, &retuned, &all, &none);
 
