@@ -94,7 +94,11 @@ fn section(out: &mut String, spec: &EffectSpec, effects: &[&EffectSpec]) {
     }
     let strength = spec.strengths().next().map_or("-", |index| spec.parameters[index].unit);
     let unit = if strength == "-" { String::new() } else { format!(" {strength}") };
-    let interest = if spec.interest > 0.0 { format!("{}{unit}", spec.interest) } else { "any size".to_owned() };
+    let interest = if spec.interest > 0.0 {
+        format!("{}{unit}{}", spec.interest, spec.sized_by.words())
+    } else {
+        "any size".to_owned()
+    };
     let sign = if spec.signed { ", of either sign" } else { "" };
     let forms: Vec<&str> = spec.scopes.forms().collect();
     let lines = [

@@ -1,8 +1,9 @@
 //! What may be missing: every way in which an effect of the catalogue can be present.
 
+use robot_model::constants::NO_LIMIT;
 use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
-use robot_model::{Active, Effect, EffectSpec, effects};
+use robot_model::{Active, Effect, EffectSpec, Robot, effects};
 
 use verdict::{EffectAt, Side};
 
@@ -63,6 +64,33 @@ pub struct Free {
     pub usual: f64,
 }
 
+/// What the usual sizes of effects are in proportion to.
+#[derive(Debug, Clone, Copy)]
+pub struct Sizes {
+    /// The largest torque commanded in the recordings, N m.
+    pub largest_torque: f64,
+    /// The robot; that of the catalogue's own sizes where it is `None`.
+    pub robot: Option<Robot<f64>>,
+}
+
+impl Default for Sizes {
+    fn default() -> Self {
+        Self { largest_torque: 1.0, robot: None }
+    }
+}
+
+impl Sizes {
+    /// Sizes of an effect on this robot over those that its specification tells.
+    pub fn factor(&self, spec: &EffectSpec) -> f64 {
+        self.robot.as_ref().map_or(1.0, |robot| spec.sized_by.factor(robot))
+    }
+
+    /// Size of an effect below which nobody would act on this robot, in the unit of its magnitude.
+    pub fn interest(&self, spec: &EffectSpec) -> f64 {
+        spec.interest * self.factor(spec)
+    }
+}
+
 /// Onsets of a hypothesis in each run, s; `None` where it does not set in.
 pub type Onsets = Vec<Option<f64>>;
 
@@ -94,7 +122,7 @@ impl Variant {
     }
 
     /// Everything a fit may change, strengths first, then shapes, then the disc.
-    pub fn free(&self, largest_torque: f64) -> Vec<Free> {
+    pub fn free(&self, sizes: &Sizes) -> Vec<Free> {
         let spec = self.spec();
         let mut out = Vec::new();
         for role in [false, true] {
@@ -102,9 +130,11 @@ impl Variant {
                 if (p.role == Role::Shape) != role || (!role && !self.strengths().contains(&i)) {
                     continue;
                 }
-                let scale = if p.scale == Scale::LargestTorque { largest_torque } else { 1.0 };
-                let probe = p.probes[p.probes.len() / 2] * scale;
-                out.push(Free { parameter: Some(i), unit: probe.abs(), bounds: p.bounds, usual: probe });
+                let of_robot = if p.role == Role::Shape { 1.0 } else { sizes.factor(spec) };
+                let of_torque = if p.scale == Scale::LargestTorque { sizes.largest_torque } else { 1.0 };
+                let probe = p.probes[p.probes.len() / 2] * of_robot * of_torque;
+                let bounds = p.bounds.map(|b| if b.abs() < NO_LIMIT { b * of_robot } else { b });
+                out.push(Free { parameter: Some(i), unit: probe.abs(), bounds, usual: probe });
             }
         }
         if self.place == Place::Disc {
@@ -117,6 +147,11 @@ impl Variant {
         out
     }
 
+    /// How many values a fit may change.
+    pub fn count(&self) -> usize {
+        self.free(&Sizes::default()).len()
+    }
+
     /// The doses of run `run` at the free values `e`.
     pub fn dose(&self, e: &[f64], onset: Option<f64>) -> Dose {
         let spec = self.spec();
@@ -124,7 +159,7 @@ impl Variant {
         let mut presence = Presence::default();
         let mut disc = Vec::new();
         // Bounds and scale do not matter here, only the order.
-        for (f, &v) in self.free(1.0).iter().zip(e) {
+        for (f, &v) in self.free(&Sizes::default()).iter().zip(e) {
             match f.parameter {
                 Some(i) => values[i] = v,
                 None => disc.push(v),
@@ -144,7 +179,7 @@ impl Variant {
         let spec = self.spec();
         let mut out = EffectAt { effect: spec.id.to_owned(), ..EffectAt::default() };
         let mut disc = Vec::new();
-        for (f, &v) in self.free(1.0).iter().zip(e) {
+        for (f, &v) in self.free(&Sizes::default()).iter().zip(e) {
             match f.parameter {
                 Some(i) => {
                     out.values.insert(spec.parameters[i].name.to_owned(), v);

@@ -27,7 +27,7 @@ pub fn effect_json(spec: &EffectSpec) -> Value {
     json!({
         "id": spec.id, "name": spec.name, "kind": spec.kind.name(), "law": spec.law, "seen": spec.seen,
         "parameters": parameters, "signed": spec.signed, "axes": spec.axes, "looked_for": spec.scopes.forms().collect::<Vec<_>>(),
-        "redundancy": spec.redundancy.shows_in(), "interest": spec.interest, "revealed_by": spec.revealed_by,
+        "redundancy": spec.redundancy.shows_in(), "interest": spec.interest, "interest_grows_with": spec.sized_by.words().trim_start(), "revealed_by": spec.revealed_by,
         "resembles": spec.resembles, "source": spec.source,
     })
 }

@@ -10,7 +10,7 @@ use crate::words::{clocks, sentences};
 use crate::{SpeedRun, SteadyCase};
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::evidence::{is_within_odds, probabilities};
-use inference::hypothesis::Place;
+use inference::hypothesis::{Place, Sizes};
 use recordings::Signal;
 use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
 
@@ -117,7 +117,7 @@ pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let spec = variant.spec();
     let (values, sigma) = e.of(part);
     let parameters = variant
-        .free(1.0)
+        .free(&Sizes::default())
         .iter()
         .zip(values.iter().zip(sigma))
         .filter_map(|(f, (&value, &sigma))| {

@@ -17,7 +17,7 @@ use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
 use crate::settings::NAMING;
 use crate::settings::naming::{EffectFits, Priors};
 use inference::algebra::solve_spd;
-use inference::hypothesis::Dose;
+use inference::hypothesis::{Dose, Sizes};
 use inference::hypothesis::{Free, Place, Variant, variants};
 use robot_model::tunable::tuned;
 
@@ -66,8 +66,8 @@ pub(crate) struct Named {
 impl Named {
     /// Free values and sigmas of one of its effects.
     pub(crate) fn of(&self, part: usize) -> (&[f64], &[f64]) {
-        let before: usize = self.parts[..part].iter().map(|v| v.free(1.0).len()).sum();
-        let n = self.parts[part].free(1.0).len();
+        let before: usize = self.parts[..part].iter().map(|v| v.count()).sum();
+        let n = self.parts[part].count();
         (&self.values[before..before + n], &self.sigma[before..before + n])
     }
 
@@ -85,7 +85,7 @@ fn doses(parts: &[Variant], values: &[f64]) -> Vec<Dose> {
     parts
         .iter()
         .map(|v| {
-            let n = v.free(1.0).len();
+            let n = v.count();
             at += n;
             v.dose(&values[at - n..at], None)
         })
@@ -199,7 +199,7 @@ impl<'a> Comparison<'a> {
     /// Fits the free values of one or two effects from their neutral values (or from `start`).
     pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
         let free: Vec<(&Variant, Free)> =
-            parts.iter().flat_map(|v| v.free(1.0).into_iter().map(move |f| (v, f))).collect();
+            parts.iter().flat_map(|v| v.free(&Sizes::default()).into_iter().map(move |f| (v, f))).collect();
         let constant = |(i, (v, f)): (usize, &(&Variant, Free))| {
             let neutral = f.parameter.map_or(f.usual, |i| v.spec().parameters[i].neutral);
             let begin = start.and_then(|s| s.get(i)).copied().unwrap_or(neutral);

@@ -5,6 +5,7 @@
 
 use faer::Mat;
 use inference::expected_information::{Forecast, expected_bits, widest_pair};
+use inference::hypothesis::Sizes;
 use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
@@ -153,7 +154,7 @@ fn loads(model: &Robot<f64>, at: &[Operating], named: Option<&Named>) -> Vec<f64
 
 /// Columns of a rival's sizes times how well each is known.
 fn by_sizes(model: &Robot<f64>, at: &[Operating], named: &Named, base: &[f64]) -> Mat<f64> {
-    let free: Vec<_> = named.parts.iter().flat_map(|v| v.free(1.0)).collect();
+    let free: Vec<_> = named.parts.iter().flat_map(|v| v.free(&Sizes::default())).collect();
     let columns: Vec<Vec<f64>> = free
         .iter()
         .enumerate()

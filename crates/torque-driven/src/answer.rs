@@ -68,8 +68,8 @@ impl Judged<'_> {
     fn cause(&self, scored: &Scored, part: usize, probability: f64) -> Cause {
         let trial = &scored.trial;
         let (variant, onsets) = &trial.hypothesis.parts[part];
-        let before: usize = trial.hypothesis.parts[..part].iter().map(|(v, _)| v.free(1.0).len()).sum();
-        let free = variant.free(self.problem.largest_torque);
+        let before: usize = trial.hypothesis.parts[..part].iter().map(|(v, _)| v.count()).sum();
+        let free = variant.free(&self.problem.sizes());
         let e = &trial.fitted.point.effects[before..before + free.len()];
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
         let spec = variant.spec();
@@ -128,7 +128,7 @@ impl Judged<'_> {
             normal.matrix[(i, i)] += fit::SETTINGS.fit.whiff_of_sigmas;
         }
         let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
-        let free = h.free(p.largest_torque);
+        let free = h.free(&p.sizes());
         Some(
             free.iter()
                 .enumerate()

@@ -8,7 +8,7 @@ use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::trial::{Found, Trial};
 use crate::visits;
-use inference::hypothesis::{Place, Variant};
+use inference::hypothesis::{Place, Sizes, Variant};
 
 const PRICES: Prices = SETTINGS.prices;
 const UNKNOWN: Unknown = SETTINGS.unknown;
@@ -46,11 +46,11 @@ impl Decision {
 }
 
 /// Penalty of a hypothesis.
-pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
+pub(crate) fn penalty(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> f64 {
     let mut at = 0;
     let mut sum = 0.0;
     for (i, (v, onsets)) in h.parts.iter().enumerate() {
-        let n = v.free(1.0).len();
+        let n = v.count();
         let e = &effects[at..at + n];
         at += n;
         let disc = if v.place == Place::Disc { 3 } else { 0 };
@@ -58,7 +58,7 @@ pub(crate) fn penalty(h: &Hypothesis, effects: &[f64]) -> f64 {
         sum += if v.place == Place::Disc { PRICES.disc } else { 0.0 };
         sum += if onsets.iter().any(Option::is_some) { PRICES.onset } else { 0.0 };
         sum += if i > 0 { PRICES.second } else { 0.0 };
-        sum += penalty_of_smallness(v.magnitude(e), v.spec().interest, PRICES.size_width);
+        sum += penalty_of_smallness(v.magnitude(e), sizes.interest(v.spec()), PRICES.size_width);
     }
     sum
 }
@@ -75,16 +75,16 @@ pub(crate) fn evidence(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -
 
     let log_determinant = |of: &Mat<f64>| solve_spd(of, &Mat::zeros(of.nrows(), 1)).map(|(_, ln)| ln);
     let occam = 0.5 * (log_determinant(&normal.matrix)? - log_determinant(&problem.information)?);
-    Some(-fitted.cost - occam - penalty(h, &fitted.point.effects))
+    Some(-fitted.cost - occam - penalty(h, &fitted.point.effects, &problem.sizes()))
 }
 
 /// Penalty of sizes that the form of the plant's own laws may show: references take that in, a robot file does not.
-fn penalty_of_form(h: &Hypothesis, effects: &[f64]) -> f64 {
+fn penalty_of_form(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> f64 {
     let mut rest = effects;
     let of = |v: &Variant| {
-        let (own, others) = rest.split_at(v.free(1.0).len());
+        let (own, others) = rest.split_at(v.count());
         rest = others;
-        let least = PRICES.form_errors * v.spec().form_error;
+        let least = PRICES.form_errors * v.spec().form_error * sizes.factor(v.spec());
         penalty_of_smallness(v.magnitude(own), least, PRICES.size_width)
     };
     h.variants().map(of).sum()
@@ -118,8 +118,9 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
             let visits = visits::supporting(problem, base, t);
             let once = if visits.is_some_and(|n| n < SETTINGS.visits.needed) { PRICES.one_visit } else { 0.0 };
             let effects = &t.fitted.point.effects;
-            let form = if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects) };
-            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, effects) - once - form;
+            let form =
+                if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &problem.sizes()) };
+            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, effects, &problem.sizes()) - once - form;
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
@@ -164,7 +165,7 @@ mod tests {
     fn gained(problem: &Problem<'_>, retuned: &Fitted, id: &str, gain: f64) -> Trial {
         let form = problem.variants().into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
         let hypothesis = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
-        let effects = hypothesis.free(problem.largest_torque).iter().map(|f| f.usual).collect();
+        let effects = hypothesis.free(&problem.sizes()).iter().map(|f| f.usual).collect();
         let mut fitted = retuned.clone();
         fitted.point.effects = effects;
         fitted.cost -= gain;

@@ -34,7 +34,7 @@ pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
     let mut end = 0;
     for part in 0..trial.hypothesis.parts.len() {
         let variant = trial.hypothesis.parts[part].0;
-        end += variant.free(1.0).len();
+        end += variant.count();
         if variant.place != Place::Disc {
             continue;
         }

@@ -15,7 +15,7 @@ use crate::drives::Drives;
 use crate::settings::fit::{Deviations, Fit, SETTINGS};
 use crate::simulate::{Body, Response, free_run};
 use crate::windows::{CHANNELS, Cut, FORWARD};
-use inference::hypothesis::Dose;
+use inference::hypothesis::{Dose, Sizes};
 use inference::hypothesis::{Free, Onsets, Variant, variants};
 use verdict::Correction;
 
@@ -58,15 +58,15 @@ impl Hypothesis {
         let mut out = vec![(self.clone(), effects.to_vec())];
         let mut rest = effects;
         for part in self.parts.iter().filter(|_| self.parts.len() > 1) {
-            let (own, others) = rest.split_at(part.0.free(1.0).len());
+            let (own, others) = rest.split_at(part.0.count());
             rest = others;
             out.push((Self { parts: vec![part.clone()] }, own.to_vec()));
         }
         out
     }
 
-    pub(crate) fn free(&self, largest_torque: f64) -> Vec<Free> {
-        self.parts.iter().flat_map(|(v, _)| v.free(largest_torque)).collect()
+    pub(crate) fn free(&self, sizes: &Sizes) -> Vec<Free> {
+        self.parts.iter().flat_map(|(v, _)| v.free(sizes)).collect()
     }
 
     pub(crate) fn doses(&self, e: &[f64], run: usize) -> Vec<Dose> {
@@ -74,7 +74,7 @@ impl Hypothesis {
         self.parts
             .iter()
             .map(|(v, onsets)| {
-                let n = v.free(1.0).len();
+                let n = v.count();
                 let dose = v.dose(&e[at..at + n], onsets.get(run).copied().flatten());
                 at += n;
                 dose
@@ -112,6 +112,13 @@ pub(crate) struct Problem<'a> {
     pub(crate) drives: Drives,
 }
 
+impl Problem<'_> {
+    /// What the usual sizes of effects are in proportion to.
+    pub(crate) fn sizes(&self) -> Sizes {
+        Sizes { largest_torque: self.largest_torque, robot: Some(*self.robot) }
+    }
+}
+
 /// Where a fit stands.
 #[derive(Clone)]
 pub(crate) struct Point {
@@ -135,7 +142,7 @@ impl Problem<'_> {
         let names: Vec<&str> = self.cuts.iter().map(|c| c.name.as_str()).collect();
         let mut at = 0;
         let effects = h.parts.iter().map(|(variant, onsets)| {
-            let n = variant.free(1.0).len();
+            let n = variant.count();
             at += n;
             variant.at(&effects[at - n..at], onsets, &names)
         });
@@ -218,7 +225,7 @@ impl Problem<'_> {
 
     /// Columns of the effects' free values, per unit, by finite steps.
     pub(crate) fn effect_columns(&self, point: &Point, h: &Hypothesis, base: &Response) -> Columns {
-        let free = h.free(self.largest_torque);
+        let free = h.free(&self.sizes());
         let shifted: Vec<(Point, f64)> = free
             .iter()
             .enumerate()
@@ -292,7 +299,7 @@ impl Problem<'_> {
             least_move: 0.0,
             ..Settings::gauss_newton()
         };
-        let fit = FreeRunFit { problem: self, hypothesis: h, free: h.free(self.largest_torque), renew };
+        let fit = FreeRunFit { problem: self, hypothesis: h, free: h.free(&self.sizes()), renew };
         minimise(&fit, start, &settings).at
     }
 

@@ -51,7 +51,7 @@ impl Gate {
             .into_iter()
             .map(|c| {
                 let h = Hypothesis::single(c.variant, c.onsets.clone());
-                (c.variant.label(), c.evidence - penalty(&h, &c.start))
+                (c.variant.label(), c.evidence - penalty(&h, &c.start, &problem.sizes()))
             })
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }

@@ -236,7 +236,7 @@ mod tests {
     fn scored(p: &Problem<'_>, id: &str, score: f64) -> Scored {
         let form = p.variants().into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
         let h = Hypothesis::single(form.expect("in the catalogue"), Vec::new());
-        let effects = h.free(p.largest_torque).iter().map(|f| f.usual).collect();
+        let effects = h.free(&p.sizes()).iter().map(|f| f.usual).collect();
         let fitted = p.begin(&h, Point { effects, ..p.origin() }, None);
         Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score, probability: 0.4 }
     }
@@ -316,7 +316,7 @@ mod tests {
         let robot = robot();
         let form = inference::hypothesis::variants(true).into_iter().find(|v| v.place == Place::Onset);
         let form = form.expect("an effect that sets in");
-        let values: Vec<f64> = form.free(5.0).iter().map(|f| f.usual).collect();
+        let values: Vec<f64> = form.free(&inference::hypothesis::Sizes::default()).iter().map(|f| f.usual).collect();
         let dose = form.dose(&values, Some(7.0));
         let cuts = [cut(&driven(&robot, &[dose], 16.0), &cutting())];
         let p = problem(&robot, &cuts);

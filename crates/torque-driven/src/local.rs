@@ -70,7 +70,7 @@ pub(crate) fn disc(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -
     }
 
     let (value, x, found) = best;
-    let free = variant.free(problem.largest_torque);
+    let free = variant.free(&problem.sizes());
     let strengths = free.len() - 3;
     let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
     start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);
@@ -144,7 +144,7 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
         return None;
     }
 
-    let free = variant.free(problem.largest_torque);
+    let free = variant.free(&problem.sizes());
     let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
     start[0] = (x * free[0].usual).clamp(free[0].bounds[0], free[0].bounds[1]);
     let onsets = chosen

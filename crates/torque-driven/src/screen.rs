@@ -54,13 +54,13 @@ pub(crate) fn screen(
     beside: &Hypothesis,
 ) -> Vec<Candidate> {
     let ground = Ground { problem, base, beside: problem.effect_columns(&base.point, beside, &base.response) };
-    let largest = problem.largest_torque;
+    let sizes = problem.sizes();
     let mut list: Vec<Probe> = Vec::new();
     let mut locals: Vec<usize> = Vec::new();
     for (v, variant) in variants.iter().enumerate() {
         match variant.place {
             Place::Whole | Place::Side(_) => {
-                for (index, f) in variant.free(largest).iter().enumerate() {
+                for (index, f) in variant.free(&sizes).iter().enumerate() {
                     list.extend(probes(variant, f).into_iter().map(|size| Probe { variant: v, index, size }));
                 }
             }
@@ -75,11 +75,11 @@ pub(crate) fn screen(
     part_of.dedup();
     let mut doses: Vec<(Dose, Option<usize>)> = list
         .iter()
-        .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(largest), p.index, p.size), None))
+        .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(&sizes), p.index, p.size), None))
         .collect();
     for id in &part_of {
         let Some(&v) = locals.iter().find(|&&v| variants[v].spec().id == *id) else { continue };
-        let (variant, free) = (&variants[v], variants[v].free(largest));
+        let (variant, free) = (&variants[v], variants[v].free(&sizes));
         doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
     }
 
@@ -125,7 +125,7 @@ fn whole(ground: &Ground<'_>, variants: &[Variant], list: &[Probe], raw: &[Respo
         if mine.is_empty() {
             continue;
         }
-        let free = variant.free(problem.largest_torque);
+        let free = variant.free(&problem.sizes());
         let mut start: Vec<f64> = free.iter().map(|f| f.usual).collect();
         let best = if variant.spec().is_linear() && mine.len() > 1 {
             let (a, b) = (select(&a, &mine), Mat::from_fn(mine.len(), 1, |i, _| b[(mine[i], 0)]));

@@ -170,7 +170,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
 fn converge_members(problem: &Problem<'_>, pair: &Trial, singles: &mut [Trial]) {
     let mut from = 0;
     for (variant, _) in &pair.hypothesis.parts {
-        let until = from + variant.free(1.0).len();
+        let until = from + variant.count();
         for single in singles.iter_mut().filter(|t| t.hypothesis.parts[0].0.label() == variant.label()) {
             if single.fitted.cost - pair.fitted.cost > PAIRS.least_second {
                 let effects = pair.fitted.point.effects[from..until].to_vec();

@@ -13,7 +13,7 @@ use inference::hypothesis::Place;
 pub(crate) fn supporting(problem: &Problem<'_>, retuned: &Fitted, trial: &Trial) -> Option<usize> {
     let mut end = 0;
     let disc = trial.hypothesis.parts.iter().find_map(|(variant, _)| {
-        end += variant.free(1.0).len();
+        end += variant.count();
         (variant.place == Place::Disc).then(|| {
             let e = &trial.fitted.point.effects[end - 3..end];
             [e[0], e[1], e[2]]

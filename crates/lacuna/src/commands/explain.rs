@@ -88,7 +88,8 @@ fn cause(spec: &CauseSpec) -> String {
 fn effect(spec: &EffectSpec) -> String {
     let unit = spec.strengths().next().map_or("-", |i| spec.parameters[i].unit);
     let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
-    let interest = if spec.interest > 0.0 { format!("{}{unit}", spec.interest) } else { String::new() };
+    let interest =
+        if spec.interest > 0.0 { format!("{}{unit}{}", spec.interest, spec.sized_by.words()) } else { String::new() };
     let text = lines(
         spec.name,
         spec.id,

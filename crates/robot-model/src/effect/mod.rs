@@ -7,7 +7,7 @@ pub mod export;
 mod spec;
 
 pub use export::Export;
-pub use spec::{EffectSpec, Kind, LoadTerm, Parameter, Redundancy, Role, Scale, Scopes};
+pub use spec::{EffectSpec, Kind, LoadTerm, Parameter, Redundancy, Role, Scale, Scopes, SizedBy};
 
 /// One physical phenomenon, or one fault of a sensor, that a simulation may lack.
 ///

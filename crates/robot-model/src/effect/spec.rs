@@ -1,6 +1,7 @@
 //! The specification of an effect: all that is known about it besides its law, as plain data.
 
 use crate::effect::Export;
+use crate::robot::Robot;
 
 /// Where in the chain an effect sits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,6 +110,69 @@ pub enum Scale {
     Own,
     /// In the largest torque commanded in the recordings.
     LargestTorque,
+}
+
+/// What sizes of an effect grow with from robot to robot: sizes of interest, probes and bounds of strengths are those of
+/// [`SizedBy::REFERENCE`], and of other robots in proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SizedBy {
+    /// Alike on all robots: a share, an angle, a time, an acceleration.
+    Itself,
+    /// Its mass m.
+    Mass,
+    /// Its weight m g.
+    Weight,
+    /// The torque that its tyres transmit, by m g r.
+    Traction,
+    /// That torque at the wheel speed of a driving speed: m g r².
+    TractionPerSpeed,
+    /// One over that torque.
+    PerTraction,
+    /// Its wheelbase.
+    Wheelbase,
+    /// The radius of its wheels r.
+    WheelRadius,
+}
+
+impl SizedBy {
+    /// Mass (kg), half the wheelbase (m), radius of the wheels (m) and gravity (m/s²) of the robot whose sizes a
+    /// specification tells.
+    pub const REFERENCE: [f64; 4] = [20.0, 0.176, 0.097, 9.81];
+
+    /// What follows a size of the reference, for people.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Itself => "",
+            Self::Mass => " on a robot of 20 kg, in proportion to its mass",
+            Self::Weight => " on a robot of 20 kg, in proportion to its weight",
+            Self::Traction => " on a robot of 20 kg with wheels of 97 mm radius, in proportion to weight times radius",
+            Self::TractionPerSpeed => {
+                " on a robot of 20 kg with wheels of 97 mm radius, in proportion to weight times radius squared"
+            }
+            Self::PerTraction => {
+                " on a robot of 20 kg with wheels of 97 mm radius, in inverse proportion to weight times radius"
+            }
+            Self::Wheelbase => " on a robot with a wheelbase of 352 mm, in proportion to it",
+            Self::WheelRadius => " on wheels of 97 mm radius, in proportion to it",
+        }
+    }
+
+    /// Sizes of this robot over those of the reference.
+    pub fn factor(self, robot: &Robot<f64>) -> f64 {
+        let [mass, half_wheelbase, radius, gravity] = Self::REFERENCE;
+        let (mass, radius) = (robot.mass / mass, robot.wheel_radius / radius);
+        let weight = mass * robot.gravity / gravity;
+        match self {
+            Self::Itself => 1.0,
+            Self::Mass => mass,
+            Self::Weight => weight,
+            Self::Traction => weight * radius,
+            Self::TractionPerSpeed => weight * radius * radius,
+            Self::PerTraction => 1.0 / (weight * radius),
+            Self::Wheelbase => robot.half_wheelbase / half_wheelbase,
+            Self::WheelRadius => radius,
+        }
+    }
 }
 
 /// Where and when an effect may be present: each is one more candidate of the diagnosis.
@@ -247,6 +311,8 @@ pub struct EffectSpec {
     pub redundancy: Redundancy,
     /// Term of the torque law of a speed-driven robot that it stands for, if any.
     pub load_term: Option<LoadTerm>,
+    /// What its sizes grow with from robot to robot.
+    pub sized_by: SizedBy,
     /// Size, in the unit of the magnitude, below which nobody would act; zero when any size matters.
     pub interest: f64,
     /// Size of it that a robot without it may show, because its true laws differ in form from the plant's: one sigma.
@@ -279,6 +345,7 @@ impl EffectSpec {
         scopes: Scopes::WHOLE,
         redundancy: Redundancy::None,
         load_term: None,
+        sized_by: SizedBy::Itself,
         interest: 0.0,
         form_error: 0.0,
         rarity: 0.0,

@@ -1,7 +1,7 @@
 //! Dead band of the transmission.
 
 use crate::effect::export::Way;
-use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, SizedBy, Values};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
@@ -15,6 +15,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "no torque within ±d, beyond it T − d sign T",
     seen: "Ignores small torques.",
     parameters: &[Parameter::shaped("d", "N m", [0.0, 20.0], 0.0, &[0.15, 0.4])],
+    sized_by: SizedBy::Traction,
     interest: 0.08,
     revealed_by: "slow drives with small torques of both signs",
     resembles: "Coulomb friction as long as torque and motion have the same sign",

@@ -1,7 +1,7 @@
 //! Voltage of the battery that falls with the load.
 
 use crate::effect::export::{Residual, Way};
-use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, SizedBy, Values};
 use crate::scalar::{Scalar, real};
 
 /// T = (1 − σ (|T_left| + |T_right|)) T_commanded
@@ -19,6 +19,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Each side loses torque when the other one works, the more the harder both do; nothing \
         at light load.",
     parameters: &[Parameter::strength("σ", "1/(N m)", [0.0, 0.2], &[0.01])],
+    sized_by: SizedBy::PerTraction,
     interest: 0.005,
     rarity: 3.0,
     revealed_by: "spins and hard acceleration, then one side alone at the same torque",

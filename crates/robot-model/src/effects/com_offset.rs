@@ -1,7 +1,7 @@
 //! Centre of mass off the middle.
 
 use crate::effect::export::Way;
-use crate::effect::{Effect, EffectSpec, Export, Parameter, Values};
+use crate::effect::{Effect, EffectSpec, Export, Parameter, SizedBy, Values};
 use crate::robot::Robot;
 use crate::scalar::Scalar;
 
@@ -20,6 +20,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     ],
     signed: true,
     axes: &["x", "y"],
+    sized_by: SizedBy::Wheelbase,
     interest: 0.015,
     revealed_by: "spins both ways, then straight acceleration",
     resembles: "coulomb_side and wheel_radius_mismatch in straight drives",

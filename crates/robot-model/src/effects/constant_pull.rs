@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Residual, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, Values,
+    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -17,6 +17,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Costs torque forward and saves it backward, whatever the heading.",
     parameters: &[Parameter::strength("P", "N", [0.0, 500.0], &[4.0])],
     load_term: Some(LoadTerm::Pull),
+    sized_by: SizedBy::Weight,
     interest: 2.0,
     revealed_by: "straight drives forward and backward",
     resembles: "grade while the heading does not change; rolling_resistance in forward drives",

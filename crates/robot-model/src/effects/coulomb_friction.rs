@@ -1,7 +1,7 @@
 //! Dry friction of both drivetrains.
 
 use crate::effect::export::{Section, Way};
-use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, SizedBy, Values};
 use crate::scalar::Scalar;
 
 /// T = Tc sign ω on each side
@@ -15,6 +15,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Takes the same extra torque on both sides at every speed and every load; the sign \
         follows the motion.",
     parameters: &[Parameter::strength("Tc", "N m", [0.0, 20.0], &[0.2])],
+    sized_by: SizedBy::Traction,
     interest: 0.12,
     rarity: 3.0,
     revealed_by: "straight drives at several steady speeds, light and loaded",

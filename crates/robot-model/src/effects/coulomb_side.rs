@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -17,6 +17,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Pulls to one side by the same amount at every speed; the sign follows the motion.",
     parameters: &[Parameter::strength("Tb", "N m", [0.0, 20.0], &[0.2])],
     scopes: Scopes::ONE_SIDE,
+    sized_by: SizedBy::Traction,
     interest: 0.12,
     revealed_by: "straight drives both ways at two speeds",
     resembles: "com_offset to the side; wheel_radius_mismatch at one speed",

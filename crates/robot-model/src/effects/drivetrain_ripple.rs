@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Residual, Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -21,6 +21,7 @@ pub const SPEC: EffectSpec = EffectSpec {
         Parameter::strength("sine", "N m", [-10.0, 10.0], &[0.2]),
     ],
     scopes: Scopes::ONE_SIDE,
+    sized_by: SizedBy::Traction,
     interest: 0.15,
     rarity: 6.0,
     revealed_by: "slow steady straight driving, then fast",

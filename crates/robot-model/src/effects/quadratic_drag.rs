@@ -1,7 +1,7 @@
 //! Quadratic drag.
 
 use crate::effect::export::{Carrier, Residual, Way};
-use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, SizedBy, Values};
 use crate::scalar::{Scalar, real};
 
 /// F = −c v |v|
@@ -14,6 +14,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "F = −c v |v|",
     seen: "Costs more the faster it drives, hardly anything in spins.",
     parameters: &[Parameter::strength("c", "N s²/m²", [0.0, 200.0], &[4.0])],
+    sized_by: SizedBy::Mass,
     interest: 1.6,
     // Brush tyres and warm grease: prototype without references, on the development cases.
     form_error: 2.5,

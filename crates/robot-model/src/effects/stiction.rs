@@ -1,7 +1,7 @@
 //! Stiction (Stribeck friction).
 
 use crate::effect::export::{Section, Way};
-use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
+use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, SizedBy, Values};
 use crate::scalar::Scalar;
 
 /// T = Ts exp(−(ω/ωs)²) sign ω on each side
@@ -14,6 +14,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "T = Ts exp(−(ω/ωs)²) sign ω on each side",
     seen: "Sticks at rest and jumps when it breaks loose; nothing at speed.",
     parameters: &[Parameter::strength("Ts", "N m", [0.0, 20.0], &[0.4])],
+    sized_by: SizedBy::Traction,
     interest: 0.4,
     revealed_by: "slow starts, stops and reversals",
     resembles: "backlash_dead_zone near rest",

@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Residual, Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, Values,
+    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -21,6 +21,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     ],
     signed: true,
     load_term: Some(LoadTerm::Drift),
+    sized_by: SizedBy::Traction,
     interest: 0.14,
     revealed_by: "one long drive of steady speed after a rest",
     resembles: "stiction or rolling resistance from an instant on",

@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, Values,
+    Coefficients, Effect, EffectSpec, Export, LoadTerm, OperatingPoint, Parameter, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -17,6 +17,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Costs more torque the faster the wheels turn, straight and in turns alike.",
     parameters: &[Parameter::strength("c", "N m s/rad", [0.0, 2.0], &[0.04])],
     load_term: Some(LoadTerm::Speed),
+    sized_by: SizedBy::TractionPerSpeed,
     interest: 0.02,
     revealed_by: "constant speeds of different size, then coasting down",
     resembles: "quadratic_drag over a narrow range of speed; torque_constant when friction \

@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Carrier, Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, SizedBy, Values,
 };
 use crate::scalar::Scalar;
 
@@ -25,6 +25,7 @@ pub const SPEC: EffectSpec = EffectSpec {
         Parameter::strength("front sine", "m", [-0.05, 0.05], &[0.003]),
     ],
     scopes: Scopes::ONE_SIDE,
+    sized_by: SizedBy::WheelRadius,
     interest: 0.0018,
     revealed_by: "steady straight driving at two speeds",
     resembles: "periodic ripple of the drivetrain",

@@ -1,7 +1,7 @@
 //! Say in one line what it is.
 
 use robot_model::Scalar;
-use robot_model::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
+use robot_model::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, SizedBy, Values};
 
 /// F = 0: write the law as a formula
 pub struct Law;
@@ -14,6 +14,8 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Say what one sees on the robot.",
     // Name, unit, bounds within which a fit looks, and a medium size at which it is probed.
     parameters: &[Parameter::strength("F", "N", [0.0, 100.0], &[4.0])],
+    // What that grows with from robot to robot; the numbers here are those of a robot of 20 kg.
+    sized_by: SizedBy::Weight,
     // The size from which somebody would act.
     interest: 2.0,
     // How rare it is: 0 common, 3 some robots have it, 6 exotic or a look-alike of a commoner one.

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use robot_model::effect::{MAX_PARAMETERS, Scale};
-use robot_model::{EffectSpec, Role, effects};
+use robot_model::effect::{MAX_PARAMETERS, Scale, SizedBy};
+use robot_model::{EffectSpec, Parameter, Robot, Role, effects};
 
 #[test]
 fn ids_are_unique_and_equal_to_the_file_names() {
@@ -28,6 +28,10 @@ fn specifications_are_sane() {
 
 /// Panics where a specification is incomplete or contradicts itself.
 pub(crate) fn is_sound(spec: &EffectSpec) {
+    let of_size = ["m", "kg", "N", "N m", "N m s/rad", "N s²/m²", "1/(N m)"];
+    let grows = |p: &&Parameter| p.role != Role::Shape && p.scale == Scale::Own && of_size.contains(&p.unit);
+    let by_itself = spec.sized_by == SizedBy::Itself;
+    assert_eq!(spec.parameters.iter().find(grows).is_none(), by_itself, "{}: its size grows with the robot", spec.id);
     let units = ["-", "m", "s", "rad", "rad/s", "kg", "N", "N m", "N m s/rad", "N s²/m²", "m/s²", "1/(N m)"];
     let id = spec.id;
     for (what, text) in [
@@ -67,6 +71,33 @@ pub(crate) fn is_sound(spec: &EffectSpec) {
             }
             Role::Shaped => assert!(!p.probes.is_empty(), "{id}: {name} has no probe"),
             Role::Shape => assert!(!p.probes.is_empty(), "{id}: {name} has no usual value to probe"),
+        }
+    }
+}
+
+#[test]
+fn sizes_grow_with_the_robot() {
+    let [mass, half_wheelbase, wheel_radius, gravity] = SizedBy::REFERENCE;
+    let robot = |k: f64| Robot {
+        mass: k * mass,
+        half_wheelbase: k * half_wheelbase,
+        wheel_radius: k * wheel_radius,
+        gravity,
+        ..crate::common::robot()
+    };
+    for (of, power) in [
+        (SizedBy::Itself, 0),
+        (SizedBy::Mass, 1),
+        (SizedBy::Weight, 1),
+        (SizedBy::Traction, 2),
+        (SizedBy::TractionPerSpeed, 3),
+        (SizedBy::PerTraction, -2),
+        (SizedBy::Wheelbase, 1),
+        (SizedBy::WheelRadius, 1),
+    ] {
+        for k in [1.0, 2.0_f64] {
+            let expected = k.powi(power);
+            assert!((of.factor(&robot(k)) / expected - 1.0).abs() < 1e-12, "{of:?}");
         }
     }
 }

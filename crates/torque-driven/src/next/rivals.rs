@@ -44,7 +44,7 @@ impl Rival {
         for i in NUISANCES..information.nrows() {
             information[(i, i)] += fit::SETTINGS.fit.whiff;
         }
-        let free = hypothesis.free(problem.largest_torque);
+        let free = hypothesis.free(&problem.sizes());
         let further = further(&information, hypothesis, &free, &fitted.point.effects);
         let parts = hypothesis.parts.iter().map(|(v, _)| (*v, vec![THROUGHOUT]));
         let names: Vec<String> = hypothesis.parts.iter().map(|(v, _)| inference::words::variant(v)).collect();
@@ -73,7 +73,7 @@ impl Rival {
     pub(crate) fn place(&self) -> Option<[f64; 3]> {
         let mut end = 0;
         for (v, _) in &self.hypothesis.parts {
-            end += v.free(1.0).len();
+            end += v.count();
             if v.place == Place::Disc {
                 let e = &self.point.effects;
                 return Some([e[end - 3], e[end - 2], e[end - 1]]);
@@ -94,7 +94,7 @@ fn further(information: &Mat<f64>, h: &Hypothesis, free: &[Free], fitted: &[f64]
         let neutral = f.parameter.map_or(0.0, |p| v.spec().parameters[p].neutral);
         let sigma = covariance[(i, i)].max(0.0).sqrt().min(1.0) * f.unit;
         out[at] = (fitted[at] + sigma.copysign(fitted[at] - neutral)).clamp(f.bounds[0], f.bounds[1]);
-        at += v.free(1.0).len();
+        at += v.count();
     }
     out
 }
