@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use inference::Options;
 use recordings::{Mapping, Read, ReadOptions};
-use robot_file::RobotSpec;
+use robot_file::{Causality, RobotSpec};
 use verdict::{Coverage, Diagnosis};
 
+use crate::inputs;
 pub use crate::inputs::{Loaded, mapping, robot};
 use crate::kind;
 use crate::long::Budget;
@@ -20,7 +21,10 @@ const FOLDERS: [(&str, &str); 3] = [
     ("heldout", "inputs whose response is to be predicted"),
 ];
 
-/// The folders that a case may have.
+/// The folder of a simulator's logs.
+const SIMULATION: &str = "simulation";
+
+/// The folders of recorded drives that a case may have.
 pub fn folders(case: &Path) -> [PathBuf; 3] {
     FOLDERS.map(|(name, _)| case.join(name))
 }
@@ -36,6 +40,8 @@ pub struct CaseFolder {
     pub recordings: Loaded,
     /// Inputs whose response is to be predicted.
     pub held_out: Loaded,
+    /// Logs of the user's simulator on the inputs of references or recordings.
+    pub simulation: Loaded,
     /// Of long recordings and references, what they stand for, by the name of their folder.
     pub coverage: BTreeMap<String, Coverage>,
 }
@@ -48,7 +54,26 @@ impl CaseFolder {
     /// What is missing or cannot be read.
     pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
         let (robot, [reference, recordings, held_out]) = located(folder, robot_name)?;
-        Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)
+        let case = Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)?;
+        case.with_simulation(&simulation_of(folder), mapping, options)
+    }
+
+    /// The same with logs of the user's simulator from files and folders; none at all is fine.
+    ///
+    /// # Errors
+    /// What cannot be read, and robots that are not driven by torques: only these are simulated on recorded inputs.
+    pub fn with_simulation(mut self, paths: &[PathBuf], mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
+        if paths.is_empty() {
+            return Ok(self);
+        }
+        ensure!(
+            self.robot.causality == Causality::TorqueDriven,
+            "robot '{}' is {}: logs of a simulator are compared for torque-driven robots only; leave out --simulation",
+            self.robot.name,
+            self.robot.causality.name()
+        );
+        self.simulation = inputs::load(mapping, paths, options)?;
+        Ok(self)
     }
 
     /// A case from files and folders: references, recordings, held-out drives.
@@ -107,15 +132,21 @@ impl CaseFolder {
             }
         }
         let [reference, recordings, held_out] = parts;
-        let case = Self { robot, reference, recordings, held_out, coverage: BTreeMap::new() };
+        let simulation = Loaded::default();
+        let case = Self { robot, reference, recordings, held_out, simulation, coverage: BTreeMap::new() };
         case.refuse_twins()?;
         Ok(case)
     }
 
-    /// The three parts by the names of their folders.
-    pub fn parts(&self) -> [(&'static str, &Loaded); 3] {
-        let loaded = [&self.reference, &self.recordings, &self.held_out];
-        std::array::from_fn(|i| (FOLDERS[i].0, loaded[i]))
+    /// All parts by the names of their folders.
+    pub fn parts(&self) -> [(&'static str, &Loaded); 4] {
+        let [reference, recordings, held_out] = FOLDERS.map(|(name, _)| name);
+        [
+            (reference, &self.reference),
+            (recordings, &self.recordings),
+            (held_out, &self.held_out),
+            (SIMULATION, &self.simulation),
+        ]
     }
 
     /// What was lost, in sentences.
@@ -197,6 +228,7 @@ impl CaseFolder {
             sigma: self.robot.sigma,
             pose_sigma: self.robot.pose_sigma,
             references: runs(&self.reference)?,
+            simulations: runs(&self.simulation)?,
             recordings: runs(&self.recordings)?,
             held_out,
         })
@@ -295,6 +327,12 @@ pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [V
         ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");
     }
     Ok((robot, folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() })))
+}
+
+/// The folder of a simulator's logs in a case folder, if it is there.
+pub fn simulation_of(case: &Path) -> Vec<PathBuf> {
+    let folder = case.join(SIMULATION);
+    if folder.is_dir() { vec![folder] } else { Vec::new() }
 }
 
 /// The files of a recording, for messages.

@@ -263,6 +263,7 @@ impl Judged<'_> {
             screened,
             tuning,
             retuned: retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
+            simulator: self.simulator.map_or(Vec::new(), |s| s.unlike_file.clone()),
             correction,
             traces: located.traces,
             steady: None,
@@ -334,13 +335,13 @@ impl Judged<'_> {
             if !self.case.references.is_empty() {
                 out.push(
                     "the references look like a simulator's logs, for their sensors show no noise while the robot stands: \
-                     they say nothing about noise and were not used"
+                     constants were fitted to them as to logs given with --simulation, and they say nothing about noise"
                         .to_owned(),
                 );
             }
             out.push(
-                "no real drive in which the simulation was right was given: constants are taken at the robot file's values, as \
-                 sure as it states, and the noise is learnt from these recordings. What a constant can stand for within its \
+                "no real drive in which the simulation was right was given: constants are taken at the robot file's values, or \
+                 at those of the simulator's logs, as sure as the file states, and the noise is learnt from these recordings. What a constant can stand for within its \
                  sigma is re-tuned, not named; a drive of two minutes in which nothing is wrong, given as reference, would \
                  show smaller effects"
                     .to_owned(),

@@ -18,6 +18,8 @@ pub struct Case {
     pub pose_sigma: f64,
     /// Recordings in which the simulation is right.
     pub references: Vec<Run>,
+    /// Logs of the user's simulator on the inputs of references or recordings: what the simulation believes.
+    pub simulations: Vec<Run>,
     /// Recordings in which it is not.
     pub recordings: Vec<Run>,
     /// Inputs whose response is to be predicted.

@@ -12,6 +12,7 @@ use crate::run::Run;
 use crate::search::{retune, search};
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
+use crate::simulator::{Simulator, check_inputs};
 use crate::trial::{Found, Trial};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
@@ -24,6 +25,8 @@ const PRICES: Prices = decision::SETTINGS.prices;
 
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
+    /// What the user's simulator believes, where its logs were given.
+    simulator: Option<Simulator>,
     references: Vec<Cut>,
     calibration: Calibration,
     largest_torque: f64,
@@ -42,12 +45,25 @@ impl Calibrated {
     fn up_to(largest_torque: f64, case: &Case, options: &Options) -> Result<Self, DiagnosisError> {
         let robot = case.robot.checked()?;
         // A simulator's log says what the simulation believes, as the robot file does, and nothing about noise.
-        if case.references.iter().all(Run::is_noise_free) {
-            return Ok(Self { references: Vec::new(), calibration: Calibration::by_file(), largest_torque });
+        let (simulated, references): (Vec<Run>, Vec<Run>) =
+            case.references.iter().cloned().partition(Run::is_noise_free);
+        let logs = [case.simulations.clone(), simulated].concat();
+        let simulator = if logs.is_empty() {
+            None
+        } else {
+            let logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
+            Some(Simulator::new(&robot, case, &logs, largest_torque, options)?)
+        };
+        if references.is_empty() {
+            let mut calibration = Calibration::by_file();
+            if let Some(simulator) = &simulator {
+                calibration.theta = simulator.theta;
+            }
+            return Ok(Self { simulator, references: Vec::new(), calibration, largest_torque });
         }
-        let references = cut_all(&case.references, &check(&case.references, &[]), case, &robot, options)?;
+        let references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
         let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
-        Ok(Self { references, calibration, largest_torque })
+        Ok(Self { simulator, references, calibration, largest_torque })
     }
 
     /// Diagnoses the recordings of a case with the same robot and references. `progress` is called
@@ -67,6 +83,7 @@ impl Calibrated {
         if case.recordings.is_empty() {
             return Err(DiagnosisError::Empty { what: "recording" });
         }
+        check_inputs(case)?;
         let robot = case.robot.checked()?;
         let sensors = check(&case.recordings, &case.references);
         let recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
@@ -116,6 +133,7 @@ impl Calibrated {
             calibration: &calibration,
             sensors: &sensors,
             decision: &decision,
+            simulator: self.simulator.as_ref(),
         };
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
         if let Some(length) = options.next {

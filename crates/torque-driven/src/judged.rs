@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::decide::{Decision, Scored};
 use crate::fit::Problem;
 use crate::redundancy::Redundant;
+use crate::simulator::Simulator;
 use crate::windows::Cut;
 use inference::Options;
 
@@ -17,6 +18,8 @@ pub(crate) struct Judged<'a> {
     pub(crate) calibration: &'a Calibration,
     pub(crate) sensors: &'a Redundant,
     pub(crate) decision: &'a Decision,
+    /// What the user's simulator believes.
+    pub(crate) simulator: Option<&'a Simulator>,
 }
 
 impl Judged<'_> {

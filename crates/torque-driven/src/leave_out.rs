@@ -257,6 +257,7 @@ mod tests {
             robot,
             sigma: usual_sigma(),
             pose_sigma: 1e-4,
+            simulations: Vec::new(),
             references: Vec::new(),
             recordings: Vec::new(),
             held_out: Vec::new(),
@@ -270,6 +271,7 @@ mod tests {
             references: &[],
             calibration: &calibration,
             sensors: &Redundant::default(),
+            simulator: None,
             decision: &Decision { scored, none: 0.1, unknown: 0.0 },
         };
         let placebo = placebo(&answer).expect("a rival").trial.hypothesis.ids();

@@ -14,7 +14,7 @@
 //! * `search`, `fit`, `normal`, `trial`: refits of the finalists in free run; `disc`, `onset`:
 //!   place and time.
 //! * `decide`, `judged`, `visits`: from fits to probabilities.
-//! * `retuned`: constants that moved farther than they are known.
+//! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
@@ -52,6 +52,7 @@ mod screen;
 mod search;
 mod settings;
 mod simulate;
+mod simulator;
 mod smooth;
 #[cfg(test)]
 mod testing;

@@ -5,7 +5,7 @@ use inference::algebra::inverse_spd;
 use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::constants::Constant;
-use robot_model::tunable::{Tunable, tunables, tuned};
+use robot_model::tunable::{COUNT as NUISANCES, Tunable, tunables, tuned};
 use verdict::Retuned;
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
@@ -20,13 +20,24 @@ const ANSWER: Answer = SETTINGS.answer;
 pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
-    let [at_first, at_last] = [&p.centre, &fitted.point.theta].map(|theta| tuned(p.robot, &p.sigma, theta));
+    moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance])
+}
+
+/// Constants of a robot that lie elsewhere at the second tuning than at the first, by more than either is uncertain: with
+/// the covariance of each, in the constants' sigmas.
+pub(crate) fn moved(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    [first, last]: [&[f64; NUISANCES]; 2],
+    [prior, known]: [&Mat<f64>; 2],
+) -> Vec<Retuned> {
+    let [at_first, at_last] = [first, last].map(|theta| tuned(robot, sigma, theta));
     let of = |(k, tunable): (usize, &Tunable<f64>)| {
         let constant = constant_of(tunable).filter(|_| tunable.between_visits >= RETUNE.measurable)?;
-        let moved = fitted.point.theta[k] - p.centre[k];
+        let moved = last[k] - first[k];
         let sigma = |of: &Mat<f64>| of[(k, k)].max(0.0).sqrt();
-        let known = ANSWER.curvature * sigma(&covariance);
-        let far = RETUNE.least_sigmas.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(&prior));
+        let known = ANSWER.curvature * sigma(known);
+        let far = RETUNE.least_sigmas.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
         if moved.abs() < far {
             return None;
         }

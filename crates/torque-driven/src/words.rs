@@ -69,6 +69,7 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
+    out.extend(d.simulator.iter().take(TOLD).map(|constant| format!("{}.", constant.of_simulator())));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
         let told = d.retuned.iter().take(TOLD);
         out.extend(told.map(|constant| format!("Re-tune: {}.", constant.sentence())));

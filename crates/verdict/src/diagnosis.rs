@@ -65,6 +65,9 @@ pub struct Diagnosis {
     /// Constants that moved farther than they are known, the farthest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub retuned: Vec<Retuned>,
+    /// Constants with which the user's simulator behaves otherwise than the robot file says, by its own logs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub simulator: Vec<Retuned>,
     /// The simulation as this diagnosis would have it: what held-out drives are predicted with.
     pub correction: Correction,
     /// Recordings beside the simulation.
@@ -105,6 +108,7 @@ impl Diagnosis {
             screened: Vec::new(),
             tuning: BTreeMap::new(),
             retuned: Vec::new(),
+            simulator: Vec::new(),
             correction: Correction::default(),
             traces: Vec::new(),
             steady: None,

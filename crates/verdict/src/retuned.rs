@@ -20,18 +20,43 @@ pub struct Retuned {
 }
 
 impl Retuned {
-    /// For people: "adhesion 0.600 -> 0.510 ± 0.020, 1.3 of the sigma that the robot file states".
+    /// For people: "adhesion 0.600 -> 0.510 ± 0.020 (90 %), 1.3 of the sigma that the robot file states".
     pub fn sentence(&self) -> String {
-        let unit = if self.unit == "-" { String::new() } else { format!(" {}", self.unit) };
-        let digits = (1.0 - self.half_width.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
+        let digits = self.digits();
         format!(
-            "{} {:.digits$} -> {:.digits$} ± {:.digits$}{unit} (90 %), {:.1} of the sigma that the robot file states",
+            "{} {:.digits$} -> {}, {:.1} of the sigma that the robot file states",
             self.constant.replace('_', " "),
             self.from,
-            self.to,
-            self.half_width,
+            self.now(),
             self.sigmas.abs()
         )
+    }
+
+    /// The same of a simulator: "Your robot file says mass 22.00 kg, but your simulator behaves like 24.10 ± 0.05 kg".
+    pub fn of_simulator(&self) -> String {
+        let digits = self.digits();
+        format!(
+            "Your robot file says {} {:.digits$}{}, but your simulator behaves like {}: correct the file, or the simulator",
+            self.constant.replace('_', " "),
+            self.from,
+            self.unit(),
+            self.now()
+        )
+    }
+
+    /// "0.510 ± 0.020 (90 %)"
+    fn now(&self) -> String {
+        let digits = self.digits();
+        format!("{:.digits$} ± {:.digits$}{} (90 %)", self.to, self.half_width, self.unit())
+    }
+
+    fn unit(&self) -> String {
+        if self.unit == "-" { String::new() } else { format!(" {}", self.unit) }
+    }
+
+    /// Decimal places that show two digits of the interval.
+    fn digits(&self) -> usize {
+        (1.0 - self.half_width.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize
     }
 }
 
@@ -51,5 +76,16 @@ mod tests {
         };
         let text = "rolling resistance 0.0200 -> 0.0261 ± 0.0012 (90 %), 2.0 of the sigma that the robot file states";
         assert_eq!(retuned.sentence(), text);
+        let mass = Retuned {
+            constant: "mass".to_owned(),
+            unit: "kg".to_owned(),
+            from: 22.0,
+            to: 24.1,
+            half_width: 0.3,
+            sigmas: 9.5,
+        };
+        let text = "Your robot file says mass 22.00 kg, but your simulator behaves like 24.10 ± 0.30 kg (90 %): correct the \
+                    file, or the simulator";
+        assert_eq!(mass.of_simulator(), text);
     }
 }

@@ -35,6 +35,8 @@ A case folder:
   reference/    real drives in which the simulation was right (may be missing:
                 the robot file then stands in their place, as sure as it states,
                 and smaller effects pass for constants)
+  simulation/   logs of your simulator on the torques of the recordings (may be
+                missing)
   recordings/   drives in which it was not
   heldout/      inputs whose response is to be predicted (may be missing)
 
@@ -67,7 +69,7 @@ lacuna diagnose [OPTIONS] <CASE>
 /// A case on the command line.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Input {
-    /// Folder with robot.toml (or robot.json), reference/, recordings/ and perhaps heldout/.
+    /// Folder with robot.toml (or robot.json), recordings/ and perhaps reference/, simulation/ and heldout/.
     #[arg(required_unless_present_all = ["robot", "recordings"])]
     pub(crate) case: Option<PathBuf>,
     /// Robot file, or name of a built-in robot.
@@ -81,6 +83,10 @@ pub(crate) struct Input {
     /// robot file, whose constants are as sure as it states.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     pub(crate) reference: Vec<PathBuf>,
+    /// Files or folders of logs of your simulator, run on the torques of the recordings: they say what the simulation
+    /// believes, the robot file is checked against them, and recordings are compared with the robot that they show.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
+    pub(crate) simulation: Vec<PathBuf>,
     /// Files or folders of drives in which it was not.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     pub(crate) recordings: Vec<PathBuf>,
@@ -221,7 +227,10 @@ pub(crate) fn located(args: &Input) -> Result<Located> {
 pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
     let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
     let Located { robot, paths: [reference, recordings, heldout], mapping } = located(args)?;
-    let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?;
+    let in_folder = args.case.as_deref().map(case_folder::simulation_of).unwrap_or_default();
+    let simulation = [args.simulation.clone(), in_folder].concat();
+    let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?
+        .with_simulation(&simulation, &mapping, &options)?;
     Ok((case, mapping.name))
 }
 

@@ -4,12 +4,28 @@
     /// What recordings are turned into before any force law.
     pub(crate) struct Settings;
 
-    /// Telling a simulator's log from a recording.
+    /// Telling a simulator's log from a recording, and what it was simulated on.
     logs: Logs {
         /// Samples of a standing robot that tell noise from none, of each sensor at least.
         least_samples: usize = 10, "1", "guess";
         /// Spread within which samples are the same.
         same: f64 = 1e-7, "rad/s, m/s²", "numerical guard: far below the resolution of any inertial sensor";
+        /// How much wider than the robot file's sigmas a simulator's constants may lie about the file's.
+        wider: f64 = 5.0, "1", "guess";
+        /// Fits in turn to a simulator's logs, at most.
+        fits: usize = 8, "1", "guess";
+        /// Largest move of a constant after which a fit to a simulator's logs has settled, in the robot file's sigmas.
+        settled: f64 = 0.1, "1", "guess";
+        /// Share of a simulator's constant that other laws than the plant's may feign, one sigma.
+        form_error: f64 = 0.02, "1", "equal to the model error of an effect's size";
+        /// Half widths of its 90 % interval by which a simulator's constant differs from the file when it is told.
+        told: f64 = 2.0, "1", "guess";
+        /// Most by which the rows of a log and of its recording are apart unlike, as a share.
+        same_period: f64 = 0.01, "1", "guess";
+        /// Most by which their torques differ, as a share of the largest.
+        same_torque: f64 = 0.01, "1", "guess; logs round";
+        /// Most by which their lengths differ.
+        same_length: f64 = 1.0, "s", "guess";
     }
 
     /// Laying a recording on a grid of rows.
