@@ -60,7 +60,7 @@ fn viscous_friction_is_named_and_improves_what_was_not_fitted() {
     assert!(corrected[0] < 0.5 * plain[0], "wheel speed: corrected {corrected:?}, plain {plain:?}");
     assert!(corrected[1] < plain[1], "yaw rate: corrected {corrected:?}, plain {plain:?}");
     let c = &d.ranked[0].parameters.values().next().copied().expect("viscous friction has a number");
-    assert!(c.sigma.is_some_and(|s| s > 0.0 && s < 0.25 * c.value) && !c.at_bound, "{c:?}");
+    assert!(c.sigma.is_some_and(|s| s > 0.0 && s < 0.2 * c.value) && !c.at_bound, "{c:?}");
     // The same on recordings that were left out one at a time, from measured states and over the whole of each.
     assert_eq!(d.free_runs.len(), 4 * 3);
     for f in d.free_runs.iter().filter(|f| f.quantity.starts_with("wheel speed, ")) {

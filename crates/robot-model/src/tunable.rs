@@ -47,6 +47,30 @@ pub fn tunables<T: Scalar>() -> [Tunable<T>; COUNT] {
     const { in_order::<T>() }
 }
 
+/// Place of a constant in vectors of tunings, by its id; `None` if no tunable constant is called so.
+pub const fn place_of(id: &str) -> Option<usize> {
+    let (table, mut row) = (Robot::<f64>::CONSTANTS, 0);
+    while row < table.len() {
+        if let Some(tunable) = table[row].tuning
+            && is_same(tunable.id, id)
+        {
+            return Some(tunable.order);
+        }
+        row += 1;
+    }
+    None
+}
+
+/// Whether two texts are the same; `==` is not for constants.
+const fn is_same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
 const fn count() -> usize {
     let (table, mut count, mut row) = (Robot::<f64>::CONSTANTS, 0, 0);
     while row < table.len() {

@@ -6,13 +6,15 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::case::Case;
+use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
-use crate::fit::{Columns, Fitted, Hypothesis, PER_RUN, Problem};
+use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
 use crate::gate::Gate;
 use crate::run::Run;
+use crate::run_numbers::{UNKNOWN, constant};
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulate::Response;
-use crate::windows::{CHANNELS, Cut};
+use crate::windows::Cut;
 use inference::algebra::{inverse_spd, solve_spd};
 use inference::{DiagnosisError, Options};
 
@@ -22,7 +24,7 @@ pub(crate) struct Calibration {
     pub(crate) theta: [f64; NUISANCES],
     /// Prior information about θ for the recordings.
     pub(crate) information: Mat<f64>,
-    pub(crate) variance: [f64; CHANNELS],
+    pub(crate) variance: Channels<f64>,
     pub(crate) spread: f64,
     pub(crate) regimes: Regimes,
     /// Null scores of the references themselves.
@@ -30,6 +32,14 @@ pub(crate) struct Calibration {
 }
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
+
+/// Constants that fault-free robots push farther than their files say, with the factor of their sigmas.
+const WIDER: [(usize, f64); 4] = [
+    (constant("yaw_inertia"), CALIBRATING.wider),
+    (constant("com_height"), CALIBRATING.wider),
+    (constant("slip_at_peak"), CALIBRATING.wider),
+    (constant("motor_inertia"), CALIBRATING.wider_motor_inertia),
+];
 
 /// Expected misfit of a segment from those of the references driven alike.
 #[derive(Clone, Default)]
@@ -92,7 +102,7 @@ pub(crate) fn calibrate(
         sigma: *sigma,
         cuts,
         has_references: true,
-        variance: CALIBRATING.first_sigma.map(|s| s * s),
+        variance: Channels::from(CALIBRATING.first_sigma).map(|s| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),
         centre: [0.0; NUISANCES],
@@ -141,22 +151,17 @@ pub(crate) fn calibrate(
 impl Calibration {
     /// Without references: the robot file's constants as sure as it states, and what simulations of such robots leave.
     pub(crate) fn by_file() -> Self {
-        let at = |id: &str| tunables::<f64>().iter().position(|t| t.id == id);
         let mut covariance = Mat::<f64>::identity(NUISANCES, NUISANCES);
-        let wider = ["yaw_inertia", "com_height", "slip_at_peak"].map(|id| (id, CALIBRATING.wider));
-        for (id, factor) in wider.into_iter().chain([("motor_inertia", CALIBRATING.wider_motor_inertia)]) {
-            if let Some(k) = at(id) {
-                covariance[(k, k)] = factor.powi(2);
-            }
+        for (k, factor) in WIDER {
+            covariance[(k, k)] = factor.powi(2);
         }
-        if let (Some(left), Some(right)) = (at("coulomb_left"), at("coulomb_right")) {
-            covariance[(left, right)] = CALIBRATING.coulomb_correlation;
-            covariance[(right, left)] = CALIBRATING.coulomb_correlation;
-        }
+        let [left, right] = const { [constant("coulomb_left"), constant("coulomb_right")] };
+        covariance[(left, right)] = CALIBRATING.coulomb_correlation;
+        covariance[(right, left)] = CALIBRATING.coulomb_correlation;
         Self {
             theta: [0.0; NUISANCES],
             information: inverse_spd(&covariance).unwrap_or_else(|| Mat::identity(NUISANCES, NUISANCES)),
-            variance: CALIBRATING.usual_residual.map(|s| s * s),
+            variance: Channels::from(CALIBRATING.usual_residual).map(|s| s * s),
             spread: CALIBRATING.usual_spread,
             regimes: Regimes::default(),
             gate: Gate::default(),
@@ -177,9 +182,10 @@ impl Calibration {
     /// changed so much that the hypotheses must be weighed again.
     pub(crate) fn learn_noise(&mut self, problem: &Problem<'_>, best: &Fitted) -> bool {
         let left = channel_variance(problem, &best.response);
+        let usual = Channels::from(CALIBRATING.usual_residual);
         let mut changed = false;
-        for c in 0..CHANNELS {
-            let learnt = left[c].max(CALIBRATING.usual_residual[c].powi(2));
+        for c in Channel::ALL {
+            let learnt = left[c].max(usual[c].powi(2));
             changed |= (learnt / self.variance[c]).sqrt().ln().abs() > CALIBRATING.repeat_change;
             self.variance[c] = learnt;
         }
@@ -187,20 +193,21 @@ impl Calibration {
     }
 }
 
-fn channel_variance(problem: &Problem<'_>, response: &Response) -> [f64; CHANNELS] {
-    let (mut sum, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS]);
+fn channel_variance(problem: &Problem<'_>, response: &Response) -> Channels<f64> {
+    let (mut sum, mut n) = (Channels::all(0.0), Channels::all(0.0));
     for (r, cut) in problem.cuts.iter().enumerate() {
         for (s, segment) in cut.segments.iter().enumerate() {
-            for (i, (o, p)) in segment.observed.iter().zip(&response[r][s]).enumerate() {
-                if segment.valid[i] {
-                    sum[i % CHANNELS] += (o - p).powi(2);
-                    n[i % CHANNELS] += 1.0;
+            for ((o, p), valid) in segment.observed.iter().zip(&response[r][s]).zip(&segment.valid) {
+                for c in Channel::ALL.into_iter().filter(|&c| valid[c]) {
+                    sum[c] += (o[c] - p[c]).powi(2);
+                    n[c] += 1.0;
                 }
             }
         }
     }
-    std::array::from_fn(|c| {
-        let first = CALIBRATING.first_sigma[c];
+    let first = Channels::from(CALIBRATING.first_sigma);
+    Channels::from_fn(|c| {
+        let first = first[c];
         let least = (CALIBRATING.least_share * first).powi(2);
         if n[c] > 0.0 { (sum[c] / n[c]).max(least) } else { first.powi(2) }
     })
@@ -219,9 +226,9 @@ fn regimes(problem: &Problem<'_>, response: &Response) -> Regimes {
 }
 
 /// The common factor of the run-to-run deviations by marginal likelihood of the linearised model.
-fn spread(problem: &mut Problem<'_>, point: &crate::fit::Point, columns: &Columns) -> Result<f64, DiagnosisError> {
+fn spread(problem: &mut Problem<'_>, point: &Point, columns: &Columns) -> Result<f64, DiagnosisError> {
     let mut flat = point.clone();
-    flat.run = vec![[0.0; PER_RUN]; problem.cuts.len()];
+    flat.run = vec![UNKNOWN; problem.cuts.len()];
     let response = problem.response(&flat, &Hypothesis::default());
     let usual = CALIBRATING.usual_spread;
     let mut best = (f64::MIN, usual);

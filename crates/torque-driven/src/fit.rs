@@ -11,25 +11,18 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
 use sim::rollout::Grid;
 
+use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
-use crate::settings::fit::{Deviations, Fit, SETTINGS};
-use crate::simulate::{Body, Response, free_run};
-use crate::windows::{CHANNELS, Cut, FORWARD};
+use crate::run_numbers::{RunNumber, RunNumbers, UNKNOWN};
+use crate::settings::fit::{Fit, SETTINGS};
+use crate::simulate::{Body, Response, RunResponse, free_run};
+use crate::windows::Cut;
 use inference::hypothesis::{Dose, Sizes};
 use inference::hypothesis::{Free, Onsets, Variant, variants};
 use verdict::Correction;
 
-/// Offsets of a run that sensors add: gyro, accelerometer x and y.
-pub(crate) const OFFSETS: usize = 3;
-/// Channel of each offset.
-pub(crate) const OFFSET_CHANNEL: [usize; OFFSETS] = [2, 5, 6];
-/// Constants of the ground and drivetrain that differ a little from run to run: their place among the tunables.
-pub(crate) const DEVIATING: [usize; 5] = [0, 2, 3, 4, 5];
 /// Cost of a response that is not finite.
 const HOPELESS: f64 = 1e300;
-/// Numbers that a run has to itself.
-pub(crate) const PER_RUN: usize = DEVIATING.len() + OFFSETS;
-const DEVIATIONS: Deviations = SETTINGS.deviations;
 const FIT: Fit = SETTINGS.fit;
 
 /// Effects that a fit includes, with the onsets of those that have one.
@@ -93,7 +86,7 @@ pub(crate) struct Problem<'a> {
     /// Whether drives in which the simulation was right taught constants and noise; otherwise the robot file did.
     pub(crate) has_references: bool,
     /// Mean squared residual of each channel on the references.
-    pub(crate) variance: [f64; CHANNELS],
+    pub(crate) variance: Channels<f64>,
     /// Expected q/D of each segment's regime.
     pub(crate) regime: Vec<Vec<f64>>,
     /// Information about θ: `½ (θ − centre)ᵀ H (θ − centre)`.
@@ -123,7 +116,8 @@ impl Problem<'_> {
 #[derive(Clone)]
 pub(crate) struct Point {
     pub(crate) theta: [f64; NUISANCES],
-    pub(crate) run: Vec<[f64; PER_RUN]>,
+    /// What each run has to itself.
+    pub(crate) run: Vec<RunNumbers>,
     pub(crate) effects: Vec<f64>,
 }
 
@@ -132,7 +126,7 @@ pub(crate) struct Columns(pub(crate) Vec<Response>);
 
 impl Problem<'_> {
     pub(crate) fn origin(&self) -> Point {
-        Point { theta: self.centre, run: vec![[0.0; PER_RUN]; self.cuts.len()], effects: Vec::new() }
+        Point { theta: self.centre, run: vec![UNKNOWN; self.cuts.len()], effects: Vec::new() }
     }
 
     /// A hypothesis at a point, for files.
@@ -153,22 +147,23 @@ impl Problem<'_> {
     pub(crate) fn variants(&self) -> Vec<Variant> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
-        variants(segments().any(|s| s.valid.iter().skip(FORWARD).step_by(CHANNELS).any(|&v| v)))
+        variants(segments().any(|s| s.shows(Channel::ForwardVelocity)))
     }
 
-    /// Standard deviation of a run's own numbers, in sigmas of θ or in units of the channel.
-    pub(crate) fn run_scale(&self, i: usize) -> f64 {
-        if i < DEVIATING.len() {
-            DEVIATIONS.constants[i] * self.spread / self.sigma[DEVIATING[i]]
-        } else {
-            DEVIATIONS.offsets[i - DEVIATING.len()]
+    /// Standard deviation of a number that runs have to themselves, in sigmas of θ or in the unit of its channel.
+    pub(crate) fn run_scale(&self, number: RunNumber) -> f64 {
+        match number {
+            RunNumber::Constant { place, sigma } => sigma * self.spread / self.sigma[place],
+            RunNumber::Offset { sigma, .. } => sigma,
         }
     }
 
     fn robot_of(&self, point: &Point, run: usize) -> Robot<f64> {
         let mut theta = point.theta;
-        for (i, &k) in DEVIATING.iter().enumerate() {
-            theta[k] += point.run[run][i] * self.run_scale(i);
+        for (number, value) in RunNumber::ALL.into_iter().zip(point.run[run]) {
+            if let RunNumber::Constant { place, .. } = number {
+                theta[place] += value * self.run_scale(number);
+            }
         }
         tuned(self.robot, &self.sigma, &theta)
     }
@@ -183,10 +178,9 @@ impl Problem<'_> {
         let bodies: Vec<Body> = runs.clone().map(body).collect();
         let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
         for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {
-            for (o, &channel) in OFFSET_CHANNEL.iter().enumerate() {
-                let offset = own[DEVIATING.len() + o] * DEVIATIONS.offsets[o];
-                for v in y.iter_mut().flat_map(|s| s.iter_mut().skip(channel).step_by(CHANNELS)) {
-                    *v += offset;
+            for (number, value) in RunNumber::ALL.into_iter().zip(own) {
+                if let RunNumber::Offset { channel, sigma } = number {
+                    y.iter_mut().flatten().for_each(|window| window[channel] += value * sigma);
                 }
             }
         }
@@ -204,7 +198,7 @@ impl Problem<'_> {
     }
 
     /// Response of one recording.
-    pub(crate) fn run_response(&self, run: usize, point: &Point, h: &Hypothesis) -> Vec<Vec<f64>> {
+    pub(crate) fn run_response(&self, run: usize, point: &Point, h: &Hypothesis) -> RunResponse {
         let doses = |run: usize| h.doses(&point.effects, run);
         self.free(&Lane { point: point.clone(), doses: &doses, part: None }, run..run + 1).remove(0)
     }
@@ -246,12 +240,14 @@ impl Problem<'_> {
     }
 
     /// Weighted square of a segment's residual, `Σ r²/R`, for its predicted windows.
-    pub(crate) fn q(&self, run: usize, segment: usize, predicted: &[f64]) -> f64 {
+    pub(crate) fn q(&self, run: usize, segment: usize, predicted: &[Channels<f64>]) -> f64 {
         let s = &self.cuts[run].segments[segment];
         let mut q = 0.0;
-        for (i, ((o, p), &valid)) in s.observed.iter().zip(predicted).zip(&s.valid).enumerate() {
-            if valid {
-                q += (o - p).powi(2) / self.variance[i % CHANNELS];
+        for ((o, p), valid) in s.observed.iter().zip(predicted).zip(&s.valid) {
+            for c in Channel::ALL {
+                if valid[c] {
+                    q += (o[c] - p[c]).powi(2) / self.variance[c];
+                }
             }
         }
         q
@@ -268,8 +264,8 @@ impl Problem<'_> {
     }
 
     /// Cost of one recording's response; huge if it is not finite.
-    pub(crate) fn misfit_of_run(&self, run: usize, response: &[Vec<f64>]) -> f64 {
-        let cost = |(s, y): (usize, &Vec<f64>)| self.segment_cost(run, s, self.q(run, s, y));
+    pub(crate) fn misfit_of_run(&self, run: usize, response: &[Vec<Channels<f64>>]) -> f64 {
+        let cost = |(s, y): (usize, &Vec<Channels<f64>>)| self.segment_cost(run, s, self.q(run, s, y));
         let f: f64 = response.iter().enumerate().map(cost).sum();
         if f.is_finite() { f } else { HOPELESS }
     }
@@ -367,8 +363,9 @@ impl least_squares::Problem for FreeRunFit<'_> {
 
 /// `(y − base)·factor`, number by number.
 pub(crate) fn difference(y: &Response, base: &Response, factor: f64) -> Response {
-    y.iter()
-        .zip(base)
-        .map(|(y, b)| y.iter().zip(b).map(|(y, b)| y.iter().zip(b).map(|(y, b)| (y - b) * factor).collect()).collect())
-        .collect()
+    let windows = |y: &[Channels<f64>], base: &[Channels<f64>]| -> Vec<Channels<f64>> {
+        y.iter().zip(base).map(|(y, base)| Channels::from_fn(|c| (y[c] - base[c]) * factor)).collect()
+    };
+    let segments = |(y, base): (&RunResponse, &RunResponse)| y.iter().zip(base).map(|(y, b)| windows(y, b)).collect();
+    y.iter().zip(base).map(segments).collect()
 }

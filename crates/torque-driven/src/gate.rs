@@ -5,7 +5,8 @@ use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::penalty;
-use crate::fit::{Columns, Hypothesis, PER_RUN, Point, Problem};
+use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::run_numbers::UNKNOWN;
 use crate::screen::screen;
 use inference::algebra::solve_spd;
 
@@ -38,7 +39,7 @@ impl Gate {
             centre: at.theta,
             ..problem.clone()
         };
-        let point = Point { theta: at.theta, run: vec![[0.0; PER_RUN]], effects: Vec::new() };
+        let point = Point { theta: at.theta, run: vec![UNKNOWN], effects: Vec::new() };
         let base = alone.begin(&none, point, None);
         let own = alone.normal(&base.point, &base.response, &base.columns, &Columns(Vec::new()))?;
         let others = information - &own.matrix;

@@ -11,7 +11,7 @@ use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::rms::{residuals, rms};
 use crate::settings::decision::{LeaveOut, SETTINGS};
-use crate::simulate::Response;
+use crate::simulate::{Response, RunResponse};
 use crate::windows::{Cut, Segment};
 
 const LEAVE_OUT: LeaveOut = SETTINGS.leave_out;
@@ -24,7 +24,7 @@ pub(crate) struct Model {
 }
 
 /// A recording by four simulations: windows by segment.
-pub(crate) type Simulated = Forecast<Model, Vec<Vec<f64>>>;
+pub(crate) type Simulated = Forecast<Model, RunResponse>;
 
 /// Free runs on recordings that were left out of the fit.
 pub(crate) struct Forecasts {
@@ -57,7 +57,7 @@ pub(crate) fn leave_one_out(answer: &Judged<'_>, retuned: &Fitted) -> Forecasts 
 
 impl Experiment for LeftOut<'_> {
     type Model = Model;
-    type Response = Vec<Vec<f64>>;
+    type Response = RunResponse;
 
     fn blocks(&self) -> usize {
         self.answer.problem.cuts.len()
@@ -103,7 +103,7 @@ impl Experiment for LeftOut<'_> {
         }
     }
 
-    fn response(&self, model: &Model, run: usize) -> Vec<Vec<f64>> {
+    fn response(&self, model: &Model, run: usize) -> RunResponse {
         let p = self.answer.problem;
         // With one recording everything was fitted on it, its onset too.
         if p.cuts.len() < 2 {
@@ -116,7 +116,7 @@ impl Experiment for LeftOut<'_> {
         ["wheel speed, rad/s", "yaw rate, rad/s"].map(str::to_owned).to_vec()
     }
 
-    fn errors(&self, response: &Vec<Vec<f64>>, run: usize) -> Vec<Vec<f64>> {
+    fn errors(&self, response: &RunResponse, run: usize) -> Vec<Vec<f64>> {
         residuals(self.answer.problem, run, response).to_vec()
     }
 }
@@ -133,7 +133,7 @@ impl LeftOut<'_> {
 /// When an effect sets in cannot be known before a drive; nothing of the segment that is forecast may tell it.
 ///
 /// Of two effects that set in, the first is forecast so; the second stays as it was fitted.
-pub(crate) fn forecast(p: &Problem<'_>, model: &Model, run: usize) -> Vec<Vec<f64>> {
+pub(crate) fn forecast(p: &Problem<'_>, model: &Model, run: usize) -> RunResponse {
     let Model { hypothesis, point } = model;
     let Some(part) = hypothesis.parts.iter().position(|(variant, _)| variant.place == Place::Onset) else {
         return p.run_response(run, point, hypothesis);
@@ -145,7 +145,7 @@ pub(crate) fn forecast(p: &Problem<'_>, model: &Model, run: usize) -> Vec<Vec<f6
     };
     let cut = &p.cuts[run];
     let [with, without] = [from(Some(cut.from)), from(None)];
-    let costs = |response: &[Vec<f64>]| -> Vec<f64> {
+    let costs = |response: &RunResponse| -> Vec<f64> {
         response.iter().enumerate().map(|(s, y)| p.segment_cost(run, s, p.q(run, s, y))).collect()
     };
     let costs: Vec<[f64; 2]> = costs(&with).into_iter().zip(costs(&without)).map(Into::into).collect();
@@ -223,12 +223,13 @@ mod tests {
     use super::*;
     use crate::calibrate::{Calibration, Regimes};
     use crate::case::Case;
+    use crate::channel::Channel;
     use crate::decide::Decision;
     use crate::gate::Gate;
     use crate::redundancy::Redundant;
     use crate::testing::{cutting, driven, problem};
     use crate::trial::Trial;
-    use crate::windows::{CHANNELS, cut};
+    use crate::windows::cut;
     use inference::Options;
     use robot_model::tunable::usual_sigma;
     use testing::robot;
@@ -286,7 +287,7 @@ mod tests {
 
         let mut changed = cuts;
         for segment in &mut changed[0].segments {
-            segment.observed.iter_mut().step_by(CHANNELS).for_each(|y| *y *= 1.2);
+            segment.observed.iter_mut().for_each(|y| y[Channel::LeftWheel] *= 1.2);
         }
         let after = forecasts(&changed);
 
@@ -351,7 +352,7 @@ mod tests {
         let robot = robot();
         let mut cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
         for segment in &mut cuts[0].segments {
-            segment.observed.iter_mut().for_each(|y| *y *= 1.1);
+            segment.observed.iter_mut().for_each(|y| *y = y.map(|y| 1.1 * y));
         }
         let p = problem(&robot, &cuts);
         let calibrated = p.response(&p.origin(), &Hypothesis::default());

@@ -3,16 +3,16 @@
 //! # Files
 //!
 //! * `diagnose`: the way of a case as one list of stages; `case`, `run`: what goes in.
-//! * `motion`, `smooth`, `windows`: what sensors say before any force law, and the segments of free
-//!   runs.
+//! * `motion`, `smooth`, `windows`, `channel`: what sensors say before any force law, and the segments of
+//!   free runs.
 //! * `redundancy/*`: sensor faults that two sensors show without any force law.
 //! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
 //! * `calibrate`, `gate`: constants and noise from the references, and the null score of each
 //!   reference.
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
-//! * `search`, `fit`, `normal`, `trial`: refits of the finalists in free run; `disc`, `onset`:
-//!   place and time.
+//! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
+//!   `onset`: place and time.
 //! * `decide`, `judged`, `visits`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
@@ -27,6 +27,7 @@ mod answer;
 mod calibrate;
 mod candidate;
 mod case;
+mod channel;
 mod decide;
 mod diagnose;
 mod disc;
@@ -48,6 +49,7 @@ mod redundancy;
 mod retuned;
 mod rms;
 mod run;
+mod run_numbers;
 mod screen;
 mod search;
 mod settings;

@@ -1,6 +1,7 @@
 //! Screening local forms of an effect: columns of a disc or an onset superposed from columns of the segments' parts.
 
 use crate::candidate::{Candidate, Ground, reduced, single};
+use crate::channel::{Channel, Channels};
 use crate::disc::neighbours;
 use crate::fit::{Columns, Problem};
 use crate::settings::search::{Discs, Onsets, SETTINGS};
@@ -18,12 +19,12 @@ fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> 
         .map(|r| {
             (0..parts[0][r].len())
                 .map(|s| {
-                    let mut y = vec![0.0; parts[0][r][s].len()];
+                    let mut y = vec![Channels::all(0.0); parts[0][r][s].len()];
                     for (q, part) in parts.iter().enumerate() {
                         let w = share(r, s, q);
                         if w > 0.0 {
                             for (y, p) in y.iter_mut().zip(&part[r][s]) {
-                                *y += w * p;
+                                Channel::ALL.into_iter().for_each(|c| y[c] += w * p[c]);
                             }
                         }
                     }

@@ -5,13 +5,13 @@ use inference::least_squares::{Normal, Parameter, Step};
 use rayon::prelude::*;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::fit::{Columns, DEVIATING, OFFSET_CHANNEL, OFFSETS, PER_RUN, Point, Problem};
-use crate::settings::fit::{Deviations, Fit, SETTINGS};
+use crate::channel::Channel;
+use crate::fit::{Columns, Point, Problem};
+use crate::run_numbers::RunNumber;
+use crate::settings::fit::{Fit, SETTINGS};
 use crate::simulate::Response;
-use crate::windows::CHANNELS;
 use inference::hypothesis::Free;
 
-const DEVIATIONS: Deviations = SETTINGS.deviations;
 const FIT: Fit = SETTINGS.fit;
 
 impl Problem<'_> {
@@ -38,42 +38,48 @@ impl Problem<'_> {
         r: usize,
     ) -> Option<Normal> {
         let columns: Vec<&Response> = theta.0.iter().chain(&effects.0).collect();
-        let (n, all) = (columns.len(), columns.len() + OFFSETS + 1);
+        let offsets: Vec<(Channel, f64)> = RunNumber::offsets().collect();
+        let (n, all) = (columns.len(), columns.len() + offsets.len() + 1);
         // Gram of [θ, effects, offsets, residual], weighted.
         let mut gram = Mat::<f64>::zeros(all, all);
         let root = self.variance.map(|v| 1.0 / v.sqrt());
         for (s, segment) in self.cuts[r].segments.iter().enumerate() {
             let weight = self.weight(r, s, self.q(r, s, &base[r][s])).sqrt();
-            let rows: Vec<usize> = (0..segment.observed.len()).filter(|&i| segment.valid[i]).collect();
+            let rows: Vec<(usize, Channel)> = (0..segment.windows)
+                .flat_map(|w| Channel::ALL.map(|channel| (w, channel)))
+                .filter(|&(w, channel)| segment.valid[w][channel])
+                .collect();
             let mut a = Mat::zeros(rows.len(), all);
-            let mut fill = |c: usize, value: &dyn Fn(usize) -> f64| {
-                for (v, &k) in a.col_as_slice_mut(c).iter_mut().zip(&rows) {
-                    *v = value(k) * root[k % CHANNELS] * weight;
+            let mut fill = |column: usize, value: &dyn Fn(usize, Channel) -> f64| {
+                for (v, &(w, channel)) in a.col_as_slice_mut(column).iter_mut().zip(&rows) {
+                    *v = value(w, channel) * root[channel] * weight;
                 }
             };
             for (c, column) in columns.iter().enumerate() {
                 let column = &column[r][s];
-                fill(c, &|k| column[k]);
+                fill(c, &|w, channel| column[w][channel]);
             }
-            for o in 0..OFFSETS {
-                fill(n + o, &|k| if OFFSET_CHANNEL[o] == k % CHANNELS { DEVIATIONS.offsets[o] } else { 0.0 });
+            for (o, &(shifted, sigma)) in offsets.iter().enumerate() {
+                fill(n + o, &|_, channel| if channel == shifted { sigma } else { 0.0 });
             }
             let base = &base[r][s];
-            fill(n + OFFSETS, &|k| segment.observed[k] - base[k]);
+            fill(n + offsets.len(), &|w, channel| segment.observed[w][channel] - base[w][channel]);
             gram += a.transpose() * &a;
         }
 
         // A run's own numbers: deviations move like θ, scaled; offsets are columns of their own.
-        let expand = |u: usize| {
-            if u < DEVIATING.len() { (DEVIATING[u], self.run_scale(u)) } else { (n + u - DEVIATING.len(), 1.0) }
-        };
+        let mut offset = n..;
+        let expanded = RunNumber::ALL.map(|number| match number {
+            RunNumber::Constant { place, .. } => (place, self.run_scale(number)),
+            RunNumber::Offset { .. } => (offset.next().unwrap_or(n), 1.0),
+        });
         let residual = all - 1;
-        let own = Mat::from_fn(PER_RUN, PER_RUN, |i, j| {
-            let ((a, x), (b, y)) = (expand(i), expand(j));
+        let own = Mat::from_fn(expanded.len(), expanded.len(), |i, j| {
+            let ((a, x), (b, y)) = (expanded[i], expanded[j]);
             gram[(a, b)] * x * y + if i == j { 1.0 } else { 0.0 }
         });
-        let right = Mat::from_fn(PER_RUN, n + 1, |i, j| {
-            let (a, x) = expand(i);
+        let right = Mat::from_fn(expanded.len(), n + 1, |i, j| {
+            let (a, x) = expanded[i];
             if j < n { gram[(a, j)] * x } else { gram[(a, residual)] * x - point.run[r][i] }
         });
 

@@ -9,8 +9,9 @@ use robot_model::presence::Presence;
 use robot_model::{Active, Lanes, Plant, Robot, Scalar, State};
 use sim::rollout::{Delivered, Grid, Rollout, Visitor, lanes};
 
+use crate::channel::{Channel, Channels};
 use crate::drives::Torques;
-use crate::windows::{CHANNELS, Cut, PARTS, Segment};
+use crate::windows::{Cut, PARTS, Segment};
 
 /// Segments that are simulated side by side.
 const WIDTH: usize = 8;
@@ -25,7 +26,10 @@ pub(crate) struct Body {
 }
 
 /// Predicted windows of every recording and segment, in the layout of [`Segment::observed`].
-pub(crate) type Response = Vec<Vec<Vec<f64>>>;
+pub(crate) type Response = Vec<RunResponse>;
+
+/// Predicted windows of one recording, segment by segment.
+pub(crate) type RunResponse = Vec<Vec<Channels<f64>>>;
 
 /// Runs each recording's body freely over every segment.
 ///
@@ -41,7 +45,7 @@ pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step:
         .collect();
     let groups: Vec<&[Stretch<'_>]> =
         stretches.chunk_by(|a, b| a.shape() == b.shape()).flat_map(|alike| alike.chunks(WIDTH)).collect();
-    let flat: Vec<Vec<Vec<f64>>> = groups.into_par_iter().map(|g| side_by_side(g, part)).collect();
+    let flat: Vec<RunResponse> = groups.into_par_iter().map(|g| side_by_side(g, part)).collect();
     let mut flat = flat.into_iter().flatten();
     cuts.iter().map(|c| flat.by_ref().take(c.segments.len()).collect()).collect()
 }
@@ -83,7 +87,7 @@ fn wide_dose(stretches: &[Stretch<'_>; WIDTH], d: usize, part: Option<usize>) ->
 }
 
 /// Runs up to eight stretches of one shape; the last one fills what is left over.
-fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> Vec<Vec<f64>> {
+fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> RunResponse {
     let stretches: [Stretch<'_>; WIDTH] = from_fn(|i| group[i.min(group.len() - 1)]);
     let (grid, rows_per_window, windows) = stretches[0].shape();
     let count = stretches[0].body.doses.len();
@@ -96,9 +100,9 @@ fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> Vec<Vec<f64>> {
     let torque = stretches.map(|s| &s.torque[s.segment.row * grid.substeps..]);
     let mut state = lanes::starts(&plant, stretches.map(|s| &s.segment.start), stretches.map(|s| s.start_time()));
     let mut means = Means {
-        sum: [Wide::zero(); CHANNELS],
+        sum: Channels::all(Wide::zero()),
         share: 1.0 / steps as f64,
-        out: vec![vec![0.0; windows * CHANNELS]; group.len()],
+        out: vec![vec![Channels::all(0.0); windows]; group.len()],
     };
     let Ok(()) = Rollout::new(&plant, windows, steps).run_vectorised(
         &mut state,
@@ -113,10 +117,10 @@ fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> Vec<Vec<f64>> {
 
 /// Takes the mean of every channel over each window.
 struct Means {
-    sum: [Wide; CHANNELS],
+    sum: Channels<Wide>,
     /// Of a step in a window.
     share: f64,
-    out: Vec<Vec<f64>>,
+    out: RunResponse,
 }
 
 impl Visitor<Wide> for Means {
@@ -124,7 +128,7 @@ impl Visitor<Wide> for Means {
 
     #[inline(always)]
     fn begin(&mut self, _: usize, _: &Plant<'_, Wide>, _: &mut State<Wide>) -> Result<(), Infallible> {
-        self.sum = [Wide::zero(); CHANNELS];
+        self.sum = Channels::all(Wide::zero());
         Ok(())
     }
 
@@ -132,18 +136,23 @@ impl Visitor<Wide> for Means {
     fn step(&mut self, _: usize, _: usize, plant: &Plant<'_, Wide>, s: &State<Wide>) {
         let mut r = plant.readings(s);
         plant.sense(&mut r);
-        let shown = [r.wheel_speed[0], r.wheel_speed[1], r.gyro, r.velocity[0], r.velocity[1], r.accel[0], r.accel[1]];
-        for (sum, v) in self.sum.iter_mut().zip(shown) {
-            *sum += v;
+        for channel in Channel::ALL {
+            self.sum[channel] += match channel {
+                Channel::LeftWheel => r.wheel_speed[0],
+                Channel::RightWheel => r.wheel_speed[1],
+                Channel::YawRate => r.gyro,
+                Channel::ForwardVelocity => r.velocity[0],
+                Channel::LateralVelocity => r.velocity[1],
+                Channel::ForwardAcceleration => r.accel[0],
+                Channel::LateralAcceleration => r.accel[1],
+            };
         }
     }
 
     #[inline(always)]
     fn end(&mut self, window: usize, _: &Plant<'_, Wide>, _: &State<Wide>) {
         for (i, y) in self.out.iter_mut().enumerate() {
-            for (y, sum) in y[window * CHANNELS..(window + 1) * CHANNELS].iter_mut().zip(&self.sum) {
-                *y = sum.0[i] * self.share;
-            }
+            y[window] = self.sum.map(|sum| sum.0[i] * self.share);
         }
     }
 }
@@ -151,6 +160,7 @@ impl Visitor<Wide> for Means {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::channel::ByQuantity;
     use crate::drives::Drives;
     use crate::testing::{cutting, driven};
     use crate::windows::cut;
@@ -163,21 +173,31 @@ mod tests {
         let torque = Drives::default().delivered(0, &cut, &robot, &[], Grid::nearest(cut.period, 1e-3));
         let bodies = [Body { robot, doses: Vec::new(), torque }];
         let free = free_run(std::slice::from_ref(&cut), &bodies, None, 1e-3).remove(0);
-        let (mut sum, mut size, mut n) = ([0.0; CHANNELS], [0.0; CHANNELS], 0.0);
+        let (mut sum, mut size, mut n) = (Channels::all(0.0), Channels::all(0.0), 0.0);
         for (segment, free) in cut.segments.iter().zip(&free) {
-            for (i, (o, p)) in segment.observed.iter().zip(free).enumerate() {
-                assert!(segment.valid[i] || (segment.row == 0 && i % CHANNELS >= 5));
-                sum[i % CHANNELS] += (o - p).powi(2);
-                size[i % CHANNELS] += o * o;
-                n += 1.0 / CHANNELS as f64;
+            for ((o, p), valid) in segment.observed.iter().zip(free).zip(&segment.valid) {
+                n += 1.0;
+                for c in Channel::ALL {
+                    let acceleration = matches!(c, Channel::ForwardAcceleration | Channel::LateralAcceleration);
+                    assert!(valid[c] || (segment.row == 0 && acceleration));
+                    sum[c] += (o[c] - p[c]).powi(2);
+                    size[c] += o[c] * o[c];
+                }
             }
         }
-        // rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²: a tenth of typical residuals of a real drive.
-        let most = [0.03, 0.03, 0.01, 0.01, 0.01, 0.05, 0.05];
-        for c in 0..CHANNELS {
+        // A tenth of typical residuals of a real drive.
+        let most = Channels::from(ByQuantity {
+            wheel_speed: 0.03,
+            yaw_rate: 0.01,
+            forward_velocity: 0.01,
+            lateral_velocity: 0.01,
+            forward_acceleration: 0.05,
+            lateral_acceleration: 0.05,
+        });
+        for c in Channel::ALL {
             let rms = f64::sqrt(sum[c] / n);
-            assert!(rms < most[c], "channel {c}: rms {rms}");
-            assert!(f64::sqrt(size[c] / n) > most[c], "channel {c} is not driven");
+            assert!(rms < most[c], "{}: rms {rms}", c.name());
+            assert!(f64::sqrt(size[c] / n) > most[c], "{} is not driven", c.name());
         }
     }
 }

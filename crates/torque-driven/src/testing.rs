@@ -9,10 +9,12 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use testing::{PERIOD, robot};
 
+use crate::channel::Channels;
 use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::motion::GyroError;
 use crate::run::Run;
+use crate::settings::fit::SETTINGS;
 use crate::windows::{Cut, CutOptions};
 use inference::Options;
 use inference::hypothesis::Dose;
@@ -104,8 +106,7 @@ impl Visitor<f64> for Sensors {
     }
 }
 
-/// What a calibration on typical references would leave: variances of 0.3 rad/s, 0.04 rad/s, 0.03 and 0.012 m/s,
-/// 0.12 and 0.08 m/s².
+/// What a calibration on typical references would leave.
 pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a> {
     let options = Options::default();
     Problem {
@@ -113,11 +114,11 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         sigma: usual_sigma(),
         cuts,
         has_references: true,
-        variance: [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08].map(|s: f64| s * s),
+        variance: Channels::from(SETTINGS.calibration.first_sigma).map(|s| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),
         centre: [0.0; NUISANCES],
-        spread: 1.3,
+        spread: SETTINGS.calibration.usual_spread,
         temper: options.temper,
         kappa: options.kappa,
         step: options.step,

@@ -2,32 +2,11 @@
 
 use sim::rollout::Start;
 
+use crate::channel::{Channel, Channels};
 use crate::motion::{GyroError, Smoothed, frozen_rows};
 use crate::run::Run;
 use crate::settings::preparation::{SETTINGS, Starts, Windows};
 use crate::smooth::{interpolate, local_fit};
-
-/// What is compared in every window.
-///
-/// Wheel speeds are angle differences over the window, so hardly any encoder quantisation is left; the others are
-/// means over it.
-pub(crate) const CHANNELS: usize = 7;
-/// Names of the channels for people.
-pub(crate) const CHANNEL_NAMES: [&str; CHANNELS] = [
-    "left wheel speed",
-    "right wheel speed",
-    "yaw rate",
-    "forward velocity",
-    "lateral velocity",
-    "forward acceleration",
-    "lateral acceleration",
-];
-
-/// Their units.
-pub(crate) const CHANNEL_UNITS: [&str; CHANNELS] = ["rad/s", "rad/s", "rad/s", "m/s", "m/s", "m/s²", "m/s²"];
-
-/// Channel of the forward velocity.
-pub(crate) const FORWARD: usize = 3;
 
 const WINDOWS: Windows = SETTINGS.windows;
 const STARTS: Starts = SETTINGS.starts;
@@ -45,15 +24,22 @@ pub(crate) struct Segment {
     pub(crate) windows: usize,
     /// State of the robot at its start, from all sensors.
     pub(crate) start: Start,
-    /// Window by window, channel by channel; zero where not valid.
-    pub(crate) observed: Vec<f64>,
-    pub(crate) valid: Vec<bool>,
+    /// Window by window; zero where not valid.
+    pub(crate) observed: Vec<Channels<f64>>,
+    pub(crate) valid: Vec<Channels<bool>>,
     /// Wheel positions in the middle of each window, for local presence.
     pub(crate) wheels: Vec<[[f64; 2]; 4]>,
     /// Mean |yaw rate| and |v|, range of the wheel speeds: what kind of driving this is.
     pub(crate) regime: [f64; 3],
     /// Numbers that are valid.
     pub(crate) count: f64,
+}
+
+impl Segment {
+    /// Whether a channel was recorded in any of its windows.
+    pub(crate) fn shows(&self, channel: Channel) -> bool {
+        self.valid.iter().any(|valid| valid[channel])
+    }
 }
 
 /// A run cut into segments.
@@ -157,20 +143,20 @@ fn segment(
     let row = first * per_window;
     let start = start_state(run, o, smoothed, frozen, row);
     let length = per_window as f64 * run.period;
-    let mut observed = vec![0.0; windows * CHANNELS];
-    let mut valid = vec![false; windows * CHANNELS];
+    let mut observed = vec![Channels::all(0.0); windows];
+    let mut valid = vec![Channels::all(false); windows];
     let mut regime = [0.0; 3];
     let mut extremes = (f64::MAX, f64::MIN);
 
     for w in 0..windows {
         let (a, b) = (row + w * per_window, row + (w + 1) * per_window);
-        let mut set = |c: usize, v: Option<f64>| {
+        let mut set = |channel: Channel, v: Option<f64>| {
             if let Some(v) = v.filter(|v| v.is_finite()) {
-                observed[w * CHANNELS + c] = v;
-                valid[w * CHANNELS + c] = true;
+                observed[w][channel] = v;
+                valid[w][channel] = true;
             }
         };
-        for j in 0..2 {
+        for (j, wheel) in Channel::WHEELS.into_iter().enumerate() {
             let beside = WINDOWS.beside_frozen;
             let near = |k: usize| frozen[j][k.saturating_sub(beside)..(k + beside + 1).min(run.rows())].contains(&true);
             let v = (!near(a) && !near(b))
@@ -180,7 +166,7 @@ fn segment(
             if let Some(v) = v {
                 extremes = (extremes.0.min(v), extremes.1.max(v));
             }
-            set(j, v);
+            set(wheel, v);
         }
 
         let mean = |channel: &[Option<f64>]| {
@@ -188,12 +174,12 @@ fn segment(
             (n > 0.0).then(|| sum / n)
         };
         let gyro = mean(&run.gyro).map(|g| (g - o.gyro.bias) / (1.0 + o.gyro.scale));
-        set(2, gyro);
+        set(Channel::YawRate, gyro);
         let v = smoothed.velocity((a + b) as f64 * 0.5 * run.period, run.period);
-        set(3, v.map(|v| v[0]));
-        set(4, v.map(|v| v[1]));
-        set(5, mean(&run.accel[0]));
-        set(6, mean(&run.accel[1]));
+        set(Channel::ForwardVelocity, v.map(|v| v[0]));
+        set(Channel::LateralVelocity, v.map(|v| v[1]));
+        set(Channel::ForwardAcceleration, mean(&run.accel[0]));
+        set(Channel::LateralAcceleration, mean(&run.accel[1]));
 
         regime[0] += gyro.unwrap_or(0.0).abs() / (WINDOWS.turning * windows as f64);
         regime[1] += v.map_or(0.0, |v| v[0].abs()) / (WINDOWS.speed * windows as f64);
@@ -213,7 +199,7 @@ fn segment(
         })
         .collect();
 
-    let count = valid.iter().filter(|&&v| v).count() as f64;
+    let count = valid.iter().flat_map(Channels::iter).filter(|&&v| v).count() as f64;
     Segment { row, windows, start, observed, valid, wheels, regime, count }
 }
 
@@ -316,13 +302,19 @@ mod tests {
         for (i, s) in cut.segments.iter().enumerate() {
             assert_eq!((s.row, s.windows), (200 * i, 20));
             assert_eq!(s.count, 20.0 * 5.0);
-            for w in 0..s.windows {
-                let row = w * CHANNELS..(w + 1) * CHANNELS;
-                let expected = [5.0, 6.0, (0.2 - 0.05) / 1.5, 0.0, 0.0, 0.1, 0.3];
-                for (o, e) in s.observed[row.clone()].iter().zip(expected) {
-                    approx::assert_abs_diff_eq!(*o, e, epsilon = 1e-9);
+            for (observed, valid) in s.observed.iter().zip(&s.valid) {
+                for channel in Channel::ALL {
+                    let expected = match channel {
+                        Channel::LeftWheel => Some(5.0),
+                        Channel::RightWheel => Some(6.0),
+                        Channel::YawRate => Some((0.2 - 0.05) / 1.5),
+                        Channel::ForwardVelocity | Channel::LateralVelocity => None,
+                        Channel::ForwardAcceleration => Some(0.1),
+                        Channel::LateralAcceleration => Some(0.3),
+                    };
+                    approx::assert_abs_diff_eq!(observed[channel], expected.unwrap_or(0.0), epsilon = 1e-9);
+                    assert_eq!(valid[channel], expected.is_some(), "{channel:?}");
                 }
-                assert_eq!(s.valid[row], [true, true, true, false, false, true, true]);
             }
             approx::assert_abs_diff_eq!(s.start.wheel_speed[0], 5.0, epsilon = 1e-6);
             approx::assert_abs_diff_eq!(s.start.wheel_speed[1], 6.0, epsilon = 1e-6);
@@ -342,9 +334,9 @@ mod tests {
         let cut = cut(&run, &cutting());
         let s = &cut.segments[1];
         // The border at row 330 is frozen: the windows before and after it go.
-        let masked: Vec<usize> = (0..s.windows).filter(|w| !s.valid[w * CHANNELS + 1]).collect();
+        let masked: Vec<usize> = (0..s.windows).filter(|&w| !s.valid[w][Channel::RightWheel]).collect();
         assert_eq!(masked, [12, 13]);
-        assert!((0..s.windows).all(|w| s.valid[w * CHANNELS]));
+        assert!(s.valid.iter().all(|valid| valid[Channel::LeftWheel]));
     }
 
     #[test]
@@ -366,8 +358,8 @@ mod tests {
             approx::assert_abs_diff_eq!(s.start.yaw, yaw, epsilon = 0.01);
             approx::assert_abs_diff_eq!(s.start.position[0], 2.5 * yaw.sin(), epsilon = 0.01);
             for w in 1..s.windows - 1 {
-                approx::assert_abs_diff_eq!(s.observed[w * CHANNELS + 3], 0.5, epsilon = 0.01);
-                approx::assert_abs_diff_eq!(s.observed[w * CHANNELS + 4], 0.0, epsilon = 0.01);
+                approx::assert_abs_diff_eq!(s.observed[w][Channel::ForwardVelocity], 0.5, epsilon = 0.01);
+                approx::assert_abs_diff_eq!(s.observed[w][Channel::LateralVelocity], 0.0, epsilon = 0.01);
             }
         }
     }

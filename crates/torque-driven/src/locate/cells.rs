@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use inference::robust::discoveries;
 
+use crate::channel::{Channel, Channels};
 use crate::fit::Problem;
 use crate::locate::compare::{Block, null_of, probability};
 use crate::locate::fault_free::{Energy, FaultFree};
 use crate::settings::locate::{Cells, SETTINGS};
-use crate::windows::{CHANNEL_NAMES, CHANNELS, WINDOW};
+use crate::windows::WINDOW;
 use verdict::{Cell, Finding};
 
 const CELLS: Cells = SETTINGS.cells;
@@ -25,11 +26,12 @@ type Blocks = BTreeMap<Key, Vec<Block>>;
 fn keys(problem: &Problem<'_>, run: usize, segment: usize, window: usize, edge: f64) -> Vec<Key> {
     let cut = &problem.cuts[run];
     let s = &cut.segments[segment];
-    let get = |c: usize| s.valid[window * CHANNELS + c].then(|| s.observed[window * CHANNELS + c]);
+    let get = |c: Channel| s.valid[window][c].then(|| s.observed[window][c]);
     let bin = |edges: &[f64], v: f64| {
         edges.windows(2).position(|e| v >= e[0] && v < e[1]).and_then(|i| i32::try_from(i).ok())
     };
-    let (left, right, turn, speed) = (get(0), get(1), get(2), get(3));
+    let [left, right] = Channel::WHEELS.map(get);
+    let (turn, speed) = (get(Channel::YawRate), get(Channel::ForwardVelocity));
     let mut out = Vec::with_capacity(AXES.len());
     out.extend(speed.and_then(|v| bin(&CELLS.speeds, v.abs())).map(|i| (0, i, 0)));
     out.extend(turn.and_then(|w| bin(&CELLS.turns, w)).map(|i| (1, i, 0)));
@@ -137,8 +139,8 @@ pub(crate) fn cells(
 }
 
 /// Mean energy of a channel in every segment.
-fn channel_blocks(energy: &Energy, c: usize) -> Vec<Block> {
-    let block = |run: usize, segment: &Vec<[f64; CHANNELS]>| {
+fn channel_blocks(energy: &Energy, c: Channel) -> Vec<Block> {
+    let block = |run: usize, segment: &Vec<Channels<f64>>| {
         let valid = || segment.iter().map(|w| w[c]).filter(|e| e.is_finite());
         let windows = valid().count();
         (windows >= CELLS.least_windows).then(|| Block { run, windows, energy: valid().sum::<f64>() / windows as f64 })
@@ -147,8 +149,8 @@ fn channel_blocks(energy: &Energy, c: usize) -> Vec<Block> {
 }
 
 /// Probability of each channel's level on fault-free drives; `None` where there is nothing to compare.
-pub(crate) fn channel_probabilities(energy: &Energy, fault_free: &FaultFree) -> [Option<f64>; CHANNELS] {
-    std::array::from_fn(|c| {
+pub(crate) fn channel_probabilities(energy: &Energy, fault_free: &FaultFree) -> Channels<Option<f64>> {
+    Channels::from_fn(|c| {
         let known = channel_blocks(&fault_free.energy, c);
         let own = channel_blocks(energy, c);
         null_of(known.iter()).filter(|_| !own.is_empty()).map(|null| probability(&own, &known, &null))
@@ -156,12 +158,9 @@ pub(crate) fn channel_probabilities(energy: &Energy, fault_free: &FaultFree) -> 
 }
 
 /// Mean squared residual over the references' for each signal, and the stretch in which it is largest.
-pub(crate) fn findings(
-    problem: &Problem<'_>,
-    energy: &Energy,
-    probabilities: &[Option<f64>; CHANNELS],
-) -> Vec<Finding> {
-    let mut out: Vec<Finding> = (0..CHANNELS).filter_map(|c| finding(problem, energy, c, probabilities[c])).collect();
+pub(crate) fn findings(problem: &Problem<'_>, energy: &Energy, probabilities: &Channels<Option<f64>>) -> Vec<Finding> {
+    let of = |c: Channel| finding(problem, energy, c, probabilities[c]);
+    let mut out: Vec<Finding> = Channel::ALL.into_iter().filter_map(of).collect();
     let p: Vec<f64> = out.iter().map(|f| f.p).collect();
     for (finding, significant) in out.iter_mut().zip(discoveries(&p, SETTINGS.levels.discoveries)) {
         finding.significant = significant;
@@ -170,7 +169,7 @@ pub(crate) fn findings(
     out
 }
 
-fn finding(problem: &Problem<'_>, energy: &Energy, c: usize, p: Option<f64>) -> Option<Finding> {
+fn finding(problem: &Problem<'_>, energy: &Energy, c: Channel, p: Option<f64>) -> Option<Finding> {
     let (mut sum, mut n) = (0.0, 0.0);
     let mut worst = (0.0, 0, 0);
     for (r, run) in energy.iter().enumerate() {
@@ -192,8 +191,8 @@ fn finding(problem: &Problem<'_>, energy: &Energy, c: usize, p: Option<f64>) -> 
     let from = cut.time(segment.row as f64);
     let length = (segment.windows * cut.rows_per_window) as f64 * cut.period;
     Some(Finding {
-        signal: CHANNEL_NAMES[c].to_owned(),
-        side: (c < 2).then(|| inference::words::side(c).into()),
+        signal: c.name().to_owned(),
+        side: c.side().map(|side| inference::words::side(side).into()),
         ratio: sum / n,
         recording: cut.name.clone(),
         interval: [from, from + length],

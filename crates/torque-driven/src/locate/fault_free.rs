@@ -7,24 +7,25 @@ use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::calibrate::kernel_mean;
+use crate::channel::{Channel, Channels};
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::settings::locate::{FaultFreeDriving, SETTINGS};
 use crate::simulate::Response;
-use crate::windows::{CHANNELS, Cut};
+use crate::windows::Cut;
 
 const DRIVING: FaultFreeDriving = SETTINGS.fault_free;
 
 /// Squared residuals over their expectation in fault-free driving: run, segment, window, channel;
 /// not a number where invalid.
-pub(crate) type Energy = Vec<Vec<Vec<[f64; CHANNELS]>>>;
+pub(crate) type Energy = Vec<Vec<Vec<Channels<f64>>>>;
 
 /// A reference segment: its run, its kind of driving, ln of each channel's energy.
-type Known = (usize, [f64; 3], [f64; CHANNELS]);
+type Known = (usize, [f64; 3], Channels<f64>);
 
 /// The expectation in fault-free driving, and the references seen with it.
 pub(crate) struct FaultFree {
     /// Mean growth of the squared residual with the windows since the restart.
-    growth: Vec<[f64; CHANNELS]>,
+    growth: Vec<Channels<f64>>,
     known: Vec<Known>,
     /// Energy of every reference that was left out of its own calibration and expectation.
     pub(crate) energy: Energy,
@@ -52,9 +53,7 @@ impl FaultFree {
         for segment in energy.iter_mut().flatten() {
             for (w, window) in segment.iter_mut().enumerate() {
                 let Some(growth) = self.growth.get(w).or(self.growth.last()) else { continue };
-                for (e, g) in window.iter_mut().zip(growth) {
-                    *e /= g;
-                }
+                Channel::ALL.into_iter().for_each(|c| window[c] /= growth[c]);
             }
         }
         energy
@@ -66,9 +65,7 @@ impl FaultFree {
             for (segment, e) in cut.segments.iter().zip(run) {
                 let expected = self.expected(segment.regime, apart.then_some(r));
                 for window in e {
-                    for (e, x) in window.iter_mut().zip(&expected) {
-                        *e /= x;
-                    }
+                    Channel::ALL.into_iter().for_each(|c| window[c] /= expected[c]);
                 }
             }
         }
@@ -76,9 +73,9 @@ impl FaultFree {
     }
 
     /// Kernel mean of the references' levels in driving of this kind, begun with their overall mean.
-    fn expected(&self, regime: [f64; 3], without: Option<usize>) -> [f64; CHANNELS] {
+    fn expected(&self, regime: [f64; 3], without: Option<usize>) -> Channels<f64> {
         let all = || self.known.iter().filter(|k| Some(k.0) != without);
-        std::array::from_fn(|c| {
+        Channels::from_fn(|c| {
             let valid = || all().filter(|k| k.2[c].is_finite());
             let (n, sum) = valid().fold((0.0, 0.0), |(n, s), k| (n + 1.0, s + k.2[c]));
             let mean = sum / f64::max(n, 1.0);
@@ -88,8 +85,8 @@ impl FaultFree {
 }
 
 /// ln of a segment's mean energy, channel by channel.
-fn levels(segment: &[[f64; CHANNELS]]) -> [f64; CHANNELS] {
-    std::array::from_fn(|c| {
+fn levels(segment: &[Channels<f64>]) -> Channels<f64> {
+    Channels::from_fn(|c| {
         let valid = segment.iter().map(|w| w[c]).filter(|e| e.is_finite());
         let (n, sum) = valid.fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
         if n > 0.0 { f64::max(sum / n, DRIVING.least_energy).ln() } else { f64::NAN }
@@ -131,10 +128,9 @@ fn whitened(problem: &Problem<'_>, response: &Response) -> Energy {
         let (segment, regime) = (&problem.cuts[r].segments[s], problem.regime[r][s]);
         (0..segment.windows)
             .map(|w| {
-                std::array::from_fn(|c| {
-                    let i = w * CHANNELS + c;
-                    let square = (segment.observed[i] - response[r][s][i]).powi(2);
-                    if segment.valid[i] { square / (problem.variance[c] * regime) } else { f64::NAN }
+                Channels::from_fn(|c| {
+                    let square = (segment.observed[w][c] - response[r][s][w][c]).powi(2);
+                    if segment.valid[w][c] { square / (problem.variance[c] * regime) } else { f64::NAN }
                 })
             })
             .collect()
@@ -143,13 +139,13 @@ fn whitened(problem: &Problem<'_>, response: &Response) -> Energy {
 }
 
 /// Mean over segments by the windows since the restart, smoothed.
-fn growth(energy: &Energy) -> Vec<[f64; CHANNELS]> {
+fn growth(energy: &Energy) -> Vec<Channels<f64>> {
     let windows = energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
-    let at = |w: usize, c: usize| {
+    let at = |w: usize, c: Channel| {
         let near = w.saturating_sub(DRIVING.smooth)..w + DRIVING.smooth + 1;
         let all = energy.iter().flatten().flat_map(|s| s.iter().take(near.end).skip(near.start));
         let (n, sum) = all.map(|e| e[c]).filter(|e| e.is_finite()).fold((0.0, 0.0), |(n, s), e| (n + 1.0, s + e));
         if n > 0.0 && sum > 0.0 { sum / n } else { 1.0 }
     };
-    (0..windows).map(|w| std::array::from_fn(|c| at(w, c))).collect()
+    (0..windows).map(|w| Channels::from_fn(|c| at(w, c))).collect()
 }

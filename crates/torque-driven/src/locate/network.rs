@@ -8,11 +8,14 @@ use faer::Mat;
 use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
 use sim::{Purpose, Stream};
 
-use crate::fit::{Hypothesis, PER_RUN, Point, Problem};
+use crate::channel::{Channel, Channels};
+use crate::fit::{Hypothesis, Point, Problem};
 use crate::locate::torque::Followed;
 use crate::rms::rms;
+use crate::run_numbers::UNKNOWN;
 use crate::settings::locate::{Network, SETTINGS};
-use crate::windows::{CHANNELS, Cut};
+use crate::simulate::RunResponse;
+use crate::windows::Cut;
 use inference::algebra::solve_spd;
 use verdict::ResidualModel;
 use verdict::Word;
@@ -40,7 +43,7 @@ const NETWORK: Network = SETTINGS.network;
 
 type Input = [f64; INPUTS];
 /// A recording with its free run.
-type Seen = (usize, Vec<Vec<f64>>);
+type Seen = (usize, RunResponse);
 type Net = LinearNet<f64, TERMS, 2>;
 
 /// The fixed first layer and its scales.
@@ -151,42 +154,41 @@ fn command(cut: &Cut, row: usize) -> [f64; 2] {
 }
 
 /// What the network sees in a window of a response.
-fn input(cut: &Cut, row: usize, window: &[f64]) -> Input {
+fn input(cut: &Cut, row: usize, window: &Channels<f64>) -> Input {
     let [left, right] = command(cut, row);
-    [window[0], window[1], window[2], left, right]
+    [window[Channel::LeftWheel], window[Channel::RightWheel], window[Channel::YawRate], left, right]
 }
 
 /// Regression sums of one recording: measured motion in, torque beyond the corrected model out.
 fn sums(cut: &Cut, followed: &Followed, layer: &Layer) -> Sums {
     let mut out = Sums::empty();
     for segment in &cut.segments {
-        for w in 0..segment.windows {
+        for (w, (window, valid)) in segment.observed.iter().zip(&segment.valid).enumerate() {
             let row = segment.row + w * cut.rows_per_window;
-            let i = w * CHANNELS;
-            if !segment.valid[i..i + 3].iter().all(|v| *v) {
+            if ![Channel::LeftWheel, Channel::RightWheel, Channel::YawRate].into_iter().all(|c| valid[c]) {
                 continue;
             }
             let Some(raw) = followed.raw.get(row..row + cut.rows_per_window) else { continue };
             let torque = [0, 1].map(|j| raw.iter().map(|t| t[j]).sum::<f64>() / raw.len() as f64);
-            out.add(&layer.terms(&input(cut, row, &segment.observed[i..])), torque);
+            out.add(&layer.terms(&input(cut, row, window)), torque);
         }
     }
     out
 }
 
 /// Free run of one recording with the network in the loop.
-fn free_run(p: &Problem<'_>, h: &Hypothesis, left: &LeftOut, layer: &Layer, net: &Net) -> Vec<Vec<f64>> {
+fn free_run(p: &Problem<'_>, h: &Hypothesis, left: &LeftOut, layer: &Layer, net: &Net) -> RunResponse {
     let mut own = h.clone();
     for (_, onsets) in own.parts.iter_mut().filter(|(_, o)| !o.is_empty()) {
         *onsets = vec![onsets[left.run]];
     }
-    let point = Point { run: vec![[0.0; PER_RUN]], ..left.point.clone() };
+    let point = Point { run: vec![UNKNOWN], ..left.point.clone() };
     let plain = &p.cuts[left.run];
     let mut response = p.run_response(left.run, &left.point, h);
     for _ in 0..NETWORK.rounds {
         let mut cut = plain.clone();
         for (segment, y) in plain.segments.iter().zip(&response) {
-            for (w, window) in y.chunks(CHANNELS).enumerate() {
+            for (w, window) in y.iter().enumerate() {
                 let row = segment.row + w * plain.rows_per_window;
                 let [left, right] = net.output(&layer.terms(&input(plain, row, window)));
                 for t in cut.torque.iter_mut().skip(row).take(plain.rows_per_window) {
@@ -212,7 +214,7 @@ fn scale(cuts: &[Cut]) -> Input {
     let mut out: Input = NETWORK.least_scale;
     for cut in cuts {
         for segment in &cut.segments {
-            for (w, window) in segment.observed.chunks(CHANNELS).enumerate() {
+            for (w, window) in segment.observed.iter().enumerate() {
                 let input = input(cut, segment.row + w * cut.rows_per_window, window);
                 for (s, v) in out.iter_mut().zip(input) {
                     *s = s.max(v.abs());

@@ -1,18 +1,14 @@
 //! On which side the mismatch sits, and whether a named effect contradicts it.
 
+use crate::channel::{Channel, Channels};
 use crate::settings::locate::SETTINGS;
-use crate::windows::CHANNELS;
 use inference::robust::NINETY_FIVE;
 use verdict::{Cause, Finding, ResidualTorque};
 
 /// The side on which the mismatch sits: where the residual torque leaves the references' band, if one side clearly
 /// holds most of it; else where the wheel speed's excess does. Motion passes from side to side through the body, torque
 /// less so.
-pub(crate) fn side(
-    excess: &[f64; CHANNELS],
-    findings: &[Finding],
-    residual: &[ResidualTorque],
-) -> Option<&'static str> {
+pub(crate) fn side(excess: &Channels<f64>, findings: &[Finding], residual: &[ResidualTorque]) -> Option<&'static str> {
     let leaves = |side: &str| residual.iter().any(|t| t.side == side && !t.spans.is_empty());
     let holds = |side: &str| findings.iter().any(|f| f.side.as_deref() == Some(side) && f.significant);
     let clear = SETTINGS.sides.clear;
@@ -22,7 +18,7 @@ pub(crate) fn side(
         () => None,
     };
     let torques = ["left", "right"].map(|side| torque(residual, side));
-    clearly(torques, &leaves).or_else(|| clearly([excess[0], excess[1]], &holds))
+    clearly(torques, &leaves).or_else(|| clearly(Channel::WHEELS.map(|wheel| excess[wheel]), &holds))
 }
 
 /// Mean squared residual torque beyond the references' band on a side.
@@ -86,8 +82,15 @@ mod tests {
     #[test]
     fn an_effect_on_the_wrong_side_is_said_to_contradict() {
         let findings = [finding("left", 3.0), finding("right", 90.0)];
-        let excess = [2.0, 80.0, 5.0, 0.0, 0.0, 0.0, 0.0];
-        let located = side(&excess, &findings, &[]);
+        let excess = |left: f64| {
+            Channels::from_fn(|c| match c {
+                Channel::LeftWheel => left,
+                Channel::RightWheel => 80.0,
+                Channel::YawRate => 5.0,
+                _ => 0.0,
+            })
+        };
+        let located = side(&excess(2.0), &findings, &[]);
         assert_eq!(located, Some("right"));
         let mut cause = Cause::plain("coulomb_side", "dragging brake on one side: left", 0.9);
         cause.side = Some("left".into());
@@ -100,6 +103,6 @@ mod tests {
         cause.side = Some("right".into());
         assert_eq!(contradiction(&[cause], located, &torques), None);
         // Excess alike on both sides locates nothing.
-        assert_eq!(side(&[50.0, 80.0, 0.0, 0.0, 0.0, 0.0, 0.0], &findings, &[]), None);
+        assert_eq!(side(&excess(50.0), &findings, &[]), None);
     }
 }

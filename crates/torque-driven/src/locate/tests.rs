@@ -4,6 +4,7 @@
 use robot_model::effects;
 use robot_model::presence::Presence;
 
+use crate::channel::{Channel, Channels};
 use crate::fit::{Hypothesis, Problem};
 use crate::locate::band::residual_torque;
 use crate::locate::cells::{cells, channel_probabilities, findings};
@@ -47,7 +48,7 @@ struct Found {
     findings: Vec<Finding>,
     cells: Vec<Cell>,
     spans: Vec<Span>,
-    excess: [f64; 7],
+    excess: Channels<f64>,
 }
 
 fn located(p: &Problem<'_>, references: &Problem<'_>) -> Found {
@@ -70,7 +71,7 @@ fn fault_free_drives_show_no_place_and_no_time() {
         let (references, recordings) = (cuts(&drives(seed, 3, &[])), cuts(&drives(seed + 20, 3, &[])));
         let found = located(&problem(&robot, &recordings), &problem(&robot, &references));
         alarms += usize::from(!found.spans.is_empty()) + usize::from(found.cells.iter().any(|c| c.significant));
-        assert!(found.cells.iter().any(|c| c.by == "place") && found.findings.len() == 7);
+        assert!(found.cells.iter().any(|c| c.by == "place") && found.findings.len() == Channel::ALL.len());
     }
     assert!(alarms <= 1, "{alarms} in 10 cases");
 }
@@ -94,7 +95,7 @@ fn a_brake_is_located_on_its_side_from_its_onset_on_whether_or_not_the_identifie
         assert_eq!(span.end, None, "{span:?}");
     }
     let energy = FaultFree::new(&fault_free).energy_of(&p, &p.response(&p.origin(), &Hypothesis::default()));
-    let told = remainder(&p, 0.4, &energy, &[Some(1e-9); 7]);
+    let told = remainder(&p, 0.4, &energy, &Channels::all(Some(1e-9)));
     assert!(sentence(&told).starts_with("40 % of the mismatch is still unexplained, mostly "), "{}", sentence(&told));
     // Beside the identifier.
     let identify = |runs: &[Run], cuts: &[Cut]| {

@@ -1,19 +1,20 @@
 //! When the mismatch begins and ends, signal by signal.
 
+use crate::channel::{Channel, Channels};
 use crate::fit::Problem;
 use crate::locate::change::{Change, Reference, Sense, find};
 use crate::locate::compare::level;
 use crate::locate::fault_free::{Energy, FaultFree};
 use crate::locate::null::Null;
 use crate::settings::locate::{Levels, SETTINGS, Spans};
-use crate::windows::{CHANNEL_NAMES, CHANNELS, Cut};
+use crate::windows::Cut;
 use verdict::Span;
 
 const SPANS: Spans = SETTINGS.spans;
 const LEVELS: Levels = SETTINGS.levels;
 
 /// ln(energy) of one channel in bins of `width` windows.
-fn series(run: &[Vec<[f64; CHANNELS]>], c: usize, width: usize) -> Vec<f64> {
+fn series(run: &[Vec<Channels<f64>>], c: Channel, width: usize) -> Vec<f64> {
     let windows: Vec<f64> = run.iter().flatten().map(|w| w[c]).collect();
     windows
         .chunks(width)
@@ -49,7 +50,7 @@ pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, fault_free: &FaultFr
     let longest = energy.iter().map(|run| run.iter().map(Vec::len).sum::<usize>()).max().unwrap_or(0);
     let width = SPANS.windows * longest.div_ceil(SPANS.windows * SPANS.most_bins).max(1);
     let known: Vec<Vec<Vec<f64>>> =
-        (0..CHANNELS).map(|c| fault_free.energy.iter().map(|run| series(run, c, width)).collect()).collect();
+        Channel::ALL.map(|c| fault_free.energy.iter().map(|run| series(run, c, width)).collect()).into();
     let nulls = known.iter().map(|k| Null::new(k, LEVELS.between, LEVELS.least_within)).collect();
     let reference = Reference { series: known, nulls, sense: Sense::Rise };
     let segment = fault_free.energy.iter().flatten().map(Vec::len).max().unwrap_or(0);
@@ -57,11 +58,11 @@ pub(crate) fn spans(problem: &Problem<'_>, energy: &Energy, fault_free: &FaultFr
     let mut out = Vec::new();
     for (cut, run) in problem.cuts.iter().zip(energy) {
         let bin = (width * cut.rows_per_window) as f64 * cut.period;
-        for (c, null) in reference.nulls.iter().enumerate() {
+        for (c, null) in Channel::ALL.into_iter().zip(&reference.nulls) {
             let Some(null) = null else { continue };
             let y = series(run, c, width);
             let found = find(&y, null, reference.sense, threshold);
-            out.extend(found.iter().map(|f| span(cut, CHANNEL_NAMES[c], (c < 2).then_some(c), f, y.len(), bin)));
+            out.extend(found.iter().map(|f| span(cut, c.name(), c.side(), f, y.len(), bin)));
         }
     }
     out

@@ -1,9 +1,10 @@
 //! Recordings beside the simulation, window by window.
 
+use crate::channel::{Channel, Channels};
 use crate::fit::Problem;
 use crate::leave_out::Simulated;
 use crate::locate::fault_free::{Energy, FaultFree};
-use crate::windows::{CHANNEL_NAMES, CHANNEL_UNITS, CHANNELS, Cut, FORWARD};
+use crate::windows::{Cut, Segment};
 use verdict::{Compared, Trace, instant, rounded};
 
 /// Every recording with what was simulated for it.
@@ -18,7 +19,7 @@ pub(crate) fn traces(p: &Problem<'_>, fault_free: &FaultFree, simulated: &[Simul
 
 /// Mean over the channels of each window of a recording.
 fn mismatch(energy: &Energy, run: usize) -> Vec<Option<f64>> {
-    let mean = |window: &[f64; CHANNELS]| {
+    let mean = |window: &Channels<f64>| {
         let valid = || window.iter().filter(|e| e.is_finite());
         (valid().count() > 0).then(|| rounded(valid().sum::<f64>() / valid().count() as f64))
     };
@@ -28,7 +29,7 @@ fn mismatch(energy: &Energy, run: usize) -> Vec<Option<f64>> {
 fn trace(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, [before, after]: [Vec<Option<f64>>; 2]) -> Trace {
     let window = cut.rows_per_window as f64 * cut.period;
     let places = || cut.segments.iter().flat_map(|s| (0..s.windows).map(move |w| s.row / cut.rows_per_window + w));
-    let has_pose = cut.segments.iter().any(|s| s.valid.iter().skip(FORWARD).step_by(CHANNELS).any(|&v| v));
+    let has_pose = cut.segments.iter().any(|s| s.shows(Channel::ForwardVelocity));
     let middle = |w: usize| {
         cut.path.get(w).zip(cut.path.get(w + 1)).map_or([0.0; 2], |(a, b)| [0, 1].map(|i| 0.5 * (a[i] + b[i])))
     };
@@ -43,7 +44,7 @@ fn trace(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, [before, after]: [Ve
         left_out: simulated.left_out,
         time: places().map(|w| instant(cut.from + (w as f64 + 0.5) * window)).collect(),
         restarts,
-        channels: (0..CHANNELS).filter_map(|c| compared(p, cut, simulated, c)).collect(),
+        channels: Channel::ALL.into_iter().filter_map(|c| compared(p, cut, simulated, c)).collect(),
         path: if has_pose { places().map(middle).map(|xy| xy.map(rounded)).collect() } else { Vec::new() },
         before,
         after,
@@ -51,19 +52,19 @@ fn trace(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, [before, after]: [Ve
 }
 
 /// A channel; `None` when it was not recorded.
-fn compared(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, c: usize) -> Option<Compared> {
-    let windows =
-        || cut.segments.iter().enumerate().flat_map(|(s, seg)| (0..seg.windows).map(move |w| (s, w * CHANNELS + c)));
-    let recorded: Vec<Option<f64>> =
-        windows().map(|(s, i)| cut.segments[s].valid[i].then(|| rounded(cut.segments[s].observed[i]))).collect();
+fn compared(p: &Problem<'_>, cut: &Cut, simulated: &Simulated, c: Channel) -> Option<Compared> {
+    let of_segment = |s: &Segment| -> Vec<Option<f64>> {
+        s.observed.iter().zip(&s.valid).map(|(window, valid)| valid[c].then(|| rounded(window[c]))).collect()
+    };
+    let recorded: Vec<Option<f64>> = cut.segments.iter().flat_map(of_segment).collect();
     recorded.iter().any(Option::is_some).then(|| {
-        let of = |response: &[Vec<f64>]| {
-            windows().map(|(s, i)| Some(response[s][i]).filter(|v| v.is_finite()).map(rounded)).collect()
+        let of = |response: &[Vec<Channels<f64>>]| {
+            response.iter().flatten().map(|y| Some(y[c]).filter(|v| v.is_finite()).map(rounded)).collect()
         };
         Compared {
-            signal: CHANNEL_NAMES[c].into(),
-            unit: CHANNEL_UNITS[c].into(),
-            side: (c < 2).then(|| inference::words::side(c).into()),
+            signal: c.name().into(),
+            unit: c.unit().into(),
+            side: c.side().map(|side| inference::words::side(side).into()),
             nominal: of(&simulated.responses.nominal),
             retuned: of(&simulated.responses.retuned),
             corrected: simulated.responses.corrected.as_deref().map_or_else(Vec::new, of),

@@ -3,11 +3,12 @@
 use robot_model::{Active, Plant, Robot, State};
 use sim::rollout::{Grid, Hold, Input, Rollout, Start};
 
+use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::settings::next::{Follow, SETTINGS};
 use crate::settings::preparation;
-use crate::windows::{CHANNELS, Cut, FORWARD, Segment};
+use crate::windows::{Cut, Segment};
 use inference::hypothesis::Dose;
 use verdict::{Course, wheel_speeds};
 
@@ -26,7 +27,7 @@ pub(crate) struct Follower {
     windows: usize,
     rows_per_window: usize,
     /// Channels that the recordings have.
-    channels: [bool; CHANNELS],
+    channels: Channels<bool>,
 }
 
 impl Follower {
@@ -36,10 +37,7 @@ impl Follower {
         let known = *problem.robot;
         let limit = if known.drive.limit < FOLLOW.no_limit { known.drive.limit } else { problem.largest_torque };
         let inertia = 0.5 * known.mass * known.wheel_radius.powi(2) + 2.0 * known.wheel_inertia + known.motor_inertia;
-        let shown = |c: usize| {
-            let all = problem.cuts.iter().flat_map(|c| &c.segments);
-            all.flat_map(|s| s.valid.iter().skip(c).step_by(CHANNELS)).any(|&v| v)
-        };
+        let shown = |c: Channel| problem.cuts.iter().flat_map(|cut| &cut.segments).any(|s| s.shows(c));
         Some(Self {
             known,
             limit,
@@ -48,7 +46,7 @@ impl Follower {
             step: problem.step,
             windows: cut.segments[0].windows,
             rows_per_window: cut.rows_per_window,
-            channels: std::array::from_fn(shown),
+            channels: Channels::from_fn(shown),
         })
     }
 
@@ -109,13 +107,13 @@ impl Follower {
     }
 
     fn segment(&self, row: usize, start: Start) -> Segment {
-        let valid: Vec<bool> = (0..self.windows).flat_map(|_| self.channels).collect();
-        let count = valid.iter().filter(|v| **v).count() as f64;
+        let valid = vec![self.channels; self.windows];
+        let count = valid.iter().flat_map(Channels::iter).filter(|v| **v).count() as f64;
         Segment {
             row,
             windows: self.windows,
             start,
-            observed: vec![0.0; valid.len()],
+            observed: vec![Channels::all(0.0); self.windows],
             valid,
             wheels: Vec::new(),
             regime: [0.0; 3],
@@ -191,19 +189,20 @@ impl Input<f64> for Following<'_> {
 }
 
 /// Fills in what the drive showed, and what kind of driving each segment is.
-pub(crate) fn observe(cut: &mut Cut, response: &[Vec<f64>]) {
+pub(crate) fn observe(cut: &mut Cut, response: &[Vec<Channels<f64>>]) {
     for (segment, shown) in cut.segments.iter_mut().zip(response) {
-        segment.observed.clone_from(shown);
-        for (v, valid) in segment.observed.iter_mut().zip(&segment.valid) {
-            *v = if *valid { *v } else { 0.0 };
-        }
-        let windows = || segment.observed.chunks(CHANNELS);
-        let mean = |c: usize| windows().map(|w| w[c].abs()).sum::<f64>() / segment.windows.max(1) as f64;
-        let wheels = || windows().flat_map(|w| [w[0], w[1]]);
+        let of = |(shown, valid): (&Channels<f64>, &Channels<bool>)| {
+            Channels::from_fn(|c| if valid[c] { shown[c] } else { 0.0 })
+        };
+        segment.observed = shown.iter().zip(&segment.valid).map(of).collect();
+        let windows = || segment.observed.iter();
+        let mean = |c: Channel| windows().map(|w| w[c].abs()).sum::<f64>() / segment.windows.max(1) as f64;
+        let wheels = || windows().flat_map(|w| Channel::WHEELS.map(|wheel| w[wheel]));
         let range = wheels().fold(f64::MIN, f64::max) - wheels().fold(f64::MAX, f64::min);
         // The same measures of a kind of driving as a recording's.
         let unit = preparation::SETTINGS.windows;
-        let regime = [mean(2) / unit.turning, mean(FORWARD) / unit.speed, range / unit.range];
+        let regime =
+            [mean(Channel::YawRate) / unit.turning, mean(Channel::ForwardVelocity) / unit.speed, range / unit.range];
         segment.regime = regime;
     }
 }

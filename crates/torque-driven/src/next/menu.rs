@@ -3,8 +3,9 @@
 use inference::robust::select_quantile;
 use robot_model::Robot;
 
+use crate::channel::{Channel, Channels};
 use crate::settings::next::{Limits, Menu, SETTINGS};
-use crate::windows::{CHANNELS, Cut, WINDOW};
+use crate::windows::{Cut, WINDOW};
 use verdict::{Course, WIDENING};
 
 const LIMITS: Limits = SETTINGS.scope;
@@ -48,14 +49,16 @@ pub(crate) struct Scope {
 impl Scope {
     /// What the drives of a case reached; starts where the first recording starts.
     pub(crate) fn new(references: &[Cut], recordings: &[Cut], robot: &Robot<f64>, length: f64) -> Self {
-        let of = |w: &[f64]| [0.5 * robot.wheel_radius * (w[0] + w[1]), w[2]];
+        let of = |w: &Channels<f64>| {
+            let [left, right] = Channel::WHEELS.map(|wheel| w[wheel]);
+            [0.5 * robot.wheel_radius * (left + right), w[Channel::YawRate]]
+        };
         let mut reached = [Vec::new(), Vec::new()];
         for s in references.iter().chain(recordings).flat_map(|c| &c.segments) {
-            for (w, valid) in s.observed.chunks(CHANNELS).zip(s.valid.chunks(CHANNELS)) {
-                for (c, v) in of(w).into_iter().enumerate() {
-                    if [valid[0] && valid[1], valid[2]][c] {
-                        reached[c].push(v.abs());
-                    }
+            for (w, valid) in s.observed.iter().zip(&s.valid) {
+                let known = [Channel::WHEELS.into_iter().all(|wheel| valid[wheel]), valid[Channel::YawRate]];
+                for ((v, reached), _) in of(w).into_iter().zip(&mut reached).zip(known).filter(|(_, known)| *known) {
+                    reached.push(v.abs());
                 }
             }
         }
@@ -63,11 +66,8 @@ impl Scope {
         let mut limits = [limit(0), limit(1)];
         limits[1] = limits[1].max(LIMITS.spin * limits[0] / (WIDENING * robot.half_track));
 
-        let windows: Vec<[f64; 2]> = recordings
-            .iter()
-            .take(1)
-            .flat_map(|c| c.segments.iter().flat_map(|s| s.observed.chunks(CHANNELS).map(of)))
-            .collect();
+        let windows: Vec<[f64; 2]> =
+            recordings.iter().take(1).flat_map(|c| c.segments.iter().flat_map(|s| s.observed.iter().map(of))).collect();
         let start = recordings.first().and_then(|c| c.path.first()).copied().unwrap_or_default();
         Self { limits, start, length, path: again(&windows, length) }
     }

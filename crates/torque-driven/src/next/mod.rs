@@ -17,10 +17,10 @@ use rayon::prelude::*;
 use verdict::{Advice, Contender, Manoeuvre};
 
 use crate::calibrate::Regimes;
+use crate::channel::{Channel, Channels};
 use crate::fit::{Fitted, Problem};
 use crate::judged::Judged;
 use crate::settings::{decision, next::SETTINGS};
-use crate::windows::{CHANNEL_NAMES, CHANNELS};
 use follow::Follower;
 use inference::advice::{among as advice_among, nothing_to_split, sorted};
 use inference::expected_information::{expected_bits, widest_pair};
@@ -83,12 +83,17 @@ fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> M
     out
 }
 
-fn apart(k: &Rival, l: &Rival, shows: &[f64; CHANNELS]) -> String {
-    let (c, most) = (0..CHANNELS).map(|c| (c, shows[c])).fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+fn apart(k: &Rival, l: &Rival, shows: &Channels<f64>) -> String {
+    let (channel, most) = Channel::ALL
+        .map(|c| (c, shows[c]))
+        .into_iter()
+        .fold((Channel::LeftWheel, 0.0), |a, b| if b.1 > a.1 { b } else { a });
     format!(
         "Between \"{}\" and \"{}\" the {} would differ by {most:.1} times its deviation in \
          fault-free drives, even with all constants re-tuned.",
-        k.name, l.name, CHANNEL_NAMES[c]
+        k.name,
+        l.name,
+        channel.name()
     )
 }
 

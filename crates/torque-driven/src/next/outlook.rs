@@ -11,10 +11,10 @@ use super::follow::{Follower, observe, on_drive};
 use super::menu::{Entry, Setup};
 use super::rivals::Rival;
 use crate::calibrate::Regimes;
+use crate::channel::{Channel, Channels};
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::settings::next::SETTINGS;
 use crate::simulate::Response;
-use crate::windows::CHANNELS;
 use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
@@ -32,7 +32,7 @@ pub(crate) struct Outlook {
     pub(crate) views: Vec<Forecast>,
     /// Root mean square of what tells a pair apart, in units of what fault-free drives show, by
     /// channel: `[truth][other]`.
-    pub(crate) shows: Vec<Vec<[f64; CHANNELS]>>,
+    pub(crate) shows: Vec<Vec<Channels<f64>>>,
     /// One sigma of the first rival's size after the drive over that before.
     pub(crate) narrows: Option<f64>,
 }
@@ -43,7 +43,7 @@ struct Gap {
     behind: f64,
     /// Residual that is left, weighted.
     left: Vec<f64>,
-    shows: [f64; CHANNELS],
+    shows: Channels<f64>,
 }
 
 impl Prospect<'_> {
@@ -128,8 +128,8 @@ fn narrowing(new: &Problem<'_>, tuning: &Columns, k: &Rival) -> Option<f64> {
 
 impl Gap {
     fn none(new: &Problem<'_>) -> Self {
-        let numbers = new.cuts[0].segments.iter().map(|s| s.observed.len()).sum();
-        Self { behind: 0.0, left: vec![0.0; numbers], shows: [0.0; CHANNELS] }
+        let numbers = new.cuts[0].segments.iter().map(|s| s.observed.len() * Channel::ALL.len()).sum();
+        Self { behind: 0.0, left: vec![0.0; numbers], shows: Channels::all(0.0) }
     }
 }
 
@@ -156,18 +156,19 @@ fn gap_of(new: &Problem<'_>, tuning: &Columns, rival: &Rival, h: &Hypothesis) ->
 
     let (behind, response) = best;
     let cut = &new.cuts[0];
-    let (mut left, mut sum, mut count) = (Vec::new(), [0.0; CHANNELS], [0.0_f64; CHANNELS]);
+    let (mut left, mut sum, mut count) = (Vec::new(), Channels::all(0.0), Channels::all(0.0_f64));
     for (s, segment) in cut.segments.iter().enumerate() {
         let weight = new.weight(0, s, new.q(0, s, &response[0][s]) + expected(new, s)).sqrt();
-        for (i, (o, y)) in segment.observed.iter().zip(&response[0][s]).enumerate() {
-            let c = i % CHANNELS;
-            let scaled = if segment.valid[i] { (o - y) / new.variance[c].sqrt() } else { 0.0 };
-            left.push(weight * scaled);
-            sum[c] += scaled * scaled;
-            count[c] += f64::from(segment.valid[i]);
+        for ((o, y), valid) in segment.observed.iter().zip(&response[0][s]).zip(&segment.valid) {
+            for c in Channel::ALL {
+                let scaled = if valid[c] { (o[c] - y[c]) / new.variance[c].sqrt() } else { 0.0 };
+                left.push(weight * scaled);
+                sum[c] += scaled * scaled;
+                count[c] += f64::from(valid[c]);
+            }
         }
     }
-    let shows = std::array::from_fn(|c| (sum[c] / count[c].max(1.0)).sqrt());
+    let shows = Channels::from_fn(|c| (sum[c] / count[c].max(1.0)).sqrt());
     Some(Gap { behind, left, shows })
 }
 

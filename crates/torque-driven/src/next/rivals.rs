@@ -5,7 +5,8 @@ use inference::evidence::normalised;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::Decision;
-use crate::fit::{Fitted, Hypothesis, PER_RUN, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::run_numbers::UNKNOWN;
 use crate::settings::{fit, next::SETTINGS};
 use inference::algebra::solve_spd;
 use inference::hypothesis::{Free, Place};
@@ -53,7 +54,7 @@ impl Rival {
             name: if names.is_empty() { "nothing is missing".to_owned() } else { names.join(" with ") },
             probability,
             hypothesis: Hypothesis { parts: parts.collect() },
-            point: Point { run: vec![[0.0; PER_RUN]], ..fitted.point.clone() },
+            point: Point { run: vec![UNKNOWN], ..fitted.point.clone() },
             free,
             further,
             information,

@@ -1,7 +1,6 @@
 //! Free runs, fits and the calibration on the references.
 
-use crate::fit::{DEVIATING, OFFSETS};
-use crate::windows::CHANNELS;
+use crate::channel::ByQuantity;
 
 ::settings::settings! {
     /// What fits and calibration were tuned with.
@@ -17,10 +16,18 @@ use crate::windows::CHANNELS;
 
     /// What differs a little from run to run.
     deviations: Deviations {
-        /// Relative standard deviation between runs of each constant that deviates, before the common factor.
-        constants: [f64; DEVIATING.len()] = [0.004, 0.01, 0.01, 0.01, 0.005], "1", "guess";
-        /// Standard deviation between runs of the offsets of gyro, forward and lateral acceleration.
-        offsets: [f64; OFFSETS] = [0.0015, 0.03, 0.03], "rad/s, m/s², m/s²", "guess";
+        /// Relative standard deviation of the adhesion between runs, before the common factor.
+        adhesion: f64 = 0.004, "1", "guess";
+        /// The same of the rolling resistance.
+        rolling_resistance: f64 = 0.01, "1", "guess";
+        /// The same of the dry friction of each side.
+        dry_friction: f64 = 0.01, "1", "guess";
+        /// The same of the viscous friction.
+        viscous_friction: f64 = 0.005, "1", "guess";
+        /// Standard deviation of the gyro's offset between runs.
+        gyro: f64 = 0.0015, "rad/s", "guess";
+        /// The same of both offsets of the accelerometer.
+        acceleration: f64 = 0.03, "m/s²", "guess";
     }
 
     /// Gauss–Newton in free run.
@@ -46,8 +53,14 @@ use crate::windows::CHANNELS;
     /// Constants and noise from the references.
     calibration: Calibrating {
         /// Typical residual of each channel, the standard deviation to start with.
-        first_sigma: [f64; CHANNELS] = [0.3, 0.3, 0.04, 0.03, 0.012, 0.12, 0.08],
-            "rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²", "typical residuals";
+        first_sigma: ByQuantity = ByQuantity {
+            wheel_speed: 0.3,
+            yaw_rate: 0.04,
+            forward_velocity: 0.03,
+            lateral_velocity: 0.012,
+            forward_acceleration: 0.12,
+            lateral_acceleration: 0.08,
+        }, "rad/s, rad/s, m/s, m/s, m/s², m/s²", "typical residuals";
         /// No channel is trusted beyond this share of its typical residual.
         least_share: f64 = 0.1, "1", "guess";
         /// Gauss–Newton steps, with the channels' variances renewed after each.
@@ -63,8 +76,14 @@ use crate::windows::CHANNELS;
         /// Correlation of the errors of left and right dry friction in a robot file.
         coulomb_correlation: f64 = 0.8, "1", "guess: one owner, one gearbox type, one measurement";
         /// Without references: what a tuned simulation of a robot leaves in each channel.
-        usual_residual: [f64; CHANNELS] = [0.12, 0.12, 0.03, 0.02, 0.012, 0.12, 0.10],
-            "rad/s, rad/s, rad/s, m/s, m/s, m/s², m/s²", "references of the 72 development cases (fault-free drives)";
+        usual_residual: ByQuantity = ByQuantity {
+            wheel_speed: 0.12,
+            yaw_rate: 0.03,
+            forward_velocity: 0.02,
+            lateral_velocity: 0.012,
+            forward_acceleration: 0.12,
+            lateral_acceleration: 0.10,
+        }, "rad/s, rad/s, m/s, m/s, m/s², m/s²", "references of the 72 development cases (fault-free drives)";
         /// Without references: sigmas of yaw inertia, height of the centre of mass and slip at the peak of adhesion, in
         /// those of the robot file: fault-free robots push these constants, since their true laws are not the plant's.
         wider: f64 = 2.0, "1", "a prototype without references and a look at the 72 development cases";
