@@ -12,7 +12,7 @@ use crate::run::Run;
 use crate::search::{retune, search};
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
-use crate::trial::Found;
+use crate::trial::SearchResult;
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
@@ -79,7 +79,7 @@ impl Calibrated {
         let weigh = |calibration: &Calibration| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let found = search(&problem, progress);
-            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
+            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.null_scores.highest());
             (found, decision)
         };
         let (mut found, mut decision) = weigh(&calibration);
@@ -127,7 +127,7 @@ impl Calibrated {
 
 /// Whether constants that moved between visits explain the recordings better than the best hypothesis does with constants as
 /// the references have them: by the evidence of both (Laplace), to which many constants that need not move cost much.
-fn constants_moved(before: &Problem<'_>, after: &Problem<'_>, found: &Found, decision: &Decision) -> bool {
+fn constants_moved(before: &Problem<'_>, after: &Problem<'_>, found: &SearchResult, decision: &Decision) -> bool {
     let none = Hypothesis::default();
     let moved = retune(after, after.begin(&none, after.origin(), None));
     let as_they_are = decision.scored.first().map_or((&none, &found.retuned), |s| {

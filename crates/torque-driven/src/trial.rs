@@ -10,7 +10,7 @@ pub(crate) struct Trial {
 }
 
 /// All that the search found.
-pub(crate) struct Found {
+pub(crate) struct SearchResult {
     pub(crate) retuned: Fitted,
     pub(crate) singles: Vec<Trial>,
     pub(crate) pairs: Vec<Trial>,
