@@ -183,7 +183,7 @@ pub(crate) fn drives(robot: &RobotGiven, parts: [Part; 3], name: Option<&str>, o
 
 fn opened(case: CaseFolder, name: Option<&str>, mapping: Option<Mapping>) -> Opened {
     let mapping = mapping.map_or_else(|| ARRAYS.to_owned(), |mapping| mapping.name);
-    let is_told = name.is_some() || mapping == which_mapping::SELF_DESCRIBING || mapping == ARRAYS;
-    let found = (!is_told).then(|| mapping.clone());
+    let is_known = name.is_some() || mapping == which_mapping::SELF_DESCRIBING || mapping == ARRAYS;
+    let found = (!is_known).then(|| mapping.clone());
     Opened { case, mapping: name.map_or(mapping, str::to_owned), found }
 }

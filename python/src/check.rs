@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 
 use crate::work::{self, Listener};
-use crate::{case, told};
+use crate::{case, from_json};
 
 /// Tells what is inside recordings, and how good it is.
 ///
@@ -43,5 +43,5 @@ pub(crate) fn check<'py>(
             case_files::check::check(&request, &case_files::check::Listener { stage: &stage, bytes: &bytes })?;
         Ok(checked.to_json())
     })?;
-    told::python(py, &found)
+    from_json::python(py, &found)
 }

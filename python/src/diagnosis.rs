@@ -12,7 +12,7 @@ use report::words::{is_no_cause, probability, size, where_and_when};
 
 use crate::cause::Cause;
 use crate::error::{LacunaError, raised, refused};
-use crate::told;
+use crate::from_json;
 use crate::trace::{Trace, rows};
 
 /// Rows of the table in a notebook.
@@ -132,7 +132,7 @@ impl Diagnosis {
 
     /// All of it as a dict.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        told::parsed(py, &serde_json::to_string(&self.envelope).map_err(refused)?)
+        from_json::parsed(py, &serde_json::to_string(&self.envelope).map_err(refused)?)
     }
 
     /// The text that ``lacuna diagnose --json`` writes: other commands read it.

@@ -13,7 +13,7 @@ mod identify;
 mod layer;
 mod samples;
 mod simulate;
-mod told;
+mod from_json;
 mod trace;
 mod work;
 
@@ -58,6 +58,6 @@ mod _lacuna {
     ///     ``lacuna effects --json`` writes.
     #[pyfunction]
     fn effects(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        super::told::python(py, &serde_json::Value::from(robot_file::cards::effects_json()))
+        super::from_json::python(py, &serde_json::Value::from(robot_file::catalogue_json::effects_json()))
     }
 }

@@ -58,8 +58,8 @@ fn interrupted() -> PyResult<()> {
 }
 
 /// Ends the work: it knows no way to end early, so it is unwound.
-fn end_if(told: PyResult<()>) {
-    if let Err(error) = told {
+fn end_if(ended: PyResult<()>) {
+    if let Err(error) = ended {
         // Not `panic_any`: that would count as a defect.
         resume_unwind(Box::new(Stopped(error)));
     }

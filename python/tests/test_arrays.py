@@ -109,6 +109,6 @@ def test_damaged_files_are_refused_in_one_sentence(tmp_path: Path, capfd: pytest
 
 
 def test_every_effect_has_a_card() -> None:
-    cards = {card["id"]: card for card in lacuna.effects()}
-    assert len(cards) >= 30 and cards["payload"]["parameters"][0]["unit"] == "kg"
+    effects = {effect["id"]: effect for effect in lacuna.effects()}
+    assert len(effects) >= 30 and effects["payload"]["parameters"][0]["unit"] == "kg"
     assert lacuna.__version__.count(".") == 2

@@ -14,7 +14,7 @@ use pages::page::Page;
 use pages::reproduction::{Signals, figures};
 use recordings::ReadOptions;
 use report::diagnosis_page::{Provenance, render};
-use report::fleet::{Finding, Named, Seen};
+use report::fleet::{DiagnosedRecording, Finding, Named};
 use skipping::{Skipped, beside};
 use speed_driven::diagnose_steady;
 use torque_driven::diagnose;
@@ -184,7 +184,7 @@ pub(crate) fn fleet() -> String {
         interval: Some([magnitude - 0.1, magnitude + 0.1]),
         unit: "N m".to_owned(),
     };
-    let seen = (0..60_i32).map(|number| Seen {
+    let seen = (0..60_i32).map(|number| DiagnosedRecording {
         id: format!("run_{number} {HOSTILE}"),
         robot: format!("unit-{} {HOSTILE}", number % 3),
         date: Some(1_767_225_600_000 + 86_400_000 * i64::from(number)),

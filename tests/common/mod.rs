@@ -57,6 +57,7 @@ pub(crate) fn case_of(drawn: &DrawnCase) -> Case {
         sigma: robot.sigma,
         pose_sigma: robot.pose_sigma,
         references: runs("reference"),
+        simulations: Vec::new(),
         recordings: runs("recordings"),
         held_out: recordings_of(drawn, "heldout").iter().map(|r| HeldOut::new(r).expect("inputs")).collect(),
     }

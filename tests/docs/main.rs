@@ -56,10 +56,10 @@ fn shown(page: &Path) -> String {
 
 fn every_command_in_the_documentation_runs() -> Outcome {
     let programs = run::Programs::find();
-    let told: Vec<run::Told> = pages().par_iter().map(|page| run::page(&programs, page)).collect();
-    let mut all = run::Told::default();
-    for told in told {
-        all.add(told);
+    let tally: Vec<run::Tally> = pages().par_iter().map(|page| run::page(&programs, page)).collect();
+    let mut all = run::Tally::default();
+    for tally in tally {
+        all.add(tally);
     }
     eprintln!(
         "commands in the documentation: {} run, {} with their arguments checked only, {} skipped",

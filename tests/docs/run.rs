@@ -59,14 +59,14 @@ const MOST_SHOWN: usize = 60;
 
 /// What became of the commands.
 #[derive(Debug, Default)]
-pub(crate) struct Told {
+pub(crate) struct Tally {
     pub(crate) run: usize,
     pub(crate) checked: Vec<String>,
     pub(crate) skipped: Vec<String>,
     pub(crate) failures: Vec<String>,
 }
 
-impl Told {
+impl Tally {
     pub(crate) fn add(&mut self, mut other: Self) {
         self.run += other.run;
         self.checked.append(&mut other.checked);
@@ -107,17 +107,17 @@ fn beside(_data: &Path, _link: &Path) -> bool {
 }
 
 /// Runs the commands of a page.
-pub(crate) fn page(programs: &Programs, page: &Path) -> Told {
+pub(crate) fn page(programs: &Programs, page: &Path) -> Tally {
     let text = fs::read_to_string(page).expect("a page");
     let scratch = Scratch::new();
-    let mut told = Told::default();
+    let mut tally = Tally::default();
     for block in blocks::of(&text) {
-        run_block(programs, &scratch, &block, &shown(page), &mut told);
+        run_block(programs, &scratch, &block, &shown(page), &mut tally);
     }
-    told
+    tally
 }
 
-fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, told: &mut Told) {
+fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, tally: &mut Tally) {
     let place = format!("{page}:{}", block.line);
     if let Some((name, text)) = &block.file {
         fs::write(scratch.path().join(name), text).expect("writes");
@@ -129,12 +129,12 @@ fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, 
         let command = match Command::parse(line) {
             Ok(command) => command,
             Err(problem) => {
-                told.failures.push(format!("{place}: {problem}"));
+                tally.failures.push(format!("{place}: {problem}"));
                 return;
             }
         };
         if line.contains("../shared/") && !scratch.has_data && !only_checked {
-            told.skipped.push(format!("{place}: {line}"));
+            tally.skipped.push(format!("{place}: {line}"));
             return;
         }
         let expected = if index == last { block.exit() } else { 0 };
@@ -151,26 +151,27 @@ fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, 
                 Some(start(&programs.proof, scratch, &args))
             }
             Command::Lacuna(args, _) => {
-                check(&programs.lacuna, scratch, args, &place, line, told);
+                check(&programs.lacuna, scratch, args, &place, line, tally);
                 None
             }
             Command::Xtask(args) => {
                 match programs.of(&args) {
-                    Some(program) => check(program, scratch, args, &place, line, told),
-                    None => told.checked.push(format!("{place}: {line}")),
+                    Some(program) => check(program, scratch, args, &place, line, tally),
+                    None => tally.checked.push(format!("{place}: {line}")),
                 }
                 None
             }
             Command::Cargo { packages, tests } => {
-                told.checked.push(format!("{place}: {line}"));
-                told.failures
+                tally.checked.push(format!("{place}: {line}"));
+                tally
+                    .failures
                     .extend(unknown_targets(&packages, &tests).map(|target| format!("{place}: no {target}: {line}")));
                 None
             }
             Command::Beside(script) => {
-                told.checked.push(format!("{place}: {line}"));
+                tally.checked.push(format!("{place}: {line}"));
                 if scratch.has_data && !scratch.path().join(&script).is_file() {
-                    told.failures.push(format!("{place}: there is no {script}"));
+                    tally.failures.push(format!("{place}: there is no {script}"));
                 }
                 None
             }
@@ -179,12 +180,14 @@ fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, 
             all_run = false;
             continue;
         };
-        told.run += 1;
+        tally.run += 1;
         let [stdout, stderr] =
             [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
         if output.status.code() != Some(expected) {
             let code = output.status.code();
-            told.failures.push(format!("{place}: {line}\nended with {code:?} instead of {expected}\n{stdout}{stderr}"));
+            tally
+                .failures
+                .push(format!("{place}: {line}\nended with {code:?} instead of {expected}\n{stdout}{stderr}"));
         }
         out += &stdout;
         out += &stderr;
@@ -192,7 +195,8 @@ fn run_block(programs: &Programs, scratch: &Scratch, block: &Block, page: &str, 
     if let Some(missing) = compare::first_missing(&block.shown, &out).filter(|_| all_run) {
         let start: Vec<&str> = out.lines().take(MOST_SHOWN).collect();
         let start = start.join("\n");
-        told.failures
+        tally
+            .failures
             .push(format!("{place}: this line does not come out (any more):\n{missing}\nbut this does:\n{start}"));
     }
 }
@@ -206,13 +210,13 @@ fn start(program: &Path, scratch: &Scratch, args: &[String]) -> Output {
 }
 
 /// Has a program read its arguments without doing anything.
-fn check(program: &Path, scratch: &Scratch, mut args: Vec<String>, place: &str, line: &str, told: &mut Told) {
-    told.checked.push(format!("{place}: {line}"));
+fn check(program: &Path, scratch: &Scratch, mut args: Vec<String>, place: &str, line: &str, tally: &mut Tally) {
+    tally.checked.push(format!("{place}: {line}"));
     args.push("--help".to_owned());
     let output = start(program, scratch, &args);
     if !output.status.success() {
         let why = String::from_utf8_lossy(&output.stderr);
-        told.failures.push(format!("{place}: {line}\nhas arguments that are refused:\n{why}"));
+        tally.failures.push(format!("{place}: {line}\nhas arguments that are refused:\n{why}"));
     }
 }
 

@@ -24,7 +24,7 @@ fn cut_off(drawn: &DrawnCase, share: f64) -> (PathBuf, Vec<u8>) {
 }
 
 #[test]
-fn a_file_that_was_cut_off_is_told_and_the_rest_diagnosed() {
+fn a_file_that_was_cut_off_is_reported_and_the_rest_diagnosed() {
     let drawn = draw(&strong(&[EFFECT]), 120);
     let (path, bytes) = cut_off(&drawn, 0.6);
     let refused = read(&path, &bytes, Policy::Strict).expect_err("a torn row").to_string();

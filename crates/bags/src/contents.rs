@@ -47,14 +47,14 @@ pub struct TopicContents {
 }
 
 /// What a topic showed so far.
-struct Seen {
+struct TopicSurvey {
     survey: Survey,
     count: u64,
     log_time_ns: (i64, i64),
     stamps: StampMeter,
 }
 
-impl Seen {
+impl TopicSurvey {
     fn new(topic: &Topic, now_ns: i64) -> Self {
         let (survey, stamps) = (Survey::new(topic), StampMeter::new(topic));
         Self { survey, count: 0, log_time_ns: (now_ns, now_ns), stamps }
@@ -63,7 +63,7 @@ impl Seen {
 
 /// What the messages of a bag that passed so far showed: [`contents`] for who passes over the bag anyway.
 #[derive(Default)]
-pub struct Inside(Vec<Seen>);
+pub struct Inside(Vec<TopicSurvey>);
 
 impl Inside {
     /// Looks at a message.
@@ -71,11 +71,11 @@ impl Inside {
         let now = message.log_time_ns;
         // sqlite knows topics without messages, so that an index may lie beyond the next one.
         while self.0.len() <= message.topic_index {
-            self.0.push(Seen::new(message.topic, now));
+            self.0.push(TopicSurvey::new(message.topic, now));
         }
         let topic = &mut self.0[message.topic_index];
         if topic.count == 0 {
-            *topic = Seen::new(message.topic, now);
+            *topic = TopicSurvey::new(message.topic, now);
         }
         topic.count += 1;
         topic.log_time_ns = (topic.log_time_ns.0.min(now), topic.log_time_ns.1.max(now));

@@ -35,7 +35,7 @@ fn whole_bags_read_whole() {
 }
 
 #[test]
-fn every_cut_is_told_and_costs_no_whole_chunk() {
+fn every_cut_is_reported_and_costs_no_whole_chunk() {
     let original = messages(20);
     for (name, bytes) in bags() {
         let mut most = 0;
@@ -57,7 +57,7 @@ fn every_cut_is_told_and_costs_no_whole_chunk() {
 }
 
 #[test]
-fn every_flipped_bit_is_told_or_harmless_and_costs_one_chunk_at_most() {
+fn every_flipped_bit_is_reported_or_harmless_and_costs_one_chunk_at_most() {
     let original = messages(20);
     for (name, bytes) in bags() {
         let largest_chunk = {

@@ -83,7 +83,7 @@ fn a_chunk_above_the_limit_is_skipped_and_told() {
 }
 
 #[test]
-fn bytes_in_a_chunk_that_its_content_does_not_need_are_told() {
+fn bytes_in_a_chunk_that_its_content_does_not_need_are_reported() {
     let (kept, losses) = read_with(op::CHUNK, 10 << 20);
     assert_eq!(kept, messages(20));
     assert_eq!((losses.len(), losses[0].kind), (1, LossKind::Damage));

@@ -31,7 +31,7 @@ fn printed(rooms: &[Room]) -> String {
          A setting is a number that was chosen, not derived: a threshold, a prior, a length of window. It stands in\n\
          `settings.rs` of its crate with its unit (1 of a share, a factor or a count), its meaning and its source: data, a\n\
          paper, a formula. \"guess\" is a source too. This page is printed by `cargo xtask book --docs` from these files; do not\n\
-         edit it. Defaults of the solver that all fits share are told by `inference::least_squares::Settings`.\n",
+         edit it. Defaults of the solver that all fits share stand in `inference::least_squares::Settings`.\n",
     );
     for (name, title, settings) in rooms {
         put(&mut out, format_args!("\n## {name}: {title}\n"));

@@ -13,12 +13,12 @@ use crate::predictions::save;
 
 /// What an answer is made of: a part of the JSON of a diagnosis.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Told {
+pub struct Answer {
     /// The kind of answer.
     #[serde(with = "VerdictForm")]
     pub verdict: Verdict,
     /// Causes, "none" and "unknown" by probability.
-    pub ranked: Vec<ToldCause>,
+    pub ranked: Vec<AnswerCause>,
     /// Classes of effects that the recordings cannot tell apart.
     #[serde(default)]
     pub indistinguishable: Vec<Vec<String>>,
@@ -26,7 +26,7 @@ pub struct Told {
 
 /// A cause in an answer.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct ToldCause {
+pub struct AnswerCause {
     /// Effect id, "none" or "unknown".
     pub effect: String,
     /// Probability that it is part of the truth.
@@ -52,7 +52,7 @@ enum VerdictForm {
     Withheld,
 }
 
-impl Told {
+impl Answer {
     /// From a diagnosis at hand.
     ///
     /// # Errors
@@ -69,7 +69,7 @@ impl Told {
         /// The envelope; what the diagnosis was made from does not matter here.
         #[derive(Deserialize)]
         struct Envelope {
-            diagnosis: Told,
+            diagnosis: Answer,
         }
         let envelope: Envelope =
             serde_json::from_str(json).context("this is not what `lacuna diagnose --json` writes")?;
@@ -83,7 +83,7 @@ impl Told {
     #[must_use]
     pub fn within(mut self, vocabulary: &[String]) -> Self {
         let foreign =
-            |c: &ToldCause| !["none", "unknown"].contains(&c.effect.as_str()) && !vocabulary.contains(&c.effect);
+            |c: &AnswerCause| !["none", "unknown"].contains(&c.effect.as_str()) && !vocabulary.contains(&c.effect);
         if self.ranked.first().is_some_and(foreign) && self.verdict == Verdict::Explained {
             self.verdict = Verdict::Unknown;
         }
@@ -91,7 +91,7 @@ impl Told {
         self.ranked.retain(|c| !foreign(c));
         match self.ranked.iter_mut().find(|c| c.effect == "unknown") {
             Some(unknown) => unknown.probability = (unknown.probability + most).min(1.0),
-            None if most > 0.0 => self.ranked.push(ToldCause {
+            None if most > 0.0 => self.ranked.push(AnswerCause {
                 effect: "unknown".to_owned(),
                 probability: most,
                 magnitude: None,
@@ -143,7 +143,7 @@ impl Told {
 mod tests {
     use verdict::Verdict;
 
-    use super::Told;
+    use super::Answer;
 
     #[test]
     fn what_diagnose_writes_becomes_an_answer() {
@@ -151,13 +151,13 @@ mod tests {
             {"effect": "none", "probability": 0.75, "magnitude": null, "sigma": null, "side": null, "intervals": null},
             {"effect": "grade", "probability": 0.25, "magnitude": -0.5, "sigma": 0.1, "side": "left",
              "intervals": {"run_1": [[1.0, 2.0]]}}]}}"#;
-        let told = Told::read(text).expect("reads");
-        assert_eq!((told.verdict, told.verdict()), (Verdict::NoMismatch, "no mismatch"));
-        assert_eq!(told.ranked[1].sigma, Some(0.1));
-        let form = told.form("x", 2.5).to_string();
+        let answer = Answer::read(text).expect("reads");
+        assert_eq!((answer.verdict, answer.verdict()), (Verdict::NoMismatch, "no mismatch"));
+        assert_eq!(answer.ranked[1].sigma, Some(0.1));
+        let form = answer.form("x", 2.5).to_string();
         assert!(form.starts_with(r#"{"case":"x","verdict":"no mismatch","seconds":2.5,"ranked":[{"effect":"none","#));
         assert!(form.ends_with(r#""magnitude":-0.5,"side":"left","interval_s":{"run_1":[[1.0,2.0]]}}]}"#));
-        assert!(Told::read("{}").is_err());
+        assert!(Answer::read("{}").is_err());
     }
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
                 r#"{{"diagnosis": {{"verdict": "explained", "sentences": [], "ranked": [{}]}}}}"#,
                 causes.join(",")
             );
-            Told::read(&text).expect("reads").within(&["grade".to_owned()])
+            Answer::read(&text).expect("reads").within(&["grade".to_owned()])
         };
         let foreign = told(&[cause("battery_sag", 0.75), cause("grade", 0.5), cause("unknown", 0.125)]);
         assert_eq!(foreign.verdict, Verdict::Unknown);

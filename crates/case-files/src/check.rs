@@ -9,7 +9,7 @@ use recordings::{
 use serde_json::Value;
 
 use crate::Watch;
-use find::Found;
+use find::Discovery;
 
 mod as_json;
 mod find;
@@ -123,7 +123,7 @@ pub fn check(request: &Request<'_>, listener: &Listener<'_>) -> Result<Checked> 
     for path in request.paths {
         ensure!(path.exists(), "there is no file or folder '{}'", path.display());
     }
-    let (bags, Found { mapping, surveyed, tables }) = find::find(request, listener)?;
+    let (bags, Discovery { mapping, surveyed, tables }) = find::find(request, listener)?;
     let prints: Vec<Fingerprint> = surveyed.surveys.iter().map(Survey::fingerprint).collect();
     let names: Vec<String> = surveyed.surveys.iter().map(file_names).collect();
     let same = group_by_content(&prints).into_iter().filter(|group| group.len() > 1);

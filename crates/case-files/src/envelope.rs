@@ -72,9 +72,11 @@ pub struct Settings {
     /// Length of a free run, s.
     pub segment_s: f64,
     /// Share of the log-likelihood that counts.
-    pub temper: f64,
+    #[serde(alias = "temper")]
+    pub likelihood_power: f64,
     /// Saturation of outliers.
-    pub kappa: f64,
+    #[serde(alias = "kappa")]
+    pub outlier_scale: f64,
 }
 
 /// A file that was read.
@@ -173,8 +175,8 @@ impl Envelope {
                 reading: reading.to_owned(),
                 step_s: options.step,
                 segment_s: options.segment,
-                temper: options.temper,
-                kappa: options.kappa,
+                likelihood_power: options.likelihood_power,
+                outlier_scale: options.outlier_scale,
             },
             sources: parts
                 .iter()
@@ -234,7 +236,24 @@ impl Envelope {
 
 #[cfg(test)]
 mod tests {
-    use super::Envelope;
+    use serde_json::{from_value, json, to_value};
+    use verdict::Diagnosis;
+
+    use super::{Envelope, Settings};
+
+    #[test]
+    fn names_that_older_verdicts_use_are_read() {
+        let mut older = to_value(Diagnosis::withheld()).expect("JSON");
+        let fields = older.as_object_mut().expect("an object");
+        fields.remove("null_scores").expect("today's name");
+        fields.insert("accusations".to_owned(), json!([["grade", 1.5]]));
+        let read: Diagnosis = from_value(older).expect("reads");
+        assert_eq!(read.null_scores, [("grade".to_owned(), 1.5)]);
+
+        let older = json!({ "reading": "strict", "step_s": 0.001, "segment_s": 2.0, "temper": 0.15, "kappa": 3.0 });
+        let read: Settings = from_value(older).expect("reads");
+        assert_eq!((read.likelihood_power, read.outlier_scale), (0.15, 3.0));
+    }
 
     #[test]
     fn a_verdict_of_another_format_is_refused_with_the_remedy() {

@@ -16,8 +16,8 @@ fn provenance(e: &Envelope) -> Provenance {
     let numbers = [
         ("integration step, s", o.step_s),
         ("length of a free run, s", o.segment_s),
-        ("temper", o.temper),
-        ("kappa", o.kappa),
+        ("likelihood_power", o.likelihood_power),
+        ("outlier_scale", o.outlier_scale),
     ];
     let mut options = vec![("reading of bad rows".to_owned(), o.reading.clone())];
     options.extend(numbers.map(|(name, value)| (name.to_owned(), value.to_string())));

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_read_is_told_and_never_more_than_there_is() {
+    fn what_was_read_is_reported_and_never_more_than_there_is() {
         let mut file = tempfile::tempfile().expect("a file");
         file.write_all(&[7; 100]).expect("writes");
         let told = RefCell::new(Vec::new());

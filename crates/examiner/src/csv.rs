@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::free::SEGMENT;
-use crate::run::{Run, Seen};
+use crate::run::{Motion, Run};
 use crate::sensors::Sheet;
 
 /// Appends a number after a comma.
@@ -50,7 +50,7 @@ pub(crate) fn recording(run: &Run, sheet: &Sheet, row: f64, pose: bool, accel: b
 }
 
 /// A held-out run: inputs in every row, the state at restarts.
-pub(crate) fn heldout(run: &Run, starts: &[Seen], rate: impl Fn(f64) -> f64, sheet: &Sheet, row: f64) -> String {
+pub(crate) fn heldout(run: &Run, starts: &[Motion], rate: impl Fn(f64) -> f64, sheet: &Sheet, row: f64) -> String {
     let mut out = String::with_capacity(run.rows.len() * 32);
     out.push_str(
         "time_s,torque_left_Nm,torque_right_Nm,pose_x_m,pose_y_m,pose_yaw_rad,body_vx_m_s,\

@@ -6,14 +6,14 @@ use crate::motor::Motors;
 use crate::plant::{ANGLE, Plant, SPEED, YAW_RATE};
 use crate::random::Stream;
 use crate::robot::Constants;
-use crate::run::{Run, Seen, shown_rate};
+use crate::run::{Motion, Run, shown_rate};
 use crate::sensors::Sheet;
 
 /// Rows from one restart to the next.
 pub(crate) const SEGMENT: usize = 200;
 
 /// Measured states at the restart rows of a run.
-pub(crate) fn restarts(run: &Run, sheet: &Sheet, mut noise: Stream) -> Vec<Seen> {
+pub(crate) fn restarts(run: &Run, sheet: &Sheet, mut noise: Stream) -> Vec<Motion> {
     let k = sheet.gyro / 0.006;
     run.seen
         .iter()
@@ -35,7 +35,7 @@ pub(crate) fn restarts(run: &Run, sheet: &Sheet, mut noise: Stream) -> Vec<Seen>
 }
 
 /// Wheel speeds and shown yaw rate of a model at each row, restarted at each segment.
-pub(crate) fn predict(c: &Constants, hidden: &Hidden, run: &Run, starts: &[Seen], row: f64) -> Vec<[f64; 3]> {
+pub(crate) fn predict(c: &Constants, hidden: &Hidden, run: &Run, starts: &[Motion], row: f64) -> Vec<[f64; 3]> {
     // Twice the step of the drives: free runs need no sensors and the method is of fourth order.
     let step = if hidden.foreign.explicit_step > 0.0 { STEP } else { 2.0 * STEP };
     let plant = Plant::new(c, hidden);

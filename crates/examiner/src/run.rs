@@ -13,7 +13,7 @@ use crate::sensors::{Sampler, Sheet, frozen_rows};
 
 /// True motion at a row: pose, body velocity and yaw rate, wheel speeds and angles of the sides.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Seen {
+pub(crate) struct Motion {
     pub body: [f64; 6],
     pub speed: [f64; 2],
     pub angle: [f64; 2],
@@ -34,7 +34,7 @@ pub(crate) struct Row {
 pub(crate) struct Run {
     pub kinds: [Manoeuvre; 2],
     pub events: Events,
-    pub seen: Vec<Seen>,
+    pub seen: Vec<Motion>,
     pub rows: Vec<Row>,
 }
 
@@ -94,7 +94,7 @@ pub(crate) fn record(task: Task<'_>) -> Run {
         if k == 0 {
             sampler.sample(1e-9, 0.0, [0.0; 2], start);
         }
-        let seen = Seen {
+        let seen = Motion {
             body: std::array::from_fn(|i| state[i]),
             speed: [state[SPEED + 1], state[SPEED + 3]],
             angle: [state[ANGLE + 1], state[ANGLE + 3]],

@@ -125,7 +125,7 @@ fn every_cause_changes_the_recordings_and_none_the_references() {
         let of = |p: &(std::path::PathBuf, Vec<u8>)| p.0.starts_with(folder);
         case.files.iter().filter(|f| of(f)).cloned().collect::<Vec<_>>()
     };
-    let healthy = draw(&short(Content::Null));
+    let fault_free = draw(&short(Content::Null));
     let causes = EffectId::ALL.map(|e| Content::Effects(vec![e]));
     let causes = causes.into_iter().chain(Outsider::ALL.map(Content::Outsider));
     for content in causes {
@@ -135,7 +135,7 @@ fn every_cause_changes_the_recordings_and_none_the_references() {
             ..short(content.clone())
         });
         // Compared outside of assert_eq, which would print the files.
-        let same = |folder| text(&case, folder) == text(&healthy, folder);
+        let same = |folder| text(&case, folder) == text(&fault_free, folder);
         assert!(same("reference"), "{content:?}");
         assert!(!same("recordings"), "{content:?}");
         let rows = table(&case, "recordings/run_1.csv").1;
@@ -160,7 +160,7 @@ fn what_changes_after_the_references_changes_the_recordings_only() {
     let files = |case: &DrawnCase, folder: &str| {
         case.files.iter().filter(|f| f.0.starts_with(folder)).cloned().collect::<Vec<_>>()
     };
-    let healthy = draw(&short(Content::Null));
+    let fault_free = draw(&short(Content::Null));
     for changed in [
         Settings { controller_gain: 0.5, ..short(Content::Null) },
         Settings { moved: 1.0, ..short(Content::Null) },
@@ -169,7 +169,7 @@ fn what_changes_after_the_references_changes_the_recordings_only() {
         short(Content::Outsider(Outsider::ExplicitSteps)),
     ] {
         let case = draw(&changed);
-        let same = |folder| files(&case, folder) == files(&healthy, folder);
+        let same = |folder| files(&case, folder) == files(&fault_free, folder);
         assert!(same("reference") && same("robot.json"), "{changed:?}");
         assert!(!same("recordings"), "{changed:?}");
         let rows = table(&case, "recordings/run_1.csv").1;
@@ -228,8 +228,8 @@ fn courses_are_driven_as_asked_with_what_is_hidden() {
     let texts = [&straight, &spin].map(|c| again.record(0, c).unwrap());
     assert!(texts[0] == Again::new(11, &settings).unwrap().record(0, &straight).unwrap());
     assert!(texts[0] != again.record(1, &straight).unwrap(), "each run is another");
-    let healthy = short(Content::Null);
-    assert!(texts[0] != Again::new(11, &healthy).unwrap().record(0, &straight).unwrap(), "nothing is hidden in it");
+    let fault_free = short(Content::Null);
+    assert!(texts[0] != Again::new(11, &fault_free).unwrap().record(0, &straight).unwrap(), "nothing is hidden in it");
 
     let rows = |text: &str| -> Vec<Vec<Option<f64>>> {
         text.lines().skip(1).map(|l| l.split(',').map(|c| c.parse().ok()).collect()).collect()

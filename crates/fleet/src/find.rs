@@ -19,7 +19,7 @@ const ANY_BAGS: &str = "kobuki-bag";
 
 /// What was found in a folder.
 #[derive(Debug, Default)]
-pub struct Found {
+pub struct FolderContents {
     /// The units.
     pub units: Vec<Unit>,
     /// Files that end like recordings and that no mapping reads: a loss.
@@ -38,7 +38,7 @@ struct Run {
 ///
 /// # Errors
 /// When a folder cannot be listed, or there is no case folder.
-pub fn cases_below(folder: &Path, named: Option<&str>) -> Result<Found> {
+pub fn cases_below(folder: &Path, named: Option<&str>) -> Result<FolderContents> {
     let mut cases = Vec::new();
     find_cases(folder, DEEPEST, &mut BTreeSet::new(), &mut cases)?;
     let shown = folder.display();
@@ -48,7 +48,7 @@ pub fn cases_below(folder: &Path, named: Option<&str>) -> Result<Found> {
          it; if it holds recordings of one robot, name that with --robot"
     );
     let known = named.map(mapping).transpose()?;
-    let mut out = Found::default();
+    let mut out = FolderContents::default();
     for case in cases {
         let [reference, recordings, _] = folders(&case);
         let below = relative(folder, &case);
@@ -78,7 +78,7 @@ pub fn cases_below(folder: &Path, named: Option<&str>) -> Result<Found> {
 ///
 /// # Errors
 /// When a folder cannot be listed, or there is no recording.
-pub fn recordings_below(folder: &Path, robot: &str, defaults: &Defaults) -> Result<Found> {
+pub fn recordings_below(folder: &Path, robot: &str, defaults: &Defaults) -> Result<FolderContents> {
     let named = defaults.mapping.as_deref().map(mapping).transpose()?;
     let (runs, unread) = runs_below(folder, named.as_ref(), &defaults.reference)?;
     let setup =
@@ -91,7 +91,7 @@ pub fn recordings_below(folder: &Path, robot: &str, defaults: &Defaults) -> Resu
         folder.display(),
         named.map_or_else(String::new, |m| format!(" that fits the mapping '{}'", m.name))
     );
-    Ok(Found { units, unread })
+    Ok(FolderContents { units, unread })
 }
 
 /// Whether a folder is a case.
@@ -200,7 +200,7 @@ mod tests {
         folder
     }
 
-    fn ids(found: &Found) -> Vec<&str> {
+    fn ids(found: &FolderContents) -> Vec<&str> {
         found.units.iter().map(|u| u.id.as_str()).collect()
     }
 

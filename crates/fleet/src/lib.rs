@@ -1,4 +1,4 @@
-//! Recordings of a fleet, each diagnosed by itself: resumable, dealt to machines, told in one table.
+//! Recordings of a fleet, each diagnosed by itself: resumable, dealt to machines, reported in one table.
 //!
 //! ```text
 //! folder or manifest --> Unit --plan--> to do --run--> OUT/json/NAME.json, OUT/done/NAME.json --rows--> OUT/rows.parquet
@@ -31,11 +31,11 @@ use inference::Options;
 use recordings::ReadOptions;
 
 pub use date::Date;
-pub use find::{DEEPEST, Found, cases_below, recordings_below};
+pub use find::{DEEPEST, FolderContents, cases_below, recordings_below};
 pub use manifest::read as manifest;
 pub use merge::{Merged, merge};
 pub use overview::{Overview, RobotCount};
-pub use page::{page, seen};
+pub use page::{diagnosed, page};
 pub use plan::{Plan, plan};
 pub use row::{CAUSES, Outcome, Row, RowCause, RowSource};
 pub use run::{Event, Ran, run};

@@ -1,7 +1,7 @@
 //! Rows as the page of a fleet.
 
 use case_files::envelope::Program;
-use report::fleet::{Finding, Named, Seen, render};
+use report::fleet::{DiagnosedRecording, Finding, Named, render};
 use verdict::Verdict;
 
 use super::row::{Row, RowCause};
@@ -10,9 +10,9 @@ use super::row::{Row, RowCause};
 const LIKELY: f64 = 0.5;
 
 /// What the page needs of a row: less than the row.
-pub fn seen(row: &Row) -> Seen {
+pub fn diagnosed(row: &Row) -> DiagnosedRecording {
     let why = || row.limits.iter().chain(&row.sentences).next().cloned().unwrap_or_default();
-    Seen {
+    DiagnosedRecording {
         id: row.id.clone(),
         robot: row.robot_id.clone(),
         date: row.date.map(super::Date::milliseconds),
@@ -41,7 +41,7 @@ fn named(c: &RowCause) -> Named {
 }
 
 /// The page of a fleet: one file that opens in any browser and needs no network.
-pub fn page(seen: &[Seen]) -> String {
+pub fn page(seen: &[DiagnosedRecording]) -> String {
     let Program { name, version } = Program::default();
     render(seen, &format!("{name} {version}"))
 }

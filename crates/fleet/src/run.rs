@@ -33,14 +33,19 @@ pub struct Ran {
     pub lost: usize,
 }
 
-/// Diagnoses units and keeps every answer as soon as it is there; `told` hears of each from the thread that worked on it.
+/// Diagnoses units and keeps every answer as soon as it is there; `listener` hears of each from the thread that worked on it.
 ///
 /// Every thread works on a unit of its own, by itself: nobody waits for others inside a diagnosis, and no more units are
 /// held than there are threads. Where there are fewer units than threads, each gets several.
 ///
 /// # Errors
 /// When an answer cannot be kept. A unit that fails is no error but a row.
-pub fn run(units: Vec<Unit>, store: &Store, settings: &Settings, told: &(dyn Fn(&Event<'_>) + Sync)) -> Result<Ran> {
+pub fn run(
+    units: Vec<Unit>,
+    store: &Store,
+    settings: &Settings,
+    listener: &(dyn Fn(&Event<'_>) + Sync),
+) -> Result<Ran> {
     let threads = settings.threads.max(1);
     let workers = threads.min(units.len()).max(1);
     let index = store.index()?;
@@ -53,7 +58,7 @@ pub fn run(units: Vec<Unit>, store: &Store, settings: &Settings, told: &(dyn Fn(
             let pool = pool.context("cannot start threads")?;
             pool.install(|| {
                 while let Some(job) = queue.next() {
-                    one(job, &queue, &index, store, settings, &counts, told)?;
+                    one(job, &queue, &index, store, settings, &counts, listener)?;
                 }
                 Ok(())
             })
@@ -83,13 +88,13 @@ fn one(
     store: &Store,
     settings: &Settings,
     [done, failed, lost]: &[AtomicUsize; 3],
-    told: &(dyn Fn(&Event<'_>) + Sync),
+    listener: &(dyn Fn(&Event<'_>) + Sync),
 ) -> Result<()> {
     let start = Instant::now();
     match job {
         Job::Prepare(number, setup) => {
             queue.prepared(number, &prepare(&setup, settings));
-            told(&Event::Prepared(&setup.robot, start.elapsed()));
+            listener(&Event::Prepared(&setup.robot, start.elapsed()));
         }
         Job::Diagnose(unit, ready) => {
             let (mut row, envelope) = diagnose(&unit, &ready, settings);
@@ -98,7 +103,7 @@ fn one(
             let count = if row.outcome == Outcome::Done { done } else { failed };
             count.fetch_add(1, Ordering::Relaxed);
             lost.fetch_add(usize::from(!row.lost.is_empty()), Ordering::Relaxed);
-            told(&Event::Finished(&row, start.elapsed()));
+            listener(&Event::Finished(&row, start.elapsed()));
         }
     }
     Ok(())

@@ -10,16 +10,16 @@ pub struct Options {
     /// Length of a segment over which the model runs free, s.
     pub segment: f64,
     /// Share of the log-likelihood that counts: a segment's numbers are correlated, about one in seven is new.
-    pub temper: f64,
+    pub likelihood_power: f64,
     /// Saturation of outliers, in expected misfits of a segment.
-    pub kappa: f64,
+    pub outlier_scale: f64,
     /// Length of the drives among which to advise on the next one, s; no advice if not given, for it takes a few seconds.
     pub next: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        let Usual { step, segment, temper, kappa } = SETTINGS.options;
-        Self { step, segment, temper, kappa, next: None }
+        let Usual { step, segment, likelihood_power, outlier_scale } = SETTINGS.options;
+        Self { step, segment, likelihood_power, outlier_scale, next: None }
     }
 }

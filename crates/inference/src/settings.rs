@@ -12,9 +12,9 @@
         /// Length of a segment over which the model runs free.
         segment: f64 = 2.0, "s", "guess";
         /// Share of the log-likelihood that counts: a segment's numbers are correlated, about one in seven is new.
-        temper: f64 = 0.15, "1", "the recipe that this method started from, tuned on the 72 development cases";
+        likelihood_power: f64 = 0.15, "1", "the recipe that this method started from, tuned on the 72 development cases";
         /// Saturation of outliers, in expected misfits of a segment.
-        kappa: f64 = 3.0, "1", "the recipe that this method started from, tuned on the 72 development cases";
+        outlier_scale: f64 = 3.0, "1", "the recipe that this method started from, tuned on the 72 development cases";
     }
 
     /// Effects in a disc on the ground, as a fit changes them.

@@ -16,7 +16,7 @@ fn numbers(count: usize) -> impl Strategy<Value = Vec<f64>> {
 }
 
 fn loss() -> impl Strategy<Value = Loss> {
-    let saturated = Loss::Saturated { block: 4, kappa: 4.0 };
+    let saturated = Loss::Saturated { block: 4, scale: 4.0 };
     prop::sample::select(vec![Loss::Square, Loss::Huber(1.0), Loss::SoftL1(1.5), saturated])
 }
 

@@ -39,7 +39,7 @@ fn what_the_signals_permit_is_said() {
 }
 
 #[test]
-fn gaps_and_lost_rows_are_told_and_end_with_3() {
+fn gaps_and_lost_rows_are_reported_and_end_with_3() {
     let bench = Bench::new();
     let mut rows: Vec<String> = drive(300, 0.5).lines().map(str::to_owned).collect();
     rows.drain(101..151);
@@ -135,7 +135,7 @@ fn what_convert_writes_needs_no_mapping_of_ones_own() {
 }
 
 #[test]
-fn what_csv_cannot_keep_is_told() {
+fn what_csv_cannot_keep_is_reported() {
     let bench = Bench::empty();
     bench.write("pro_1.csv", "t,curL\n0.00,1\n0.01,2\n");
     let signal = "current_left = { column = \"curL\", unit = \"A\", magnitude_only = true, dead_band = 0.59 }";

@@ -39,7 +39,7 @@ fn bench() -> Bench {
 }
 
 #[test]
-fn a_response_is_told_without_any_reference() {
+fn a_response_is_reported_without_any_reference() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());

@@ -37,10 +37,10 @@ fn effects_lists_what_explain_explains() {
     assert!(ids.len() >= 10);
     for id in ids {
         assert!(run.out().contains(id));
-        let card = bench.run(&["explain", id]);
-        assert_eq!(card.code(), Some(0));
+        let explanation = bench.run(&["explain", id]);
+        assert_eq!(explanation.code(), Some(0));
         for part in [id, "law", "revealed by", "source", "parameter", "neutral"] {
-            assert!(card.out().contains(part), "{}", card.out());
+            assert!(explanation.out().contains(part), "{}", explanation.out());
         }
     }
 }
@@ -136,7 +136,7 @@ fn lost_rows_exit_with_3_and_are_named() {
 }
 
 #[test]
-fn one_file_of_a_pair_is_enough_and_a_missing_one_is_told() {
+fn one_file_of_a_pair_is_enough_and_a_missing_one_is_reported() {
     let bench = Bench::new();
     let mut pro = "time,curL,curR,velL,velR\n".to_owned();
     let mut imu = "time,wx,wy,wz,ax,ay,az\n".to_owned();
@@ -210,7 +210,7 @@ fn pipes_get_no_colour_and_no_progress() {
 }
 
 #[test]
-fn a_conversion_is_told_as_json() {
+fn a_conversion_is_reported_as_json() {
     let bench = Bench::new();
     let run = bench.run(&["convert", RUN, "--out", "run.csv", "--json", "-"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());

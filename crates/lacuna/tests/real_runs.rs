@@ -62,7 +62,7 @@ fn a_ramp_inside_a_run_is_found_by_the_gyro_and_a_calm_run_has_none() -> Outcome
     Ok(())
 }
 
-fn clocks_are_aligned_with_an_error_that_is_told() -> Outcome {
+fn clocks_are_aligned_with_an_error_that_is_reported() -> Outcome {
     let folder = data("husky-open")?;
     let d = floor(&folder, "05");
     let clocks = d["steady"]["clocks"].as_array().expect("a list");
@@ -118,7 +118,7 @@ fn a_proposed_mapping_reads_the_bag_it_was_proposed_for() -> Outcome {
 
 skipping::tests![
     a_ramp_inside_a_run_is_found_by_the_gyro_and_a_calm_run_has_none,
-    clocks_are_aligned_with_an_error_that_is_told,
+    clocks_are_aligned_with_an_error_that_is_reported,
     a_kobuki_gives_its_track_from_the_bag_without_any_reference,
     bags_of_known_robots_are_mapped_by_themselves,
     a_proposed_mapping_reads_the_bag_it_was_proposed_for,

@@ -72,7 +72,7 @@ fn robots_are_mapped_by_themselves() {
 }
 
 #[test]
-fn all_that_was_inferred_is_told_in_words_too() {
+fn all_that_was_inferred_is_reported_in_words_too() {
     let bench = Bench::empty();
     bench.write_bytes("a.mcap", &bag(&[joint_states("/joint_states", &JACKAL), imu("/imu/data")]));
     let run = bench.run(&["check", "a.mcap"]);
@@ -87,7 +87,7 @@ fn all_that_was_inferred_is_told_in_words_too() {
 }
 
 #[test]
-fn what_is_in_doubt_is_told_and_not_mapped() {
+fn what_is_in_doubt_is_reported_and_not_mapped() {
     let bench = Bench::empty();
     bench.write_bytes("a.mcap", &bag(&[joint_states("/joint_states", &["wheel_1", "wheel_2"]), imu("/imu")]));
     let json = check(&bench, &["a.mcap"]);

@@ -5,7 +5,7 @@ use bags::suggest;
 use crate::cell::bare;
 use crate::error::RecordingError;
 use crate::mapping::FileMapping;
-use crate::samples::Found;
+use crate::samples::PlacedColumn;
 use crate::units::{Unit, parse_unit};
 
 /// The header, and what is below it.
@@ -19,7 +19,7 @@ pub(crate) struct Header<'a> {
     /// Where the time is, when there is a time column.
     pub(crate) time: Option<usize>,
     /// The mapped columns that are there.
-    pub(crate) columns: Vec<Found<'a>>,
+    pub(crate) columns: Vec<PlacedColumn<'a>>,
     /// The columns that no signal or time was read from.
     pub(crate) unused: Vec<String>,
 }
@@ -84,7 +84,7 @@ impl<'a> Header<'a> {
             match position(&mapped.column)? {
                 Some(position) => {
                     same_unit(position, mapped.unit.factor, mapped.unit.unit)?;
-                    columns.push(Found { position, mapped });
+                    columns.push(PlacedColumn { position, mapped });
                 }
                 None if mapped.optional => {}
                 None => {

@@ -18,7 +18,7 @@ use crate::error::RecordingError;
 use crate::input::Policy;
 use crate::mapping::FileMapping;
 use crate::row::{self, Row, shown};
-use crate::samples::{Found, Samples};
+use crate::samples::{PlacedColumn, Samples};
 
 /// What a table gave.
 pub(crate) struct Table<K> {
@@ -119,7 +119,7 @@ fn refused(name: &str, message: String) -> RecordingError {
 struct Chosen<'a> {
     names: Vec<&'a str>,
     time: Option<usize>,
-    columns: Vec<Found<'a>>,
+    columns: Vec<PlacedColumn<'a>>,
 }
 
 impl<'a> Chosen<'a> {
@@ -140,10 +140,10 @@ impl<'a> Chosen<'a> {
         let is_mapped = |column: &str| file.columns.iter().any(|mapped| mapped.column == column);
         let names: Vec<&str> = all.iter().copied().filter(|column| is_time(column) || is_mapped(column)).collect();
         let position = |column: &str| names.iter().position(|other| *other == column);
-        let columns: Vec<Found<'a>> = file
+        let columns: Vec<PlacedColumn<'a>> = file
             .columns
             .iter()
-            .filter_map(|mapped| Some(Found { position: position(&mapped.column)?, mapped }))
+            .filter_map(|mapped| Some(PlacedColumn { position: position(&mapped.column)?, mapped }))
             .collect();
         if columns.is_empty() {
             let (file, mapping, hint) = (name.to_owned(), mapping.to_owned(), format!("columns: {}", all.join(", ")));

@@ -11,7 +11,7 @@ use crate::row::Row;
 
 /// A mapped column and where it is in a row.
 #[derive(Clone, Copy)]
-pub(crate) struct Found<'a> {
+pub(crate) struct PlacedColumn<'a> {
     pub(crate) position: usize,
     pub(crate) mapped: &'a ColumnMapping,
 }
@@ -28,7 +28,7 @@ pub(crate) struct Samples<'a, K> {
     prefix: String,
     /// A stamp of 0 is one that was never set.
     zero_is_unset: bool,
-    columns: Vec<Found<'a>>,
+    columns: Vec<PlacedColumn<'a>>,
     kept: Vec<K>,
     /// The latest stamp of all rows so far.
     latest_ns: Option<i64>,
@@ -43,7 +43,7 @@ impl<'a, K: Keep> Samples<'a, K> {
         place: Place,
         policy: Policy,
         time: (&'a TimeMapping, Option<usize>),
-        columns: Vec<Found<'a>>,
+        columns: Vec<PlacedColumn<'a>>,
     ) -> Self {
         let kept = columns.iter().map(|found| keep.of(found.mapped)).collect();
         let ledger = Ledger::new(file, place);
@@ -169,8 +169,8 @@ impl<'a, K: Keep> Samples<'a, K> {
     }
 
     /// The sample of a mapped column in SI; `None` for a gap.
-    fn value(&mut self, row: &impl Row, found: Found<'a>) -> Result<Option<f64>, RecordingError> {
-        let Found { position, mapped } = found;
+    fn value(&mut self, row: &impl Row, found: PlacedColumn<'a>) -> Result<Option<f64>, RecordingError> {
+        let PlacedColumn { position, mapped } = found;
         let column = || format!("{}{}", self.prefix, mapped.column);
         let problem = match row.number(position) {
             Ok(None) => return Ok(None),

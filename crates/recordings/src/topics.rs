@@ -14,7 +14,7 @@ use crate::error::RecordingError;
 use crate::input::{Opened, Policy};
 use crate::mapping::FileMapping;
 use crate::row::{self, Row};
-use crate::samples::{Found, Samples};
+use crate::samples::{PlacedColumn, Samples};
 
 /// One topic that is wanted.
 struct Wanted<'a, K> {
@@ -221,7 +221,7 @@ impl<'a, K: Keep> Wanted<'a, K> {
             return Err(RecordingError::BadTopic { file: name.to_owned(), topic, message_type, message: what });
         }
         self.kept = kept;
-        let found = columns.iter().enumerate().map(|(position, mapped)| Found { position, mapped }).collect();
+        let found = columns.iter().enumerate().map(|(position, mapped)| PlacedColumn { position, mapped }).collect();
         if self.samples.is_none() {
             self.about.clone_from(&message.topic.metadata);
             let time = (&self.file.time, Some(time_at));

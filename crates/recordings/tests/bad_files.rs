@@ -53,7 +53,7 @@ fn told(name: &str, bytes: &[u8]) -> String {
 }
 
 #[test]
-fn every_bad_file_is_told_as_the_manifest_says() {
+fn every_bad_file_is_reported_as_the_manifest_says() {
     for (name, words) in MANIFEST {
         let bytes = fs::read(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
         let told = told(name, &bytes);

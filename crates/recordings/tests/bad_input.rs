@@ -211,7 +211,7 @@ fn a_repeated_stamp_costs_only_samples_that_clash() {
 }
 
 #[test]
-fn an_empty_column_is_told() {
+fn an_empty_column_is_reported() {
     assert!(message("t,wz,curL\n0,,\n").contains("(every mapped cell is empty)"));
     let read = read_with(Policy::Normal, b"t,wz,curL\n0,1,\n1,2,\n").unwrap();
     assert_eq!(read.losses[0].to_string(), "a.csv: 1 column without a sample, column curL");

@@ -55,7 +55,7 @@ fn two_topics_on_two_clocks_with_units_and_signs() {
 }
 
 #[test]
-fn parts_of_a_split_bag_are_one_run_and_a_missing_one_is_told() {
+fn parts_of_a_split_bag_are_one_run_and_a_missing_one_is_reported() {
     let all = messages(30);
     let [first, second, third] = [0, 10, 20].map(|start| bag(&all[start..start + 10]));
     let files = [("w/walk/walk_2.mcap", &*third), ("w/walk/walk_0.mcap", &*first), ("w/walk/walk_1.mcap", &*second)];

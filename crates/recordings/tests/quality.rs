@@ -217,7 +217,7 @@ fn no_samples_and_one() {
 }
 
 #[test]
-fn held_stepwise_and_computed_signals_are_told() {
+fn held_stepwise_and_computed_signals_are_reported() {
     let (t_ns, values) = clean(1);
     let held: Vec<f64> = (0..SAMPLES).map(|i| values[i - i % 2]).collect();
     assert_eq!(kinds(&t_ns, &held), [FindingKind::Held]);
@@ -228,7 +228,7 @@ fn held_stepwise_and_computed_signals_are_told() {
 }
 
 #[test]
-fn bursts_and_uneven_stamps_are_told() {
+fn bursts_and_uneven_stamps_are_reported() {
     let (t_ns, values) = clean(2);
     // Four at a time.
     let bursts: Vec<i64> = (0..SAMPLES).map(|i| t_ns[i - i % 4 + 3] + (i % 4) as i64 * 5000).collect();
@@ -294,7 +294,7 @@ fn the_highest_plateau_of_a_set_point_is_no_clipping() {
 }
 
 #[test]
-fn a_dead_band_is_told_with_its_width() {
+fn a_dead_band_is_reported_with_its_width() {
     let t_ns = clean(7).0;
     let current = |i: usize| {
         let amps = 3.0 * (i as f64 * 0.05).sin().abs() + 0.3 * normal(8, i);

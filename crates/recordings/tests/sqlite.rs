@@ -105,7 +105,7 @@ fn old_bags_use_the_definitions_that_are_built_in() {
 }
 
 #[test]
-fn every_cut_is_told() {
+fn every_cut_is_reported() {
     let bytes = wheels(50);
     let original = expected(50);
     let mut partly = 0;

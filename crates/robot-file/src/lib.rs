@@ -2,10 +2,10 @@
 //! it answers commands. TOML or JSON, read and written.
 //!
 //! `keys`: what a file may say, from the table of constants of `robot-model`. `full`, `flat`: its two forms. `read`,
-//! `write`: between a file and a [`RobotSpec`]. `text`: where a key stands, for messages. [`cards`]: the effects that may
+//! `write`: between a file and a [`RobotSpec`]. `text`: where a key stands, for messages. [`catalogue_json`]: the effects that may
 //! stand in a file.
 
-pub mod cards;
+pub mod catalogue_json;
 mod error;
 mod flat;
 mod full;

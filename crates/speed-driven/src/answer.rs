@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn signals_that_are_not_used_are_told() {
+    fn signals_that_are_not_used_are_reported() {
         assert_eq!(unused([].iter()), None);
         let told = unused([Signal::AccelX, Signal::PoseX, Signal::AccelX].iter()).expect("told");
         assert!(told.starts_with("recorded but not used: accel_x, pose_x: slopes"), "{told}");

@@ -56,7 +56,7 @@ pub(crate) fn sigmas(r: &Ratio) -> f64 {
 }
 
 /// The ratios that sentences tell: pooled ones, and of single recordings those that no pooled one stands for.
-pub(crate) fn told(loads: &Loads) -> impl Iterator<Item = &Ratio> {
+pub(crate) fn reported(loads: &Loads) -> impl Iterator<Item = &Ratio> {
     let stands_for =
         |p: &Ratio, r: &Ratio| p.quantity == r.quantity && p.recording.split(", ").any(|n| n == r.recording);
     let single = move |r: &&Ratio| !loads.pooled.iter().any(|p| stands_for(p, r));

@@ -13,7 +13,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
 
 use crate::answer;
-use crate::compare::{Judgement, judgement, sigmas, told};
+use crate::compare::{Judgement, judgement, reported, sigmas};
 use crate::name::{Named, Naming};
 use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer};
@@ -48,7 +48,7 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
 /// The clearest difference of the effective track and that of the loads, the clearer first.
 pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
     let of = |track: bool| {
-        let own = told(loads).filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
+        let own = reported(loads).filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
         own.filter(|r| judgement(r) == Judgement::Differs).max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))
     };
     let mut out: Vec<&Ratio> = [of(true), of(false)].into_iter().flatten().collect();

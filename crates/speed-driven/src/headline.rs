@@ -6,7 +6,7 @@
 use inference::words::{quantity, revealed_by};
 use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict};
 
-use crate::compare::{Judgement, judgement, told};
+use crate::compare::{Judgement, judgement, reported};
 use crate::found::{longest, strongest};
 use crate::settings::{NAMING, naming::Sentences};
 use crate::words::{change, compared, how_it_stands, turning_change};
@@ -55,7 +55,7 @@ fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
 fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
     let strongest = strongest(loads);
     let mut out: Vec<String> = strongest.iter().map(|r| difference(r, theirs)).collect();
-    let all = told(loads).filter(|r| judgement(r) == Judgement::Differs).count();
+    let all = reported(loads).filter(|r| judgement(r) == Judgement::Differs).count();
     if all > strongest.len() {
         out.push(format!("In all, {all} comparisons differ; the others are listed below."));
     }

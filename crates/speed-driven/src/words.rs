@@ -1,7 +1,7 @@
 //! What a speed-driven case says in sentences.
 
 use crate::Alignment;
-use crate::compare::{Judgement, judgement, no_difference, told};
+use crate::compare::{Judgement, judgement, no_difference, reported};
 use crate::headline::headline;
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
@@ -20,7 +20,7 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
         let of = format!("in {} the {} is", r.recording, r.quantity.name());
         !out.iter().any(|s| s.contains(&of))
     };
-    let more: Vec<String> = told(loads).filter(said).map(|r| load(r, theirs)).collect();
+    let more: Vec<String> = reported(loads).filter(said).map(|r| load(r, theirs)).collect();
     out.extend(more);
 
     if loads.standstills.len() > 1 {

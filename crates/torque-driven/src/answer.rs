@@ -259,7 +259,7 @@ impl Judged<'_> {
             limits,
             trials: self.trials(retuned),
             costs: [p.misfit(&calibrated), retuned.cost, fault_free],
-            accusations: self.calibration.gate.accusations.clone(),
+            null_scores: self.calibration.null_scores.of_references.clone(),
             screened,
             tuning,
             retuned: retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),

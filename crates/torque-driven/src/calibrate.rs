@@ -9,7 +9,7 @@ use crate::case::Case;
 use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
-use crate::gate::Gate;
+use crate::null_scores::NullScores;
 use crate::run::Run;
 use crate::run_numbers::{UNKNOWN, constant};
 use crate::settings::fit::{Calibrating, SETTINGS};
@@ -28,7 +28,7 @@ pub(crate) struct Calibration {
     pub(crate) spread: f64,
     pub(crate) regimes: Regimes,
     /// Null scores of the references themselves.
-    pub(crate) gate: Gate,
+    pub(crate) null_scores: NullScores,
 }
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
@@ -107,8 +107,8 @@ pub(crate) fn calibrate(
         information: Mat::identity(NUISANCES, NUISANCES),
         centre: [0.0; NUISANCES],
         spread: CALIBRATING.usual_spread,
-        temper: options.temper,
-        kappa: options.kappa,
+        likelihood_power: options.likelihood_power,
+        outlier_scale: options.outlier_scale,
         step: options.step,
         largest_torque,
         drives: Drives::default(),
@@ -137,14 +137,14 @@ pub(crate) fn calibrate(
         .normal(&at.point, &at.response, &columns, &Columns(Vec::new()))
         .ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     let information = &normal.matrix + &problem.information;
-    let gate = Gate::new(&problem, &at.point, &information);
+    let null_scores = NullScores::new(&problem, &at.point, &information);
     Ok(Calibration {
         theta: at.point.theta,
         information,
         variance: problem.variance,
         spread: problem.spread,
         regimes,
-        gate,
+        null_scores,
     })
 }
 
@@ -164,7 +164,7 @@ impl Calibration {
             variance: Channels::from(CALIBRATING.usual_residual).map(|s| s * s),
             spread: CALIBRATING.usual_spread,
             regimes: Regimes::default(),
-            gate: Gate::default(),
+            null_scores: NullScores::default(),
         }
     }
 
@@ -266,8 +266,8 @@ pub(crate) fn problem<'a>(
         information: calibration.information.clone(),
         centre: calibration.theta,
         spread: calibration.spread,
-        temper: options.temper,
-        kappa: options.kappa,
+        likelihood_power: options.likelihood_power,
+        outlier_scale: options.outlier_scale,
         step: options.step,
         largest_torque,
         drives: Drives::default(),

@@ -6,7 +6,7 @@ use inference::evidence::{logistic, penalty_of_smallness, probabilities};
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
-use crate::trial::{Found, Trial};
+use crate::trial::{SearchResult, Trial};
 use crate::visits;
 use inference::hypothesis::{Place, Sizes, Variant};
 
@@ -107,8 +107,8 @@ pub(crate) fn fault_free_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
 
 /// Weighs all hypotheses.
 ///
-/// `scatter`: of the references' segments about their regimes; `gate`: the highest score of a fault-free drive.
-pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate: f64) -> Decision {
+/// `scatter`: of the references' segments about their regimes; `null_scores`: the highest score of a fault-free drive.
+pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64], null_score: f64) -> Decision {
     let base: &Fitted = &found.retuned;
     let mut scored: Vec<Scored> = found
         .singles
@@ -125,7 +125,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &Found, scatter: &[f64], gate
         })
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let none = PRICES.none.max(gate);
+    let none = PRICES.none.max(null_score);
     let fault_free = fault_free_cost(problem, scatter);
     let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / fault_free.max(1e-9)).ln();
@@ -154,7 +154,7 @@ mod tests {
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let problem = problem(&robot, &cuts);
         let retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
-        let found = Found { retuned, singles: Vec::new(), pairs: Vec::new(), screened: Vec::new() };
+        let found = SearchResult { retuned, singles: Vec::new(), pairs: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
@@ -180,7 +180,7 @@ mod tests {
         let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
         retuned.cost += 100.0;
         let singles = ["viscous_friction", "rolling_resistance"].map(|id| gained(&problem, &retuned, id, 24.0));
-        let found = Found { retuned, singles: singles.to_vec(), pairs: Vec::new(), screened: Vec::new() };
+        let found = SearchResult { retuned, singles: singles.to_vec(), pairs: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);
 
         let named: f64 = decision.scored.iter().map(|s| s.probability).sum();

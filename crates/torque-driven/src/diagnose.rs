@@ -13,7 +13,7 @@ use crate::search::{retune, search};
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulator::{Simulator, check_inputs};
-use crate::trial::{Found, Trial};
+use crate::trial::{SearchResult, Trial};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
@@ -97,7 +97,7 @@ impl Calibrated {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let mut found = search(&problem, progress);
             known.into_iter().for_each(|trial| found.include(trial));
-            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.gate.highest());
+            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.null_scores.highest());
             (found, decision)
         };
         let (mut found, mut decision) = weigh(&calibration, Vec::new());
@@ -150,7 +150,7 @@ impl Calibrated {
 fn constants_moved(
     before: &Problem<'_>,
     after: &Problem<'_>,
-    found: &Found,
+    found: &SearchResult,
     decision: &Decision,
 ) -> Option<Vec<Trial>> {
     let none = Trial { hypothesis: Hypothesis::default(), fitted: found.retuned.clone() };

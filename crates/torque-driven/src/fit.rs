@@ -95,9 +95,9 @@ pub(crate) struct Problem<'a> {
     /// Common factor of the run-to-run deviations.
     pub(crate) spread: f64,
     /// Share of the log-likelihood that counts, for correlation within a segment.
-    pub(crate) temper: f64,
+    pub(crate) likelihood_power: f64,
     /// Saturation of outliers.
-    pub(crate) kappa: f64,
+    pub(crate) outlier_scale: f64,
     /// Integration step, s.
     pub(crate) step: f64,
     /// Largest torque commanded, N m.
@@ -255,7 +255,8 @@ impl Problem<'_> {
 
     /// Tempered, saturated cost of a segment, nats.
     pub(crate) fn segment_cost(&self, run: usize, segment: usize, q: f64) -> f64 {
-        self.temper * saturated(q / self.regime[run][segment], self.cuts[run].segments[segment].count, self.kappa)
+        self.likelihood_power
+            * saturated(q / self.regime[run][segment], self.cuts[run].segments[segment].count, self.outlier_scale)
     }
 
     /// Cost of a response, without priors.
@@ -281,7 +282,8 @@ impl Problem<'_> {
 
     pub(crate) fn weight(&self, run: usize, segment: usize, q: f64) -> f64 {
         let regime = self.regime[run][segment];
-        self.temper / regime * saturation(q / regime, self.cuts[run].segments[segment].count, self.kappa)
+        self.likelihood_power / regime
+            * saturation(q / regime, self.cuts[run].segments[segment].count, self.outlier_scale)
     }
 
     /// Gauss–Newton from `start`: at most `steps`, each damped only where it must be until the cost falls.

@@ -225,7 +225,7 @@ mod tests {
     use crate::case::Case;
     use crate::channel::Channel;
     use crate::decide::Decision;
-    use crate::gate::Gate;
+    use crate::null_scores::NullScores;
     use crate::redundancy::Redundant;
     use crate::testing::{cutting, driven, problem};
     use crate::trial::Trial;
@@ -252,7 +252,7 @@ mod tests {
             variance: p.variance,
             spread: p.spread,
             regimes: Regimes::default(),
-            gate: Gate::default(),
+            null_scores: NullScores::default(),
         };
         let case = Case {
             robot,

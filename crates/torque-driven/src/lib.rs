@@ -7,7 +7,7 @@
 //!   free runs.
 //! * `redundancy/*`: sensor faults that two sensors show without any force law.
 //! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
-//! * `calibrate`, `gate`: constants and noise from the references, and the null score of each
+//! * `calibrate`, `null_scores`: constants and noise from the references, and the null score of each
 //!   reference.
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
@@ -34,7 +34,6 @@ mod disc;
 mod drives;
 mod fit;
 mod forward;
-mod gate;
 mod judged;
 mod leave_out;
 mod local;
@@ -42,6 +41,7 @@ mod locate;
 mod motion;
 mod next;
 mod normal;
+mod null_scores;
 mod onset;
 pub mod output_error;
 mod predict;

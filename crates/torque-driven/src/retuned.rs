@@ -84,7 +84,7 @@ mod tests {
     use testing::robot;
 
     #[test]
-    fn a_constant_that_moved_is_told_with_its_values_and_one_that_did_not_is_not() {
+    fn a_constant_that_moved_is_reported_with_its_values_and_one_that_did_not_is_not() {
         let robot = robot();
         let at = tunables::<f64>().iter().position(|t| t.id == "rolling_resistance").expect("tunable");
         let mut theta = [0.0; robot_model::tunable::COUNT];

@@ -8,7 +8,7 @@ use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::screen::screen;
 use crate::settings::search::{Finalists, Pairs, Retuning, SETTINGS};
-use crate::trial::{Found, Trial};
+use crate::trial::{SearchResult, Trial};
 use crate::{disc, onset};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
@@ -95,7 +95,7 @@ pub(crate) fn retune(problem: &Problem<'_>, h: &Hypothesis, start: Fitted) -> Fi
 }
 
 /// Runs the whole search on the recordings.
-pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
+pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchResult {
     let none = Hypothesis::default();
     let all = problem.variants();
     progress("screening every effect");
@@ -162,7 +162,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> Found {
             s.1 = s.1.max(c.evidence);
         }
     }
-    Found { retuned, singles, pairs, screened }
+    SearchResult { retuned, singles, pairs, screened }
 }
 
 /// Fits each member of a pair alone from the pair's tuning: a single that had not converged would invent a gain for

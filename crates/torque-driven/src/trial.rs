@@ -11,7 +11,7 @@ pub(crate) struct Trial {
 }
 
 /// All that the search found.
-pub(crate) struct Found {
+pub(crate) struct SearchResult {
     pub(crate) retuned: Fitted,
     pub(crate) singles: Vec<Trial>,
     pub(crate) pairs: Vec<Trial>,
@@ -19,7 +19,7 @@ pub(crate) struct Found {
     pub(crate) screened: Vec<(String, f64)>,
 }
 
-impl Found {
+impl SearchResult {
     /// Takes a fit that was found elsewhere, unless the same hypothesis was fitted better here.
     pub(crate) fn include(&mut self, trial: Trial) {
         let list = if trial.hypothesis.parts.len() > 1 { &mut self.pairs } else { &mut self.singles };

@@ -57,7 +57,8 @@ pub struct Diagnosis {
     pub costs: [f64; 3],
     /// The effect that each reference, left out in turn, would falsely be given, and its score: a
     /// hypothesis must do better.
-    pub accusations: Vec<(String, f64)>,
+    #[serde(alias = "accusations")]
+    pub null_scores: Vec<(String, f64)>,
     /// Evidence of the screen per effect, nats.
     pub screened: Vec<(String, f64)>,
     /// Constants of the robot as re-tuned together with the named effects, relative to sigma.
@@ -104,7 +105,7 @@ impl Diagnosis {
             limits: Vec::new(),
             trials: Vec::new(),
             costs: [0.0; 3],
-            accusations: Vec::new(),
+            null_scores: Vec::new(),
             screened: Vec::new(),
             tuning: BTreeMap::new(),
             retuned: Vec::new(),

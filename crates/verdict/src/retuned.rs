@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_re_tuning_is_told_with_both_values_its_interval_and_its_sigmas() {
+    fn a_re_tuning_is_reported_with_both_values_its_interval_and_its_sigmas() {
         let retuned = Retuned {
             constant: "rolling_resistance".to_owned(),
             unit: "-".to_owned(),

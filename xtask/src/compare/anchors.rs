@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn missing_anchors_are_told_with_their_folder_and_a_remedy() {
+    fn missing_anchors_are_reported_with_their_folder_and_a_remedy() {
         let folder = tempfile::tempdir().expect("a folder");
         let missing = folder.path().join("nowhere");
         let anchors = ready(Some(&missing), folder.path());

@@ -131,7 +131,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_failure_is_told_and_a_skipped_side_is_none() {
+    fn a_failure_is_reported_and_a_skipped_side_is_none() {
         let row = outcome(Side::Failed("exit code 1".into()), ran(&[1.0], "ms"));
         assert_eq!((row.failure(), row.ratio()), (Some("exit code 1"), None));
         assert_eq!(outcome(ran(&[1.0], "ms"), Side::Skipped("no make".into())).failure(), None);

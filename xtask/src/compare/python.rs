@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_python_that_is_none_is_told() {
+    fn a_python_that_is_none_is_reported() {
         let folder = tempfile::tempdir().expect("a folder");
         let why = ready(Some(&folder.path().join("snake")), folder.path()).expect_err("no Python");
         assert!(why.contains("snake") && why.contains("numba"), "{why}");

@@ -15,7 +15,7 @@ use crate::propose::{self, Proposal};
 use crate::which_mapping::{self, Glance};
 
 /// All that was found in the recordings.
-pub(super) struct Found {
+pub(super) struct Discovery {
     pub(super) mapping: Used,
     pub(super) surveyed: Surveyed,
     /// Tables that no mapping fits.
@@ -26,7 +26,7 @@ pub(super) struct Found {
 pub(super) type Bags = Vec<(String, Contents)>;
 
 /// Looks into bags and measures what a mapping reads of all recordings.
-pub(super) fn find(request: &Request<'_>, listener: &Listener<'_>) -> Result<(Bags, Found)> {
+pub(super) fn find(request: &Request<'_>, listener: &Listener<'_>) -> Result<(Bags, Discovery)> {
     let mut glances = Vec::new();
     for path in which_mapping::bags(request.paths)? {
         (listener.stage)(&path.display().to_string());
@@ -118,9 +118,9 @@ impl Candidates {
 
     /// The recordings by the mapping that was named, else by the first built-in one that fits all, else by the one that
     /// is proposed.
-    fn try_all(&self, request: &Request<'_>, listener: &Listener<'_>) -> Result<Found> {
+    fn try_all(&self, request: &Request<'_>, listener: &Listener<'_>) -> Result<Discovery> {
         let survey = |mapping: &Mapping| inputs::survey(mapping, request.paths, &request.options, listener.bytes);
-        let found = |mapping, surveyed| Ok(Found { mapping, surveyed, tables: Vec::new() });
+        let found = |mapping, surveyed| Ok(Discovery { mapping, surveyed, tables: Vec::new() });
         if let Some((name, mapping)) = &self.named {
             return found(Used::Named(name.clone()), survey(mapping)?);
         }
@@ -145,7 +145,7 @@ impl Candidates {
                 "no built-in mapping fits; name one with --mapping\n  {}",
                 failures.join("\n  ")
             );
-            return Ok(Found { mapping: Used::Nothing(None), surveyed: Surveyed::default(), tables });
+            return Ok(Discovery { mapping: Used::Nothing(None), surveyed: Surveyed::default(), tables });
         }
         let Some((bag, Proposal { toml, inferred })) = &self.proposed else {
             return found(Used::Nothing(None), Surveyed::default());

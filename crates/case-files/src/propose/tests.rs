@@ -113,7 +113,7 @@ fn sides_are_found_in_the_names_that_robots_have() {
 }
 
 #[test]
-fn joints_whose_side_is_in_doubt_are_not_mapped_and_the_reason_is_told() {
+fn joints_whose_side_is_in_doubt_are_not_mapped_and_the_reason_is_reported() {
     for (names, why) in [
         (&["wheel_1", "wheel_2"][..], "wheel_1, wheel_2 not mapped: the name says no side"),
         (&["wheel_f", "wheel_r"], "wheel_r not mapped: `r` in the name may be no side"),
@@ -148,7 +148,7 @@ fn names_that_were_made_up_take_no_time() {
 }
 
 #[test]
-fn commands_are_set_points_and_of_signals_that_are_there_twice_one_is_told() {
+fn commands_are_set_points_and_of_signals_that_are_there_twice_one_is_reported() {
     let wheels: &[&str] = &["left_wheel", "right_wheel"];
     let proposal = proposed(vec![
         topic("/cmd_joints", JOINTS, &[("velocity", wheels)]),

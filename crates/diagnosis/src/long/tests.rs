@@ -28,7 +28,7 @@ fn joined(extra: &[f64]) -> Vec<Recording> {
 }
 
 #[test]
-fn minutes_unlike_the_references_are_chosen_and_the_rest_is_told() {
+fn minutes_unlike_the_references_are_chosen_and_the_rest_is_reported() {
     let references = [drive("ref", 40.0, 0.0), drive("ref 2", 40.0, 0.02)];
     let mut extra = [0.0; 24];
     extra[13] = 0.5;

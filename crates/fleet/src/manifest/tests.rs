@@ -55,7 +55,7 @@ fn what_a_line_leaves_out_is_that_of_the_command_line() {
 }
 
 #[test]
-fn mistakes_are_told_with_their_place_and_the_nearest_name() {
+fn mistakes_are_reported_with_their_place_and_the_nearest_name() {
     for (text, told) in [
         ("recordings,robot\n", "line 1, column 1: unknown column `recordings`; did you mean `recording`?"),
         ("robot,robot_if,recording\n", "line 1, column 7: unknown column `robot_if`; did you mean `robot_id`?"),

@@ -16,19 +16,19 @@ pub enum Loss {
         /// Residuals of a block, n.
         block: usize,
         /// Mean square at which a block counts half, κ.
-        kappa: f64,
+        scale: f64,
     },
 }
 
-/// Cost of a block of `count` numbers with the sum of squares `q`, saturated at mean squares of `kappa`:
+/// Cost of a block of `count` numbers with the sum of squares `q`, saturated at mean squares of `scale`:
 /// `½ n κ ln(1 + q/(n κ))`, nats; 0 of nothing.
-pub fn saturated(q: f64, count: f64, kappa: f64) -> f64 {
-    if count == 0.0 { 0.0 } else { 0.5 * count * kappa * (q / (kappa * count)).ln_1p() }
+pub fn saturated(q: f64, count: f64, scale: f64) -> f64 {
+    if count == 0.0 { 0.0 } else { 0.5 * count * scale * (q / (scale * count)).ln_1p() }
 }
 
 /// Weight of such a block: `1/(1 + q/(n κ))`.
-pub fn saturation(q: f64, count: f64, kappa: f64) -> f64 {
-    1.0 / (1.0 + q / (kappa * count.max(1.0)))
+pub fn saturation(q: f64, count: f64, scale: f64) -> f64 {
+    1.0 / (1.0 + q / (scale * count.max(1.0)))
 }
 
 impl Loss {
@@ -38,8 +38,8 @@ impl Loss {
             Self::Square => r.iter().map(|r| 0.5 * r * r).sum(),
             Self::Huber(s) => r.iter().map(|r| if r.abs() < s { 0.5 * r * r } else { s * (r.abs() - 0.5 * s) }).sum(),
             Self::SoftL1(s) => r.iter().map(|r| s * s * ((1.0 + (r / s).powi(2)).sqrt() - 1.0)).sum(),
-            Self::Saturated { block, kappa } => {
-                r.chunks(block.max(1)).map(|b| saturated(squares(b), b.len() as f64, kappa)).sum()
+            Self::Saturated { block, scale } => {
+                r.chunks(block.max(1)).map(|b| saturated(squares(b), b.len() as f64, scale)).sum()
             }
         }
     }
@@ -50,9 +50,9 @@ impl Loss {
             Self::Square => vec![1.0; r.len()],
             Self::Huber(s) => r.iter().map(|r| s / r.abs().max(s)).collect(),
             Self::SoftL1(s) => r.iter().map(|r| (1.0 + (r / s).powi(2)).powf(-0.5)).collect(),
-            Self::Saturated { block, kappa } => r
+            Self::Saturated { block, scale } => r
                 .chunks(block.max(1))
-                .flat_map(|b| std::iter::repeat_n(saturation(squares(b), b.len() as f64, kappa), b.len()))
+                .flat_map(|b| std::iter::repeat_n(saturation(squares(b), b.len() as f64, scale), b.len()))
                 .collect(),
         }
     }
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn weights_are_slopes_over_residuals() {
         let r = [0.3, -2.0, 7.0, 0.9];
-        for loss in [Loss::Square, Loss::Huber(1.0), Loss::SoftL1(3.0), Loss::Saturated { block: 2, kappa: 4.0 }] {
+        for loss in [Loss::Square, Loss::Huber(1.0), Loss::SoftL1(3.0), Loss::Saturated { block: 2, scale: 4.0 }] {
             let weights = loss.weights(&r);
             for i in 0..r.len() {
                 let at = |h: f64| {

@@ -6,7 +6,7 @@ use anyhow::{Result, bail, ensure};
 use case_files::envelope::Program;
 use case_files::long::Budget;
 use clap::Args as ClapArgs;
-use fleet::{Defaults, Event, Found, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
+use fleet::{Defaults, Event, FolderContents, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
 use serde_json::json;
 
 use super::diagnose::minutes;
@@ -80,7 +80,7 @@ pub(crate) struct Args {
 
 /// Diagnoses a fleet.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
-    let Found { units, unread } = find(args)?;
+    let FolderContents { units, unread } = find(args)?;
     let all = units.len();
     let units: Vec<_> = units.into_iter().filter(|unit| args.shard.holds(&unit.id)).collect();
     let mine = units.len();
@@ -96,7 +96,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let plan = fleet::plan(units, &store, &settings)?;
     let (before, to_do, left) = (plan.done_before, plan.to_do.len(), plan.left);
     let progress = Counted::new(to_do, verbose);
-    let told = |event: &Event<'_>| match event {
+    let listener = |event: &Event<'_>| match event {
         Event::Prepared(robot, took) => progress.note(&format!("prepared {robot}"), *took),
         Event::Finished(row, took) => {
             let what = match row.outcome {
@@ -106,14 +106,14 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             progress.one(&format!("{} {}: {what}", row.outcome.name(), row.id), *took);
         }
     };
-    let ran = fleet::run(plan.to_do, &store, &settings, &told)?;
+    let ran = fleet::run(plan.to_do, &store, &settings, &listener)?;
     drop(progress);
 
     let (mut overview, mut found) = (Overview::default(), Vec::new());
     store.write_table(&mut |row| {
         overview.add(row);
         if args.page.is_some() {
-            found.push(fleet::seen(row));
+            found.push(fleet::diagnosed(row));
         }
     })?;
     if let Some(target) = &args.page {
@@ -153,7 +153,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 }
 
 /// The recordings that the arguments name.
-fn find(args: &Args) -> Result<Found> {
+fn find(args: &Args) -> Result<FolderContents> {
     let shown = args.input.display();
     if args.threads == Some(0) || args.limit == Some(0) {
         bail!(Usage("--threads and --limit take a number from 1 on".to_owned()));
@@ -174,7 +174,7 @@ fn find(args: &Args) -> Result<Found> {
     defaults.robot.as_deref().map(case_files::case_folder::robot).transpose()?;
     defaults.mapping.as_deref().map(case_files::case_folder::mapping).transpose()?;
     if args.input.is_file() {
-        return Ok(Found { units: fleet::manifest(&args.input, &defaults)?, unread: Vec::new() });
+        return Ok(FolderContents { units: fleet::manifest(&args.input, &defaults)?, unread: Vec::new() });
     }
     match &args.robot {
         Some(robot) => fleet::recordings_below(&args.input, robot, &defaults),

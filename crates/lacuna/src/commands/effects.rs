@@ -4,9 +4,9 @@ use anyhow::Result;
 use case_files::envelope::Program;
 use clap::Args as ClapArgs;
 use pages::text_table::TextTable;
-use robot_file::cards::FORMAT;
-use robot_file::cards::cause_json;
-use robot_file::cards::effects_json;
+use robot_file::catalogue_json::FORMAT;
+use robot_file::catalogue_json::cause_json;
+use robot_file::catalogue_json::effects_json;
 use serde_json::{Value, json};
 
 use super::Outcome;

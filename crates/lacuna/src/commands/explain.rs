@@ -8,9 +8,9 @@ use catalogue::{CauseSpec, Entry};
 use clap::Args as ClapArgs;
 use pages::text_table::TextTable;
 use recordings::suggest;
-use robot_file::cards::FORMAT;
-use robot_file::cards::cause_json;
-use robot_file::cards::effect_json;
+use robot_file::catalogue_json::FORMAT;
+use robot_file::catalogue_json::cause_json;
+use robot_file::catalogue_json::effect_json;
 use robot_model::EffectSpec;
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use case_files::envelope::Program;
 use clap::Args as ClapArgs;
-use fleet::{Store, merge, page, seen};
+use fleet::{Store, diagnosed, merge, page};
 use serde_json::json;
 
 use super::{Outcome, overview, report};
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let mut found = Vec::new();
     let merged = merge(&parts, &all, &mut |row| {
         if args.page.is_some() {
-            found.push(seen(row));
+            found.push(diagnosed(row));
         }
     })?;
     if let Some(target) = &args.page {

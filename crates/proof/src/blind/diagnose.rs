@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
-use case_files::answers::Told;
+use case_files::answers::Answer;
 use examiner::EffectId;
 use examiner::Plan;
 use rayon::prelude::*;
@@ -99,7 +99,7 @@ fn one(name: &str, seal: &Seal, layout: &Layout, binary: &Binary, fresh: bool) -
         let said = fs::read_to_string(&complaints).unwrap_or_default();
         bail!("lacuna ended with {}: {}", ended.status, said.trim());
     }
-    told(&diagnosis)?.write(&layout.answers(), name, ended.seconds)?;
+    answer(&diagnosis)?.write(&layout.answers(), name, ended.seconds)?;
     let record = Record {
         seal: digest,
         binary: binary.sha256.clone(),
@@ -119,10 +119,10 @@ fn before(name: &str, layout: &Layout) -> Option<Record> {
 }
 
 /// What a diagnosis says.
-pub(super) fn told(path: &Path) -> Result<Told> {
+pub(super) fn answer(path: &Path) -> Result<Answer> {
     let text = fs::read_to_string(path).with_context(|| format!("cannot read '{}'", path.display()))?;
-    let told = Told::read(&text).with_context(|| format!("'{}'", path.display()))?;
-    Ok(told.within(&vocabulary()))
+    let answer = Answer::read(&text).with_context(|| format!("'{}'", path.display()))?;
+    Ok(answer.within(&vocabulary()))
 }
 
 /// The effects that cases may hide; the catalogue has more.

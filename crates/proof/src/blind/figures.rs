@@ -40,7 +40,7 @@ pub(super) fn figures(rows: &[Row], failed: usize) -> Vec<Figure> {
     list.free("side right", all.side.share(), "");
     list.of_many("place and time, intersection over union, mean", mean(&all.overlaps), "", AtLeast(0.95));
     list.median("onset error, median", &all.onset_errors, "s", AtMost(0.3));
-    list.free("onsets reported", all.onsets_told.share(), "");
+    list.free("onsets reported", all.onsets_reported.share(), "");
     list.median("size, relative error, median", &all.size_errors, "", AtMost(0.03));
     list.free("size within 25 %", all.size_within_quarter().share(), "");
     list.free("size inside its 90 % interval", all.size_held.share(), "");

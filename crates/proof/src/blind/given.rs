@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use case_files::answers::Told;
+use case_files::answers::Answer;
 use case_files::{case_folder, predictions};
 use recordings::ReadOptions;
 
@@ -38,7 +38,7 @@ pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool>
         times.push(seconds);
         match outcome {
             Ok(d) => {
-                Told::of(&d)?.within(&vocabulary()).write(answers, &name, seconds)?;
+                Answer::of(&d)?.within(&vocabulary()).write(answers, &name, seconds)?;
                 predictions::write(&answers.join(&name), &d)?;
                 let whole = answers.join(&name).join("diagnosis.json");
                 fs::write(&whole, serde_json::to_string_pretty(&d)?)

@@ -27,7 +27,7 @@ pub(super) struct Totals {
     pub(super) side: Rate,
     pub(super) overlaps: Vec<f64>,
     pub(super) onset_errors: Vec<f64>,
-    pub(super) onsets_told: Rate,
+    pub(super) onsets_reported: Rate,
     pub(super) size_errors: Vec<f64>,
     pub(super) size_held: Rate,
     pub(super) briers: Vec<f64>,
@@ -54,7 +54,7 @@ impl Totals {
         let parts = || rows.iter().flat_map(|r| &r.parts);
         let some = |f: &dyn Fn(&Part) -> Option<f64>| parts().filter_map(f).collect::<Vec<f64>>();
         let errors = |r: &Part| r.onset_errors.clone();
-        let told: usize = parts().map(|p| p.onset_errors.len()).sum();
+        let reported: usize = parts().map(|p| p.onset_errors.len()).sum();
         let onsets: usize = parts().map(|p| p.onsets).sum();
         // Of drives on which what is hidden makes a difference.
         let gaps = |f: &dyn Fn(&Row) -> Option<f64>| hidden.clone().filter_map(|r| f(r)).collect::<Vec<f64>>();
@@ -74,7 +74,7 @@ impl Totals {
             side: parts().filter_map(|p| p.side_right).collect(),
             overlaps: some(&|p| p.overlap),
             onset_errors: parts().flat_map(errors).collect(),
-            onsets_told: Rate { hits: told, count: onsets },
+            onsets_reported: Rate { hits: reported, count: onsets },
             size_errors: some(&|p| p.size_error),
             size_held: parts().filter_map(|p| p.size_held).collect(),
             briers: rows.iter().map(|r| r.belief.brier).collect(),

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask, interval};
-use super::find::Found;
+use super::find::DataRun;
 use super::hide::{Sight, Table, copy};
 use super::husky::{ROBOT, Run, seen_folder};
 use super::witness::Witness;
@@ -141,6 +141,6 @@ pub(super) fn joined(binary: &Binary, first: &Run, second: &Run, references: &[&
     let nearest = all.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let changes = all.len();
     let told = nearest.map(|c| [interval(&c["onset"]), interval(&c["end"])]);
-    let name = |f: &Found| f.name.clone();
+    let name = |f: &DataRun| f.name.clone();
     Ok(Joined { names: [name(&first.found), name(&second.found)], join, told, changes, answer })
 }

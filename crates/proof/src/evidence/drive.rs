@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask};
 use super::drive_layout::{STEP, WINDOW, lay_out};
-use super::find::{Found, Kind};
+use super::find::{DataRun, Kind};
 use super::hide::Table;
 use crate::binary::Binary;
 
@@ -70,7 +70,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 /// Asks about one table; `others` are tables that may be fitted whole.
-pub(super) fn examine(binary: &Binary, found: &Found, others: &[Found], out: &Path) -> Result<Examined> {
+pub(super) fn examine(binary: &Binary, found: &DataRun, others: &[DataRun], out: &Path) -> Result<Examined> {
     let Kind::Drive(file) = &found.kind else { anyhow::bail!("'{}' is no table of DRIVE", found.name) };
     let table = Table::read(file)?;
     let robot = robot(&table)?;

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::Evidence;
 use super::ask::interval;
 use super::husky::Examined;
-use super::slopes::{Claim, Outcome, Seen};
+use super::slopes::{Claim, Outcome, SeenTilt};
 use super::turns::{Turns, share};
 use crate::output::{Asked, Figure};
 
@@ -136,7 +136,7 @@ fn tracks(e: &Evidence, out: &mut Vec<Figure>) {
 }
 
 /// What the witness saw, and what was claimed.
-type Slopes = (Vec<Seen>, Vec<Claim>);
+type Slopes = (Vec<SeenTilt>, Vec<Claim>);
 
 fn witnesses(e: &Evidence, out: &mut Vec<Figure>) {
     slopes_of(e, true, out);
@@ -183,7 +183,7 @@ fn slopes_of(e: &Evidence, hard: bool, out: &mut Vec<Figure>) {
         let name = |what: &str| format!("{ground}, {how}: {what}");
         let asked = |most: f64| hard.then_some(Asked::AtMost(most));
         let count = |o: Outcome| seen.iter().filter(|s| s.outcome == o).count() as f64;
-        let most = |of: &dyn Fn(&Seen) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
+        let most = |of: &dyn Fn(&SeenTilt) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
         if !seen.is_empty() {
             add(out, &name("tilts found"), Some(count(Outcome::Found)), "", None);
             add(out, &name("tilts reported as not observable"), Some(count(Outcome::Hidden)), "", None);

@@ -23,7 +23,7 @@ pub(super) enum Kind {
 
 /// A recording of a data set.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Found {
+pub(super) struct DataRun {
     /// Folder and number: `ASPHALT_00`, `case-07`.
     pub(super) name: String,
     /// The folder's name; a ground where the folders are labelled.
@@ -31,7 +31,7 @@ pub(super) struct Found {
     pub(super) kind: Kind,
 }
 
-impl Found {
+impl DataRun {
     /// Labelled as ground on which wheels do not sink.
     pub(super) fn is_hard(&self) -> bool {
         ["FLOORING", "ASPHALT"].contains(&self.label.as_str())
@@ -50,14 +50,14 @@ impl Found {
 const DEPTH: usize = 4;
 
 /// All recordings below a folder, by name.
-pub(super) fn find(folder: &Path) -> Result<Vec<Found>> {
+pub(super) fn find(folder: &Path) -> Result<Vec<DataRun>> {
     ensure!(folder.is_dir(), "there is no folder '{}'; name one with --data", folder.display());
     let mut out = Vec::new();
     look(folder, DEPTH, &mut out)?;
     // A bag has a folder, however many parts it is split into.
     out.dedup_by(|a, b| matches!(a.kind, Kind::KobukiBag(_)) && a.kind == b.kind);
     // A folder that holds one table gives it its name.
-    let alone = |found: &Found| {
+    let alone = |found: &DataRun| {
         matches!(found.kind, Kind::Drive(_)) && out.iter().filter(|o| o.label == found.label).count() == 1
     };
     let names: Vec<String> = out.iter().map(|f| if alone(f) { f.label.clone() } else { f.name.clone() }).collect();
@@ -68,7 +68,7 @@ pub(super) fn find(folder: &Path) -> Result<Vec<Found>> {
     Ok(out)
 }
 
-fn look(folder: &Path, depth: usize, out: &mut Vec<Found>) -> Result<()> {
+fn look(folder: &Path, depth: usize, out: &mut Vec<DataRun>) -> Result<()> {
     let mut inside: Vec<PathBuf> = fs::read_dir(folder)
         .and_then(|all| all.map(|e| e.map(|e| e.path())).collect())
         .with_context(|| format!("cannot list '{}'", folder.display()))?;
@@ -91,7 +91,7 @@ fn look(folder: &Path, depth: usize, out: &mut Vec<Found>) -> Result<()> {
             Kind::Drive(_) => format!("{label}_{stem}"),
             Kind::KobukiTable { .. } | Kind::KobukiBag(_) => label.clone(),
         };
-        out.push(Found { name, label, kind });
+        out.push(DataRun { name, label, kind });
     }
     Ok(())
 }

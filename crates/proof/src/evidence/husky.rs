@@ -7,9 +7,9 @@ use inference::robust::NINETY;
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask, interval};
-use super::find::Found;
+use super::find::DataRun;
 use super::hide::{Sight, Table, copy};
-use super::slopes::{Claim, Seen, as_json, claims, seen};
+use super::slopes::{Claim, SeenTilt, as_json, claims, seen};
 use super::turns::{Turns, turns};
 use super::witness::Witness;
 use crate::binary::Binary;
@@ -19,14 +19,14 @@ pub(super) const ROBOT: &str = "husky-a200";
 
 /// A recording of a Husky as it is given to the program: by a random id, without labels.
 pub(super) struct Run {
-    pub(super) found: Found,
+    pub(super) found: DataRun,
     pub(super) id: String,
     pub(super) speeds: Table,
     pub(super) inertial: Option<Table>,
 }
 
 impl Run {
-    pub(super) fn read(found: &Found) -> Result<Self> {
+    pub(super) fn read(found: &DataRun) -> Result<Self> {
         let (speeds, inertial) = found.husky().context("this is no recording of a Husky")?;
         // An id that says nothing, and is the same for the same recording under another name.
         let bytes = std::fs::read(speeds).with_context(|| format!("cannot read '{}'", speeds.display()))?;
@@ -72,8 +72,8 @@ pub(super) struct Examined {
     /// Everything seen: what differs from the references.
     pub(super) open: Answer,
     /// By currents; by currents and gyro: what the witness saw, what was claimed.
-    pub(super) by_currents: Option<(Vec<Seen>, Vec<Claim>)>,
-    pub(super) by_gyro: Option<(Vec<Seen>, Vec<Claim>)>,
+    pub(super) by_currents: Option<(Vec<SeenTilt>, Vec<Claim>)>,
+    pub(super) by_gyro: Option<(Vec<SeenTilt>, Vec<Claim>)>,
     pub(super) turns: Option<Turns>,
     /// Where the currents could show nothing, s.
     pub(super) hidden: Vec<[f64; 2]>,
@@ -122,7 +122,7 @@ pub(super) fn examine(binary: &Binary, run: &Run, references: &[&Run], out: &Pat
     let beside = |answer: &Answer, hides: bool| witness.as_ref().map(|w| (seen(answer, w, hides), claims(answer, w)));
     let (by_currents, by_gyro) = (beside(&currents, true), beside(&gyro, false));
     let turned = witness.as_ref().map(|w| turns(&withheld, w));
-    let with_witness = |answer: &Answer, both: &Option<(Vec<Seen>, Vec<Claim>)>| {
+    let with_witness = |answer: &Answer, both: &Option<(Vec<SeenTilt>, Vec<Claim>)>| {
         let mut v = answer.seal();
         v["changes"] = answer.diagnosis["steady"]["changes"].clone();
         v["witness"] = both.as_ref().map_or(Value::Null, |(s, c)| as_json(s, c));

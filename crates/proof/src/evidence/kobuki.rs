@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use super::ask::{Answer, Question, ask};
-use super::find::{Found, Kind};
+use super::find::{DataRun, Kind};
 use super::hide::Table;
 use crate::binary::Binary;
 
@@ -123,7 +123,7 @@ fn track_by_heading(base: &Table, inertial: &Table) -> Result<Option<f64>> {
 }
 
 /// Asks about one recording of a Kobuki.
-pub(super) fn examine(binary: &Binary, found: &Found, out: &Path) -> Result<Examined> {
+pub(super) fn examine(binary: &Binary, found: &DataRun, out: &Path) -> Result<Examined> {
     let id = examiner::sha256(format!("evidence {}", found.name).as_bytes())[..8].to_owned();
     let verdict = out.join("verdicts").join(format!("{id}-kobuki.json"));
     let say = |mapping: &Path, recording: PathBuf| {

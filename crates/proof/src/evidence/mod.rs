@@ -25,7 +25,7 @@ mod tables;
 mod turns;
 mod witness;
 
-use find::{Found, Kind};
+use find::{DataRun, Kind};
 use hide::Sight;
 
 const EXAMPLES: &str = "\
@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         return Ok(true);
     }
     let all = find::find(&data)?;
-    let chosen: Vec<&Found> = all.iter().filter(|f| args.case.is_empty() || args.case.contains(&f.name)).collect();
+    let chosen: Vec<&DataRun> = all.iter().filter(|f| args.case.is_empty() || args.case.contains(&f.name)).collect();
     let unknown = args.case.iter().any(|name| !all.iter().any(|f| f.name == *name));
     ensure!(!chosen.is_empty() && !unknown, "{}", nothing(&all, &data, &args.case));
     let out = match &args.out {
@@ -110,7 +110,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
 }
 
 /// Why nothing can be done.
-fn nothing(all: &[Found], data: &Path, asked: &[String]) -> String {
+fn nothing(all: &[DataRun], data: &Path, asked: &[String]) -> String {
     let names: Vec<&str> = all.iter().map(|f| f.name.as_str()).collect();
     if names.is_empty() {
         return format!("'{}' holds no recording that is known here", data.display());
@@ -120,12 +120,12 @@ fn nothing(all: &[Found], data: &Path, asked: &[String]) -> String {
 
 /// Runs in which the simulation is taken to be right: those named, else those labelled so in the data, else in the
 /// open data.
-fn references(named: Option<&Path>, all: &[Found], chosen: &[&Found]) -> Result<Vec<husky::Run>> {
+fn references(named: Option<&Path>, all: &[DataRun], chosen: &[&DataRun]) -> Result<Vec<husky::Run>> {
     if !chosen.iter().any(|f| f.husky().is_some()) {
         return Ok(Vec::new());
     }
-    let husky = |list: Vec<Found>| list.into_iter().filter(|f| f.husky().is_some()).collect::<Vec<_>>();
-    let labelled = |list: &[Found]| husky(list.iter().filter(|f| f.label == REFERENCE).cloned().collect());
+    let husky = |list: Vec<DataRun>| list.into_iter().filter(|f| f.husky().is_some()).collect::<Vec<_>>();
+    let labelled = |list: &[DataRun]| husky(list.iter().filter(|f| f.label == REFERENCE).cloned().collect());
     let mut found = match named {
         Some(folder) => husky(find::find(folder)?),
         None => labelled(all),
@@ -141,7 +141,13 @@ fn references(named: Option<&Path>, all: &[Found], chosen: &[&Found]) -> Result<
     found.iter().map(husky::Run::read).collect()
 }
 
-fn examine(chosen: &[&Found], references: &[husky::Run], named: &[Found], whole: bool, out: &Path) -> Result<Evidence> {
+fn examine(
+    chosen: &[&DataRun],
+    references: &[husky::Run],
+    named: &[DataRun],
+    whole: bool,
+    out: &Path,
+) -> Result<Evidence> {
     let binary = binary::find()?;
     let mut runs: Vec<husky::Run> = Vec::new();
     for found in chosen.iter().filter(|f| f.husky().is_some()) {

@@ -7,7 +7,7 @@ use super::witness::{Tilted, Witness};
 
 /// A stretch in which the witness tilts, and what the program made of it.
 #[derive(Debug, Clone)]
-pub(super) struct Seen {
+pub(super) struct SeenTilt {
     pub(super) tilted: Tilted,
     pub(super) outcome: Outcome,
     /// Errors of onset and end, s; `None` where turns or stops hide the moment.
@@ -83,11 +83,11 @@ pub(super) fn claims(answer: &Answer, witness: &Witness) -> Vec<Claim> {
 }
 
 /// Every stretch in which the witness tilts, with what the program said of it; `hides` if turns hide slopes from it.
-pub(super) fn seen(answer: &Answer, witness: &Witness, hides: bool) -> Vec<Seen> {
+pub(super) fn seen(answer: &Answer, witness: &Witness, hides: bool) -> Vec<SeenTilt> {
     witness.tilted().into_iter().map(|t| one(t, answer, witness, hides)).collect()
 }
 
-fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> Seen {
+fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> SeenTilt {
     let length = tilted.interval[1] - tilted.interval[0];
     let best = answer
         .changes("found")
@@ -98,7 +98,7 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> Seen 
     let hidden: f64 = answer.changes("hidden").iter().map(|h| overlap(interval(&h["interval"]), tilted.interval)).sum();
     let Some((_, change)) = best else {
         let outcome = if hides && hidden > MOSTLY * length { Outcome::Hidden } else { Outcome::Missed };
-        return Seen { tilted, outcome, onset: None, end: None, angle: None, contradicted: false, decided: false };
+        return SeenTilt { tilted, outcome, onset: None, end: None, angle: None, contradicted: false, decided: false };
     };
     let moment = |what: &str, truth: f64| {
         let [a, b] = interval(&change[what]);
@@ -107,7 +107,7 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> Seen 
     let slope = change["slope"].as_f64().unwrap_or(f64::NAN);
     let bound = change["bound"].as_bool().unwrap_or(false);
     let there = witness.mean_slope(interval(&change["interval"])).unwrap_or(tilted.slope);
-    Seen {
+    SeenTilt {
         tilted,
         outcome: Outcome::Found,
         onset: moment("onset", tilted.interval[0]),
@@ -119,7 +119,7 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> Seen 
 }
 
 /// For the recording's file.
-pub(super) fn as_json(seen: &[Seen], claims: &[Claim]) -> Value {
+pub(super) fn as_json(seen: &[SeenTilt], claims: &[Claim]) -> Value {
     let seen: Vec<Value> = seen
         .iter()
         .map(|s| {

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::Evidence;
 use super::husky::Examined;
-use super::slopes::{Claim, Outcome, Seen};
+use super::slopes::{Claim, Outcome, SeenTilt};
 use crate::document::{Section, number, to_markdown, to_page, to_text, toned};
 use crate::output::{self, Figure};
 
@@ -106,7 +106,7 @@ fn span([a, b]: [f64; 2]) -> String {
     format!("{a:.1}-{b:.1}")
 }
 
-fn tilts(e: &Evidence, title: &str, of: impl Fn(&Examined) -> Option<&(Vec<Seen>, Vec<Claim>)>) -> [Section; 2] {
+fn tilts(e: &Evidence, title: &str, of: impl Fn(&Examined) -> Option<&(Vec<SeenTilt>, Vec<Claim>)>) -> [Section; 2] {
     let mut seen = Section::new(
         &format!("{title}: what the witness saw"),
         "Stretches in which the accelerometer tilts, and what had been said of them. `-`: entered or left out of sight, or a bound.",

@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_verdict_is_told_before_its_explanation() {
+    fn a_long_verdict_is_reported_before_its_explanation() {
         let first = "The wheels do not do what is commanded, and neither slip nor friction explains it";
         let why = "the wheels leave the command ".repeat(8);
         let sentences = vec![format!("{first}: {why}")];

@@ -24,7 +24,7 @@ pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
         return;
     }
     // First what changes, then what is known best.
-    series.sort_by_key(|s| std::cmp::Reverse((s.trend.is_some_and(|t| t.is_told()), s.points.len())));
+    series.sort_by_key(|s| std::cmp::Reverse((s.trend.is_some_and(|t| t.is_clear()), s.points.len())));
     series.truncate(MOST);
     page.section("Over time", "Sizes over time");
     page.grid(&series.iter().map(|s| figure(s)).collect::<Vec<_>>());
@@ -69,9 +69,9 @@ fn figure(s: &Series<'_>) -> Figure {
     let mut lines = vec![sizes];
     if let (Some(trend), Some(first), Some(last)) = (s.trend, shown.first(), shown.last()) {
         let x = [first[0], last[0]];
-        let name = if trend.is_told() { "trend" } else { "line, no clear trend" };
+        let name = if trend.is_clear() { "trend" } else { "line, no clear trend" };
         let line = Line::new(name, &x, &x.map(|x| trend.at(x + origin)));
-        let role = Some(if trend.is_told() { Role::Before } else { Role::Placebo });
+        let role = Some(if trend.is_clear() { Role::Before } else { Role::Placebo });
         lines.push(Line { role, ..line.dashed() });
     }
     let unit = if s.unit == "-" { String::new() } else { format!(", {}", s.unit) };
@@ -123,7 +123,7 @@ fn trend_in_words(s: &Series<'_>) -> String {
     let unit = if s.unit == "-" { String::new() } else { format!("{} ", s.unit) };
     let [slope, half] = [trend.slope, trend.half].map(|v| factor * v);
     let change = format!("{} ± {} {unit}per {per} (90 %)", number(slope), number(half));
-    if trend.is_told() {
+    if trend.is_clear() {
         format!("It {} by {change}.", if slope > 0.0 { "rises" } else { "falls" })
     } else {
         format!("No clear trend: {change}.")

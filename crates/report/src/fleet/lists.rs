@@ -1,6 +1,6 @@
 //! Recordings without an answer.
 
-use super::seen::{Finding, Seen};
+use super::recording::{DiagnosedRecording, Finding};
 use super::series::{Fleet, day, natural};
 use crate::page::{Cell, Page};
 
@@ -9,8 +9,9 @@ const MOST: usize = 100;
 
 /// Adds the section, where there is any.
 pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
-    let of = |why: fn(&Finding) -> Option<&str>| -> Vec<(&Seen, &str)> {
-        let mut out: Vec<(&Seen, &str)> = all.seen.iter().filter_map(|s| Some((s, why(&s.finding)?))).collect();
+    let of = |why: fn(&Finding) -> Option<&str>| -> Vec<(&DiagnosedRecording, &str)> {
+        let mut out: Vec<(&DiagnosedRecording, &str)> =
+            all.seen.iter().filter_map(|s| Some((s, why(&s.finding)?))).collect();
         out.sort_by(|a, b| natural(&a.0.id, &b.0.id));
         out
     };
@@ -26,7 +27,7 @@ pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
         }
         let more =
             if list.len() > MOST { format!("the first {MOST} of {}", list.len()) } else { list.len().to_string() };
-        let row = |(one, why): &(&Seen, &str)| -> Vec<Cell> {
+        let row = |(one, why): &(&DiagnosedRecording, &str)| -> Vec<Cell> {
             vec![one.id.as_str().into(), one.robot.as_str().into(), day(one.date).into(), (*why).into()]
         };
         let rows: Vec<Vec<Cell>> = list.iter().take(MOST).map(row).collect();

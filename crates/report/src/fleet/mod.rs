@@ -3,20 +3,20 @@
 mod charts;
 mod lists;
 mod overview;
+mod recording;
 mod robots;
-mod seen;
 mod series;
 mod since;
 mod trend;
 
 use crate::page::Page;
 
-pub use seen::{Finding, Named, Seen};
+pub use recording::{DiagnosedRecording, Finding, Named};
 pub use since::{Change, Since, since};
 pub use trend::{Trend, trend};
 
 /// The page of a fleet. Recordings may come in any order; `program` is what diagnosed them.
-pub fn render(seen: &[Seen], program: &str) -> String {
+pub fn render(seen: &[DiagnosedRecording], program: &str) -> String {
     let all = series::Fleet::new(seen);
     let heading = overview::heading(&all);
     let mut page = Page::headed(&format!("Fleet: {heading}"), "Fleet", &[heading]);

@@ -35,7 +35,7 @@ pub(super) fn add(page: &mut Page, all: &Fleet<'_>) {
     page.markup(&facts(all));
     let trends: Vec<String> = all
         .series()
-        .filter(|s| s.trend.is_some_and(|t| t.is_told()))
+        .filter(|s| s.trend.is_some_and(|t| t.is_clear()))
         .map(|s| format!("{}, {}", s.robot, s.name))
         .collect();
     if let Some(first) = trends.first() {

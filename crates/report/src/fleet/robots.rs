@@ -1,8 +1,8 @@
 //! Robots by effects: what is there, how large, since when.
 
 use super::charts::since_in_words;
-use super::seen::Finding;
-use super::series::{Fleet, RobotSeen, Series, day};
+use super::recording::Finding;
+use super::series::{Fleet, RobotHistory, Series, day};
 use crate::page::{Cell, Page, Tone};
 use crate::words::{number, probability};
 
@@ -61,7 +61,7 @@ fn effect(s: &Series<'_>) -> Vec<Cell> {
     ]
 }
 
-fn robot(r: &RobotSeen<'_>) -> Vec<Cell> {
+fn robot(r: &RobotHistory<'_>) -> Vec<Cell> {
     let count = |is: &dyn Fn(&Finding) -> bool| r.seen.iter().filter(|s| is(&s.finding)).count();
     let plain = |n: usize| Cell::from(n.to_string());
     let bad = |n: usize| Cell { text: n.to_string(), tone: if n > 0 { Tone::Bad } else { Tone::Plain } };

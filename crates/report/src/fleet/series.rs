@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use chrono::DateTime;
 
-use super::seen::{Finding, Named, Seen};
+use super::recording::{DiagnosedRecording, Finding, Named};
 use super::since::{Since, since};
 use super::trend::{Trend, trend};
 
@@ -14,16 +14,16 @@ const DAY_MS: f64 = 86_400_000.0;
 
 /// All recordings of a fleet.
 pub(super) struct Fleet<'a> {
-    pub(super) seen: &'a [Seen],
+    pub(super) seen: &'a [DiagnosedRecording],
     /// By name, in its natural order.
-    pub(super) robots: Vec<RobotSeen<'a>>,
+    pub(super) robots: Vec<RobotHistory<'a>>,
 }
 
 /// The recordings of one robot.
-pub(super) struct RobotSeen<'a> {
+pub(super) struct RobotHistory<'a> {
     pub(super) name: &'a str,
     /// In the order of time; of ids where a date is missing.
-    pub(super) seen: Vec<&'a Seen>,
+    pub(super) seen: Vec<&'a DiagnosedRecording>,
     pub(super) series: Vec<Series<'a>>,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Series<'a> {
     /// Recordings in which it is named.
     pub(super) points: Vec<Point<'a>>,
     /// Recordings with an answer.
-    pub(super) answers: Vec<&'a Seen>,
+    pub(super) answers: Vec<&'a DiagnosedRecording>,
     pub(super) trend: Option<Trend>,
     pub(super) since: Since,
 }
@@ -48,7 +48,7 @@ pub(super) struct Series<'a> {
 pub(super) struct Point<'a> {
     /// Days since 1970, or the number of the recording from 1.
     pub(super) x: f64,
-    pub(super) seen: &'a Seen,
+    pub(super) seen: &'a DiagnosedRecording,
     pub(super) named: &'a Named,
 }
 
@@ -61,13 +61,13 @@ impl Point<'_> {
 }
 
 impl<'a> Fleet<'a> {
-    pub(super) fn new(seen: &'a [Seen]) -> Self {
-        let mut by_robot: BTreeMap<&str, Vec<&Seen>> = BTreeMap::new();
+    pub(super) fn new(seen: &'a [DiagnosedRecording]) -> Self {
+        let mut by_robot: BTreeMap<&str, Vec<&DiagnosedRecording>> = BTreeMap::new();
         for one in seen {
             by_robot.entry(&one.robot).or_default().push(one);
         }
-        let mut robots: Vec<RobotSeen<'_>> =
-            by_robot.into_iter().map(|(name, seen)| RobotSeen::new(name, seen)).collect();
+        let mut robots: Vec<RobotHistory<'_>> =
+            by_robot.into_iter().map(|(name, seen)| RobotHistory::new(name, seen)).collect();
         robots.sort_by(|a, b| natural(a.name, b.name));
         Self { seen, robots }
     }
@@ -82,16 +82,16 @@ impl<'a> Fleet<'a> {
     }
 }
 
-impl<'a> RobotSeen<'a> {
-    fn new(name: &'a str, mut seen: Vec<&'a Seen>) -> Self {
+impl<'a> RobotHistory<'a> {
+    fn new(name: &'a str, mut seen: Vec<&'a DiagnosedRecording>) -> Self {
         // What could not be read tells no date, and has no size to be dated.
         let dated = seen.iter().all(|s| s.date.is_some() || !s.finding.is_answer());
         seen.sort_by(|a, b| {
-            let date = |one: &Seen| (one.date.is_none(), one.date);
+            let date = |one: &DiagnosedRecording| (one.date.is_none(), one.date);
             let by_date = if dated { date(a).cmp(&date(b)) } else { Ordering::Equal };
             by_date.then_with(|| natural(&a.id, &b.id))
         });
-        let answers: Vec<&Seen> = seen.iter().copied().filter(|s| s.finding.is_answer()).collect();
+        let answers: Vec<&DiagnosedRecording> = seen.iter().copied().filter(|s| s.finding.is_answer()).collect();
         let mut points: BTreeMap<(&str, Option<&str>), Vec<Point<'_>>> = BTreeMap::new();
         for (number, &one) in answers.iter().enumerate() {
             let Finding::Explained(all) = &one.finding else { continue };
@@ -103,7 +103,7 @@ impl<'a> RobotSeen<'a> {
         }
         let series = points.into_iter().filter_map(|((effect, _), points)| {
             let last = points.last()?.named;
-            let is_here = |one: &Seen| points.iter().any(|p| std::ptr::eq(p.seen, one));
+            let is_here = |one: &DiagnosedRecording| points.iter().any(|p| std::ptr::eq(p.seen, one));
             let named: Vec<bool> = answers.iter().map(|one| is_here(one)).collect();
             let sized: Vec<[f64; 3]> =
                 points.iter().filter_map(|p| p.sized().map(|[value, half]| [p.x, value, half])).collect();

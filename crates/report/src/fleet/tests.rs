@@ -31,7 +31,7 @@ fn on_noise_a_trend_is_claimed_at_the_stated_rate_at_most() {
     let mut noise = Noise(7);
     for (count, scatter) in [(5, 0.0), (5, 0.2), (12, 0.05), (40, 0.0), (40, 0.2)] {
         let runs = 2000;
-        let told = (0..runs).filter(|_| trend(&noisy(count, 0.0, scatter, &mut noise)).is_some_and(|t| t.is_told()));
+        let told = (0..runs).filter(|_| trend(&noisy(count, 0.0, scatter, &mut noise)).is_some_and(|t| t.is_clear()));
         let share = told.count() as f64 / f64::from(runs);
         // Stated are 10 %; three sigmas of 2000 draws are 2 %.
         assert!(share < 0.12, "{count} recordings, scatter {scatter}: {share}");
@@ -47,7 +47,7 @@ fn intervals_of_slopes_hold_the_true_one_and_exclude_zero_where_it_is_large() {
         let trends: Vec<Trend> = (0..runs).filter_map(|_| trend(&noisy(15, slope, scatter, &mut noise))).collect();
         let held = trends.iter().filter(|t| (t.slope - slope).abs() <= t.half).count();
         assert!(held as f64 / f64::from(runs) > 0.87, "{held} of {runs} at scatter {scatter}");
-        assert!(trends.iter().filter(|t| t.is_told()).count() > 900);
+        assert!(trends.iter().filter(|t| t.is_clear()).count() > 900);
     }
 }
 
@@ -58,7 +58,7 @@ fn what_no_line_can_be_fitted_to_has_no_trend() {
     assert_eq!(trend(&[2.0; 6].map(point)), None);
     let mut six = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(point);
     let flat = trend(&six).expect("a line");
-    assert!(flat.slope.abs() < 1e-12 && flat.scatter < 1e-12 && !flat.is_told());
+    assert!(flat.slope.abs() < 1e-12 && flat.scatter < 1e-12 && !flat.is_clear());
     six[2][2] = 0.0;
     assert_eq!(trend(&six), None);
     six[2][2] = f64::NAN;
@@ -66,7 +66,7 @@ fn what_no_line_can_be_fitted_to_has_no_trend() {
 }
 
 #[test]
-fn a_change_is_told_with_its_interval_and_not_where_there_is_none() {
+fn a_change_is_reported_with_its_interval_and_not_where_there_is_none() {
     let step = |before: usize, after: usize| {
         let mut named = vec![false; before];
         named.extend(vec![true; after]);
@@ -114,13 +114,13 @@ fn named(magnitude: f64) -> Named {
 }
 
 /// Recordings of a robot, one a week: fault-free, then with an effect that grows.
-fn worn(robot: &str, healthy: u32, ill: u32, growth: f64) -> Vec<Seen> {
-    (0..healthy + ill)
-        .map(|week| Seen {
+fn worn(robot: &str, fault_free: u32, ill: u32, growth: f64) -> Vec<DiagnosedRecording> {
+    (0..fault_free + ill)
+        .map(|week| DiagnosedRecording {
             id: format!("{robot}/run_{week}"),
             robot: robot.to_owned(),
             date: Some(1_767_225_600_000 + 604_800_000 * i64::from(week)),
-            finding: match week.checked_sub(healthy) {
+            finding: match week.checked_sub(fault_free) {
                 None => Finding::NoMismatch,
                 Some(n) => Finding::Explained(vec![named(1.0 + growth * f64::from(n))]),
             },
@@ -133,7 +133,7 @@ fn the_page_says_who_differs_by_what_since_when_and_whether_it_grows() {
     let mut seen = worn("unit-17", 8, 9, 0.2);
     seen.extend(worn("unit-2", 6, 0, 0.0));
     seen.extend(worn("unit-3", 0, 3, 0.0));
-    seen.push(Seen {
+    seen.push(DiagnosedRecording {
         id: "x".into(),
         robot: "unit-2".into(),
         date: None,
@@ -169,7 +169,7 @@ fn a_fleet_without_findings_and_an_empty_one_still_make_pages() {
 
 #[test]
 fn thousands_of_recordings_make_a_page_that_says_what_it_left_out() {
-    let mut seen: Vec<Seen> = (0..400).flat_map(|i| worn(&format!("unit-{i}"), 4, 8, 0.1)).collect();
+    let mut seen: Vec<DiagnosedRecording> = (0..400).flat_map(|i| worn(&format!("unit-{i}"), 4, 8, 0.1)).collect();
     seen.extend(worn("old", 100, 1500, 0.01));
     for one in &mut seen[..300] {
         one.finding = Finding::Failed("cut off".to_owned());

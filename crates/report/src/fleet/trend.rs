@@ -32,7 +32,7 @@ pub struct Trend {
 
 impl Trend {
     /// Whether the interval of the slope leaves out zero.
-    pub fn is_told(&self) -> bool {
+    pub fn is_clear(&self) -> bool {
         self.slope.abs() > self.half
     }
 

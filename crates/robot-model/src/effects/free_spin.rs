@@ -18,7 +18,7 @@ pub const SPEC: EffectSpec = EffectSpec {
         sideways more easily.",
     parameters: &[Parameter::strength("lost share", "-", [0.0, 1.0], &[0.3])],
     scopes: Scopes::ONE_SIDE,
-    // Raised from 0.2 with a label in view: a healthy development drive fits 0.06.
+    // Raised from 0.2 with a label in view: a fault-free development drive fits 0.06.
     interest: 0.4,
     rarity: 6.0,
     revealed_by: "hard straight acceleration and braking, then spins both ways",

@@ -6,7 +6,7 @@ use super::Grid;
 
 /// Which set-points a step sees, relative to its row, and the share of the first.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct HeldSetPoints {
     from: isize,
     until: isize,
     share: f64,
@@ -17,7 +17,7 @@ struct Seen {
 /// A negative delay looks ahead.
 pub struct Hold {
     /// Of each step within a row.
-    steps: Vec<Seen>,
+    steps: Vec<HeldSetPoints>,
 }
 
 impl Hold {
@@ -30,7 +30,7 @@ impl Hold {
                 let (a, b) = (i as f64 / n - delay + 1e-6, (i + 1) as f64 / n - delay - 1e-6);
                 let (from, until) = (a.floor(), b.floor());
                 let share = if from < until { ((until - a) / (b - a)).clamp(0.0, 1.0) } else { 1.0 };
-                Seen { from: from as isize, until: until as isize, share }
+                HeldSetPoints { from: from as isize, until: until as isize, share }
             })
             .collect();
         Self { steps }

@@ -82,7 +82,7 @@ const fn degrees(x: f64) -> f64 {
 
     /// Jumps of the straight load, by currents.
     jumps: Jumps {
-        /// A change shorter than this is not told: straight driving.
+        /// A change shorter than this is not reported: straight driving.
         least: f64 = 1.5, "s", "guess";
         /// Slope whose pull counts as a jump of the load.
         slope: f64 = 1.9, "°", "chosen after a look at the open Husky runs";
@@ -127,7 +127,7 @@ const fn degrees(x: f64) -> f64 {
     /// A body that does not turn with its wheels.
     standstill: Stuck {
         /// The body stands if it turns by less than this share of what its wheels are commanded.
-        share: f64 = 0.35, "1", "field study: 0.2 told standing up to 11 s late";
+        share: f64 = 0.35, "1", "field study: 0.2 reported standing up to 11 s late";
         /// For so long at least.
         least_seconds: f64 = 3.0, "s", "guess";
         /// Difference of the speeds in a turn that counts.

@@ -63,7 +63,7 @@
         own_correlation: f64 = 0.9, "1", "guess";
         /// A turn tells its own lag where the speed difference spreads by this share of what counts as turning.
         own_spread: f64 = 0.5, "1", "guess";
-        /// Turns left out from which an error of the alignment is told, at least.
+        /// Turns left out from which an error of the alignment is reported, at least.
         least_left_out: usize = 3, "1", "guess";
     }
 

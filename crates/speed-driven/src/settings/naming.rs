@@ -78,7 +78,7 @@
         least_plausible: f64 = 2.0, "nats", "guess";
         /// Probability of a body that was seen to stand: a gyro that is off looks alike.
         standing: f64 = 0.99, "1", "guess";
-        /// Probability that a change inside a recording is one: it is told where its 90 % interval shows it.
+        /// Probability that a change inside a recording is one: it is reported where its 90 % interval shows it.
         changed: f64 = 0.9, "1", "definition of the interval";
         /// Effects that fit a difference too small to name one, at most.
         fitting: usize = 3, "1", "field study: longer classes cannot be acted upon";

@@ -43,7 +43,7 @@ const NETWORK: Network = SETTINGS.network;
 
 type Input = [f64; INPUTS];
 /// A recording with its free run.
-type Seen = (usize, RunResponse);
+type FreeRunOf = (usize, RunResponse);
 type Net = LinearNet<f64, TERMS, 2>;
 
 /// The fixed first layer and its scales.
@@ -241,7 +241,7 @@ pub(crate) fn residual_model(
     let sums: Vec<Sums> = p.cuts.iter().zip(followed).map(|(c, f)| sums(c, f, &layer)).collect();
 
     // Each recording is run with the network of the others, and without any.
-    let (mut without, mut with): (Vec<Seen>, Vec<Seen>) = (Vec::new(), Vec::new());
+    let (mut without, mut with): (Vec<FreeRunOf>, Vec<FreeRunOf>) = (Vec::new(), Vec::new());
     for left in left_out {
         let others: Vec<&Sums> = sums.iter().enumerate().filter(|(r, _)| *r != left.run).map(|(_, s)| s).collect();
         let plain = p.run_response(left.run, &left.point, h);
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_told_when_nothing_is_left() {
+    fn nothing_is_reported_when_nothing_is_left() {
         assert_eq!(network(0.0), None);
     }
 }

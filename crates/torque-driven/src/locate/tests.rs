@@ -44,18 +44,18 @@ fn cuts(runs: &[Run]) -> Vec<Cut> {
     runs.iter().map(|r| cut(r, &cutting())).collect()
 }
 
-struct Found {
+struct Located {
     findings: Vec<Finding>,
     cells: Vec<Cell>,
     spans: Vec<Span>,
     excess: Channels<f64>,
 }
 
-fn located(p: &Problem<'_>, references: &Problem<'_>) -> Found {
+fn located(p: &Problem<'_>, references: &Problem<'_>) -> Located {
     let fault_free = FaultFree::new(references);
     let energy = fault_free.energy_of(p, &p.response(&p.origin(), &Hypothesis::default()));
     let findings = findings(p, &energy, &channel_probabilities(&energy, &fault_free));
-    Found {
+    Located {
         excess: excess(&energy),
         cells: cells(p, references, &energy, &fault_free),
         spans: spans(p, &energy, &fault_free),

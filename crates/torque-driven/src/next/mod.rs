@@ -2,13 +2,13 @@
 //!
 //! For every drive of a `menu`, and for short profiles made by a search (`optimise`), every rival in turn is taken for
 //! true: its robot follows the drive (`follow`), and each other rival runs free over the same segments, re-tuned within
-//! what is known of it (`outlook`). What the drive is expected to gain is the expected fall of the `entropy` of the
-//! rivals (Box and Hill 1967; Buzzi-Ferraris, Forzatti 1983; here with the decision's own temper).
+//! what is known of it (`expected_gain`). What the drive is expected to gain is the expected fall of the `entropy` of the
+//! rivals (Box and Hill 1967; Buzzi-Ferraris, Forzatti 1983; here with the decision's own temperature).
 
+mod expected_gain;
 mod follow;
 mod menu;
 mod optimise;
-mod outlook;
 mod rivals;
 #[cfg(test)]
 mod tests;
@@ -21,11 +21,11 @@ use crate::channel::{Channel, Channels};
 use crate::fit::{Fitted, Problem};
 use crate::judged::Judged;
 use crate::settings::{decision, next::SETTINGS};
+use expected_gain::{ExpectedGain, Forecaster};
 use follow::Follower;
 use inference::advice::{among as advice_among, nothing_to_split, sorted};
 use inference::expected_information::{expected_bits, widest_pair};
 use menu::{Entry, Scope, Setup};
-use outlook::{Outlook, Prospect};
 use rivals::{Rival, rivals};
 
 /// Temperature that turned scores into the rivals' probabilities.
@@ -50,14 +50,14 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
     let mut entries = scope.entries();
     entries.extend(rivals.iter().find_map(Rival::place).map(|place| scope.across(place)));
 
-    let prospect = Prospect { problem, regimes, rivals, follower };
+    let forecaster = Forecaster { problem, regimes, rivals, follower };
     let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
-    let bits = |o: &Outlook| expected_bits(&p, &o.views, TEMPERATURE);
-    let mut drives: Vec<(Entry, Outlook)> =
-        entries.into_par_iter().filter_map(|e| prospect.outlook(&e).map(|o| (e, o))).collect();
+    let bits = |o: &ExpectedGain| expected_bits(&p, &o.views, TEMPERATURE);
+    let mut drives: Vec<(Entry, ExpectedGain)> =
+        entries.into_par_iter().filter_map(|e| forecaster.expected_gain(&e).map(|o| (e, o))).collect();
     if rivals.len() > 1 {
-        let found = optimise::optimised(scope, |e| prospect.outlook(e).map(|o| bits(&o)));
-        drives.extend(found.and_then(|(e, _)| prospect.outlook(&e).map(|o| (e, o))));
+        let found = optimise::optimised(scope, |e| forecaster.expected_gain(e).map(|o| bits(&o)));
+        drives.extend(found.and_then(|(e, _)| forecaster.expected_gain(&e).map(|o| (e, o))));
     }
 
     let gained: Vec<f64> = drives.par_iter().map(|(_, o)| bits(o)).collect();
@@ -67,17 +67,15 @@ fn among(problem: &Problem<'_>, regimes: &Regimes, scope: &Scope, rivals: &[Riva
     sorted(out)
 }
 
-fn manoeuvre(entry: &Entry, outlook: &Outlook, bits: f64, rivals: &[Rival]) -> Manoeuvre {
+fn manoeuvre(entry: &Entry, gain: &ExpectedGain, bits: f64, rivals: &[Rival]) -> Manoeuvre {
     let p: Vec<f64> = rivals.iter().map(|r| r.probability).collect();
-    let split = widest_pair(&p, &outlook.views, TEMPERATURE);
+    let split = widest_pair(&p, &gain.views, TEMPERATURE);
     let mut out = Manoeuvre::new(&entry.name, entry.course.clone(), entry.start);
-    out.why = split.map_or_else(
-        || narrowing(outlook.narrows, rivals),
-        |(k, l)| apart(&rivals[k], &rivals[l], &outlook.shows[k][l]),
-    );
+    out.why = split
+        .map_or_else(|| narrowing(gain.narrows, rivals), |(k, l)| apart(&rivals[k], &rivals[l], &gain.shows[k][l]));
     out.expected_bits = bits;
     out.splits = split.map(|(k, l)| [rivals[k].name.clone(), rivals[l].name.clone()]);
-    out.narrows = outlook.narrows;
+    out.narrows = gain.narrows;
     out.joins = entry.setup == Setup::AsItIs;
     out.optimised = entry.optimised;
     out

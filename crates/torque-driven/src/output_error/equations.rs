@@ -3,7 +3,7 @@
 use faer::Mat;
 use robot_model::Robot;
 
-use super::free::{Run, Shown, WIDTH};
+use super::free::{Observed, Run, WIDTH};
 use super::{CHANNELS, OutputError};
 use crate::settings::output_error::SETTINGS;
 
@@ -21,7 +21,7 @@ pub(super) struct Equations {
 
 /// `(y − ŷ)/σ` of a row.
 #[inline(always)]
-fn residual(observed: &[f64; CHANNELS], shown: &Shown, weight: &[f64; CHANNELS]) -> [f64; CHANNELS] {
+fn residual(observed: &[f64; CHANNELS], shown: &Observed, weight: &[f64; CHANNELS]) -> [f64; CHANNELS] {
     // The angle from the run's heading to the observed one, in (−π, π].
     let (sin, cos) = observed[2].sin_cos();
     let [x, y, c, n, rate, left, right] = *shown;
@@ -32,7 +32,7 @@ fn residual(observed: &[f64; CHANNELS], shown: &Shown, weight: &[f64; CHANNELS])
 
 /// `(ŷ' − ŷ)/σ` of a row, for a shift so small that an angle is its sine.
 #[inline(always)]
-fn difference(shifted: &Shown, shown: &Shown, weight: &[f64; CHANNELS]) -> [f64; CHANNELS] {
+fn difference(shifted: &Observed, shown: &Observed, weight: &[f64; CHANNELS]) -> [f64; CHANNELS] {
     let yaw = shifted[3] * shown[2] - shifted[2] * shown[3];
     let d = [shifted[0] - shown[0], shifted[1] - shown[1], yaw, shifted[4] - shown[4], shifted[5] - shown[5]];
     std::array::from_fn(|i| weight[i] * if i == 5 { shifted[6] - shown[6] } else { d[i] })

@@ -13,7 +13,7 @@ use super::{OutputError, Recorded};
 pub(super) const WIDTH: usize = 16;
 
 /// What a run gives for a row: position, cosine and sine of the yaw angle, yaw rate, wheel speeds.
-pub(super) type Shown = [f64; 7];
+pub(super) type Observed = [f64; 7];
 
 /// A robot on its way through a recording.
 #[derive(Clone, Copy)]
@@ -41,7 +41,7 @@ impl Run<'_> {
 
 impl OutputError<'_> {
     /// Runs robots, several side by side; the result has the order of the runs.
-    pub(super) fn run(&self, runs: &[Run<'_>]) -> Vec<Vec<Shown>> {
+    pub(super) fn run(&self, runs: &[Run<'_>]) -> Vec<Vec<Observed>> {
         let step = self.step * (1.0 + 1e-9);
         let groups: Vec<&[Run<'_>]> =
             runs.chunk_by(|a, b| a.substeps(step) == b.substeps(step)).flat_map(|alike| alike.chunks(WIDTH)).collect();
@@ -49,7 +49,7 @@ impl OutputError<'_> {
     }
 
     /// Runs one robot through all recordings, by itself.
-    pub(super) fn run_alone(&self, robot: &Robot<f64>) -> Vec<Vec<Shown>> {
+    pub(super) fn run_alone(&self, robot: &Robot<f64>) -> Vec<Vec<Observed>> {
         let step = self.step * (1.0 + 1e-9);
         let runs: Vec<Run<'_>> = self.recordings.iter().map(|recording| Run { robot, recording }).collect();
         runs.iter().flat_map(|run| side_by_side::<1>(std::slice::from_ref(run), run.substeps(step))).collect()
@@ -57,7 +57,7 @@ impl OutputError<'_> {
 }
 
 /// Runs up to `N` robots; the last one fills what is left over.
-fn side_by_side<const N: usize>(group: &[Run<'_>], substeps: usize) -> Vec<Vec<Shown>> {
+fn side_by_side<const N: usize>(group: &[Run<'_>], substeps: usize) -> Vec<Vec<Observed>> {
     let runs: [Run<'_>; N] = from_fn(|i| group[i.min(group.len() - 1)]);
     let robot = lanes::robots(runs.map(|run| run.robot));
     let plant = Plant::new(&robot, &[], Lanes(runs.map(|run| run.step(substeps))));
@@ -79,7 +79,7 @@ fn side_by_side<const N: usize>(group: &[Run<'_>], substeps: usize) -> Vec<Vec<S
 /// Keeps what each run shows at the end of its rows.
 struct RowsShown<const N: usize> {
     rows: [usize; N],
-    shown: Vec<Vec<Shown>>,
+    shown: Vec<Vec<Observed>>,
 }
 
 impl<const N: usize> Visitor<Lanes<N>> for RowsShown<N> {

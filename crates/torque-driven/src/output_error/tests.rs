@@ -170,7 +170,7 @@ fn what_the_data_do_not_determine_is_refused_by_name() {
 }
 
 #[test]
-fn bad_problems_are_told() {
+fn bad_problems_are_reported() {
     let drive = driven(&robot(), 20, 0.0, 1.0);
     let told = |constants: Vec<Constant>, drive: Recorded, sigma: [f64; CHANNELS], step: f64| {
         OutputError::new(&robot(), constants, &[drive], sigma, step).expect_err("refused").to_string()

@@ -72,7 +72,7 @@ pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], out: 
     let (here, there) = (of(runs, gyro[0]), of(references, gyro[1]));
     let mut tell = |spec: &'static EffectSpec, parameter: usize, i: usize| {
         let pick = |all: &[[Option<Measured>; 3]]| all.iter().map(|e| e[i]).collect::<Vec<_>>();
-        if let Some(d) = beyond(&pick(&here), &pick(&there), spec.interest).filter(|d| d.is_told(spec.interest)) {
+        if let Some(d) = beyond(&pick(&here), &pick(&there), spec.interest).filter(|d| d.is_reportable(spec.interest)) {
             out.push(Fault::new((spec, parameter), d, None));
         }
     };

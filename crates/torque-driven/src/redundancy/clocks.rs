@@ -52,7 +52,7 @@ fn delays(run: &Run) -> Delays {
     out.wheels = against.map(|rows| {
         let [_, _, gain, _, _, delayed] = least_squares(&rows, CLOCKS.alike)?;
         let value = delayed.value / gain.value;
-        (gain.value.abs() > CLOCKS.told_gain * gain.sigma)
+        (gain.value.abs() > CLOCKS.least_gain * gain.sigma)
             .then(|| Measured { value, sigma: (delayed.sigma / gain.value).abs() })
     });
     out
@@ -86,7 +86,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let of = |all: &[Delays]| all.iter().map(pick).collect::<Vec<_>>();
         beyond(&of(&here), &of(&there), interest)
     };
-    let growth = compare(&|d| d.growing.map(|g| g[1]), drift.interest).filter(|g| g.is_told(drift.interest));
+    let growth = compare(&|d| d.growing.map(|g| g[1]), drift.interest).filter(|g| g.is_reportable(drift.interest));
     // Beside a drift, the offset is that at the start.
     let delay = if growth.is_some() {
         compare(&|d| d.growing.map(|g| g[0]), offset.interest)
@@ -103,7 +103,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     if let Some(growth) = growth {
         tell(drift, growth);
     }
-    if let Some(delay) = delay.filter(|d| d.is_told(offset.interest)) {
+    if let Some(delay) = delay.filter(|d| d.is_reportable(offset.interest)) {
         tell(offset, delay);
     }
 }

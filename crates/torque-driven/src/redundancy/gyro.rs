@@ -34,9 +34,9 @@ fn gyro_against_pose(run: &Run) -> Option<[Option<Measured>; 2]> {
 }
 
 /// The errors of the gyro that can be checked, and what each run says of them.
-type Found = [(Redundancy, Vec<Option<Measured>>); 2];
+type GyroErrors = [(Redundancy, Vec<Option<Measured>>); 2];
 
-fn found(runs: &[Run]) -> Found {
+fn found(runs: &[Run]) -> GyroErrors {
     let all: Vec<[Option<Measured>; 2]> = runs.iter().filter_map(gyro_against_pose).collect();
     [
         (Redundancy::GyroOffset, all.iter().map(|m| m[0]).collect()),
@@ -46,7 +46,7 @@ fn found(runs: &[Run]) -> Found {
 
 /// The error over all runs, if it matters and is sure.
 fn pooled(spec: &EffectSpec, runs: &[Option<Measured>]) -> Option<Measured> {
-    alone(runs, spec.interest).filter(|m| m.is_told(spec.interest))
+    alone(runs, spec.interest).filter(|m| m.is_reportable(spec.interest))
 }
 
 /// What is to be corrected in the gyro of these runs.
@@ -66,7 +66,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Redundant) {
         let Some(spec) = spec(kind) else { continue };
         let Some(here) = pooled(spec, &all) else { continue };
         // References that say nothing of it are no reason to doubt what the runs show.
-        let sure = beyond(&all, &before, spec.interest).is_none_or(|m| m.is_told(spec.interest));
+        let sure = beyond(&all, &before, spec.interest).is_none_or(|m| m.is_reportable(spec.interest));
         let magnitude = here.value - own;
         if sure && magnitude.abs() > spec.interest {
             out.faults.push(Fault::new((spec, 0), Measured { value: magnitude, ..here }, None));

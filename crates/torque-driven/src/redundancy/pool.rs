@@ -20,7 +20,7 @@ const MEDIAN: f64 = 1.25;
 
 impl Measured {
     /// Whether it is large enough to act on and far enough from zero to be believed.
-    pub(super) fn is_told(&self, interest: f64) -> bool {
+    pub(super) fn is_reportable(&self, interest: f64) -> bool {
         self.value.abs() > interest && self.value.abs() > POOL.sure * self.sigma
     }
 }
@@ -116,12 +116,12 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_is_told_beyond_the_spread_of_the_runs() {
+    fn a_difference_is_reported_beyond_the_spread_of_the_runs() {
         let quiet = beyond(&all(&[1.3, 1.31, 1.29]), &all(&[1.0, 1.01, 0.99]), 0.2).expect("told");
         approx::assert_abs_diff_eq!(quiet.value, 0.3, epsilon = 1e-12);
-        assert!(quiet.is_told(0.2) && !quiet.is_told(0.4));
+        assert!(quiet.is_reportable(0.2) && !quiet.is_reportable(0.4));
         let noisy = beyond(&all(&[1.1, 1.3, 1.7]), &all(&[0.7, 1.0, 1.2]), 0.2).expect("told");
-        assert!(!noisy.is_told(0.2), "{noisy:?}");
+        assert!(!noisy.is_reportable(0.2), "{noisy:?}");
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         let of = |all: &[[Option<Measured>; 2]]| all.iter().map(|s| s[side]).collect::<Vec<_>>();
         let Some(d) = beyond(&of(&here), &of(&there), spec.interest) else { continue };
         let scale = Measured { value: d.value.exp() - 1.0, sigma: d.value.exp() * d.sigma };
-        if scale.is_told(spec.interest) {
+        if scale.is_reportable(spec.interest) {
             out.push(Fault::new((spec, 0), scale, Some(side)));
         }
     }

@@ -75,7 +75,7 @@
         path_parts: usize = 5, "1", "guess";
     }
 
-    /// Constants that are told as re-tuned.
+    /// Constants that are reported as re-tuned.
     retune: Retune {
         /// Least move, in the sigmas that the robot file states.
         least_sigmas: f64 = 1.0, "1", "definition: within one stated sigma nothing moved";

@@ -46,7 +46,7 @@ use crate::channel::ByQuantity;
         longest: f64 = 2.0, "1", "guess";
         /// A whiff of a prior on strengths keeps what the data do not determine where it is: its information per unit.
         whiff: f64 = 1e-3, "1", "numerical guard";
-        /// The same where a sigma is told: so little that it narrows none.
+        /// The same where a sigma is stated: so little that it narrows none.
         whiff_of_sigmas: f64 = 1e-6, "1", "numerical guard";
     }
 

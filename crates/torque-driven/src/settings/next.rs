@@ -89,7 +89,7 @@
     }
 
     /// What is expected of a drive.
-    outlook: Expected {
+    expected: Expected {
         /// Share of what the model says that counts: the rest is its own error.
         believed: f64 = 0.25, "1",
             "thirty robots of the examiner, seed 1: with all of it nearly every drive seemed to tell everything, and 0.95 \

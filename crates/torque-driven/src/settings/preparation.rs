@@ -56,7 +56,7 @@
         log_weights: [f64; 2] = [-4.0, 9.0], "1", "guess";
         /// Halvings of that range.
         halvings: usize = 20, "1", "numerical guard: twenty halvings leave nothing to gain";
-        /// Poses beyond which the integrated gyro's drift against them is told as well as its offset.
+        /// Poses beyond which the integrated gyro's drift against them is reported as well as its offset.
         least_for_drift: f64 = 10.0, "1", "guess";
     }
 

@@ -56,8 +56,8 @@
         around: usize = 5, "1", "guess";
         /// Poses that tell as much as one: their noise is white, but the errors of what they are compared with are not.
         alike: f64 = 3.0, "1", "guess";
-        /// Sigmas by which the wheels' turning must show in a sensor before its delay against them is told.
-        told_gain: f64 = 3.0, "1", "guess";
+        /// Sigmas by which the wheels' turning must show in a sensor before its delay against them is reported.
+        least_gain: f64 = 3.0, "1", "guess";
     }
 
     /// Jumps of the wheel angle.
@@ -74,7 +74,7 @@
 
     /// The gyro against the heading of the pose.
     gyro: Gyro {
-        /// Yaw travel below which a gyro's scale cannot be told.
+        /// Yaw travel below which a gyro's scale cannot be measured.
         least_travel: f64 = 3.0, "rad", "guess";
         /// Poses that tell as much as one: errors of a pose and of an integrated gyro last about a second.
         alike: f64 = 10.0, "1", "guess";

@@ -1,6 +1,6 @@
 //! Whether probabilities are worth their name.
 
-use case_files::answers::ToldCause;
+use case_files::answers::AnswerCause;
 use serde::Serialize;
 
 /// The smallest set of answers must hold this share of the probability.
@@ -24,12 +24,12 @@ pub(in crate::blind) struct Belief {
 impl Belief {
     /// `ranked` by falling probability. A probability is that of being part of the truth: of two effects both may be
     /// near one, so that the sum of all may be two.
-    pub(super) fn of(wanted: &[&str], ranked: &[&ToldCause]) -> Self {
+    pub(super) fn of(wanted: &[&str], ranked: &[&AnswerCause]) -> Self {
         let all = summed(ranked);
-        let told = |w: &str| all.iter().find(|(e, _)| *e == w).map_or(0.0, |(_, p)| *p);
+        let given = |w: &str| all.iter().find(|(e, _)| *e == w).map_or(0.0, |(_, p)| *p);
         let others = all.iter().filter(|(e, _)| !wanted.contains(e));
         let brier =
-            wanted.iter().map(|w| (told(w) - 1.0).powi(2)).sum::<f64>() + others.map(|(_, p)| p * p).sum::<f64>();
+            wanted.iter().map(|w| (given(w) - 1.0).powi(2)).sum::<f64>() + others.map(|(_, p)| p * p).sum::<f64>();
         // The first of several that are equally sure.
         let surest = all
             .iter()
@@ -46,7 +46,7 @@ impl Belief {
 }
 
 /// The probability of each answer; several entries of one effect count together.
-fn summed<'a>(ranked: &[&'a ToldCause]) -> Vec<(&'a str, f64)> {
+fn summed<'a>(ranked: &[&'a AnswerCause]) -> Vec<(&'a str, f64)> {
     let mut all: Vec<(&str, f64)> = Vec::new();
     for cause in ranked {
         let p = cause.probability.max(0.0);

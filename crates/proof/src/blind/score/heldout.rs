@@ -41,15 +41,15 @@ impl HeldOut {
             for (drive, truth) in &opened.responses {
                 let path = predictions.map(|folder| folder.join(format!("{drive}{suffix}.csv")));
                 let Some(path) = path.filter(|p| p.is_file()) else { return Ok(None) };
-                let told = response(&path)?;
+                let given = response(&path)?;
                 ensure!(
-                    told.len() == truth.len(),
+                    given.len() == truth.len(),
                     "'{}' has {} rows, the drive has {}",
                     path.display(),
-                    told.len(),
+                    given.len(),
                     truth.len()
                 );
-                errors.push(free_run_error(truth, &bounded(told)));
+                errors.push(free_run_error(truth, &bounded(given)));
             }
             Ok(Some(rms(&errors)))
         };
@@ -99,14 +99,14 @@ fn rms(drives: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|of| (drives.iter().map(|d| d[of] * d[of]).sum::<f64>() / n).sqrt())
 }
 
-fn bounded(told: Response) -> Response {
+fn bounded(response: Response) -> Response {
     let number = |x: f64| match x {
         x if x.is_nan() => 0.0,
         f64::INFINITY => BOUND,
         f64::NEG_INFINITY => -BOUND,
         x => x,
     };
-    told.into_iter().map(|row| row.map(number)).collect()
+    response.into_iter().map(|row| row.map(number)).collect()
 }
 
 #[cfg(test)]
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn drives_are_pooled_by_squares_and_nonsense_is_bounded() {
         assert_eq!(rms(&[[3.0, 0.0], [4.0, 2.0]]), [12.5_f64.sqrt(), 2.0_f64.sqrt()]);
-        let told = bounded(vec![[f64::NAN, f64::INFINITY, -2.0]]);
-        assert_eq!(told, vec![[0.0, 1e3, -2.0]]);
+        let response = bounded(vec![[f64::NAN, f64::INFINITY, -2.0]]);
+        assert_eq!(response, vec![[0.0, 1e3, -2.0]]);
     }
 }

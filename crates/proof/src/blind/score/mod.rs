@@ -1,7 +1,7 @@
 //! Compares the answer to a case with its truth.
 
 use anyhow::Result;
-use case_files::answers::{Told, ToldCause};
+use case_files::answers::{Answer, AnswerCause};
 use examiner::{Plan, Truth};
 use serde::Serialize;
 use verdict::Verdict;
@@ -105,14 +105,14 @@ pub(super) struct Row {
 
 /// An answer as far as it is scored; a case without one has no causes in it.
 #[derive(Debug, Clone, Copy)]
-struct Answer<'a> {
+struct RankedAnswer<'a> {
     verdict: Option<Verdict>,
     /// By falling probability.
-    ranked: &'a [&'a ToldCause],
+    ranked: &'a [&'a AnswerCause],
     classes: &'a [Vec<String>],
 }
 
-impl<'a> Answer<'a> {
+impl<'a> RankedAnswer<'a> {
     /// Effects that it names, the most probable first.
     fn named(self) -> Vec<&'a str> {
         self.ranked.iter().map(|c| c.effect.as_str()).filter(|e| ![NONE, UNKNOWN].contains(e)).collect()
@@ -132,10 +132,10 @@ fn wanted(kind: Kind, truth: &Truth) -> Vec<&str> {
 pub(super) fn row(layout: &Layout, plan: &Plan, seals: &Seals, record: Option<&Record>) -> Result<Row> {
     let name = &plan.name;
     let opened = truth::open(layout, name, seals)?;
-    let told = record.map(|_| diagnose::told(&layout.diagnosis(name))).transpose()?;
+    let answer = record.map(|_| diagnose::answer(&layout.diagnosis(name))).transpose()?;
     let predictions = record.map(|_| layout.predictions(name));
     let heldout = HeldOut::of(&opened, predictions.as_deref())?;
-    let row = scored(&opened.truth, plan.settings.duration_s, told.as_ref(), heldout);
+    let row = scored(&opened.truth, plan.settings.duration_s, answer.as_ref(), heldout);
     Ok(Row {
         seconds: record.map(|r| r.seconds),
         processor_seconds: record.and_then(|r| r.processor_seconds),
@@ -144,14 +144,14 @@ pub(super) fn row(layout: &Layout, plan: &Plan, seals: &Seals, record: Option<&R
     })
 }
 
-fn scored(truth: &Truth, duration: f64, told: Option<&Told>, heldout: HeldOut) -> Row {
+fn scored(truth: &Truth, duration: f64, answer: Option<&Answer>, heldout: HeldOut) -> Row {
     let kind = Kind::of(truth);
-    let mut ranked: Vec<&ToldCause> = told.iter().flat_map(|t| &t.ranked).collect();
+    let mut ranked: Vec<&AnswerCause> = answer.iter().flat_map(|t| &t.ranked).collect();
     ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    let answer = Answer {
-        verdict: told.map(|t| t.verdict),
+    let ranked_answer = RankedAnswer {
+        verdict: answer.map(|t| t.verdict),
         ranked: &ranked,
-        classes: told.map_or(&[], |t| t.indistinguishable.as_slice()),
+        classes: answer.map_or(&[], |t| t.indistinguishable.as_slice()),
     };
     let wanted = wanted(kind, truth);
     Row {
@@ -162,10 +162,10 @@ fn scored(truth: &Truth, duration: f64, told: Option<&Told>, heldout: HeldOut) -
         severity: truth.effects.first().map(|e| e.severity),
         below_noise: truth.below_noise,
         hidden: truth.effects.iter().map(|e| e.kind.clone().unwrap_or_else(|| e.id.clone())).collect(),
-        verdict: told.map(Told::verdict),
-        naming: Naming::of(kind, &wanted, answer),
+        verdict: answer.map(Answer::verdict),
+        naming: Naming::of(kind, &wanted, ranked_answer),
         belief: Belief::of(&wanted, &ranked),
-        parts: if kind.in_catalogue() { sizes::parts(truth, duration, answer) } else { Vec::new() },
+        parts: if kind.in_catalogue() { sizes::parts(truth, duration, ranked_answer) } else { Vec::new() },
         heldout,
         seconds: None,
         processor_seconds: None,

@@ -5,7 +5,7 @@ use robot_model::effects::catalogue;
 use serde::Serialize;
 use verdict::Verdict;
 
-use super::{Answer, FIRST, Kind};
+use super::{FIRST, Kind, RankedAnswer};
 
 /// What is named, and whether it is right.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,7 +28,7 @@ pub(in crate::blind) struct Naming {
 }
 
 impl Naming {
-    pub(super) fn of(kind: Kind, wanted: &[&str], answer: Answer<'_>) -> Self {
+    pub(super) fn of(kind: Kind, wanted: &[&str], answer: RankedAnswer<'_>) -> Self {
         let named = answer.named();
         let first = named.first().copied();
         let explained = answer.verdict == Some(Verdict::Explained);
@@ -82,7 +82,7 @@ mod tests {
         let causes: Vec<_> = ranked.iter().map(|(e, p)| cause(e, *p)).collect();
         let ranked: Vec<_> = causes.iter().collect();
         let classes = [class.iter().map(|e| (*e).to_owned()).collect()];
-        Naming::of(kind, wanted, Answer { verdict: Some(verdict), ranked: &ranked, classes: &classes })
+        Naming::of(kind, wanted, RankedAnswer { verdict: Some(verdict), ranked: &ranked, classes: &classes })
     }
 
     #[test]

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use case_files::answers::ToldCause;
+use case_files::answers::AnswerCause;
 use examiner::{EffectTruth, Truth};
 use report::words::NINETY;
 use serde::Serialize;
 
 use super::statistics::mean;
-use super::{Answer, FIRST};
+use super::{FIRST, RankedAnswer};
 
 /// Step of time in which presence is compared, s.
 const STEP: f64 = 0.02;
@@ -40,7 +40,7 @@ type Intervals = BTreeMap<String, Vec<[f64; 2]>>;
 
 /// Every hidden effect with what is said about it.
 /// Recordings last `duration` seconds.
-pub(super) fn parts(truth: &Truth, duration: f64, answer: Answer<'_>) -> Vec<Part> {
+pub(super) fn parts(truth: &Truth, duration: f64, answer: RankedAnswer<'_>) -> Vec<Part> {
     let first: Vec<&str> = answer.named().into_iter().take(FIRST).collect();
     let one = |e: &EffectTruth| {
         let entry = answer.ranked.iter().find(|c| c.effect == e.id && first.contains(&c.effect.as_str()));
@@ -54,9 +54,9 @@ pub(super) fn parts(truth: &Truth, duration: f64, answer: Answer<'_>) -> Vec<Par
     truth.effects.iter().map(one).collect()
 }
 
-fn part(hidden: &EffectTruth, when: &Intervals, duration: f64, entry: Option<&ToldCause>) -> Part {
+fn part(hidden: &EffectTruth, when: &Intervals, duration: f64, entry: Option<&AnswerCause>) -> Part {
     let size = entry.and_then(|c| c.magnitude);
-    let told = entry.and_then(|c| c.intervals.as_ref());
+    let reported = entry.and_then(|c| c.intervals.as_ref());
     let from_an_instant = hidden.place.as_deref() == Some(FROM_AN_INSTANT);
     let starts = when.iter().filter(|_| from_an_instant).filter_map(|(run, spans)| Some((run, spans.first()?[0])));
     Part {
@@ -67,21 +67,21 @@ fn part(hidden: &EffectTruth, when: &Intervals, duration: f64, entry: Option<&To
             .zip(entry.and_then(|c| c.sigma))
             .map(|(m, sigma)| (m - hidden.magnitude).abs() <= NINETY * sigma),
         side_right: hidden.side.as_ref().and_then(|side| Some(entry?.side.as_ref() == Some(side))),
-        overlap: if when.is_empty() { None } else { overlap(when, duration, told) },
+        overlap: if when.is_empty() { None } else { overlap(when, duration, reported) },
         onset_errors: starts
             .clone()
-            .filter_map(|(run, start)| Some((told?.get(run)?.first()?[0] - start).abs()))
+            .filter_map(|(run, start)| Some((reported?.get(run)?.first()?[0] - start).abs()))
             .collect(),
         onsets: starts.count(),
     }
 }
 
 /// Mean over the recordings in which either says that the effect was there; 0 where nothing is reported at all.
-fn overlap(when: &Intervals, duration: f64, told: Option<&Intervals>) -> Option<f64> {
-    let Some(told) = told else { return Some(0.0) };
+fn overlap(when: &Intervals, duration: f64, reported: Option<&Intervals>) -> Option<f64> {
+    let Some(reported) = reported else { return Some(0.0) };
     let ratios: Vec<f64> = when
         .iter()
-        .filter_map(|(run, spans)| in_time(duration, spans, told.get(run).map_or(&[], Vec::as_slice)))
+        .filter_map(|(run, spans)| in_time(duration, spans, reported.get(run).map_or(&[], Vec::as_slice)))
         .collect();
     mean(&ratios)
 }
@@ -130,21 +130,21 @@ mod tests {
     fn sizes_sides_and_onsets_are_compared() {
         let truth = hidden(r#""side": "left", "magnitude": -2.0, "where": "time""#);
         let when = spans(&[("run_1", [6.0, 24.0]), ("run_2", [8.0, 24.0])]);
-        let mut told = cause("e", 0.9);
-        told.magnitude = Some(-2.5);
-        told.sigma = Some(0.25);
-        told.side = Some("right".to_owned());
-        told.intervals = Some(spans(&[("run_1", [6.5, 24.0])]));
-        let p = part(&truth, &when, 24.0, Some(&told));
+        let mut reported = cause("e", 0.9);
+        reported.magnitude = Some(-2.5);
+        reported.sigma = Some(0.25);
+        reported.side = Some("right".to_owned());
+        reported.intervals = Some(spans(&[("run_1", [6.5, 24.0])]));
+        let p = part(&truth, &when, 24.0, Some(&reported));
         assert_eq!((p.size_error, p.size_held, p.side_right), (Some(0.25), Some(false), Some(false)));
         assert_eq!((p.onset_errors.as_slice(), p.onsets), ([0.5].as_slice(), 2));
-        told.sigma = Some(0.31);
-        assert_eq!(part(&truth, &when, 24.0, Some(&told)).size_held, Some(true));
+        reported.sigma = Some(0.31);
+        assert_eq!(part(&truth, &when, 24.0, Some(&reported)).size_held, Some(true));
         let p = part(&truth, &when, 24.0, None);
         assert_eq!((p.named, p.size_error, p.side_right, p.overlap), (false, None, None, Some(0.0)));
         assert_eq!((p.onset_errors.len(), p.onsets), (0, 2));
-        let p = part(&hidden(r#""side": null, "magnitude": 1.0, "where": "patch""#), &when, 24.0, Some(&told));
+        let p = part(&hidden(r#""side": null, "magnitude": 1.0, "where": "patch""#), &when, 24.0, Some(&reported));
         assert_eq!((p.side_right, p.onsets), (None, 0));
-        assert_eq!(part(&truth, &Intervals::new(), 24.0, Some(&told)).overlap, None);
+        assert_eq!(part(&truth, &Intervals::new(), 24.0, Some(&reported)).overlap, None);
     }
 }

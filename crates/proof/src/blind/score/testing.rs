@@ -1,8 +1,8 @@
 //! Parts of answers for tests.
 
-use case_files::answers::ToldCause;
+use case_files::answers::AnswerCause;
 
 /// A cause of which only the probability is known.
-pub(super) fn cause(effect: &str, probability: f64) -> ToldCause {
-    ToldCause { effect: effect.to_owned(), probability, magnitude: None, sigma: None, side: None, intervals: None }
+pub(super) fn cause(effect: &str, probability: f64) -> AnswerCause {
+    AnswerCause { effect: effect.to_owned(), probability, magnitude: None, sigma: None, side: None, intervals: None }
 }

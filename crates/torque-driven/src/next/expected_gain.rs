@@ -19,7 +19,7 @@ use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
 /// Everything that stays the same from drive to drive.
-pub(crate) struct Prospect<'a> {
+pub(crate) struct Forecaster<'a> {
     pub(crate) problem: &'a Problem<'a>,
     pub(crate) regimes: &'a Regimes,
     pub(crate) rivals: &'a [Rival],
@@ -27,7 +27,7 @@ pub(crate) struct Prospect<'a> {
 }
 
 /// What is expected of one drive.
-pub(crate) struct Outlook {
+pub(crate) struct ExpectedGain {
     /// By the rival that is true.
     pub(crate) views: Vec<Forecast>,
     /// Root mean square of what tells a pair apart, in units of what fault-free drives show, by
@@ -46,7 +46,7 @@ struct Gap {
     shows: Channels<f64>,
 }
 
-impl Prospect<'_> {
+impl Forecaster<'_> {
     /// The robot as it stands for a drive.
     fn prepared(&self, setup: Setup) -> Robot<f64> {
         let r = *self.problem.robot;
@@ -63,7 +63,7 @@ impl Prospect<'_> {
     }
 
     /// What a drive would show if each of the rivals in turn were true.
-    pub(crate) fn outlook(&self, entry: &Entry) -> Option<Outlook> {
+    pub(crate) fn expected_gain(&self, entry: &Entry) -> Option<ExpectedGain> {
         let robot = self.prepared(entry.setup);
         let (mut views, mut shows, mut narrows) = (Vec::new(), Vec::new(), None);
         for truth in 0..self.rivals.len() {
@@ -74,7 +74,7 @@ impl Prospect<'_> {
             views.push(view(&gaps));
             shows.push(gaps.iter().map(|g| g.shows).collect());
         }
-        Some(Outlook { views, shows, narrows })
+        Some(ExpectedGain { views, shows, narrows })
     }
 
     /// Gaps to all rivals when one is true, and by how much its own size is narrowed.
@@ -199,6 +199,6 @@ fn view(gaps: &[Gap]) -> Forecast {
         let product: f64 = gaps[a].left.iter().zip(&gaps[b].left).map(|(x, y)| x * y).sum();
         if norm[a] * norm[b] > 0.0 { product / (norm[a] * norm[b]) } else { f64::from(a == b) }
     };
-    let believed = SETTINGS.outlook.believed;
+    let believed = SETTINGS.expected.believed;
     Forecast::new(gaps.iter().map(|g| believed * g.behind.max(0.0)).collect(), alike)
 }

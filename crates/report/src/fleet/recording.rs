@@ -2,7 +2,7 @@
 
 /// One recording of one robot.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Seen {
+pub struct DiagnosedRecording {
     /// Its name.
     pub id: String,
     /// Which vehicle.

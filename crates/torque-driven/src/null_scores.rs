@@ -12,12 +12,12 @@ use inference::algebra::solve_spd;
 
 /// Scores that fault-free recordings of this robot reach.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Gate {
+pub(crate) struct NullScores {
     /// Of each reference left out in turn: the effect that scores best, a false alarm, and its score, nats.
-    pub(crate) accusations: Vec<(String, f64)>,
+    pub(crate) of_references: Vec<(String, f64)>,
 }
 
-impl Gate {
+impl NullScores {
     /// Screens every reference with a calibration from which its own share is taken away.
     ///
     /// At the calibrated θ the gradients of all references and of the prior cancel, so that without reference r
@@ -26,8 +26,9 @@ impl Gate {
         if problem.cuts.len() < 2 {
             return Self::default();
         }
-        let accusations = (0..problem.cuts.len()).filter_map(|r| Self::left_out(problem, at, information, r)).collect();
-        Self { accusations }
+        let of_references =
+            (0..problem.cuts.len()).filter_map(|r| Self::left_out(problem, at, information, r)).collect();
+        Self { of_references }
     }
 
     fn left_out(problem: &Problem<'_>, at: &Point, information: &Mat<f64>, r: usize) -> Option<(String, f64)> {
@@ -59,7 +60,7 @@ impl Gate {
 
     /// The highest score of a fault-free recording.
     pub(crate) fn highest(&self) -> f64 {
-        self.accusations.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
+        self.of_references.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
@@ -85,10 +86,10 @@ mod tests {
         let cut_of = |doses: &[Dose], seconds| cut(&driven(&robot, doses, seconds), &cutting());
         let cuts: [Cut; 3] = [cut_of(&[], 8.0), cut_of(&[], 10.0), cut_of(&dose, 12.0)];
         let calibration = calibrate(&robot, &usual_sigma(), &cuts, 5.0, &Options::default()).expect("determined");
-        let gate = calibration.gate;
-        assert_eq!(gate.accusations.len(), 3);
-        assert!(gate.accusations.iter().all(|(_, score)| *score <= gate.highest()));
-        gate.highest()
+        let null_scores = calibration.null_scores;
+        assert_eq!(null_scores.of_references.len(), 3);
+        assert!(null_scores.of_references.iter().all(|(_, score)| *score <= null_scores.highest()));
+        null_scores.highest()
     }
 
     #[test]
@@ -99,6 +100,6 @@ mod tests {
 
     #[test]
     fn a_lone_reference_has_no_null_score() {
-        assert_eq!(Gate::default().highest(), f64::NEG_INFINITY);
+        assert_eq!(NullScores::default().highest(), f64::NEG_INFINITY);
     }
 }
