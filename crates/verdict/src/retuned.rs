@@ -20,12 +20,12 @@ pub struct Retuned {
 }
 
 impl Retuned {
-    /// For people: "adhesion 0.600 -> 0.510 ± 0.020, 1.3 of the sigma that the robot file states".
+    /// For people: "adhesion from 0.600 to 0.510 ± 0.020 (90 %), which is 1.3 times the sigma that the robot file states".
     pub fn sentence(&self) -> String {
         let unit = if self.unit == "-" { String::new() } else { format!(" {}", self.unit) };
         let digits = (1.0 - self.half_width.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
         format!(
-            "{} {:.digits$} -> {:.digits$} ± {:.digits$}{unit} (90 %), {:.1} of the sigma that the robot file states",
+            "{} from {:.digits$}{unit} to {:.digits$} ± {:.digits$}{unit} (90 %), which is {:.1} times the sigma that the robot file states",
             self.constant.replace('_', " "),
             self.from,
             self.to,
@@ -49,7 +49,8 @@ mod tests {
             half_width: 0.0012,
             sigmas: 2.04,
         };
-        let text = "rolling resistance 0.0200 -> 0.0261 ± 0.0012 (90 %), 2.0 of the sigma that the robot file states";
+        let text = "rolling resistance from 0.0200 to 0.0261 ± 0.0012 (90 %), which is 2.0 times the sigma that the robot file \
+                    states";
         assert_eq!(retuned.sentence(), text);
     }
 }
