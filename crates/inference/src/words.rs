@@ -54,7 +54,28 @@ pub fn quantity(c: &Cause) -> String {
     }
 }
 
+/// A probability; never quite nothing or certain.
+pub fn probability(p: f64) -> String {
+    if p > 0.0 && p < 0.01 {
+        "< 0.01".to_owned()
+    } else if p < 1.0 && p > 0.99 {
+        "> 0.99".to_owned()
+    } else {
+        format!("{p:.2}")
+    }
+}
+
 /// The drive that reveals an effect best.
 pub fn revealed_by(id: &str) -> Option<&'static str> {
     robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.id == id).map(|c| c.revealed_by)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::probability;
+
+    #[test]
+    fn nothing_is_quite_certain() {
+        assert_eq!([0.0, 0.001, 0.5, 0.999, 1.0].map(probability), ["0.00", "< 0.01", "0.50", "> 0.99", "1.00"]);
+    }
 }

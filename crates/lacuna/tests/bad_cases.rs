@@ -18,7 +18,11 @@ fn a_case_without_references_is_answered_and_says_what_that_costs() {
     bench.remove("case/reference");
     let done = bench.run(&["diagnose", "case"]);
     let out = done.out();
-    assert!(out.contains("no real drive in which the simulation was right was given"), "{out}{}", done.err());
+    assert!(
+        out.contains("no real drive in which the simulation was right was given as reference"),
+        "{out}{}",
+        done.err()
+    );
 }
 
 #[test]

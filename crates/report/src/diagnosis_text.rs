@@ -87,7 +87,7 @@ fn steady(d: &Diagnosis) -> String {
     }
     format!(
         "\n{}{}",
-        heading("Loads of steady driving (over reference: ratio; of the asymmetry: difference)"),
+        heading("Loads: torques that steady driving takes (over reference: ratio; of the asymmetry: difference)"),
         table.render()
     )
 }

@@ -3,21 +3,11 @@
 use verdict::{Cause, Cell, Diagnosis, FreeRun, Span};
 
 pub use inference::robust::NINETY;
+pub use inference::words::probability;
 
 pub use pages::text_table::number;
 /// Intervals shown per cause.
 const INTERVALS: usize = 3;
-
-/// A probability; never quite nothing or certain.
-pub fn probability(p: f64) -> String {
-    if p > 0.0 && p < 0.01 {
-        "< 0.01".to_owned()
-    } else if p < 1.0 && p > 0.99 {
-        "> 0.99".to_owned()
-    } else {
-        format!("{p:.2}")
-    }
-}
 
 /// Whether a cause is "nothing is missing" or "something that is not in the catalogue": answers, but no causes.
 pub fn is_no_cause(c: &Cause) -> bool {
@@ -91,11 +81,11 @@ pub fn free_runs(d: &Diagnosis) -> &'static str {
     } else if d.steady.is_some() {
         "Forecasts of recordings left out of the fit (rms error; placebo: the best other law)"
     } else if d.free_runs.iter().any(|r| r.placebo.is_some()) {
-        "Free runs on recordings left out of the fit, from a measured state every 2 s where nothing else is said (rms \
-         error; placebo: the best other effect)"
+        "Free runs on recordings left out of the fit, restarted from a measured state every 2 s unless the row says \
+         otherwise (rms error; placebo: the best other effect)"
     } else {
-        "Free runs on recordings left out of the fit, from a measured state every 2 s where nothing else is said (rms \
-         error)"
+        "Free runs on recordings left out of the fit, restarted from a measured state every 2 s unless the row says \
+         otherwise (rms error)"
     }
 }
 
@@ -141,12 +131,7 @@ pub(crate) fn verdict(d: &Diagnosis, most: usize) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{probability, quantity_and_unit};
-
-    #[test]
-    fn nothing_is_quite_certain() {
-        assert_eq!([0.0, 0.001, 0.5, 0.999, 1.0].map(probability), ["0.00", "< 0.01", "0.50", "> 0.99", "1.00"]);
-    }
+    use super::quantity_and_unit;
 
     #[test]
     fn units_are_told_from_names() {

@@ -44,27 +44,16 @@ pub(super) fn verdict(
 
 /// Probabilities, kind of answer and classes from the evidence.
 fn weigh(naming: &Naming, out: &mut Diagnosis) {
-    // Left and right are one cause here: keep the better side of each set of effects.
-    let mut effects: Vec<&Named> = Vec::new();
-    for e in &naming.effects {
-        let mut ids = e.ids();
-        ids.sort_unstable();
-        let same = |o: &&&Named| {
-            let mut other = o.ids();
-            other.sort_unstable();
-            other == ids
-        };
-        if !effects.iter().any(|o| same(&o)) {
-            effects.push(e);
-        }
-    }
+    let effects = naming.causes();
     let scores: Vec<f64> = [0.0, naming.unknown].into_iter().chain(effects.iter().map(|e| e.score)).collect();
     let shares = probabilities(&scores, ANSWER.temperature);
     let (none, unknown, of_effects) = (shares[0], shares[1], &shares[2..]);
+
     out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
-    // An effect is as probable as all hypotheses that contain it; its size is that alone.
+
+    // An effect is as probable as all hypotheses that contain it. Singles first: its size is that alone, not the one beside
+    // another effect.
     let mut causes: Vec<Cause> = Vec::new();
-    // Singles first: a size beside another effect is not the size alone.
     let (singles, pairs): (Vec<_>, Vec<_>) = effects.iter().zip(of_effects).partition(|(e, _)| e.parts.len() == 1);
     for (e, &p) in singles.into_iter().chain(pairs) {
         for part in 0..e.parts.len() {
@@ -74,11 +63,13 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
             }
         }
     }
+
     causes.retain(|c| c.probability > ANSWER.listed);
     causes.push(Cause::plain(NONE.id, NONE.name, none));
     causes.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
     causes.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     out.ranked = causes;
+
     let named = 1.0 - none - unknown;
     out.verdict = if none >= named.max(unknown) {
         Verdict::NoMismatch

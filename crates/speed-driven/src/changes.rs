@@ -62,8 +62,8 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     Changes { found, hidden: hidden(run, &readings) }
 }
 
-/// Finds the changes of these recordings and marks their rows: what is told as a change is no load of the whole. Changes
-/// that cover most of the straight driving are the load of the whole.
+/// Finds the changes of the straight load inside these recordings, and marks their rows so that the load of the whole
+/// recording is measured without them. A change that covers most of the straight driving is not marked: it is that load.
 pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes {
     let mut out = Changes::default();
     for run in runs {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use verdict::{Load, Loads, Quantity, Ratio};
 
+use crate::pieces;
 use crate::settings::{MEASURING, NAMING, measuring::Ratios};
 use inference::robust::NINETY;
 
@@ -74,10 +75,7 @@ pub(crate) fn scaled(l: &Load) -> (f64, f64) {
 
 fn class(l: &Load) -> usize {
     match l.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry => {
-            let v = 0.5 * (l.speed[0] + l.speed[1]).abs();
-            MEASURING.stretches.classes.windows(2).position(|c| v >= c[0] && v < c[1]).unwrap_or(0)
-        }
+        Quantity::StraightLoad | Quantity::Asymmetry => pieces::class(0.5 * (l.speed[0] + l.speed[1]).abs()),
         _ => 0,
     }
 }

@@ -16,7 +16,7 @@ const TURNS: Turns = MEASURING.turns;
 /// Whether the robot turns at a row, has done so for a while, and scrub is fully developed: a spin or an arc.
 pub(crate) fn is_steady_turn(run: &SpeedRun, i: usize) -> bool {
     let (l, r) = (run.speed[0][i], run.speed[1][i]);
-    let tight = l * r < 0.0 || (r - l).abs() >= TURNS.plateau * (l + r).abs().max(1e-9);
+    let tight = run.spins(i) || (r - l).abs() >= TURNS.plateau * (l + r).abs().max(1e-9);
     tight && (r - l).abs() >= TURNS.difference && run.held(i, TURNS.steady, TURNS.hold * run.patience())
 }
 
@@ -125,10 +125,8 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
 
     // Arcs and spins: the outer side of an arc, both sides of a spin.
     let turning: Vec<usize> = all().filter(|&i| is_steady_turn(run, i)).collect();
-    let (spins, arcs): (Vec<usize>, Vec<usize>) =
-        turning.into_iter().partition(|&i| run.speed[0][i] * run.speed[1][i] < 0.0);
-    let outer = |i: usize| usize::from(run.speed[1][i].abs() > run.speed[0][i].abs());
-    if let Some(c) = clustered(run, &arcs, |i| run.torque[outer(i)][i].abs()) {
+    let (spins, arcs): (Vec<usize>, Vec<usize>) = turning.into_iter().partition(|&i| run.spins(i));
+    if let Some(c) = clustered(run, &arcs, |i| run.torque[run.outer(i)][i].abs()) {
         let forward = 0.5 * (c.speed[0] + c.speed[1]).abs();
         let nearest = |of: &[Load]| {
             let straight = of.iter().filter(|l| l.quantity == Quantity::StraightLoad);

@@ -71,7 +71,8 @@ fn track(r: &Ratio) -> Cause {
     }
 }
 
-/// Nothing is missing no likelier than that a ratio whose interval excludes it does not differ.
+/// "Nothing is missing" becomes at most as probable as it is that this ratio, whose interval excludes no difference, does not
+/// differ after all; the others share what it loses.
 fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
     let none = |c: &&Cause| c.effect == NONE.id;
     let before = out.ranked.iter().find(none).map_or(0.0, |c| c.probability);
@@ -169,8 +170,8 @@ fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<
     out
 }
 
-/// Ranks a class of causes of something that was measured. That nothing is missing is then no likelier than that the
-/// class is not there.
+/// Ranks a class of causes of something that was measured. "Nothing is missing" is then at most as probable as the absence of
+/// all of them.
 fn insert(out: &mut Diagnosis, class: Vec<Cause>) {
     out.indistinguishable.push(class.iter().map(|c| c.effect.clone()).collect());
     let left = 1.0 - class.iter().map(|c| c.probability).sum::<f64>().min(1.0);

@@ -9,7 +9,7 @@ use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict
 use crate::compare::{Judgement, judgement, reported};
 use crate::found::{longest, strongest};
 use crate::settings::{NAMING, naming::Sentences};
-use crate::words::{change, compared, how_it_stands, turning_change};
+use crate::words::{change, compared, how_it_stands, recordings, turning_change};
 
 const SENTENCES: Sentences = NAMING.sentences;
 
@@ -32,9 +32,11 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
 fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
     let whole = match of_loads {
         Verdict::Withheld if leads => "These recordings permit no answer: too little steady driving.",
-        Verdict::Withheld => "What is left is too little steady driving to compare any load.",
-        _ if leads => "No mismatch: the loads of steady driving need no cause that the simulation lacks.",
-        _ => "What is left shows no mismatch: its loads need no cause that the simulation lacks.",
+        Verdict::Withheld => "The other rows hold too little steady driving to compare any load.",
+        _ if leads => {
+            "No mismatch: the simulation explains the loads of steady driving; nothing needs to be added to it."
+        }
+        _ => "The other rows show no mismatch: the simulation explains their loads.",
     };
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
@@ -46,9 +48,9 @@ fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
     let rest = match of_loads {
         Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
-        _ => "Beside that the loads need no cause that the simulation lacks.",
+        _ => "Apart from that the simulation explains the loads; nothing else needs to be added to it.",
     };
-    vec![format!("Change inside a recording{how_many}: {clearest}"), rest.to_owned()]
+    vec![format!("Change inside a recording{how_many}. {clearest}"), rest.to_owned()]
 }
 
 /// The clearest differences, though none of their causes is likely enough to be named; the class that fits each.
@@ -57,7 +59,7 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
     let mut out: Vec<String> = strongest.iter().map(|r| difference(r, theirs)).collect();
     let all = reported(loads).filter(|r| judgement(r) == Judgement::Differs).count();
     if all > strongest.len() {
-        out.push(format!("In all, {all} comparisons differ; the others are listed below."));
+        out.push(format!("In all, {all} loads differ from {theirs}; the others are listed below."));
     }
     for r in strongest {
         out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d) });
@@ -68,7 +70,8 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
 fn difference(r: &Ratio, theirs: &str) -> String {
     let tentative = if r.firm { "" } else { " (tentative)" };
     let [load, seconds] = [compared(r, theirs), format!("{:.0} s", r.seconds)];
-    format!("Difference: in {} the {} is {load}, measured over {seconds}{tentative}.", r.recording, r.quantity.name())
+    let [of, what] = [recordings(&r.recording), r.quantity.name().to_owned()];
+    format!("Difference: in {of} the {what} is {load}, measured over {seconds}{tentative}.")
 }
 
 /// What another effective track means, and what to do.
@@ -88,7 +91,7 @@ fn fits(d: &Diagnosis) -> Vec<String> {
         return vec!["No effect of the catalogue makes such a difference of the loads.".to_owned()];
     };
     let names = names(d, class);
-    let mut out = vec![format!("What fits the loads best: {}; none of them stands out.", names.join(" or "))];
+    let mut out = vec![format!("The effects that fit the loads best are {}; none of them stands out.", any_of(&names))];
     out.extend(apart(class));
     out
 }
@@ -111,8 +114,8 @@ fn standing(all: &[Standstill]) -> Vec<String> {
     };
     vec![
         format!(
-            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body does not{more}.",
-            s.recording
+            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body hardly does{more}.",
+            recordings(&s.recording)
         ),
         format!(
             "There {}: it is dug in, or its wheels spin. Nothing else here uses these rows; look at the robot and the \
@@ -131,15 +134,23 @@ fn named(d: &Diagnosis) -> Vec<String> {
         let less = names.len().saturating_sub(SENTENCES.members);
         if less > 1 {
             names.truncate(SENTENCES.members);
-            names.push(format!("one of {less} less likely ones"));
+            names.push(format!("one of {less} less likely causes"));
         }
         let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
         let tail =
-            if names.len() > 1 { "; these recordings cannot tell them apart".to_owned() } else { format!(", {size}") };
-        out.push(format!("Missing: {}{tail}.", names.join(" or ")));
+            if names.len() > 1 { "; these recordings cannot tell which".to_owned() } else { format!(", {size}") };
+        out.push(format!("Missing: {}{tail}.", any_of(&names)));
         out.extend(apart(class));
     }
     out
+}
+
+/// "a", "a or b", "a, b or c".
+fn any_of(names: &[String]) -> String {
+    match names {
+        [rest @ .., last] if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 fn names(d: &Diagnosis, class: &[String]) -> Vec<String> {
@@ -155,5 +166,5 @@ fn apart(class: &[String]) -> Option<String> {
             drives.push(drive);
         }
     }
-    (class.len() > 1).then(|| format!("To tell them apart, record: {}.", drives.join("; ")))
+    (class.len() > 1).then(|| format!("To find out which, record: {}.", drives.join("; ")))
 }

@@ -1,8 +1,8 @@
 //! Diagnosis of a speed-driven robot from the loads of its steady driving.
 //!
 //! A drive imposes the wheel speeds; what it takes to do so is the output. Real recordings of this kind are slow,
-//! unsigned and on wandering clocks, so only steady stretches are compared: [`extract`](self) loads, compare them with
-//! the references', name the effects that could make the difference, and forecast recordings that were not used.
+//! unsigned and on wandering clocks, so only steady stretches are compared: their loads are measured and compared with
+//! the references', the effects that could make the difference are named, and recordings that were not used are forecast.
 //!
 //! # Files
 //!
@@ -110,6 +110,7 @@ pub fn diagnose_steady(
         return Err(DiagnosisError::Empty { what: "recording" });
     }
     let robot = case.robot.checked()?;
+
     progress("measuring steady loads");
     // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
     let mut marked = case.clone();
@@ -121,10 +122,12 @@ pub fn diagnose_steady(
     }
     let standstills =
         standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
+
     let references_of = |loads: &[Load]| {
         if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
     };
-    // What changes inside a recording is told by itself and is no load of the whole.
+
+    // What changes inside a recording is reported by itself: the load of the whole recording is measured without it.
     attitude::set_level(&case.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
@@ -138,14 +141,17 @@ pub fn diagnose_steady(
         return Err(DiagnosisError::TooCalm { reason });
     }
     let (ratios, pooled) = compare::ratios(&loads, &refs);
+
     progress("calibrating on the references");
     let known: Vec<Measured> = if by_file { Vec::new() } else { refs.iter().map(of_reference).collect() };
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
+
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
     let comparison =
         if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
     let naming = comparison.as_ref().and_then(name);
+
     progress("forecasting recordings that were not used");
     let fits = Fits {
         case,
@@ -158,15 +164,19 @@ pub fn diagnose_steady(
     let forecasts = fits.forecasts();
     let correction = fits.correction();
     withheld.extend(not_given);
+
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
     let loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
+
+    // The loads alone give a verdict; what was measured beside them may lead over it.
     let (mut out, of_loads) = verdict(case, naming.as_ref(), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
+    // Where nothing is missing there is nothing to correct.
     if of_loads == Verdict::NoMismatch {
         out.correction.effects.clear();
     }
@@ -178,6 +188,7 @@ pub fn diagnose_steady(
         let wrong = placebo.map(|named| inference::words::variants(&named.parts));
         out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
     }
+
     if options.next.is_some() {
         progress("looking for the drive that tells the rivals apart");
         let speeds = case.recordings.iter().flat_map(|r| r.speed.iter().flatten());

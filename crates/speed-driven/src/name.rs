@@ -1,5 +1,7 @@
 //! Which effects could make the loads differ as they do.
 
+use std::collections::HashSet;
+
 use faer::Mat;
 use inference::algebra::{inverse_spd, whitening};
 use inference::evidence::price_of_a_constant;
@@ -75,6 +77,7 @@ impl Named {
         doses(&self.parts, &self.values)
     }
 
+    /// Ids of its effects in the order of the parts.
     pub(crate) fn ids(&self) -> Vec<&'static str> {
         self.parts.iter().map(|v| v.spec().id).collect()
     }
@@ -98,6 +101,19 @@ pub(crate) struct Naming {
     pub(crate) effects: Vec<Named>,
     /// Evidence of free factors, one per quantity, that no effect ties together.
     pub(crate) unknown: f64,
+}
+
+impl Naming {
+    /// The best of each set of effects, best first: left and right are one cause.
+    pub(crate) fn causes(&self) -> Vec<&Named> {
+        let mut seen = HashSet::new();
+        let is_new = |e: &&Named| {
+            let mut ids = e.ids();
+            ids.sort_unstable();
+            seen.insert(ids)
+        };
+        self.effects.iter().filter(is_new).collect()
+    }
 }
 
 /// Covariance of the differences: own errors, errors of shared references, the unnamed variation of the straight

@@ -53,14 +53,11 @@ struct Rival<'a> {
 
 fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     let mut found: Vec<(Vec<&str>, Option<&Named>, f64)> = vec![(Vec::new(), None, 0.0)];
-    for e in &naming.effects {
+    found.extend(naming.causes().into_iter().map(|e| {
         let mut ids = e.ids();
         ids.sort_unstable();
-        // The better side of an effect stands for it.
-        if !found.iter().any(|f| f.0 == ids) {
-            found.push((ids, Some(e), e.score));
-        }
-    }
+        (ids, Some(e), e.score)
+    }));
     let top = found.iter().map(|f| f.2).fold(f64::MIN, f64::max);
     let weight = |s: f64| (s - top).exp();
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();

@@ -35,7 +35,7 @@ pub struct SpeedRun {
     pub body_rates: Option<BodyRates>,
     /// Whether the body stands at a row although its wheels turn it: such rows say nothing of loads or tracks.
     pub standing: Vec<bool>,
-    /// Whether the straight load at a row belongs to a change inside the recording, which is told by itself.
+    /// Whether the straight load at a row belongs to a change inside the recording, which is reported by itself.
     pub changed: Vec<bool>,
     /// Signals that were recorded and are not used.
     pub unused: Vec<Signal>,
@@ -167,6 +167,16 @@ impl SpeedRun {
     /// Difference of the speeds, right less left, m/s.
     pub(crate) fn difference(&self, i: usize) -> f64 {
         self.speed[1][i] - self.speed[0][i]
+    }
+
+    /// Whether the sides turn against each other at a row.
+    pub(crate) fn spins(&self, i: usize) -> bool {
+        self.speed[0][i] * self.speed[1][i] < 0.0
+    }
+
+    /// The faster side at a row: the outer one of a turn.
+    pub(crate) fn outer(&self, i: usize) -> usize {
+        usize::from(self.speed[1][i].abs() > self.speed[0][i].abs())
     }
 
     /// Median time between rows, s.

@@ -22,8 +22,8 @@ impl Sides {
     pub(crate) fn of(references: &[SpeedRun]) -> Self {
         let (mut sum, mut seconds, mut rows) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         for run in references {
-            for i in (0..run.time.len()).filter(|&i| is_steady_turn(run, i) && !spins(run, i)) {
-                let side = outer(run, i);
+            for i in (0..run.time.len()).filter(|&i| is_steady_turn(run, i) && !run.spins(i)) {
+                let side = run.outer(i);
                 sum[side] += run.torque[side][i].abs();
                 seconds[side] += run.period();
                 rows[side] += 1.0;
@@ -36,20 +36,12 @@ impl Sides {
     }
 }
 
-fn spins(run: &SpeedRun, i: usize) -> bool {
-    run.speed[0][i] * run.speed[1][i] < 0.0
-}
-
-fn outer(run: &SpeedRun, i: usize) -> usize {
-    usize::from(run.speed[1][i].abs() > run.speed[0][i].abs())
-}
-
 /// Torque of the outer side in steady arcs as if both sides read alike, mean of both sides in spins.
 fn readings(run: &SpeedRun, sides: Sides) -> Vec<Option<Reading>> {
     let of_row = |i: usize| {
         let [l, r] = [0, 1].map(|j| run.torque[j][i].abs());
-        let side = outer(run, i);
-        Reading::Exact(if spins(run, i) { 0.5 * (l + r) } else { [l, r][side] / sides.factor[side] })
+        let side = run.outer(i);
+        Reading::Exact(if run.spins(i) { 0.5 * (l + r) } else { [l, r][side] / sides.factor[side] })
     };
     (0..run.time.len()).map(|i| is_steady_turn(run, i).then(|| of_row(i))).collect()
 }
@@ -57,8 +49,8 @@ fn readings(run: &SpeedRun, sides: Sides) -> Vec<Option<Reading>> {
 /// The one way in which a robot turned at these rows; `None` of both, and of spins, in which both sides drive.
 fn one_way(run: &SpeedRun, rows: &[usize]) -> Option<Way> {
     let seconds = |way: &dyn Fn(usize) -> bool| rows.iter().filter(|&&i| way(i)).count() as f64 * run.period();
-    let left = seconds(&|i| spins(run, i) || outer(run, i) == 1);
-    let right = seconds(&|i| spins(run, i) || outer(run, i) == 0);
+    let left = seconds(&|i| run.spins(i) || run.outer(i) == 1);
+    let right = seconds(&|i| run.spins(i) || run.outer(i) == 0);
     if left < SCRUB.one_way {
         Some(Way::Right)
     } else if right < SCRUB.one_way {

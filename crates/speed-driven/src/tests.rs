@@ -25,7 +25,7 @@ fn a_body_that_stands_leads_the_answer_and_its_rows_touch_nothing_else() {
     let stuck = Leg { scrub: 60.0, turned: 0.05, ..Leg::turn(20.0) };
     let d = diagnosis(&[&[rounds(3), vec![stuck], rounds(1)].concat()]);
     assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Explained, "standing"), "{:?}", d.ranked);
-    assert!(d.sentences[0].starts_with("Standing: in 0 from 120."), "{:?}", d.sentences);
+    assert!(d.sentences[0].starts_with("Standing: in recording 0 from 120."), "{:?}", d.sentences);
     assert!(d.ranked.iter().all(|c| c.effect != "none" || c.probability < 0.02), "{:?}", d.ranked);
     for quantity in [Quantity::StraightLoad, Quantity::TurningLoad, Quantity::EffectiveTrack] {
         assert!(is_alike(ratio(&d, quantity)), "{:?}", ratio(&d, quantity));
@@ -50,7 +50,7 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
     let slides: Vec<Leg> = rounds(3).into_iter().map(|leg| Leg { turned: 0.8, ..leg }).collect();
     let d = diagnosis(&[&slides]);
     assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
-    assert!(d.sentences[0].starts_with("Difference: in 0 the effective track is 0.9"), "{:?}", d.sentences);
+    assert!(d.sentences[0].starts_with("Difference: in recording 0 the effective track is 0.9"), "{:?}", d.sentences);
     assert!(d.sentences.iter().any(|s| s.starts_with("The body turns by 20 % less")), "{:?}", d.sentences);
     assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
     assert_eq!(d.indistinguishable, [["effective_track"]]);
@@ -109,6 +109,10 @@ fn what_changes_inside_a_recording_is_no_load_of_the_whole() {
     let d = diagnosis(&[&[rounds(2), vec![climb, Leg::straight(12.0)], rounds(1)].concat()]);
     let straight = ratio(&d, Quantity::StraightLoad);
     assert!((straight.ratio - 1.0).abs() < 0.06, "{straight:?}");
-    assert!(d.sentences[0].starts_with("Change inside a recording: 0: from between 71."), "{:?}", d.sentences);
+    assert!(
+        d.sentences[0].starts_with("Change inside a recording. Recording 0, from between 71."),
+        "{:?}",
+        d.sentences
+    );
     assert!(d.ranked.iter().any(|c| c.effect == "grade" && c.intervals.is_some()), "{:?}", d.ranked);
 }

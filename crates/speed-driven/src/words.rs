@@ -17,7 +17,7 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
     let mut out = headline(d, of_loads, loads, theirs);
     // One that leads has been said.
     let said = |r: &&Ratio| {
-        let of = format!("in {} the {} is", r.recording, r.quantity.name());
+        let of = format!("in {} the {} is", recordings(&r.recording), r.quantity.name());
         !out.iter().any(|s| s.contains(&of))
     };
     let more: Vec<String> = reported(loads).filter(said).map(|r| load(r, theirs)).collect();
@@ -54,8 +54,8 @@ pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
     );
     (!all.is_empty()).then(|| {
         format!(
-            "the gyro runs on another clock: it was aligned by matching the turns, with a lag \
-             of {from:.2} s to {until:.2} s; {error}"
+            "the gyro runs on another clock than the wheels: it was aligned by matching the turns, with a lag of \
+             {from:.2} s to {until:.2} s; {error}"
         )
     })
 }
@@ -98,16 +98,26 @@ fn load(r: &Ratio, theirs: &str) -> String {
     };
     let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
     format!(
-        "{}: {}{at} is {compared}, measured over {:.0} s{firm}: {judgement}.",
-        r.recording,
+        "{}: the {}{at} is {compared}, measured over {:.0} s{firm}: {judgement}.",
+        titled(&r.recording),
         r.quantity.name(),
         r.seconds
     )
 }
 
+/// "recording 01", "recordings 01, 05".
+pub(crate) fn recordings(names: &str) -> String {
+    format!("recording{} {names}", if names.contains(", ") { "s" } else { "" })
+}
+
+/// The same at the beginning of a sentence.
+fn titled(names: &str) -> String {
+    recordings(names).replacen('r', "R", 1)
+}
+
 fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
-    format!("{}: from {from:.1} s to {until:.1} s the body stands: {}.", s.recording, how_it_stands(s))
+    format!("{}, from {from:.1} s to {until:.1} s: the body stands: {}.", titled(&s.recording), how_it_stands(s))
 }
 
 /// By what a body is seen to stand.
@@ -161,8 +171,8 @@ pub(crate) fn change(c: &LoadChange) -> String {
         None => format!("the slope is {size}"),
     };
     format!(
-        "{}: from {} until {}: {what}. Cause: {} ({}).",
-        c.recording,
+        "{}, from {} until {}: {what}. Cause: {} ({}).",
+        titled(&c.recording),
         moment(c.onset),
         moment(c.end),
         causes.join(" or "),
@@ -172,7 +182,7 @@ pub(crate) fn change(c: &LoadChange) -> String {
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {
     let what = match c.one_way {
-        None => "the ground is another".to_owned(),
+        None => "the ground is another there".to_owned(),
         Some(way) => {
             let way = if way == Way::Left { "left" } else { "right" };
             format!(
@@ -182,9 +192,9 @@ pub(crate) fn turning_change(c: &TurningChange) -> String {
         }
     };
     format!(
-        "{}: from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
+        "{}, from {} until {}: turning takes {:.2} ± {:.2} times the torque of the rest (90 %), \
          measured over {:.0} s: {what}.",
-        c.recording,
+        titled(&c.recording),
         moment(c.onset),
         moment(c.end),
         c.ratio,
@@ -207,8 +217,8 @@ fn hidden(all: &[Hidden]) -> Vec<String> {
         let more =
             if list.len() > named { format!(" and {} shorter stretches", list.len() - named) } else { String::new() };
         format!(
-            "{}: no straight driving in {}{more} ({:.0} s in all): a change of the ground would not show there.",
-            list[0].recording,
+            "{}: nothing is driven straight in {}{more} ({:.0} s in all), so a change of the ground would not show there.",
+            titled(&list[0].recording),
             spans.join(", "),
             list.iter().map(seconds).sum::<f64>()
         )
@@ -225,7 +235,7 @@ fn turning(all: &[Turning]) -> Vec<String> {
             "{}: the loads show that the robot turns to the left for {:.0} s, to the right for \
              {:.0} s, and on the spot or with load on both sides for {:.0} s; neither speeds nor \
              a gyro show it.",
-            list[0].recording,
+            titled(&list[0].recording),
             seconds(Way::Left),
             seconds(Way::Right),
             seconds(Way::Unknown)

@@ -340,10 +340,10 @@ impl Judged<'_> {
                 );
             }
             out.push(
-                "no real drive in which the simulation was right was given: constants are taken at the robot file's values, or \
-                 at those of the simulator's logs, as sure as the file states, and the noise is learnt from these recordings. What a constant can stand for within its \
-                 sigma is re-tuned, not named; a drive of two minutes in which nothing is wrong, given as reference, would \
-                 show smaller effects"
+                "no real drive in which the simulation was right was given as reference: constants start from the robot \
+                 file's values, or from those of the simulator's logs, and may move by the sigmas that it states, and the noise is estimated from these \
+                 recordings. An effect so small that moving a constant explains it is not named; give a fault-free drive of \
+                 two minutes as reference to find smaller ones"
                     .to_owned(),
             );
         }

@@ -1,7 +1,7 @@
 //! Sentences for people.
 
 use catalogue::answer::{NONE, UNKNOWN};
-use inference::words::{named, quantity};
+use inference::words::{named, probability, quantity};
 
 use crate::locate;
 use crate::redundancy::Fault;
@@ -16,7 +16,7 @@ pub(crate) fn fault(f: &Fault) -> String {
 }
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
-const TOLD: usize = 4;
+const SENTENCES: usize = 4;
 
 /// The answer in sentences, the most important one first.
 ///
@@ -54,34 +54,36 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
             for c in causes.iter().filter(|c| c.probability > SETTINGS.answer.likely) {
                 let place =
                     c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
-                out.push(format!("Missing: {}, {}{place} (probability {:.2}).", c.name, quantity(c), c.probability));
+                let p = probability(c.probability);
+                out.push(format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)));
             }
             if out.is_empty()
                 && let Some(c) = causes.first()
             {
-                out.push(format!(
-                    "Most likely missing: {}, {} (probability {:.2}).",
-                    c.name,
-                    quantity(c),
-                    c.probability
-                ));
+                let p = probability(c.probability);
+                out.push(format!("Most likely missing: {}, {} (probability {p}).", c.name, quantity(c)));
             }
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
     out.extend(d.simulator.iter().take(TOLD).map(|constant| format!("{}.", constant.of_simulator())));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
-        let told = d.retuned.iter().take(TOLD);
-        out.extend(told.map(|constant| format!("Re-tune: {}.", constant.sentence())));
+        let farthest = d.retuned.iter().take(SENTENCES);
+        out.extend(farthest.map(|constant| format!("Re-tune: {}.", constant.sentence())));
     }
     for class in &d.indistinguishable {
-        out.push(format!("These recordings cannot tell apart: {}.", class.join(", ")));
+        let name = |id: &String| d.ranked.iter().find(|c| c.effect == *id).map_or(id, |c| &c.name).clone();
+        let names: Vec<String> = class.iter().map(name).collect();
+        out.push(format!(
+            "These recordings cannot tell apart: {}. `lacuna next` suggests the drive that would.",
+            names.join(", ")
+        ));
     }
     let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);
     if d.verdict == Verdict::Explained && unknown > SETTINGS.answer.likely {
         out.push(format!(
-            "Something else is missing as well, which is not in the catalogue (probability \
-             {unknown:.2})."
+            "Something else is missing as well, which is not in the catalogue (probability {}).",
+            probability(unknown)
         ));
     }
     if let Some(r) = d.located.remainder.as_ref().filter(|_| d.verdict != Verdict::NoMismatch) {

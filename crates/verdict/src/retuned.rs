@@ -20,13 +20,14 @@ pub struct Retuned {
 }
 
 impl Retuned {
-    /// For people: "adhesion 0.600 -> 0.510 ± 0.020 (90 %), 1.3 of the sigma that the robot file states".
+    /// For people: "adhesion from 0.600 to 0.510 ± 0.020 (90 %), which is 1.3 times the sigma that the robot file states".
     pub fn sentence(&self) -> String {
         let digits = self.digits();
         format!(
-            "{} {:.digits$} -> {}, {:.1} of the sigma that the robot file states",
+            "{} from {:.digits$}{} to {}, which is {:.1} times the sigma that the robot file states",
             self.constant.replace('_', " "),
             self.from,
+            self.unit(),
             self.now(),
             self.sigmas.abs()
         )
@@ -74,7 +75,8 @@ mod tests {
             half_width: 0.0012,
             sigmas: 2.04,
         };
-        let text = "rolling resistance 0.0200 -> 0.0261 ± 0.0012 (90 %), 2.0 of the sigma that the robot file states";
+        let text = "rolling resistance from 0.0200 to 0.0261 ± 0.0012 (90 %), which is 2.0 times the sigma that the robot file \
+                    states";
         assert_eq!(retuned.sentence(), text);
         let mass = Retuned {
             constant: "mass".to_owned(),

@@ -81,9 +81,9 @@ fn torque(page: &mut Page, all: &[ResidualTorque]) {
     }
     let certified = all.iter().all(|t| t.certificate.holds);
     let more = if certified {
-        "by the online neural identifier; its error bound holds"
+        "learnt by the online neural identifier; its proven error bound holds"
     } else {
-        "by the online neural identifier; its error bound does not hold"
+        "learnt by the online neural identifier; its error bound does not hold"
     };
     let row = |t: &ResidualTorque| -> Vec<Cell> {
         let outside: Vec<String> =

@@ -85,9 +85,12 @@ fn torque(d: &Diagnosis) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let certified =
-        if all.iter().all(|t| t.certificate.holds) { "its error bound holds" } else { "its error bound DOES NOT HOLD" };
-    let title = format!("Torque that the model lacks (mean, by the online neural identifier; {certified})");
+    let certified = if all.iter().all(|t| t.certificate.holds) {
+        "its proven error bound holds"
+    } else {
+        "its error bound DOES NOT HOLD"
+    };
+    let title = format!("Torque that the model lacks (mean, learnt by the online neural identifier; {certified})");
     format!("\n{}{}", heading(&title), table.render())
 }
 
