@@ -11,6 +11,7 @@
 //! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
 //! * `search`, `identify`: which elements improve forecasts of windows that were left out.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
+//! * `left`: what the best answer leaves, where, and whether its cause is unknown.
 //! * `name`, `words`: elements as causes with intervals; sentences.
 //! * `model`: a fitted response as a model of its own, run forward.
 //! * `settings`: every tuned number, with unit and source.
@@ -20,11 +21,14 @@ mod controller;
 mod drive;
 mod ground;
 mod identify;
+mod left;
 mod model;
 mod name;
 mod run;
 mod search;
 mod settings;
+#[cfg(test)]
+mod testing;
 #[cfg(test)]
 mod tests;
 mod traces;
@@ -43,6 +47,7 @@ use drive::DrivePart;
 use ground::GroundPart;
 use identify::{Base, Identified, identify, neutral};
 use inference::experiment::{Comparison, Standing, leave_out};
+use left::Fitted;
 use windows::{FOLDS, Windows};
 use words::Figures;
 
@@ -87,13 +92,15 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     let robot = case.robot.checked()?;
     let nominal = [robot.wheel_radius, 2.0 * robot.half_track];
     let windows = enough(&case.recordings, "recordings")?;
-    let base = if case.references.is_empty() {
-        neutral(&windows)
+    let (base, floor) = if case.references.is_empty() {
+        (neutral(&windows), None)
     } else {
         let references = enough(&case.references, "references")?;
         let plain = neutral(&references);
         let found = identify(&references, &plain, nominal, &|_| progress("fitting the references"));
-        Base { drive: found.drive.model, ground: found.ground.model }
+        let folds = leave_out(&Rivals::new(&references, &plain, &found, nominal));
+        let floor = left::floor(&Fitted { windows: &references, folds: &folds, base: &plain, found: &found, nominal });
+        (Base { drive: found.drive.model, ground: found.ground.model }, Some(floor))
     };
     let found = identify(&windows, &base, nominal, progress);
     progress("forecasting windows that were left out");
@@ -103,7 +110,7 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     let left_out = left_out(&folds);
     let has_position = case.recordings.iter().any(ResponseRun::has_position);
     let mut runs = free_runs("left out in folds", &left_out, has_position);
-    let standing = Standing::new(&runs);
+    let objection = Standing::new(&runs).and_then(|standing| standing.objection(None));
     let mut figures = figures(&left_out, &rivals.drive_only(None), has_position);
     if !unseen.list.is_empty() {
         let errors = rivals.unseen(&unseen);
@@ -112,20 +119,35 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
         figures = self::figures(&errors, &rivals.drive_only(Some(&unseen)), position);
     }
     let response = response(&windows, unseen.list.len(), &base, &found, rivals.constants, nominal);
+    let remains = left::remains(
+        &case.recordings,
+        &Fitted { windows: &windows, folds: &folds, base: &base, found: &found, nominal },
+        floor,
+        objection.is_some(),
+    );
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
-    let ranked = name::ranked(&found, &response.parameters, summary(&left_out.nominal[0])[0], off_error, nominal[1]);
-    out.ranked = ranked;
-    out.verdict = if response.parameters.is_empty() { Verdict::NoMismatch } else { Verdict::Explained };
+    let off = [summary(&left_out.nominal[0])[0], off_error];
+    out.ranked = name::ranked(&found, &response.parameters, off, nominal[1], &remains);
+    out.verdict = if remains.mostly > SETTINGS.left.likely {
+        Verdict::Unknown
+    } else if response.parameters.is_empty() {
+        Verdict::NoMismatch
+    } else {
+        Verdict::Explained
+    };
     out.free_runs = runs;
-    out.unexplained =
-        Some((figures.wheel[2] / figures.wheel[0].max(1e-12)).powi(2)).filter(|_| !response.parameters.is_empty());
+    if out.verdict != Verdict::NoMismatch {
+        out.unexplained = Some(remains.share);
+        out.located.remainder = Some(remains.remainder());
+        out.located.spans.clone_from(&remains.spans);
+    }
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
-    if out.verdict == Verdict::Explained {
-        out.limits.extend(standing.and_then(|s| s.objection(None)));
+    if !response.parameters.is_empty() {
+        out.limits.extend(objection);
     }
-    out.sentences = words::sentences(&out, &response, &figures, nominal[1], !case.references.is_empty());
+    out.sentences = words::sentences(&out, &response, &figures, nominal[1], !case.references.is_empty(), &remains);
     out.traces = traces::traces(&case.recordings, &windows, &folds);
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     out.correction.response = Some(model::model_of(&corrected));
@@ -205,11 +227,17 @@ fn limits(case: &ResponseCase, has_position: bool, r: &Response) -> Vec<String> 
     for p in r.parameters.iter().filter(|p| p.at_bound) {
         out.push(format!("{} came out at the limit of its sensible range: {}", p.id, p.value));
     }
-    out.push(
-        "no torque and no current are used: friction, mass and adhesion cannot be determined; \
-         whether more is missing than was named is not judged, since the noise of wheels and pose \
-         is not known"
-            .to_owned(),
-    );
+    out.push("no torque and no current are used: friction, mass and adhesion cannot be determined".to_owned());
+    let floor = if case.references.is_empty() {
+        "the scatter of neighbouring samples tells the noise of wheels and pose: a disturbance that changes from sample to \
+         sample is taken for noise, and"
+    } else {
+        "what the fit of the references leaves is taken for usual, and"
+    };
+    out.push(format!(
+        "{floor} one whose errors are below {:.0} % of the motion, or that shows in one command step only, is not called \
+         unknown",
+        100.0 * SETTINGS.left.interest
+    ));
     out
 }

@@ -60,7 +60,14 @@ pub fn simulate_response(
     let (first, command) = commands(inputs)?;
     let start = [Signal::WheelSpeedLeft, Signal::WheelSpeedRight]
         .map(|w| inputs.get(w).and_then(|c| c.values().first().copied()).unwrap_or_default());
-    let piece = Piece { start: 0.0, wheel: vec![start; command.len()], command, heading: None, position: None };
+    let piece = Piece {
+        start: 0.0,
+        wheel: vec![start; command.len()],
+        command,
+        heading: None,
+        integrated: false,
+        position: None,
+    };
     let wheels = free_run(s.drive.law, &s.drive.x, &piece);
     let poses = driven(&s.ground.x, [robot.wheel_radius, 2.0 * robot.half_track], &wheels);
     let stamps: Vec<i64> = (0..wheels.len()).map(|i| first + (i as f64 * STEP * 1e9).round() as i64).collect();

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
 
 use crate::identify::{Base, Identified};
+use crate::left::Remains;
 use crate::search::{Evidence, Part, Trial, sigmas};
 use crate::settings::{Answer, SETTINGS};
 use catalogue::answer::{NONE, UNKNOWN};
@@ -80,7 +81,15 @@ const CAUSES: [(&CauseSpec, &[Element], Size); 9] = [
 const ANSWER: Answer = SETTINGS.answer;
 
 /// Causes by probability; of those that are sure, the one nearer to the command first.
-pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off_error: f64, track: f64) -> Vec<Cause> {
+///
+/// `off`: what the wheels do otherwise than commanded, with its standard error.
+pub(crate) fn ranked(
+    found: &Identified,
+    parameters: &[Parameter],
+    off: [f64; 2],
+    track: f64,
+    remains: &Remains,
+) -> Vec<Cause> {
     let mut out = Vec::new();
     let mut present = Vec::new();
     for (spec, elements, size) in CAUSES {
@@ -96,7 +105,7 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
         cause.parameters = of.iter().map(|q| (q.id.to_string(), estimate(q))).collect();
         match (size, of.as_slice()) {
             (_, []) => {}
-            (Size::WheelError, _) => (cause.magnitude, cause.sigma) = (Some(off), Some(off_error)),
+            (Size::WheelError, _) => (cause.magnitude, cause.sigma) = (Some(off[0]), Some(off[1])),
             (Size::Lag, [w, z]) => {
                 // A second-order lag is late by 2 ζ / ω.
                 let lag = 2.0 * z.value / w.value;
@@ -115,9 +124,14 @@ pub(crate) fn ranked(found: &Identified, parameters: &[Parameter], off: f64, off
         }
         out.push(cause);
     }
-    out.push(Cause::plain(NONE.id, NONE.name, none_of(present)));
-    out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, 0.0));
-    out.sort_by(|a, b| b.probability.min(ANSWER.sure).total_cmp(&a.probability.min(ANSWER.sure)));
+    out.push(Cause::plain(NONE.id, NONE.name, none_of(present.into_iter().chain([remains.mostly]))));
+    let unknown = if remains.mostly > SETTINGS.left.likely { remains.mostly } else { remains.something() };
+    out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
+    // What explains little of the mismatch does not lead it.
+    let mostly_unknown = remains.mostly > SETTINGS.left.likely;
+    let leads = |c: &Cause| mostly_unknown && c.effect == UNKNOWN.id;
+    let sureness = |c: &Cause| c.probability.min(ANSWER.sure);
+    out.sort_by(|a, b| leads(b).cmp(&leads(a)).then(sureness(b).total_cmp(&sureness(a))));
     out
 }
 

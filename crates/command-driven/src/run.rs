@@ -36,6 +36,8 @@ pub(crate) struct Piece {
     pub(crate) wheel: Vec<[f64; 2]>,
     /// Heading, unwrapped, rad.
     pub(crate) heading: Option<Vec<f64>>,
+    /// The heading is the sum of a gyro's yaw rates: its noise adds up.
+    pub(crate) integrated: bool,
     /// Position, m; only beside a heading of the same sensor.
     pub(crate) position: Option<Vec<[f64; 2]>>,
 }
@@ -90,6 +92,7 @@ impl ResponseRun {
                 command: pair(command, held),
                 wheel: pair(wheel, linear),
                 heading: Some((0..rows).map(|i| linear(turning, &headings, time(i))).collect()),
+                integrated: yaw.is_none(),
                 position: place.map(|p| pair(p, linear)),
             };
             if rows >= WINDOW {

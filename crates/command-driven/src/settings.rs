@@ -131,6 +131,32 @@
         power_scale: f64 = 0.3, "1", "guess";
     }
 
+    /// What the best answer leaves, and when that has no known cause.
+    left: Remaining {
+        /// Rows apart of which second differences tell the noise of a signal.
+        apart: usize = 2, "1", "guess; longer than the sample-hold of the open recordings";
+        /// Slope of the logistics of the logarithms of what is left over its floor, and over what matters.
+        slope: f64 = 10.0, "1", "that of torque-driven robots";
+        /// Centre of that over the floor: what is left has three times the energy of noise.
+        centre: f64 = 1.1, "1", "guess; half as much again as the start of a window with a slow lag may add";
+        /// An error of this share of the motion matters, rms.
+        interest: f64 = 0.05, "1", "guess";
+        /// Slope of the logistic of the share of the mismatch that is left.
+        left_slope: f64 = 12.0, "1", "that of torque-driven robots";
+        /// Centre of that logistic.
+        left_centre: f64 = 0.5, "1", "that of torque-driven robots";
+        /// Centre of that logistic where a wrong cause, or re-tuned constants, forecast left-out windows as well.
+        objected_centre: f64 = 0.25, "1", "guess; half of the other";
+        /// Beyond this probability a cause is said to be unknown.
+        likely: f64 = 0.5, "1", "formula: likelier than not";
+        /// Share of one side's error beyond which that of the other is the same finding.
+        alike: f64 = 0.5, "1", "guess; that of torque-driven robots";
+        /// A window stands out with so many times the mean square of its floor.
+        stands_out: f64 = 4.0, "1", "guess; twice the rms of noise";
+        /// Stretches that are told at most.
+        spans: usize = 8, "1", "guess";
+    }
+
     /// Usual sizes of an error, in units of which traces show how far forecasts are off.
     traces: Usual {
         /// Of a wheel's speed.

@@ -47,7 +47,7 @@ pub(crate) fn traces(runs: &[ResponseRun], windows: &Windows, folds: &[Simulated
 }
 
 /// Every window by the fit that left it out.
-fn put_together(windows: &Windows, folds: &[&Motion]) -> Motion {
+pub(crate) fn put_together(windows: &Windows, folds: &[&Motion]) -> Motion {
     let mut wheels = folds[0].wheels.clone();
     let mut poses = Vec::with_capacity(windows.list.len());
     for (w, window) in windows.list.iter().enumerate() {

@@ -1,5 +1,7 @@
 //! The answer of a command-driven case in sentences.
 
+use crate::left::{Remains, SIGNALS};
+use crate::settings::SETTINGS;
 use verdict::{Diagnosis, Element, Parameter, Response, Verdict};
 
 /// An element for people.
@@ -49,7 +51,61 @@ fn list(r: &Response, items: &[(&str, &str)]) -> Vec<String> {
     items.iter().filter_map(|(id, what)| find(r, id).map(|p| format!("{what} {}", value(p)))).collect()
 }
 
-pub(crate) fn sentences(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
+/// The answer in sentences, the most important one first.
+pub(crate) fn sentences(
+    d: &Diagnosis,
+    r: &Response,
+    figures: &Figures,
+    track: f64,
+    references: bool,
+    remains: &Remains,
+) -> Vec<String> {
+    let mut out = if d.verdict == Verdict::Unknown { unknown(remains) } else { Vec::new() };
+    if d.verdict == Verdict::Unknown && r.parameters.is_empty() {
+        return out;
+    }
+    let what_is_known = explained(d, r, figures, track, references);
+    if d.verdict == Verdict::Unknown {
+        out.push("What is known of the rest explains little:".to_owned());
+    }
+    out.extend(what_is_known);
+    if d.verdict == Verdict::Explained && remains.something() > SETTINGS.left.likely {
+        out.push(format!("Something else is missing as well, of which no cause is known: {}", where_left(remains)));
+    }
+    out
+}
+
+/// What no cause explains, where and when, and what to do.
+fn unknown(remains: &Remains) -> Vec<String> {
+    vec![
+        format!(
+            "Unknown: no cause of the catalogue explains these recordings; {:.0} % of the mismatch is left.",
+            100.0 * remains.share
+        ),
+        format!("The mismatch is {}", where_left(remains)),
+        "Look at what acts on the robot there and then, and record a drive in which it shows again.".to_owned(),
+    ]
+}
+
+/// "on the left side: ... is off by ...", with the clearest stretch.
+fn where_left(remains: &Remains) -> String {
+    let worst = remains.worst();
+    let (signal, unit) = SIGNALS[worst];
+    let when = remains.spans.iter().find(|s| s.signal == signal).map_or(String::new(), |s| {
+        format!(", most clearly from {:.0} to {:.0} s of '{}'", s.interval[0], s.interval[1], s.recording)
+    });
+    let given = if worst < 2 { "from the commands" } else { "from the measured wheel speeds" };
+    format!(
+        "{}: forecast {given}, the {signal} is off by {:.3} {unit} rms on windows left out of the fit, where {:.3} {unit} \
+         would be usual{when}.",
+        remains.place(),
+        remains.error[worst],
+        remains.floor[worst]
+    )
+}
+
+/// What the named causes say.
+fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
     if d.verdict == Verdict::NoMismatch {
         return vec![
             "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says."

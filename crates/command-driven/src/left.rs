@@ -1,0 +1,371 @@
+//! What the best answer leaves: how much beyond noise, in which signal, on which side, when; and whether that is so much
+//! that the cause is unknown.
+//!
+//! Wheels are judged at the commands, the body at the measured wheel speeds: neither inherits the other's errors. The
+//! floor of a signal is what its noise leaves of a perfect forecast, or what the references' own fit leaves where there
+//! are some. A mismatch is unknown when it stands above that floor, matters beside the motion, and most of it remains.
+
+use inference::evidence::logistic;
+use inference::experiment::Comparison;
+use inference::robust::{MAD_TO_SIGMA, mean, median};
+use verdict::{Remainder, Span};
+
+use crate::compare::{Motion, Simulated};
+use crate::ground::{GroundPart, Poses, RADIUS, TRACK, misses};
+use crate::identify::{Base, Identified};
+use crate::run::{ResponseRun, STEP, WINDOW};
+use crate::settings::{Remaining, SETTINGS};
+use crate::traces::put_together;
+use crate::windows::{FOLDS, Window, Windows};
+
+const LEFT: Remaining = SETTINGS.left;
+
+/// Signals, each with its unit; the first two are the sides.
+pub(crate) const SIGNALS: [(&str, &str); 4] =
+    [("left wheel speed", "rad/s"), ("right wheel speed", "rad/s"), ("heading", "rad"), ("position", "m")];
+const HEADING: usize = 2;
+const POSITION: usize = 3;
+
+/// One number for each signal.
+type BySignal = [f64; SIGNALS.len()];
+
+/// Mean squares of a window in squares of the signals' units; zeros where nothing was recorded.
+struct Squares {
+    nominal: Vec<BySignal>,
+    corrected: Vec<BySignal>,
+    /// Of the motion itself, over all windows.
+    motion: BySignal,
+    /// What noise alone leaves.
+    noise: BySignal,
+}
+
+/// What references leave when they are fitted: share of their motion.
+pub(crate) type Floor = BySignal;
+
+/// What is left of a mismatch.
+#[derive(Debug, Clone)]
+pub(crate) struct Remains {
+    /// Share of the whole mismatch that the best answer leaves.
+    pub(crate) share: f64,
+    /// Probability that something of which no cause is known shows in each signal.
+    pub(crate) unknown: BySignal,
+    /// Probability that most of the mismatch has no known cause.
+    pub(crate) mostly: f64,
+    /// Root mean square of what is left in each signal, and of its floor.
+    pub(crate) error: BySignal,
+    pub(crate) floor: BySignal,
+    /// Stretches that stand out, the clearest first; only of signals with an unknown cause.
+    pub(crate) spans: Vec<Span>,
+    by_signal: Vec<(String, f64)>,
+}
+
+impl Remains {
+    /// The signal with the most that is not known.
+    pub(crate) fn worst(&self) -> usize {
+        let relative = |s: usize| self.unknown[s] * self.error[s] / self.floor[s].max(f64::MIN_POSITIVE);
+        (0..SIGNALS.len()).max_by(|a, b| relative(*a).total_cmp(&relative(*b))).unwrap_or(0)
+    }
+
+    /// Probability that something has no known cause.
+    pub(crate) fn something(&self) -> f64 {
+        self.unknown.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Where it is, in words; both sides are one place when one leaves half as much as the other.
+    pub(crate) fn place(&self) -> &'static str {
+        let [l, r] = [self.error[0], self.error[1]];
+        match self.worst() {
+            HEADING => "in the heading",
+            POSITION => "in the position",
+            _ if l.min(r) > LEFT.alike * l.max(r) => "in the wheel speeds of both sides",
+            0 => "on the left side",
+            _ => "on the right side",
+        }
+    }
+
+    /// For the verdict.
+    pub(crate) fn remainder(&self) -> Remainder {
+        let stands = self.something() > LEFT.likely;
+        Remainder {
+            share: self.share,
+            by_signal: self.by_signal.clone(),
+            place: stands.then(|| self.place().to_owned()),
+            regime: None,
+        }
+    }
+}
+
+/// What was fitted, and what each fit that left windows out says about them.
+pub(crate) struct Fitted<'a> {
+    pub(crate) windows: &'a Windows,
+    pub(crate) folds: &'a [Simulated],
+    pub(crate) base: &'a Base,
+    pub(crate) found: &'a Identified,
+    /// Nominal wheel radius and track, m.
+    pub(crate) nominal: [f64; 2],
+}
+
+/// What a fit leaves of its own windows, as shares of the motion: the floor for others of the same robot.
+pub(crate) fn floor(fitted: &Fitted<'_>) -> Floor {
+    let windows = fitted.windows;
+    let squares = Squares::new(fitted);
+    std::array::from_fn(|s| {
+        let corrected = windows.by_block(|w| squares.corrected[w][s]);
+        mean(corrected).unwrap_or(0.0) / squares.motion[s].max(f64::MIN_POSITIVE)
+    })
+}
+
+/// What is left of the recordings.
+///
+/// `objected`: a wrong cause, or re-tuned constants, forecast left-out windows as well; less that is left is then enough.
+pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Option<Floor>, objected: bool) -> Remains {
+    let windows = fitted.windows;
+    let squares = Squares::new(fitted);
+    let motion = squares.motion;
+    let known = |s: usize| motion[s] > 0.0;
+    let floor: BySignal = std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f[s] * motion[s])));
+    let level = |of: &[BySignal], s: usize| without_the_worst(&windows.by_block(|w| of[w][s]));
+    let corrected: BySignal = std::array::from_fn(|s| level(&squares.corrected, s));
+    let beyond = |square: f64, s: usize| if known(s) { (square - floor[s]).max(0.0) / motion[s] } else { 0.0 };
+    let left: BySignal = std::array::from_fn(|s| beyond(corrected[s], s));
+    let gap: BySignal = std::array::from_fn(|s| beyond(level(&squares.nominal, s), s).max(left[s]));
+
+    let centre = if objected { LEFT.objected_centre } else { LEFT.left_centre };
+    let most = |share: f64| logistic(LEFT.left_slope * (share - centre));
+    let share_of = |left: f64, gap: f64| if gap > 0.0 { left / gap } else { 0.0 };
+    let unknown = std::array::from_fn(|s| {
+        if left[s] <= 0.0 {
+            return 0.0;
+        }
+        let stands = logistic(LEFT.slope * ((corrected[s] / floor[s].max(f64::MIN_POSITIVE)).ln() - LEFT.centre));
+        let matters = logistic(LEFT.slope * (left[s].sqrt() / LEFT.interest).ln());
+        stands * matters * most(share_of(left[s], gap[s]))
+    });
+    let share = share_of(left.iter().sum(), gap.iter().sum());
+    let total: f64 = left.iter().sum();
+    let mut order: Vec<usize> = (0..SIGNALS.len()).filter(|s| left[*s] > 0.0).collect();
+    order.sort_by(|a, b| left[*b].total_cmp(&left[*a]));
+    let mut out = Remains {
+        share,
+        unknown,
+        mostly: 0.0,
+        error: corrected.map(f64::sqrt),
+        floor: floor.map(f64::sqrt),
+        spans: Vec::new(),
+        by_signal: order.into_iter().map(|s| (SIGNALS[s].0.to_owned(), left[s] / total)).collect(),
+    };
+    out.mostly = out.something() * most(share);
+    for s in (0..SIGNALS.len()).filter(|s| unknown[*s] > LEFT.likely) {
+        let least = (LEFT.stands_out * floor[s]).max(LEFT.interest.powi(2) * motion[s]);
+        let high: Vec<f64> = squares.corrected.iter().map(|w| w[s] / least).collect();
+        out.spans.extend(spans(runs, windows, s, &high));
+    }
+    out.spans.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    out.spans.truncate(LEFT.spans);
+    out
+}
+
+/// Mean without the largest value: one jump of a sensor, or one command step, decides nothing.
+fn without_the_worst(blocks: &[f64]) -> f64 {
+    let largest = blocks.iter().copied().fold(0.0, f64::max);
+    (blocks.iter().sum::<f64>() - largest).max(0.0) / (blocks.len() as f64 - 1.0).max(1.0)
+}
+
+/// Windows that follow each other with a mean square above 1, as stretches of their recordings.
+fn spans(runs: &[ResponseRun], windows: &Windows, signal: usize, high: &[f64]) -> Vec<Span> {
+    let length = WINDOW as f64 * STEP;
+    let mut out: Vec<Span> = Vec::new();
+    let mut last = None;
+    for (w, window) in windows.list.iter().enumerate().filter(|(w, _)| high[*w] > 1.0) {
+        let (run, first, end) = place(runs, windows, window);
+        let gain = 0.5 * (high[w] - high[w].ln());
+        match out.last_mut().filter(|_| last == Some(w.wrapping_sub(1)) && windows.list[w - 1].piece == window.piece) {
+            Some(span) => {
+                span.interval[1] = first + length;
+                span.gain += gain;
+            }
+            None => out.push(Span {
+                recording: run.name.clone(),
+                signal: SIGNALS[signal].0.to_owned(),
+                side: (signal < HEADING).then(|| inference::words::side(signal).into()),
+                interval: [first, first + length],
+                onset: (first > 0.0).then_some([first - length, first + length]),
+                end: None,
+                gain,
+            }),
+        }
+        if let Some(span) = out.last_mut() {
+            let until = span.interval[1];
+            span.end = (until + length < end).then_some([until - length, until + length]);
+        }
+        last = Some(w);
+    }
+    out
+}
+
+/// Recording of a window, when it begins, and when the recording ends, s.
+pub(crate) fn place<'a>(runs: &'a [ResponseRun], windows: &Windows, window: &Window) -> (&'a ResponseRun, f64, f64) {
+    let mut run = 0;
+    let mut before = 0;
+    while run + 1 < runs.len() && before + runs[run].pieces.len() <= window.piece {
+        before += runs[run].pieces.len();
+        run += 1;
+    }
+    let end = runs[run].pieces.last().map_or(0.0, |p| p.start + p.wheel.len() as f64 * STEP);
+    (&runs[run], windows.pieces[window.piece].start + window.start as f64 * STEP, end)
+}
+
+impl Squares {
+    fn new(fitted: &Fitted<'_>) -> Self {
+        let Fitted { windows, folds, base, found, nominal } = *fitted;
+        let of = |which: &dyn Fn(&Comparison<Motion>) -> &Motion| {
+            put_together(windows, &folds.iter().map(|fold| which(&fold.responses)).collect::<Vec<_>>()).wheels
+        };
+        let wheels = [of(&|c| &c.nominal), of(&|c| c.best())];
+        // The body at the wheel speeds that were measured, each window by the fit that left it out.
+        let body = GroundPart::measured(windows, nominal);
+        let plain = body.poses(&base.ground.x);
+        let by_fold: Vec<Vec<Poses>> = (0..FOLDS).map(|f| body.poses(&found.ground.folds[f].x)).collect();
+        let corrected: Vec<Poses> = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w].clone()).collect();
+
+        let residuals = |wheels: &[Vec<[f64; 2]>], poses: &[Poses]| -> Vec<Vec<[f64; 5]>> {
+            let of_window = |(w, p): (&Window, &Poses)| {
+                let measured = &windows.pieces[w.piece].wheel;
+                let wheel = |i: usize, s: usize| wheels[w.piece][w.start + i][s] - measured[w.start + i][s];
+                let row = |(i, [x, y, h]): (usize, [f64; 3])| [wheel(i, 0), wheel(i, 1), h, x, y];
+                misses(windows, w, p).into_iter().enumerate().map(row).collect()
+            };
+            windows.list.iter().zip(poses).map(of_window).collect()
+        };
+        let left = residuals(&wheels[1], &corrected);
+        let still = vec![vec![[0.0; 3]; WINDOW]; windows.list.len()];
+        let at_rest: Vec<Vec<[f64; 2]>> = windows.pieces.iter().map(|p| vec![[0.0; 2]; p.wheel.len()]).collect();
+        let moved = squares(&residuals(&at_rest, &still));
+        let motion = std::array::from_fn(|s| {
+            let one = |k: usize| mean(moved.iter().map(|m| m[k])).unwrap_or(0.0);
+            // Both wheels are measured by the motion of both: a wheel at rest has no share of its own.
+            if s < HEADING { 0.5 * (one(0) + one(1)) } else { one(s) }
+        });
+        let noise = noise(windows, &left, motion, found, nominal);
+        Self { nominal: squares(&residuals(&wheels[0], &plain)), corrected: squares(&left), motion, noise }
+    }
+}
+
+/// Mean squares of every window.
+fn squares(residuals: &[Vec<[f64; 5]>]) -> Vec<BySignal> {
+    let of_window = |rows: &Vec<[f64; 5]>| {
+        let mean = |k: usize| rows.iter().map(|r| r[k] * r[k]).sum::<f64>() / rows.len().max(1) as f64;
+        [mean(0), mean(1), mean(2), mean(3) + mean(4)]
+    };
+    residuals.iter().map(of_window).collect()
+}
+
+/// Mean squares that noise leaves of a perfect forecast over a window that begins at a measured state.
+///
+/// White noise of σ has second differences of 6 σ². A pose is compared with the noisy pose of the window's first row, so
+/// that it is off by 2 σ² and, where it goes, by its distance times the first heading's error; wheel noise adds up along
+/// the window as a random walk, and so does a gyro's, whose second differences are 2 q for steps of q.
+fn noise(
+    windows: &Windows,
+    residuals: &[Vec<[f64; 5]>],
+    motion: BySignal,
+    found: &Identified,
+    [radius, track]: [f64; 2],
+) -> BySignal {
+    let apart = LEFT.apart;
+    let second = |k: usize| -> f64 {
+        let of_window = |r: &Vec<[f64; 5]>| -> Vec<f64> {
+            (apart..r.len() - apart).map(|i| (r[i + apart][k] - 2.0 * r[i][k] + r[i - apart][k]).abs()).collect()
+        };
+        (MAD_TO_SIGMA * median(residuals.iter().flat_map(of_window)).unwrap_or(0.0)).powi(2)
+    };
+    // 1² + 2² + 1²
+    let white = 2.0 + 4.0;
+    let wheel = [second(0) / white, second(1) / white];
+    let x = &found.ground.model.x;
+    let (rolls, lever) = (x[RADIUS] * radius, x[TRACK] * track);
+    let along = 0.5 * WINDOW as f64 * STEP * STEP * rolls * rolls * (wheel[0] + wheel[1]);
+    let integrated = windows.pieces.iter().any(|p| p.integrated);
+    let heading = second(HEADING) / white;
+    let turned = if integrated {
+        0.5 * WINDOW as f64 * second(HEADING) / (2.0 * apart as f64)
+    } else {
+        2.0 * heading + along / (lever * lever)
+    };
+    let position = 2.0 * (second(3) + second(4)) / white + motion[POSITION] * heading + 0.25 * along;
+    [wheel[0], wheel[1], turned, position]
+}
+
+#[cfg(test)]
+mod tests {
+    use verdict::{Diagnosis, Verdict};
+
+    use super::*;
+    use crate::controller::{DEAD_TIME, GAIN};
+    use crate::testing::{Truth, diagnosed, robot};
+    use crate::{ResponseCase, diagnose_response};
+    use catalogue::answer::UNKNOWN;
+
+    fn probability(d: &Diagnosis, id: &str) -> f64 {
+        d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability)
+    }
+
+    fn remainder(d: &Diagnosis) -> &Remainder {
+        d.located.remainder.as_ref().expect("what is left")
+    }
+
+    #[test]
+    fn a_side_that_is_pulled_for_no_known_cause_is_unknown_with_side_and_time() {
+        let pulled = |t: f64, side: usize| if side == 0 && t > 40.0 { 2.5 * (2.5 * t).sin() } else { 0.0 };
+        let d = diagnosed(&Truth { wheel_push: pulled, ..Truth::perfect() }, None);
+        assert_eq!((d.verdict, &*d.ranked[0].effect), (Verdict::Unknown, "unknown"), "{:?}", d.ranked);
+        assert_eq!(remainder(&d).place.as_deref(), Some("on the left side"));
+        assert!(remainder(&d).share > 0.8 && remainder(&d).by_signal[0].0 == "left wheel speed", "{:?}", remainder(&d));
+        assert!(d.located.spans.iter().all(|s| s.side.as_deref() == Some("left") && s.interval[0] > 37.0));
+        assert!(d.sentences[0].starts_with("Unknown: no cause"), "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn a_body_that_is_turned_by_something_else_is_unknown_in_its_heading() {
+        let d = diagnosed(&Truth { body_push: |_, heading| 0.6 * heading.sin(), ..Truth::perfect() }, None);
+        assert_eq!(d.verdict, Verdict::Unknown, "{:?}", d.ranked);
+        assert_eq!(remainder(&d).place.as_deref(), Some("in the heading"), "{:?}", remainder(&d));
+    }
+
+    #[test]
+    fn what_a_named_cause_leaves_is_told_beside_it() {
+        let mut truth = Truth { body_push: |_, heading| 0.6 * heading.sin(), ..Truth::perfect() };
+        (truth.drive[GAIN[0]], truth.drive[DEAD_TIME]) = (0.5, 0.5);
+        let d = diagnosed(&truth, None);
+        assert_eq!(d.verdict, Verdict::Explained, "{:?} {:?}", d.ranked, remainder(&d));
+        assert!(probability(&d, "transport_delay") > 0.9 && probability(&d, UNKNOWN.id) > 0.5, "{:?}", d.ranked);
+        assert!(d.sentences.iter().any(|s| s.contains("Something else") && s.contains("heading")), "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn what_is_right_and_what_is_named_is_not_unknown() {
+        for (truth, verdict) in [(Truth::perfect(), Verdict::NoMismatch), (Truth::stock(), Verdict::Explained)] {
+            for recordings in [[11, 12], [21, 22]] {
+                let recordings = recordings.map(|seed| truth.run("r", 25, seed)).to_vec();
+                let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+                let d = diagnose_response(&case, &|_| {}).expect("a diagnosis");
+                assert_eq!(d.verdict, verdict, "{:?}", d.ranked);
+                assert!(probability(&d, UNKNOWN.id) < 0.01, "{:?}", d.ranked);
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_references_leave_as_well_is_usual() {
+        let rough = |t: f64, _: usize| 0.8 * (3.0 * t).sin();
+        let truth = || Truth { wheel_push: rough, ..Truth::perfect() };
+        let (alone, beside) = (diagnosed(&truth(), None), diagnosed(&truth(), Some(&truth())));
+        assert_eq!((alone.verdict, beside.verdict), (Verdict::Unknown, Verdict::NoMismatch), "{:?}", beside.ranked);
+    }
+
+    #[test]
+    fn one_command_step_decides_nothing() {
+        assert_eq!(without_the_worst(&[1.0, 100.0, 3.0]), 2.0);
+        assert_eq!(without_the_worst(&[5.0]), 0.0);
+    }
+}
