@@ -66,7 +66,7 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
-    out.extend(d.simulator.iter().take(TOLD).map(|constant| format!("{}.", constant.of_simulator())));
+    out.extend(d.simulator.iter().take(SENTENCES).map(|constant| format!("{}.", constant.of_simulator())));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
         let farthest = d.retuned.iter().take(SENTENCES);
         out.extend(farthest.map(|constant| format!("Re-tune: {}.", constant.sentence())));
