@@ -9,7 +9,7 @@ use crate::drive::DrivePart;
 use crate::ground::{GroundPart, Poses, misses};
 use crate::identify::{Base, Identified};
 use crate::run::WINDOW;
-use crate::search::{Model as PartModel, Trial, attempt};
+use crate::search::{Timed, Trial, attempt};
 use crate::settings::SETTINGS;
 use crate::windows::{FOLDS, Windows};
 
@@ -34,9 +34,9 @@ pub(crate) struct Simulation {
 
 /// Both parts at fitted constants.
 pub(crate) struct Model {
-    drive: PartModel<Law>,
+    drive: Timed<Law>,
     powers: usize,
-    ground: PartModel<()>,
+    ground: Timed<()>,
 }
 
 /// What a simulation says: wheel speeds by piece, poses by window.
@@ -72,15 +72,11 @@ impl Experiment for Rivals<'_> {
     }
 
     fn fitted_without(&self, fold: usize) -> Option<Comparison<Model>> {
-        Some(self.all.map(|s| Model {
-            drive: s.drive.folds[fold].clone(),
-            powers: s.powers,
-            ground: s.ground.folds[fold].clone(),
-        }))
+        Some(self.all.map(|s| Model { drive: s.drive.without(fold), powers: s.powers, ground: s.ground.without(fold) }))
     }
 
     fn fitted(&self) -> Comparison<Model> {
-        self.all.map(|s| Model { drive: s.drive.model.clone(), powers: s.powers, ground: s.ground.model.clone() })
+        self.all.map(|s| Model { drive: s.drive.now(), powers: s.powers, ground: s.ground.now() })
     }
 
     fn response(&self, model: &Model, _: usize) -> Motion {
@@ -113,7 +109,7 @@ impl<'a> Rivals<'a> {
         let retuned = attempt(&as_commanded, &base.ground, (), tunables, None);
 
         let placebo = placebo(windows, base, found, nominal);
-        let count = |d: &Trial<Law>, g: &Trial<()>| d.free.len() + g.free.len();
+        let count = |d: &Trial<Law>, g: &Trial<()>| d.constants() + g.constants();
         let constants = [count(&found.drive, &found.ground), count(&placebo.drive, &placebo.ground)];
         let simulation = |drive: &Trial<Law>, ground: &Trial<()>| Simulation {
             drive: drive.clone(),
@@ -138,7 +134,7 @@ impl<'a> Rivals<'a> {
     pub(crate) fn drive_only(&self, unseen: Option<&Windows>) -> Errors {
         let with_plain_ground = |corrected: &Comparison<Model>| {
             let drive = corrected.best().drive.clone();
-            Model { drive, powers: 0, ground: self.all.nominal.ground.model.clone() }
+            Model { drive, powers: 0, ground: self.all.nominal.ground.now() }
         };
         if let Some(windows) = unseen {
             return errors(windows, &self.motion(windows, &with_plain_ground(&self.fitted())));
@@ -154,8 +150,8 @@ impl<'a> Rivals<'a> {
     fn motion(&self, windows: &Windows, model: &Model) -> Motion {
         let mut part = DrivePart::new(windows, model.powers);
         part.largest = self.largest;
-        let wheels = part.wheels(model.drive.law, &model.drive.x);
-        let poses = GroundPart::new(windows, wheels.clone(), self.nominal).poses(&model.ground.x);
+        let wheels = model.drive.wheels(&part);
+        let poses = model.ground.poses(&GroundPart::new(windows, wheels.clone(), self.nominal));
         Motion { wheels, poses }
     }
 }
@@ -210,7 +206,7 @@ pub(crate) fn errors(windows: &Windows, motion: &Motion) -> Errors {
 /// constants as the corrected simulation has. Where the drive is right, constants of the ground that were not named.
 fn placebo(windows: &Windows, base: &Base, found: &Identified, nominal: [f64; 2]) -> Simulation {
     let named = &found.drive.elements;
-    let count = found.drive.free.len();
+    let count = found.drive.constants();
     let law = Law { side_ramps: true, scaling: Scaling::EachSide, ..Law::default() };
     let mut elements = Vec::new();
     let mut powers = 0;

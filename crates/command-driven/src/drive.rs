@@ -5,7 +5,7 @@ use crate::controller::{
     WHEEL_LIMIT, body, simulate,
 };
 use crate::run::{STEP, WINDOW};
-use crate::search::Part;
+use crate::search::{Part, Timed};
 use crate::settings::{DriveStarts, SETTINGS};
 use crate::windows::Windows;
 use inference::robust::select_quantile;
@@ -45,6 +45,21 @@ impl<'a> DrivePart<'a> {
     /// Every piece's wheel speeds.
     pub(crate) fn wheels(&self, law: Law, x: &[f64]) -> Vec<Vec<[f64; 2]>> {
         self.windows.pieces.iter().map(|p| simulate(law, x, self.largest, p)).collect()
+    }
+}
+
+impl Timed<Law> {
+    /// Wheel speeds of every piece, each window by the model that held in it.
+    pub(crate) fn wheels(&self, part: &DrivePart<'_>) -> Vec<Vec<[f64; 2]>> {
+        let mut out = part.wheels(self.model.law, &self.model.x);
+        if let Some((before, early)) = &self.early {
+            let then = part.wheels(before.law, &before.x);
+            for (w, _) in part.windows.list.iter().zip(early).filter(|(_, early)| **early) {
+                let rows = w.start..w.start + WINDOW;
+                out[w.piece][rows.clone()].copy_from_slice(&then[w.piece][rows]);
+            }
+        }
+        out
     }
 }
 

@@ -7,7 +7,7 @@
 //! best; it cannot reverse the motion.
 
 use crate::run::{STEP, WINDOW};
-use crate::search::Part;
+use crate::search::{Part, Timed};
 use crate::settings::{GroundStarts, SETTINGS};
 use crate::windows::{Window, Windows};
 use verdict::{Element, GROUND_CONSTANTS, ResponseConstant};
@@ -52,6 +52,18 @@ impl<'a> GroundPart<'a> {
     pub(crate) fn poses(&self, x: &[f64]) -> Vec<Poses> {
         let twists: Vec<Vec<[f64; 2]>> = self.wheels.iter().map(|w| twist(x, self.nominal, w)).collect();
         self.windows.list.iter().map(|w| poses(x, &twists[w.piece][w.start..w.start + WINDOW])).collect()
+    }
+}
+
+impl Timed<()> {
+    /// Poses of every window, each by the model that held in it.
+    pub(crate) fn poses(&self, part: &GroundPart<'_>) -> Vec<Poses> {
+        let mut out = part.poses(&self.model.x);
+        if let Some((before, early)) = &self.early {
+            let then = part.poses(&before.x);
+            out.iter_mut().zip(then).zip(early).filter(|(_, early)| **early).for_each(|((p, then), _)| *p = then);
+        }
+        out
     }
 }
 

@@ -6,7 +6,8 @@ use verdict::{Alternative, Element, Scaling};
 use crate::controller::Law;
 use crate::drive::DrivePart;
 use crate::ground::{self, GroundPart};
-use crate::search::{Evidence, Model, Trial, Weighed, attempt, evidence, prune};
+use crate::onset;
+use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
 use crate::windows::Windows;
 
 /// What the simulation says: of the drive, of the ground.
@@ -39,27 +40,84 @@ pub(crate) fn neutral(windows: &Windows) -> Base {
 /// Finds what the recordings show beyond the simulation.
 pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
     progress("fitting wheel speeds to commands");
-    let of_drive = drive(windows, base);
+    let of_drive = onset::found(&OfDrive, windows, &base.drive);
     progress("fitting the motion of the body to wheel speeds");
-    let (ground, of_ground) = motion(windows, base, nominal);
+    let of_ground = onset::found(&OfGround { nominal }, windows, &base.ground);
     Identified {
         drive: of_drive.trial,
-        ground,
-        evidence: of_drive.evidence.into_iter().chain(of_ground).collect(),
+        ground: of_ground.trial,
+        evidence: of_drive.evidence.into_iter().chain(of_ground.evidence).collect(),
         alternatives: of_drive.alternatives,
         scaling_is_told: of_drive.scaling_is_told,
     }
 }
 
-/// What was found between command and wheel.
-struct OfDrive {
-    trial: Trial<Law>,
-    evidence: Weighed,
-    alternatives: Vec<Alternative>,
-    scaling_is_told: bool,
+/// What was found in a part.
+pub(crate) struct Found<L> {
+    pub(crate) trial: Trial<L>,
+    pub(crate) evidence: Weighed,
+    pub(crate) alternatives: Vec<Alternative>,
+    pub(crate) scaling_is_told: bool,
 }
 
-fn drive(windows: &Windows, base: &Base) -> OfDrive {
+/// A part of the response that is identified on its own, on any windows.
+pub(crate) trait Identify {
+    /// What has no size.
+    type Law: Copy + PartialEq + Send + Sync + std::fmt::Debug;
+    /// Its fit to some windows.
+    type Of<'a>: Part<Law = Self::Law>;
+    fn part<'a>(&self, windows: &'a Windows) -> Self::Of<'a>;
+    /// Elements that may be others from an instant on.
+    fn may_begin(&self, windows: &Windows) -> &'static [Element];
+    fn identify(&self, windows: &Windows, base: &Model<Self::Law>) -> Found<Self::Law>;
+}
+
+/// From command to wheel.
+pub(crate) struct OfDrive;
+
+impl Identify for OfDrive {
+    type Law = Law;
+    type Of<'a> = DrivePart<'a>;
+
+    fn part<'a>(&self, windows: &'a Windows) -> DrivePart<'a> {
+        DrivePart::new(windows, 0)
+    }
+
+    fn may_begin(&self, _: &Windows) -> &'static [Element] {
+        use Element::{DeadTime, Gain, Lag, Ramp, SideGain, TurnLimit, WheelLimit};
+        &[DeadTime, Gain, TurnLimit, WheelLimit, Ramp, Lag, SideGain]
+    }
+
+    fn identify(&self, windows: &Windows, base: &Model<Law>) -> Found<Law> {
+        drive(windows, base)
+    }
+}
+
+/// From wheel to body.
+pub(crate) struct OfGround {
+    pub(crate) nominal: [f64; 2],
+}
+
+impl Identify for OfGround {
+    type Law = ();
+    type Of<'a> = GroundPart<'a>;
+
+    fn part<'a>(&self, windows: &'a Windows) -> GroundPart<'a> {
+        GroundPart::measured(windows, self.nominal)
+    }
+
+    fn may_begin(&self, windows: &Windows) -> &'static [Element] {
+        use Element::{Radius, SideRadius, Track, TurnSlip};
+        let has_position = windows.pieces.iter().any(|p| p.position.is_some());
+        if has_position { &[Radius, Track, TurnSlip, SideRadius] } else { &[Track, SideRadius] }
+    }
+
+    fn identify(&self, windows: &Windows, base: &Model<()>) -> Found<()> {
+        motion(&self.part(windows), base)
+    }
+}
+
+fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
     use Element::{DeadTime, ForwardLimit, Gain, Lag, Ramp, SideGain, TurnLimit, WheelLimit};
     let part = DrivePart::new(windows, 0);
     let full = [DeadTime, Gain, TurnLimit, WheelLimit, Ramp, Lag];
@@ -68,23 +126,23 @@ fn drive(windows: &Windows, base: &Base) -> OfDrive {
         .flat_map(|scaling| [true, false].map(|after_ramp| Law { scaling, after_ramp, ..Law::default() }))
         .collect();
     let mut tried: Vec<(String, Trial<Law>)> =
-        laws.par_iter().map(|law| (limit_words(*law), attempt(&part, &base.drive, *law, &full, None))).collect();
+        laws.par_iter().map(|law| (limit_words(*law), attempt(&part, base, *law, &full, None))).collect();
     let lowest = tried.iter().map(|t| &t.1).min_by(|a, b| a.level().total_cmp(&b.level()));
     let mut best = match lowest {
         Some(t) => t.clone(),
-        None => attempt(&part, &base.drive, base.drive.law, &[], None),
+        None => attempt(&part, base, base.law, &[], None),
     };
     let scaling_is_told = Scaling::ALL.into_iter().filter(|s| *s != best.model.law.scaling).all(|s| {
         let same = tried.iter().map(|t| &t.1).filter(|t| t.model.law.scaling == s);
         let rival = same.min_by(|a, b| a.level().total_cmp(&b.level()));
         rival.is_none_or(|r| evidence(windows, &r.loss, &best.loss).score > 0.0)
     });
-    let side_ramps = attempt(&part, &base.drive, Law { side_ramps: true, ..best.model.law }, &full, None);
+    let side_ramps = attempt(&part, base, Law { side_ramps: true, ..best.model.law }, &full, None);
     tried.push(("acceleration limits on each side".to_owned(), side_ramps.clone()));
     if side_ramps.level() < best.level() {
         best = side_ramps;
     }
-    let second = attempt(&part, &base.drive, Law { second_order: true, ..best.model.law }, &full, None);
+    let second = attempt(&part, base, Law { second_order: true, ..best.model.law }, &full, None);
     tried.push(("second-order lag".to_owned(), second.clone()));
     if evidence(windows, &best.loss, &second.loss).score > 0.0 {
         best = second;
@@ -92,7 +150,7 @@ fn drive(windows: &Windows, base: &Base) -> OfDrive {
     let mut found = Weighed::new();
     for extra in [ForwardLimit, SideGain] {
         let more: Vec<Element> = best.elements.iter().copied().chain([extra]).collect();
-        let t = attempt(&part, &base.drive, best.model.law, &more, Some(&best));
+        let t = attempt(&part, base, best.model.law, &more, Some(&best));
         let e = evidence(windows, &best.loss, &t.loss);
         if e.score > 0.0 {
             best = t;
@@ -100,7 +158,7 @@ fn drive(windows: &Windows, base: &Base) -> OfDrive {
             found.push((extra, e));
         }
     }
-    let (kept, each) = prune(&part, &base.drive, best);
+    let (kept, each) = prune(&part, base, best);
     let mut alternatives: Vec<Alternative> =
         tried.iter().map(|(what, t)| alternative(windows, what.clone(), &t.loss, &kept.loss)).collect();
     let without = |e: Element| format!("without {}", crate::words::element(e));
@@ -110,7 +168,7 @@ fn drive(windows: &Windows, base: &Base) -> OfDrive {
         standard_error: v.standard_error,
     }));
     found.extend(each);
-    OfDrive { trial: kept, evidence: found, alternatives, scaling_is_told }
+    Found { trial: kept, evidence: found, alternatives, scaling_is_told }
 }
 
 fn alternative(windows: &Windows, what: String, loss: &[f64], chosen: &[f64]) -> Alternative {
@@ -126,9 +184,9 @@ fn limit_words(law: Law) -> String {
     )
 }
 
-fn motion(windows: &Windows, base: &Base, nominal: [f64; 2]) -> (Trial<()>, Weighed) {
+fn motion(part: &GroundPart<'_>, base: &Model<()>) -> Found<()> {
     use Element::{BodyLag, Offset, Radius, SideRadius, Track, TurnSlip};
-    let part = GroundPart::measured(windows, nominal);
+    let windows = part.windows();
     let has_position = windows.pieces.iter().any(|p| p.position.is_some());
     // Without positions only turning is known.
     let (first, extras): (&[Element], &[Element]) = if has_position {
@@ -136,7 +194,7 @@ fn motion(windows: &Windows, base: &Base, nominal: [f64; 2]) -> (Trial<()>, Weig
     } else {
         (&[Track], &[BodyLag, SideRadius])
     };
-    let mut best = attempt(&part, &base.ground, (), first, None);
+    let mut best = attempt(part, base, (), first, None);
     let mut rejected: Weighed;
     loop {
         let mut tried: Vec<(Element, Evidence, Trial<()>)> = extras
@@ -144,7 +202,7 @@ fn motion(windows: &Windows, base: &Base, nominal: [f64; 2]) -> (Trial<()>, Weig
             .filter(|e| !best.has(**e))
             .map(|&e| {
                 let more: Vec<Element> = best.elements.iter().copied().chain([e]).collect();
-                let t = attempt(&part, &base.ground, (), &more, Some(&best));
+                let t = attempt(part, base, (), &more, Some(&best));
                 (e, evidence(windows, &best.loss, &t.loss), t)
             })
             .collect();
@@ -157,7 +215,7 @@ fn motion(windows: &Windows, base: &Base, nominal: [f64; 2]) -> (Trial<()>, Weig
             }
         }
     }
-    let (kept, each) = prune(&part, &base.ground, best);
+    let (kept, each) = prune(part, base, best);
     rejected.extend(each);
-    (kept, rejected)
+    Found { trial: kept, evidence: rejected, alternatives: Vec::new(), scaling_is_told: true }
 }

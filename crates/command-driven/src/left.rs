@@ -177,7 +177,7 @@ fn spans(runs: &[ResponseRun], windows: &Windows, signal: usize, high: &[f64]) -
     let mut out: Vec<Span> = Vec::new();
     let mut last = None;
     for (w, window) in windows.list.iter().enumerate().filter(|(w, _)| high[*w] > 1.0) {
-        let (run, first, end) = place(runs, windows, window);
+        let (run, first, end) = (&runs[window.run], windows.time(w), windows.end(w));
         let gain = 0.5 * (high[w] - high[w].ln());
         match out.last_mut().filter(|_| last == Some(w.wrapping_sub(1)) && windows.list[w - 1].piece == window.piece) {
             Some(span) => {
@@ -203,18 +203,6 @@ fn spans(runs: &[ResponseRun], windows: &Windows, signal: usize, high: &[f64]) -
     out
 }
 
-/// Recording of a window, when it begins, and when the recording ends, s.
-pub(crate) fn place<'a>(runs: &'a [ResponseRun], windows: &Windows, window: &Window) -> (&'a ResponseRun, f64, f64) {
-    let mut run = 0;
-    let mut before = 0;
-    while run + 1 < runs.len() && before + runs[run].pieces.len() <= window.piece {
-        before += runs[run].pieces.len();
-        run += 1;
-    }
-    let end = runs[run].pieces.last().map_or(0.0, |p| p.start + p.wheel.len() as f64 * STEP);
-    (&runs[run], windows.pieces[window.piece].start + window.start as f64 * STEP, end)
-}
-
 impl Squares {
     fn new(fitted: &Fitted<'_>) -> Self {
         let Fitted { windows, folds, base, found, nominal } = *fitted;
@@ -225,7 +213,7 @@ impl Squares {
         // The body at the wheel speeds that were measured, each window by the fit that left it out.
         let body = GroundPart::measured(windows, nominal);
         let plain = body.poses(&base.ground.x);
-        let by_fold: Vec<Vec<Poses>> = (0..FOLDS).map(|f| body.poses(&found.ground.folds[f].x)).collect();
+        let by_fold: Vec<Vec<Poses>> = (0..FOLDS).map(|f| found.ground.without(f).poses(&body)).collect();
         let corrected: Vec<Poses> = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w].clone()).collect();
 
         let residuals = |wheels: &[Vec<[f64; 2]>], poses: &[Poses]| -> Vec<Vec<[f64; 5]>> {

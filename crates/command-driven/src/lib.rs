@@ -10,6 +10,7 @@
 //! * `controller`, `drive`: from command to wheel, the law and its fit.
 //! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
 //! * `search`, `identify`: which elements improve forecasts of windows that were left out.
+//! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
 //! * `left`: what the best answer leaves, where, and whether its cause is unknown.
 //! * `name`, `words`: elements as causes with intervals; sentences.
@@ -24,6 +25,7 @@ mod identify;
 mod left;
 mod model;
 mod name;
+mod onset;
 mod run;
 mod search;
 mod settings;
@@ -43,9 +45,7 @@ use verdict::{Diagnosis, Element, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
-use drive::DrivePart;
-use ground::GroundPart;
-use identify::{Base, Identified, identify, neutral};
+use identify::{Base, Identified, OfDrive, OfGround, identify, neutral};
 use inference::experiment::{Comparison, Standing, leave_out};
 use left::Fitted;
 use windows::{FOLDS, Windows};
@@ -77,6 +77,10 @@ pub struct ResponseCase {
     /// Recordings that no fit may see: forecasts are compared with them.
     pub held_out: Vec<ResponseRun>,
 }
+
+/// What an onset does to the answer.
+const ONE_ONSET: &str = "what begins inside a recording is taken to begin once in it and to stay: the corrected robot \
+    file, and forecasts of held-out recordings, have the response since then";
 
 /// Steps without which nothing can be left out in folds.
 const LEAST_STEPS: usize = SETTINGS.windows.steps_per_fold * FOLDS;
@@ -128,7 +132,7 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
     let off = [summary(&left_out.nominal[0])[0], off_error];
-    out.ranked = name::ranked(&found, &response.parameters, off, nominal[1], &remains);
+    out.ranked = name::ranked(&found, &response.parameters, off, nominal[1], &remains, &case.recordings);
     out.verdict = if remains.mostly > SETTINGS.left.likely {
         Verdict::Unknown
     } else if response.parameters.is_empty() {
@@ -147,7 +151,19 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     if !response.parameters.is_empty() {
         out.limits.extend(objection);
     }
-    out.sentences = words::sentences(&out, &response, &figures, nominal[1], !case.references.is_empty(), &remains);
+    let begun: Vec<String> = [
+        words::begun(&OfDrive, &found.drive, &case.recordings),
+        words::begun(&OfGround { nominal }, &found.ground, &case.recordings),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    out.located.spans.extend(name::onsets(&found, &case.recordings));
+    if !begun.is_empty() {
+        out.limits.push(ONE_ONSET.to_owned());
+    }
+    let all = !case.references.is_empty();
+    out.sentences = words::sentences(&out, &response, &figures, nominal[1], all, &remains, begun);
     out.traces = traces::traces(&case.recordings, &windows, &folds);
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     out.correction.response = Some(model::model_of(&corrected));
@@ -172,8 +188,8 @@ fn response(
     nominal: [f64; 2],
 ) -> Response {
     let [of_drive, of_ground] = name::simulated(base);
-    let mut parameters = name::parameters(&DrivePart::new(windows, 0), &found.drive, of_drive);
-    parameters.extend(name::parameters(&GroundPart::measured(windows, nominal), &found.ground, of_ground));
+    let mut parameters = name::parameters_of(&OfDrive, windows, &found.drive, of_drive);
+    parameters.extend(name::parameters_of(&OfGround { nominal }, windows, &found.ground, of_ground));
     let law = found.drive.model.law;
     Response {
         windows: windows.list.len(),

@@ -1,12 +1,14 @@
 //! Elements of a response as causes, with probabilities, sizes and intervals.
 
 use std::collections::BTreeMap;
-use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant};
+use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant, Span};
 
-use crate::identify::{Base, Identified};
+use crate::identify::{Base, Identified, Identify};
 use crate::left::Remains;
+use crate::run::ResponseRun;
 use crate::search::{Evidence, Part, Trial, sigmas};
 use crate::settings::{Answer, SETTINGS};
+use crate::windows::Windows;
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::{CauseSpec, command_driven as cause};
 use inference::evidence::{logistic, none_of};
@@ -21,7 +23,7 @@ fn probability(e: &Evidence) -> f64 {
 }
 
 /// Fitted constants of a part with their intervals.
-pub(crate) fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Parameter> {
+fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Parameter> {
     let sigmas = sigmas(part, t);
     let belongs = |k: usize| t.elements.iter().copied().find(|e| part.free(t.model.law, *e).contains(&k));
     let with_sigma = t.free.iter().zip(sigmas);
@@ -40,6 +42,49 @@ pub(crate) fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]
             })
         })
         .collect()
+}
+
+/// Fitted constants of a part, those from before it began included where they did not change.
+pub(crate) fn parameters_of<I: Identify>(
+    of: &I,
+    windows: &Windows,
+    t: &Trial<I::Law>,
+    simulated: &[f64],
+) -> Vec<Parameter> {
+    let Some(began) = &t.began else { return parameters(&of.part(windows), t, simulated) };
+    let mut out = parameters(&of.part(&began.windows[1]), t, simulated);
+    let before = parameters(&of.part(&began.windows[0]), &began.before, simulated);
+    let kept: Vec<Parameter> = before.into_iter().filter(|p| !out.iter().any(|o| o.id == p.id)).collect();
+    out.extend(kept);
+    out
+}
+
+/// When elements were there in each recording, if they began inside one and were not there before in any form.
+fn presence<L>(t: &Trial<L>, elements: &[Element], runs: &[ResponseRun]) -> Option<BTreeMap<String, Vec<[f64; 2]>>> {
+    let began = t.began.as_ref()?;
+    let is = |of: &[Element]| of.iter().any(|e| elements.contains(e));
+    if !is(&began.changed) || is(&began.before.elements) {
+        return None;
+    }
+    Some(began.instants.iter().map(|i| (runs[i.run].name.clone(), vec![i.interval])).collect())
+}
+
+/// Stretches of the recordings since a response began.
+pub(crate) fn onsets(found: &Identified, runs: &[ResponseRun]) -> Vec<Span> {
+    let drive = found.drive.began.as_ref().map(|b| ("wheel speed", &b.instants));
+    let ground = found.ground.began.as_ref().map(|b| ("heading", &b.instants));
+    let spans = drive.into_iter().chain(ground).flat_map(|(signal, instants)| {
+        instants.iter().filter(|i| i.range.is_some()).map(move |i| Span {
+            recording: runs[i.run].name.clone(),
+            signal: signal.to_owned(),
+            side: None,
+            interval: i.interval,
+            onset: i.range,
+            end: None,
+            gain: i.gain,
+        })
+    });
+    spans.collect()
 }
 
 /// How the size of a cause comes from its fitted constants.
@@ -89,6 +134,7 @@ pub(crate) fn ranked(
     off: [f64; 2],
     track: f64,
     remains: &Remains,
+    runs: &[ResponseRun],
 ) -> Vec<Cause> {
     let mut out = Vec::new();
     let mut present = Vec::new();
@@ -102,6 +148,7 @@ pub(crate) fn ranked(
 
         let mut cause = Cause::plain(spec.id, spec.name, p);
         let of: Vec<&Parameter> = parameters.iter().filter(|q| elements.contains(&q.element)).collect();
+        cause.intervals = presence(&found.drive, elements, runs).or_else(|| presence(&found.ground, elements, runs));
         cause.parameters = of.iter().map(|q| (q.id.to_string(), estimate(q))).collect();
         match (size, of.as_slice()) {
             (_, []) => {}

@@ -7,6 +7,7 @@ use inference::robust::mean_with_error;
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
+use crate::onset::Began;
 use crate::settings::{Fit, SETTINGS, Weighing};
 use crate::windows::{FOLDS, Windows};
 
@@ -48,6 +49,16 @@ pub(crate) struct Trial<L> {
     pub(crate) folds: Vec<Model<L>>,
     /// Left-out loss of each window (Huber).
     pub(crate) loss: Vec<f64>,
+    /// What held before it, where it began inside recordings; it was then fitted to the windows since.
+    pub(crate) began: Option<Box<Began<L>>>,
+}
+
+/// A model, and the one that held in early windows where it began inside recordings.
+#[derive(Debug, Clone)]
+pub(crate) struct Timed<L> {
+    pub(crate) model: Model<L>,
+    /// That of early windows, and whether each window is one.
+    pub(crate) early: Option<(Model<L>, Vec<bool>)>,
 }
 
 /// How much better left-out windows are forecast with an element than without.
@@ -106,7 +117,7 @@ fn columns<P: Part>(part: &P, m: &Model<P::Law>, free: &[usize], r: &[f64]) -> V
 }
 
 /// Robust fit of the free constants within their bounds, on the rows of `used` windows, with its cost.
-fn fit<P: Part>(
+pub(crate) fn fit<P: Part>(
     part: &P,
     start: &Model<P::Law>,
     free: &[usize],
@@ -201,17 +212,34 @@ pub(crate) fn attempt<P: Part>(
         .collect();
     let by_fold: Vec<Vec<f64>> = folds.par_iter().map(|m| losses(part, m)).collect();
     let loss = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w]).collect();
-    Trial { elements: elements.to_vec(), free, model, folds, loss }
+    Trial { elements: elements.to_vec(), free, model, folds, loss, began: None }
 }
 
-impl<L: Copy> Trial<L> {
+impl<L: Copy + PartialEq> Trial<L> {
     /// Mean left-out loss.
     pub(crate) fn level(&self) -> f64 {
         mean_with_error(&self.loss).0
     }
 
+    /// Whether an element was found, before it began included.
     pub(crate) fn has(&self, e: Element) -> bool {
-        self.elements.contains(&e)
+        self.elements.contains(&e) || self.began.as_ref().is_some_and(|b| b.before.elements.contains(&e))
+    }
+
+    /// Free constants, those from before it began included.
+    pub(crate) fn constants(&self) -> usize {
+        self.free.len() + self.began.as_ref().map_or(0, |b| b.before.free.len())
+    }
+
+    /// As the robot is now.
+    pub(crate) fn now(&self) -> Timed<L> {
+        Timed { model: self.model.clone(), early: None }
+    }
+
+    /// Fitted without a fold, whose windows are early or not by what the others of their recording say.
+    pub(crate) fn without(&self, fold: usize) -> Timed<L> {
+        let early = self.began.as_ref().map(|b| (b.before.folds[fold].clone(), b.early_without[fold].clone()));
+        Timed { model: self.folds[fold].clone(), early }
     }
 }
 

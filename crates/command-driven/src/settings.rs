@@ -131,6 +131,22 @@
         power_scale: f64 = 0.3, "1", "guess";
     }
 
+    /// A response that is another one from an instant on.
+    onset: Onset {
+        /// Shares of each recording at which the search for the instant begins.
+        starts: [f64; 3] = [0.3, 0.5, 0.7], "1", "guess";
+        /// Rounds of fitting both responses and moving the instants, at most.
+        rounds: usize = 4, "1", "guess";
+        /// Command steps before and after, fewer than which tell no response.
+        steps: usize = 5, "1", "guess; as many as folds";
+        /// Least rise of the left-out loss without the onset, relative: what changes little was there all the time.
+        relevant: f64 = 0.1, "1", "guess; a robot's response is never quite the same all day";
+        /// Log odds against an onset before anything was seen.
+        prior: f64 = 6.0, "nats", "guess; twice that against an element, since its instants are searched";
+        /// Sigmas by which a constant must differ to have changed.
+        changed: f64 = 3.0, "1", "guess";
+    }
+
     /// What the best answer leaves, and when that has no known cause.
     left: Remaining {
         /// Rows apart of which second differences tell the noise of a signal.

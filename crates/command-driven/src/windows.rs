@@ -1,6 +1,6 @@
 //! Windows of 2 s, and the command steps that are the independent blocks.
 
-use crate::run::{Piece, ResponseRun, WINDOW};
+use crate::run::{Piece, ResponseRun, STEP, WINDOW};
 use crate::settings::SETTINGS;
 
 /// Folds in which windows are left out of a fit.
@@ -10,10 +10,14 @@ pub(crate) const FOLDS: usize = SETTINGS.windows.folds;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Window {
     pub(crate) piece: usize,
+    /// Recording that the piece is of.
+    pub(crate) run: usize,
     /// First row in the piece.
     pub(crate) start: usize,
     /// Command step that it belongs to: windows of one step are not independent.
     pub(crate) block: usize,
+    /// Fold in which it is left out: neighbouring blocks share one.
+    pub(crate) fold: usize,
 }
 
 /// All pieces with their windows.
@@ -27,6 +31,8 @@ pub(crate) struct Windows {
 impl Windows {
     pub(crate) fn new(runs: &[ResponseRun]) -> Self {
         let pieces: Vec<Piece> = runs.iter().flat_map(|r| r.pieces.iter().cloned()).collect();
+        let run_of: Vec<usize> =
+            runs.iter().enumerate().flat_map(|(run, r)| std::iter::repeat_n(run, r.pieces.len())).collect();
         let mut list = Vec::new();
         let mut blocks = 0;
         for (piece, p) in pieces.iter().enumerate() {
@@ -37,15 +43,41 @@ impl Windows {
                 if k == 0 || changes {
                     blocks += 1;
                 }
-                list.push(Window { piece, start, block: blocks - 1 });
+                list.push(Window { piece, run: run_of[piece], start, block: blocks - 1, fold: 0 });
             }
         }
+        list.iter_mut().for_each(|w: &mut Window| w.fold = w.block * FOLDS / blocks);
         Self { pieces, list, blocks }
     }
 
-    /// Fold of a window: neighbouring blocks share one.
+    /// Some of the windows, each in the fold that it is in here.
+    pub(crate) fn only(&self, kept: impl Fn(usize) -> bool) -> Self {
+        let mut list: Vec<Window> = Vec::new();
+        let (mut blocks, mut last) = (0, None);
+        for (_, window) in self.list.iter().enumerate().filter(|(w, _)| kept(*w)) {
+            blocks += usize::from(last != Some(window.block));
+            last = Some(window.block);
+            list.push(Window { block: blocks - 1, ..*window });
+        }
+        Self { pieces: self.pieces.clone(), list, blocks }
+    }
+
+    /// Fold of a window.
     pub(crate) fn fold(&self, window: usize) -> usize {
-        self.list[window].block * FOLDS / self.blocks.max(1)
+        self.list[window].fold
+    }
+
+    /// When a window begins, s after the first row of its recording.
+    pub(crate) fn time(&self, window: usize) -> f64 {
+        let w = &self.list[window];
+        self.pieces[w.piece].start + w.start as f64 * STEP
+    }
+
+    /// When the recording of a window ends, s after its first row.
+    pub(crate) fn end(&self, window: usize) -> f64 {
+        let run = self.list[window].run;
+        let last = self.list.iter().filter(|w| w.run == run).map(|w| &self.pieces[w.piece]).next_back();
+        last.map_or(0.0, |p| p.start + p.wheel.len() as f64 * STEP)
     }
 
     /// Root mean square of the measured wheel speeds, rad/s.

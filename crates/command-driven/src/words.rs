@@ -1,6 +1,9 @@
 //! The answer of a command-driven case in sentences.
 
+use crate::identify::Identify;
 use crate::left::{Remains, SIGNALS};
+use crate::run::ResponseRun;
+use crate::search::{Part, Trial};
 use crate::settings::SETTINGS;
 use verdict::{Diagnosis, Element, Parameter, Response, Verdict};
 
@@ -59,6 +62,7 @@ pub(crate) fn sentences(
     track: f64,
     references: bool,
     remains: &Remains,
+    begun: Vec<String>,
 ) -> Vec<String> {
     let mut out = if d.verdict == Verdict::Unknown { unknown(remains) } else { Vec::new() };
     if d.verdict == Verdict::Unknown && r.parameters.is_empty() {
@@ -69,10 +73,36 @@ pub(crate) fn sentences(
         out.push("What is known of the rest explains little:".to_owned());
     }
     out.extend(what_is_known);
+    // What began comes right behind what leads.
+    out.splice(1..1, begun);
     if d.verdict == Verdict::Explained && remains.something() > SETTINGS.left.likely {
         out.push(format!("Something else is missing as well, of which no cause is known: {}", where_left(remains)));
     }
     out
+}
+
+/// What is another one since an instant: constants before and after.
+pub(crate) fn begun<I: Identify>(of: &I, t: &Trial<I::Law>, runs: &[ResponseRun]) -> Option<String> {
+    let began = t.began.as_ref()?;
+    let when = began.instants.iter().filter_map(|i| {
+        let [from, until] = i.range?;
+        Some(format!("{:.0} s of '{}' (90 %: {from:.0} to {until:.0} s)", i.interval[0], runs[i.run].name))
+    });
+    let part = of.part(&began.windows[1]);
+    let number = |v: f64, unit: &str| {
+        let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+        if v.is_finite() { format!("{v:.3}{unit}") } else { "no limit".to_owned() }
+    };
+    let changes = began.changed.iter().flat_map(|e| part.free(t.model.law, *e)).map(|k| {
+        let c = &part.constants()[k];
+        let [then, now] = [&began.before.model, &t.model].map(|m| number(m.x[k], c.unit));
+        format!("{} {now} instead of {then}", c.id.replace('_', " "))
+    });
+    Some(format!(
+        "It begins inside a recording: from {} on the robot answers otherwise than before: {}.",
+        when.collect::<Vec<_>>().join(", "),
+        changes.collect::<Vec<_>>().join(", ")
+    ))
 }
 
 /// What no cause explains, where and when, and what to do.
