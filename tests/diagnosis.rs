@@ -70,6 +70,24 @@ fn viscous_friction_is_named_and_improves_what_was_not_fitted() {
 }
 
 #[test]
+fn without_a_gyro_wheels_alone_are_compared_and_the_answer_reads_back_from_its_file() {
+    let mut case = case_of(&draw(&settings(Content::Effects(vec![EffectId::ViscousFriction]), 9.0, 0), 3));
+    for run in case.references.iter_mut().chain(&mut case.recordings) {
+        run.gyro.fill(None);
+    }
+    let d = answer(&case);
+    assert!(!d.free_runs.is_empty());
+    assert!(
+        d.free_runs.iter().all(|f| f.quantity.starts_with("wheel speed") && f.corrected > 0.0),
+        "{:?}",
+        d.free_runs
+    );
+    let file = serde_json::to_string(&d).expect("JSON");
+    let back: Diagnosis = serde_json::from_str(&file).expect("a diagnosis");
+    assert_eq!(back.free_runs, d.free_runs);
+}
+
+#[test]
 fn payload_is_named_and_improves_what_was_not_fitted() {
     let (drawn, d) = names(EffectId::Payload, 5, 0.15);
     let (corrected, plain) = &d.predictions[0];

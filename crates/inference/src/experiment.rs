@@ -104,17 +104,21 @@ pub fn free_runs<E: Experiment>(
     let left_out = forecasts.iter().enumerate().filter(|(_, forecast)| forecast.left_out);
     let of_block = |(block, forecast): (usize, &Forecast<E::Model, E::Response>)| -> Vec<FreeRun> {
         let row = |(q, quantity): (usize, &String)| {
-            let rms = forecast.errors.map(|errors| rms(errors[q].iter().copied()).unwrap_or(f64::NAN));
-            free_run(name(block), quantity.clone(), &rms)
+            // A quantity that was not recorded has no row.
+            let recorded = !forecast.errors.nominal[q].is_empty();
+            let errors = forecast.errors.map(|errors| rms(errors[q].iter().copied()).unwrap_or(f64::NAN));
+            recorded.then(|| free_run(name(block), quantity.clone(), &errors))
         };
-        quantities.iter().enumerate().map(row).collect()
+        quantities.iter().enumerate().filter_map(row).collect()
     };
     left_out.flat_map(of_block).collect()
 }
 
-/// A row from the errors of the four simulations.
+/// A row from the errors of the four simulations. What did not stay finite is as wrong as a number can be, for files hold no
+/// infinities.
 pub fn free_run(recording: String, quantity: String, errors: &Comparison<f64>) -> FreeRun {
-    let Comparison { nominal, retuned, placebo, .. } = *errors;
+    let errors = errors.map(|error| if error.is_finite() { *error } else { f64::MAX });
+    let Comparison { nominal, retuned, placebo, .. } = errors;
     FreeRun { recording, quantity, nominal, retuned, corrected: *errors.best(), placebo }
 }
 

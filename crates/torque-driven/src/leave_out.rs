@@ -2,6 +2,7 @@
 
 use inference::experiment::{self, Comparison, Experiment, Forecast};
 use inference::hypothesis::Place;
+use inference::robust;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::FreeRun;
 
@@ -113,7 +114,7 @@ impl Experiment for LeftOut<'_> {
     }
 
     fn quantities(&self) -> Vec<String> {
-        ["wheel speed, rad/s", "yaw rate, rad/s"].map(str::to_owned).to_vec()
+        QUANTITIES.map(str::to_owned).to_vec()
     }
 
     fn errors(&self, response: &RunResponse, run: usize) -> Vec<Vec<f64>> {
@@ -180,24 +181,32 @@ fn whole_recordings(answer: &Judged<'_>, simulated: &[Simulated]) -> Vec<FreeRun
     let whole = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
     let left_out = simulated.iter().enumerate().filter(|(_, s)| s.left_out);
     let of_recording = |(run, simulated): (usize, &Simulated)| -> Vec<FreeRun> {
-        let errors = simulated.models.map(|m| rms(&whole, &[(run, whole.run_response(run, &m.point, &m.hypothesis))]));
+        let all = simulated.models.map(|m| residuals(&whole, run, &whole.run_response(run, &m.point, &m.hypothesis)));
         let row = |(q, quantity): (usize, &str)| {
-            experiment::free_run(cuts[run].name.clone(), quantity.to_owned(), &errors.map(|e| e[q]))
+            let errors = all.map(|of| robust::rms(of[q].iter().copied()).unwrap_or(f64::NAN));
+            let row = || experiment::free_run(cuts[run].name.clone(), quantity.to_owned(), &errors);
+            (!all.nominal[q].is_empty()).then(row)
         };
-        WHOLE.into_iter().enumerate().map(row).collect()
+        WHOLE.into_iter().enumerate().filter_map(row).collect()
     };
     left_out.flat_map(of_recording).collect()
 }
 
+/// What is compared in segments.
+const QUANTITIES: [&str; 2] = ["wheel speed, rad/s", "yaw rate, rad/s"];
 /// What is compared over whole recordings.
 const WHOLE: [&str; 2] = ["wheel speed over the whole recording, rad/s", "yaw rate over the whole recording, rad/s"];
 
 /// Whether the correction (or re-tuning, without one) forecasts recordings that were left out of its fit no worse than the
 /// calibrated model does, all recordings and both quantities together.
 pub(crate) fn is_worthwhile(p: &Problem<'_>, calibrated: &Response, runs: &[FreeRun]) -> bool {
-    let before = (0..p.cuts.len()).flat_map(|r| rms(p, &[(r, calibrated[r].clone())]));
-    let change: f64 = runs.iter().zip(before).map(|(f, before)| (f.corrected / before.max(1e-9)).ln()).sum();
-    change.is_nan() || change <= 0.0
+    let change = |row: &FreeRun| {
+        let run = p.cuts.iter().position(|cut| cut.name == row.recording)?;
+        let quantity = QUANTITIES.into_iter().position(|quantity| quantity == row.quantity)?;
+        let before = rms(p, &[(run, calibrated[run].clone())])[quantity];
+        (before > 0.0).then(|| (row.corrected / before).ln())
+    };
+    runs.iter().filter_map(change).sum::<f64>() <= 0.0
 }
 
 /// The hypothesis for all recordings but one.
@@ -359,8 +368,8 @@ mod tests {
         let level = rms(&p, &[(0, calibrated[0].clone())]);
         let runs = |factor: [f64; 2]| {
             let run = |i: usize| FreeRun {
-                recording: "r".to_owned(),
-                quantity: "q".to_owned(),
+                recording: p.cuts[0].name.clone(),
+                quantity: QUANTITIES[i].to_owned(),
                 nominal: level[i],
                 retuned: level[i],
                 corrected: factor[i] * level[i],
@@ -373,5 +382,7 @@ mod tests {
         // Shares count, whatever the quantities' sizes: half of one outweighs a fifth more of the other.
         assert!(is_worthwhile(&p, &calibrated, &runs([1.2, 0.5])));
         assert!(!is_worthwhile(&p, &calibrated, &runs([3.0, 0.5])));
+        // Without a gyro the wheels alone tell.
+        assert!(!is_worthwhile(&p, &calibrated, &runs([1.5, 0.1])[..1]));
     }
 }

@@ -106,16 +106,7 @@ impl Run {
             if get(angle).is_some() {
                 Ok(grid(angle))
             } else if get(speed).is_some() {
-                let mut sum = 0.0;
-                Ok(grid(speed)
-                    .into_iter()
-                    .map(|v| {
-                        v.map(|w| {
-                            sum += w * period;
-                            sum
-                        })
-                    })
-                    .collect())
+                Ok(integrated(&grid(speed), period))
             } else {
                 Err(missing(what))
             }
@@ -125,7 +116,7 @@ impl Run {
             wheel(Signal::WheelAngleRight, Signal::WheelSpeedRight, "wheel_angle_right or wheel_speed_right")?,
         ];
 
-        if angle.iter().all(|a| a.iter().flatten().all(|&x| Some(x) == a[0])) {
+        if angle.iter().all(|a| Self::present(a).all(|(_, x)| Self::present(a).next().is_some_and(|(_, y)| x == y))) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
 
@@ -183,6 +174,21 @@ mod noise {
     }
 }
 
+/// Angles from speeds, rad. A sample stands for all rows since the one before it: speeds may come more seldom than torques, or
+/// be missing for a while.
+fn integrated(speed: &[Option<f64>], period: f64) -> Vec<Option<f64>> {
+    let (mut angle, mut before) = (0.0, None);
+    let next = |(k, v): (usize, &Option<f64>)| {
+        v.map(|v| {
+            let rows = before.map_or(1, |before: usize| k - before);
+            before = Some(k);
+            angle += v * period * rows as f64;
+            angle
+        })
+    };
+    speed.iter().enumerate().map(next).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -212,6 +218,19 @@ mod tests {
         let turned = run.angle[1][200].expect("there") - run.angle[1][100].expect("there");
         approx::assert_relative_eq!(turned, 3.0, epsilon = 1e-9);
         assert!(run.gyro.iter().all(Option::is_none));
+    }
+
+    #[test]
+    fn speeds_that_come_more_seldom_than_torques_turn_the_wheel_as_far() {
+        let mut c = channels();
+        // Every other speed, and half a second of none.
+        let seldom = |(k, sample): (usize, (f64, f64))| (k % 2 == 0 && !(120..170).contains(&k)).then_some(sample);
+        c[3].1 = c[3].1.drain(..).enumerate().filter_map(seldom).collect();
+        let run = Run::new(&recording(&c)).expect("a run");
+        let turned = |from: usize, until: usize| run.angle[1][until].zip(run.angle[1][from]).map(|(b, a)| b - a);
+        approx::assert_relative_eq!(turned(20, 100).expect("there"), 3.0 * 0.8, epsilon = 1e-9);
+        approx::assert_relative_eq!(turned(100, 200).expect("there"), 3.0, epsilon = 1e-9);
+        assert_eq!((run.angle[1][101], run.angle[1][150]), (None, None));
     }
 
     #[test]
@@ -245,6 +264,8 @@ mod tests {
         still[2].1 = samples(ROWS, |_| 0.7);
         still[3].1 = samples(ROWS, |_| 0.0);
         assert!(matches!(error(&still), DiagnosisError::NoMotion { .. }));
+        still[2].1.remove(0);
+        assert!(matches!(error(&still), DiagnosisError::NoMotion { .. }), "the first angle is missing");
         let mut holes = channels();
         holes[0].1.push((1e5, 0.0));
         assert!(matches!(error(&holes), DiagnosisError::Gaps { samples: 301, .. }));
