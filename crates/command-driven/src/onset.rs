@@ -118,7 +118,9 @@ fn told_by_others(windows: &Windows, losses: [&[f64]; 2], fold: usize) -> Vec<bo
     for step in own.chunk_by(|a, b| windows.list[*a].block == windows.list[*b].block) {
         let block = windows.list[step[0]].block;
         let early = assigned(windows, losses, |w| windows.list[w].block != block);
-        step.iter().for_each(|w| out[*w] = early[*w]);
+        for &w in step {
+            out[w] = early[w];
+        }
     }
     out
 }

@@ -46,7 +46,9 @@ impl Windows {
                 list.push(Window { piece, run: run_of[piece], start, block: blocks - 1, fold: 0 });
             }
         }
-        list.iter_mut().for_each(|w: &mut Window| w.fold = w.block * FOLDS / blocks);
+        for w in &mut list {
+            w.fold = w.block * FOLDS / blocks;
+        }
         Self { pieces, list, blocks }
     }
 

@@ -68,7 +68,7 @@ pub(crate) struct Named {
 impl Named {
     /// Free values and sigmas of one of its effects.
     pub(crate) fn of(&self, part: usize) -> (&[f64], &[f64]) {
-        let before: usize = self.parts[..part].iter().map(|v| v.count()).sum();
+        let before: usize = self.parts[..part].iter().map(Variant::count).sum();
         let n = self.parts[part].count();
         (&self.values[before..before + n], &self.sigma[before..before + n])
     }

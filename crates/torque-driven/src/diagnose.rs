@@ -96,7 +96,9 @@ impl Calibrated {
         let weigh = |calibration: &Calibration, known: Vec<Trial>| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let mut found = search(&problem, progress);
-            known.into_iter().for_each(|trial| found.include(trial));
+            for trial in known {
+                found.include(trial);
+            }
             let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.null_scores.highest());
             (found, decision)
         };

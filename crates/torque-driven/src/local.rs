@@ -24,7 +24,9 @@ fn superpose(parts: &[Response], share: impl Fn(usize, usize, usize) -> f64) -> 
                         let w = share(r, s, q);
                         if w > 0.0 {
                             for (y, p) in y.iter_mut().zip(&part[r][s]) {
-                                Channel::ALL.into_iter().for_each(|c| y[c] += w * p[c]);
+                                for c in Channel::ALL {
+                                    y[c] += w * p[c];
+                                }
                             }
                         }
                     }

@@ -141,7 +141,9 @@ mod tests {
     fn drive(name: &str) -> Run {
         let mut run = blank(600);
         name.clone_into(&mut run.name);
-        run.torque.iter_mut().enumerate().for_each(|(k, t)| *t = [0.01 * k as f64, 1.0]);
+        for (k, t) in run.torque.iter_mut().enumerate() {
+            *t = [0.01 * k as f64, 1.0];
+        }
         run
     }
 

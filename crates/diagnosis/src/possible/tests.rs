@@ -27,7 +27,9 @@ fn drive(robot: &Robot<f64>) -> Channels {
 fn scaled(channels: &Channels, signal: Signal, factor: f64) -> Channels {
     let mut out = channels.clone();
     for (_, samples) in out.iter_mut().filter(|c| c.0 == signal) {
-        samples.iter_mut().for_each(|s| s.1 *= factor);
+        for s in samples {
+            s.1 *= factor;
+        }
     }
     out
 }
@@ -79,7 +81,9 @@ fn a_sensor_upside_down_or_on_its_side_is_refused_with_the_lines_that_mend_it() 
     let message = refused(&scaled(&right, Signal::AccelZ, -1.0));
     assert!(message.contains("upside down; write `sign = -1` for accel_z, gyro_z"), "{message}");
     let mut aside = scaled(&right, Signal::AccelZ, 0.01);
-    aside[4].1.iter_mut().for_each(|s| s.1 = -9.8);
+    for s in &mut aside[4].1 {
+        s.1 = -9.8;
+    }
     let message = refused(&aside);
     assert!(message.contains("accel_x (column") && message.contains("with `sign = -1`"), "{message}");
 }

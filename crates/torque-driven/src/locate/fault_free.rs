@@ -53,7 +53,9 @@ impl FaultFree {
         for segment in energy.iter_mut().flatten() {
             for (w, window) in segment.iter_mut().enumerate() {
                 let Some(growth) = self.growth.get(w).or(self.growth.last()) else { continue };
-                Channel::ALL.into_iter().for_each(|c| window[c] /= growth[c]);
+                for c in Channel::ALL {
+                    window[c] /= growth[c];
+                }
             }
         }
         energy
@@ -65,7 +67,9 @@ impl FaultFree {
             for (segment, e) in cut.segments.iter().zip(run) {
                 let expected = self.expected(segment.regime, apart.then_some(r));
                 for window in e {
-                    Channel::ALL.into_iter().for_each(|c| window[c] /= expected[c]);
+                    for c in Channel::ALL {
+                        window[c] /= expected[c];
+                    }
                 }
             }
         }
