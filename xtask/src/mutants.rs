@@ -29,7 +29,7 @@ type Deciding = (&'static str, &'static [&'static str]);
 const DECIDING: [Deciding; 5] = [
     ("inference", &[]),
     ("verdict", &[]),
-    ("torque-driven", &["answer.rs", "candidate.rs", "decide.rs", "gate.rs", "leave_out.rs", "search.rs"]),
+    ("torque-driven", &["answer.rs", "candidate.rs", "decide.rs", "null_scores.rs", "leave_out.rs", "search.rs"]),
     ("speed-driven", &["compare.rs", "forecast.rs", "level.rs", "name.rs"]),
     ("command-driven", &["compare.rs", "name.rs", "search.rs"]),
 ];

@@ -146,9 +146,9 @@ impl Calibrated {
     }
 }
 
-/// Fits of the best hypothesis and of its effects alone, where constants that moved between visits, with these or without
-/// any effect, explain the recordings better than the best hypothesis does with constants as the references have them: by
-/// the evidence of both (Laplace), to which many constants that need not move cost much.
+/// Fits of the best hypothesis' effects, each alone, where constants that moved between visits, with one of these or
+/// without any effect, explain the recordings better than the best hypothesis does with constants as the references have
+/// them: by the evidence of both (Laplace), to which many constants that need not move cost much.
 fn constants_moved(
     before: &Problem<'_>,
     after: &Problem<'_>,
@@ -166,10 +166,10 @@ fn constants_moved(
         Trial { hypothesis, fitted }
     };
     let is_better = |t: &Trial| evidence(after, &t.hypothesis, &t.fitted).is_some_and(|moved| moved > least);
-    let effects = best.hypothesis.with_each_alone(&best.fitted.point.effects);
+    let effects = best.hypothesis.each_alone(&best.fitted.point.effects);
     let trials: Vec<Trial> = effects.into_iter().map(|(h, e)| with_moved(h, e)).collect();
     let moved = trials.iter().any(is_better) || is_better(&with_moved(Hypothesis::default(), Vec::new()));
-    moved.then(|| trials.into_iter().filter(|t| !t.hypothesis.parts.is_empty()).collect())
+    moved.then_some(trials)
 }
 
 /// Diagnoses a torque-driven case. `progress` is called with the stage that begins.

@@ -46,16 +46,15 @@ impl Hypothesis {
         self.parts.iter().map(|(variant, _)| variant)
     }
 
-    /// It with the values of its effects, and of several effects each one alone.
-    pub(crate) fn with_each_alone(&self, effects: &[f64]) -> Vec<(Self, Vec<f64>)> {
-        let mut out = vec![(self.clone(), effects.to_vec())];
+    /// Of several effects each one alone, with its values.
+    pub(crate) fn each_alone(&self, effects: &[f64]) -> Vec<(Self, Vec<f64>)> {
         let mut rest = effects;
-        for part in self.parts.iter().filter(|_| self.parts.len() > 1) {
+        let alone = |part: &(Variant, Onsets)| {
             let (own, others) = rest.split_at(part.0.count());
             rest = others;
-            out.push((Self { parts: vec![part.clone()] }, own.to_vec()));
-        }
-        out
+            (Self { parts: vec![part.clone()] }, own.to_vec())
+        };
+        if self.parts.len() > 1 { self.parts.iter().map(alone).collect() } else { Vec::new() }
     }
 
     pub(crate) fn free(&self, sizes: &Sizes) -> Vec<Free> {

@@ -125,3 +125,35 @@ pub(crate) fn check(runs: &[Run], references: &[Run]) -> Redundant {
     clocks::check(runs, references, &mut out.faults);
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(kind: Redundancy, value: f64, sigma: f64) -> Fault {
+        let spec = spec(kind).expect("an effect");
+        Fault::new((spec, 0), Measured { value: value * spec.interest, sigma: sigma * spec.interest }, None)
+    }
+
+    #[test]
+    fn a_fault_is_as_likely_as_its_evidence() {
+        let p = |value, sigma| of(Redundancy::GyroGain, value, sigma).probability;
+        assert_eq!(p(10.0, 0.1), FAULTS.surest);
+        assert!(p(1.0, 1.0) < 0.05, "one sigma is no fault: {}", p(1.0, 1.0));
+        let doubtful = p(1.05, 0.3);
+        assert!(p(1.0, 1.0) < doubtful && doubtful < p(1.05, 0.2) && p(1.05, 0.2) < FAULTS.surest, "{doubtful}");
+        assert!(p(-10.0, 0.1) == FAULTS.surest, "of either sign");
+    }
+
+    #[test]
+    fn faults_that_show_alike_share_a_probability_by_how_rare_they_are() {
+        let fault = of(Redundancy::AccelOffset, 10.0, 0.1);
+        let causes: Vec<Cause> = fault.causes().collect();
+        let ids: Vec<&str> = causes.iter().map(|c| c.effect.as_str()).collect();
+        assert_eq!(ids, ["accelerometer_bias", "imu_tilt"]);
+        let [bias, tilt] = [causes[0].probability, causes[1].probability];
+        approx::assert_relative_eq!(bias + tilt, fault.probability, epsilon = 1e-12);
+        approx::assert_relative_eq!((bias / tilt).ln(), 3.0, epsilon = 1e-9);
+        assert_eq!(of(Redundancy::GyroGain, 10.0, 0.1).causes().count(), 1);
+    }
+}

@@ -31,3 +31,44 @@ impl SearchResult {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use testing::robot;
+
+    #[test]
+    fn of_two_fits_of_one_hypothesis_the_better_stays_and_each_effect_can_stand_alone() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let retuned = p.begin(&Hypothesis::default(), p.origin(), None);
+        let of = |id: &str| p.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
+        let trial = |parts: &[&str], cost: f64| {
+            let parts = parts.iter().map(|id| (of(id), Vec::new())).collect();
+            Trial { hypothesis: Hypothesis { parts }, fitted: Fitted { cost, ..retuned.clone() } }
+        };
+        let mut found = SearchResult {
+            retuned: retuned.clone(),
+            singles: vec![trial(&["payload"], 5.0)],
+            pairs: Vec::new(),
+            screened: Vec::new(),
+        };
+        found.include(trial(&["payload"], 7.0));
+        assert_eq!((found.singles.len(), found.singles[0].fitted.cost), (1, 5.0));
+        found.include(trial(&["payload"], 3.0));
+        assert_eq!((found.singles.len(), found.singles[0].fitted.cost), (1, 3.0));
+        found.include(trial(&["viscous_friction"], 9.0));
+        found.include(trial(&["payload", "viscous_friction"], 2.0));
+        assert_eq!((found.singles.len(), found.pairs.len()), (2, 1));
+
+        let pair = &found.pairs[0].hypothesis;
+        let alone = pair.each_alone(&[2.0, 0.1]);
+        let ids: Vec<Vec<&str>> = alone.iter().map(|(h, _)| h.ids()).collect();
+        assert_eq!(ids, [["payload"], ["viscous_friction"]]);
+        assert_eq!([&*alone[0].1, &*alone[1].1], [&[2.0][..], &[0.1]]);
+        assert!(found.singles[0].hypothesis.each_alone(&[2.0]).is_empty());
+    }
+}
