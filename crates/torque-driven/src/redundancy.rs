@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(p(10.0, 0.1), FAULTS.surest);
         assert!(p(1.0, 1.0) < 0.05, "one sigma is no fault: {}", p(1.0, 1.0));
         let doubtful = p(1.05, 0.3);
-        assert!(p(1.0, 1.0) < doubtful && doubtful < p(1.05, 0.2) && p(1.05, 0.2) < FAULTS.surest, "{doubtful}");
+        assert!(p(1.0, 1.0) < doubtful && doubtful < p(1.05, 0.25) && p(1.05, 0.25) < FAULTS.surest, "{doubtful}");
         assert!(p(-10.0, 0.1) == FAULTS.surest, "of either sign");
     }
 
