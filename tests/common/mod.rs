@@ -53,13 +53,12 @@ pub(crate) fn case_of(drawn: &DrawnCase) -> Case {
     let robot = RobotSpec::parse("robot.json", std::str::from_utf8(robot).expect("text")).expect("a robot");
     let runs = |folder| recordings_of(drawn, folder).iter().map(|r| Run::new(r).expect("a run")).collect::<Vec<_>>();
     Case {
-        robot: robot.robot,
         sigma: robot.sigma,
         pose_sigma: robot.pose_sigma,
         references: runs("reference"),
-        simulations: Vec::new(),
         recordings: runs("recordings"),
         held_out: recordings_of(drawn, "heldout").iter().map(|r| HeldOut::new(r).expect("inputs")).collect(),
+        ..Case::new(robot.robot)
     }
 }
 

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use recordings::Spot;
+use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
 use serde::Deserialize;
 
 use crate::keys::{Given, spreads};
-use crate::spec::USUAL_POSE_SIGMA;
 use crate::text::RobotText;
 use crate::{Causality, RobotFileError, RobotSpec};
 

@@ -3,13 +3,13 @@
 use std::fmt;
 
 use recordings::{Spot, parse_unit, suggest};
+use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
 
 use crate::keys::{Given, KEYS, Key, NAMES, POSE_NOISE, TORQUE_PER_CURRENT, is_constant, spreads};
-use crate::spec::USUAL_POSE_SIGMA;
 use crate::text::RobotText;
 use crate::{Causality, DiagnosisError, EffectAt, ResponseModel, RobotFileError, RobotSpec};
 

@@ -56,9 +56,6 @@ pub struct RobotSpec {
     pub torque_per_current: Option<[f64; 2]>,
 }
 
-/// Noise of a pose sensor of which the robot file says nothing, m.
-pub(crate) const USUAL_POSE_SIGMA: f64 = 0.004;
-
 impl RobotSpec {
     /// Its effects for the plant of a drive.
     ///

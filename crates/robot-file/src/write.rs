@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 use inference::Corrected as _;
 use robot_model::Robot;
 use robot_model::constants::{NO_LIMIT, Usual};
-use robot_model::tunable::{Tunable, Tuning, tunables};
+use robot_model::tunable::{Tunable, Tuning, USUAL_POSE_SIGMA, tunables};
 use verdict::Correction;
 
 use crate::full::{File, Parameters, Quantity};
 use crate::keys::{KEYS, POSE_NOISE, TORQUE_PER_CURRENT, keys_of};
-use crate::spec::USUAL_POSE_SIGMA;
 use crate::{DiagnosisError, RobotFileError, RobotSpec};
 
 /// What a parameter without a source came from.

@@ -103,6 +103,9 @@ const fn in_order<T: Scalar>() -> [Tunable<T>; COUNT] {
     all
 }
 
+/// Noise of a pose sensor when nothing better is known, m: motion capture and total stations (guess).
+pub const USUAL_POSE_SIGMA: f64 = 0.004;
+
 /// One sigma of every tunable constant when nothing better is known.
 pub fn usual_sigma() -> [f64; COUNT] {
     tunables::<f64>().map(|t| t.sigma)

@@ -2,7 +2,7 @@
 
 use recordings::{Recording, Signal};
 use robot_model::Robot;
-use robot_model::tunable::COUNT as NUISANCES;
+use robot_model::tunable::{COUNT as NUISANCES, USUAL_POSE_SIGMA, usual_sigma};
 
 use crate::run::Run;
 use inference::DiagnosisError;
@@ -24,6 +24,22 @@ pub struct Case {
     pub recordings: Vec<Run>,
     /// Inputs whose response is to be predicted.
     pub held_out: Vec<HeldOut>,
+}
+
+impl Case {
+    /// A case of this robot without drives yet, whose constants and pose sensor are as well known as usual
+    /// ([`usual_sigma`], [`USUAL_POSE_SIGMA`]).
+    pub fn new(robot: Robot<f64>) -> Self {
+        Self {
+            robot,
+            sigma: usual_sigma(),
+            pose_sigma: USUAL_POSE_SIGMA,
+            references: Vec::new(),
+            simulations: Vec::new(),
+            recordings: Vec::new(),
+            held_out: Vec::new(),
+        }
+    }
 }
 
 /// Inputs of a drive whose response is held back, with the state at some rows.

@@ -240,7 +240,6 @@ mod tests {
     use crate::trial::Trial;
     use crate::windows::cut;
     use inference::Options;
-    use robot_model::tunable::usual_sigma;
     use testing::robot;
 
     fn scored(p: &Problem<'_>, id: &str, score: f64) -> Scored {
@@ -263,15 +262,7 @@ mod tests {
             regimes: Regimes::default(),
             null_scores: NullScores::default(),
         };
-        let case = Case {
-            robot,
-            sigma: usual_sigma(),
-            pose_sigma: 1e-4,
-            simulations: Vec::new(),
-            references: Vec::new(),
-            recordings: Vec::new(),
-            held_out: Vec::new(),
-        };
+        let case = Case { pose_sigma: 1e-4, ..Case::new(robot) };
         let all = [("viscous_friction", 30.0), ("rolling_resistance", 10.0), ("viscous_friction", 5.0)];
         let scored = all.map(|(id, score)| scored(&p, id, score)).to_vec();
         let answer = Judged {

@@ -127,15 +127,7 @@ mod tests {
     use crate::testing::blank;
 
     fn case(simulations: Vec<Run>, recordings: Vec<Run>) -> Case {
-        Case {
-            robot: testing::robot(),
-            sigma: robot_model::tunable::usual_sigma(),
-            pose_sigma: 0.004,
-            references: Vec::new(),
-            simulations,
-            recordings,
-            held_out: Vec::new(),
-        }
+        Case { simulations, recordings, ..Case::new(testing::robot()) }
     }
 
     fn drive(name: &str) -> Run {
