@@ -98,7 +98,8 @@ fn command() -> String {
     }
     fs::write(folder.path().join("recordings/run_1.csv"), text).expect("writable");
     let case = opened(folder.path(), Some("husky-drive"));
-    let d = diagnose_response(&case.command_driven().expect("a case"), &|_| {}).expect("a diagnosis");
+    let d = diagnose_response(&case.command_driven().expect("a case"), &inference::Options::default(), &|_| {})
+        .expect("a diagnosis");
     packed(d, &case, "skid-steer-columns")
 }
 

@@ -293,6 +293,7 @@ mod tests {
     use crate::testing::{Truth, diagnosed, robot};
     use crate::{ResponseCase, diagnose_response};
     use catalogue::answer::UNKNOWN;
+    use inference::Options;
 
     fn probability(d: &Diagnosis, id: &str) -> f64 {
         d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability)
@@ -336,7 +337,7 @@ mod tests {
             for recordings in [[11, 12], [21, 22]] {
                 let recordings = recordings.map(|seed| truth.run("r", 25, seed)).to_vec();
                 let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
-                let d = diagnose_response(&case, &|_| {}).expect("a diagnosis");
+                let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
                 assert_eq!(d.verdict, verdict, "{:?}", d.ranked);
                 assert!(probability(&d, UNKNOWN.id) < 0.01, "{:?}", d.ranked);
             }

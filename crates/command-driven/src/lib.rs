@@ -25,6 +25,7 @@ mod identify;
 mod left;
 mod model;
 mod name;
+mod next;
 mod onset;
 mod run;
 mod search;
@@ -40,7 +41,7 @@ mod words;
 use inference::robust::mean_with_error;
 use robot_model::Robot;
 
-use inference::DiagnosisError;
+use inference::{DiagnosisError, Options};
 use verdict::{Diagnosis, Element, Response, Verdict};
 
 use crate::settings::SETTINGS;
@@ -85,11 +86,15 @@ const ONE_ONSET: &str = "what begins inside a recording is taken to begin once i
 /// Steps without which nothing can be left out in folds.
 const LEAST_STEPS: usize = SETTINGS.windows.steps_per_fold * FOLDS;
 
-/// Diagnoses a command-driven case. `progress` is called with the stage that begins.
+/// Diagnoses a command-driven case; of the options only whether to advise on the next drive counts. `progress` is called with the stage that begins.
 ///
 /// # Errors
 /// When recordings are missing or hold too few command steps.
-pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+pub fn diagnose_response(
+    case: &ResponseCase,
+    options: &Options,
+    progress: &dyn Fn(&str),
+) -> Result<Diagnosis, DiagnosisError> {
     if case.recordings.is_empty() {
         return Err(DiagnosisError::Empty { what: "recording" });
     }
@@ -168,6 +173,10 @@ pub fn diagnose_response(case: &ResponseCase, progress: &dyn Fn(&str)) -> Result
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     out.correction.response = Some(model::model_of(&corrected));
     out.response = Some(response);
+    out.next = options.next.map(|length| {
+        progress("simulating the next drive");
+        next::advise(&windows, &base, &found, nominal, remains.mostly, length)
+    });
     Ok(out)
 }
 

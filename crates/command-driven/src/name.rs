@@ -125,6 +125,12 @@ const CAUSES: [(&CauseSpec, &[Element], Size); 9] = [
 ];
 const ANSWER: Answer = SETTINGS.answer;
 
+/// Causes to which some of these elements belong, in causal order.
+pub(crate) fn causes_of(present: &[Element]) -> impl Iterator<Item = &'static str> {
+    let is = |(_, elements, _): &(&CauseSpec, &[Element], Size)| elements.iter().any(|e| present.contains(e));
+    CAUSES.into_iter().filter(is).map(|(spec, ..)| spec.id)
+}
+
 /// Causes by probability; of those that are sure, the one nearer to the command first.
 ///
 /// `off`: what the wheels do otherwise than commanded, with its standard error.

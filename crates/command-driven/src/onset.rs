@@ -292,6 +292,7 @@ mod tests {
     use crate::ground::TRACK;
     use crate::testing::{Truth, diagnosed, robot};
     use crate::{ResponseCase, ResponseRun, diagnose_response};
+    use inference::Options;
 
     /// The same robot, another one from `at` on.
     fn begins(at: f64, truth: Truth, change: impl Fn(&mut Truth), of: fn() -> Truth) -> Truth {
@@ -353,7 +354,7 @@ mod tests {
         let truth = begins(90.0, Truth::perfect(), |t| t.ground[TRACK] = 1.5, Truth::perfect);
         let recordings = vec![truth.run("a", 30, 4), Truth::perfect().run("b", 20, 5)];
         let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
-        let d = diagnose_response(&case, &|_| {}).expect("a diagnosis");
+        let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
         began(&d, "effective_track", "a", 90.0);
         assert!(!d.ranked[0].intervals.as_ref().expect("when").contains_key("b"), "{:?}", d.ranked[0]);
@@ -368,7 +369,7 @@ mod tests {
         for truth in [Truth::perfect(), Truth::stock()] {
             let recordings = vec![truth.run("a", 30, 31), truth.run("b", 30, 32)];
             let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
-            let d = diagnose_response(&case, &|_| {}).expect("a diagnosis");
+            let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
             assert!(d.ranked.iter().all(|c| c.intervals.is_none()) && d.located.spans.is_empty(), "{:?}", d.ranked);
         }
     }

@@ -102,7 +102,7 @@ fn step_of(c: &ResponseConstant, v: f64) -> f64 {
 }
 
 /// Derivatives of the residuals by the free constants, one column each.
-fn columns<P: Part>(part: &P, m: &Model<P::Law>, free: &[usize], r: &[f64]) -> Vec<Vec<f64>> {
+pub(crate) fn columns<P: Part>(part: &P, m: &Model<P::Law>, free: &[usize], r: &[f64]) -> Vec<Vec<f64>> {
     free.par_iter()
         .map(|&k| {
             let mut x = m.x.clone();
@@ -275,8 +275,14 @@ pub(crate) fn prune<P: Part>(part: &P, base: &Model<P::Law>, full: Trial<P::Law>
     }
 }
 
-/// One sigma of every free constant: sandwich estimate with command steps as clusters (Liang and Zeger 1986), widened.
+/// One sigma of every free constant; `None` where the recordings do not determine them.
 pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
+    let covariance = covariance(part, t);
+    (0..t.free.len()).map(|i| covariance.as_ref().map(|c| c[(i, i)].sqrt())).collect()
+}
+
+/// Covariance of the free constants: sandwich estimate with command steps as clusters (Liang and Zeger 1986), widened.
+pub(crate) fn covariance<P: Part>(part: &P, t: &Trial<P::Law>) -> Option<Mat<f64>> {
     let windows = part.windows();
     let r = part.residuals(t.model.law, &t.model.x);
     let rows = r.len() / windows.list.len();
@@ -284,7 +290,7 @@ pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
     // Beyond the unit the loss is linear and has no curvature.
     let n = t.free.len();
     let curved = Mat::from_fn(r.len(), n, |i, c| if r[i].abs() < 1.0 { columns[c][i] } else { 0.0 });
-    let Some(inverse) = inverse_spd(&(curved.transpose() * &curved)) else { return vec![None; n] };
+    let inverse = inverse_spd(&(curved.transpose() * &curved))?;
     let mut scores = Mat::<f64>::zeros(n, windows.blocks);
     for (w, window) in windows.list.iter().enumerate() {
         for i in w * rows..(w + 1) * rows {
@@ -296,7 +302,6 @@ pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
     let spread = &inverse * &scores;
     let blocks = windows.blocks as f64;
     let few = blocks / (blocks - n as f64).max(1.0);
-    (0..n)
-        .map(|i| Some(SETTINGS.answer.wider * (few * spread.row(i).iter().map(|s| s * s).sum::<f64>()).sqrt()))
-        .collect()
+    let scale = SETTINGS.answer.wider * SETTINGS.answer.wider * few;
+    Some(&spread * spread.transpose() * faer::Scale(scale))
 }

@@ -173,6 +173,40 @@
         spans: usize = 8, "1", "guess";
     }
 
+    /// Responses among which the next drive is to decide.
+    rivals: Rivals {
+        /// Odds against the response that was found, below which a rival is none.
+        least: f64 = 0.1, "1", "above the 0.05 that an element keeps of its prior where the recordings say nothing of it";
+        /// Rivals at most.
+        most: usize = 8, "1", "guess";
+        /// Least variance of residuals, in squares of their unit: what is below is rounding.
+        least_variance: f64 = 1e-6, "1", "guess";
+    }
+
+    /// Drives among which to advise.
+    menu: Menu {
+        /// Quantile of what was commanded that a drive asks at most.
+        reached: f64 = 0.98, "1", "guess";
+        /// A robot has never driven straight, or turned, that reached less than this share of what its wheels could.
+        never: f64 = 0.05, "1", "guess";
+        /// Share of what its wheels could that it is then asked.
+        slow: f64 = 0.3, "1", "guess";
+        /// Slow, medium and fast, shares of what was reached.
+        levels: [f64; 3] = [0.3, 0.6, 1.0], "1", "guess";
+        /// Times that steps are made there and back.
+        times: usize = 2, "1", "guess";
+        /// Yaw rate of circles, share of what was reached.
+        circle: f64 = 0.6, "1", "guess";
+        /// Times that the direction is reversed there and back.
+        reversals: usize = 5, "1", "guess";
+        /// Speed and yaw rate of weaving, share of what was reached.
+        weaving: f64 = 0.6, "1", "guess";
+        /// Period of weaving.
+        period: f64 = 5.0, "s", "guess";
+        /// Time between the points of a curve.
+        drawn: f64 = 0.2, "s", "guess";
+    }
+
     /// Usual sizes of an error, in units of which traces show how far forecasts are off.
     traces: Usual {
         /// Of a wheel's speed.

@@ -8,6 +8,7 @@ use crate::controller::{DEAD_TIME, GAIN, LAG, Law, RAMP, TURN_LIMIT, WHEEL_LIMIT
 use crate::ground::{self, RADIUS, TRACK};
 use crate::run::{Piece, STEP};
 use crate::{ResponseCase, ResponseRun, diagnose_response};
+use inference::Options;
 
 pub(crate) const NOMINAL: [f64; 2] = [0.15, 0.6];
 
@@ -78,12 +79,21 @@ impl Truth {
             let c = [8.0 * spread.next(), 8.0 * spread.next()];
             command.extend(std::iter::repeat_n(c, ROWS));
         }
+        self.recorded(name, &command, spread, wheel_noise)
+    }
+
+    /// A drive on these commands, every 50 ms.
+    pub(crate) fn driven(&self, name: &str, command: &[[f64; 2]], seed: u64, wheel_noise: f64) -> Recording {
+        self.recorded(name, command, Spread(seed), wheel_noise)
+    }
+
+    fn recorded(&self, name: &str, command: &[[f64; 2]], mut spread: Spread, wheel_noise: f64) -> Recording {
         // The first row of every window would begin where it was measured: one window per drive, whole and unmeasured.
         let mut wheel = vec![[0.0; 2]];
         let mut piece = Piece {
             start: 0.0,
-            command: command.clone(),
-            wheel: command.clone(),
+            command: command.to_vec(),
+            wheel: command.to_vec(),
             heading: None,
             integrated: false,
             position: None,
@@ -122,8 +132,8 @@ impl Truth {
         };
         let side = |rows: &[[f64; 2]], s: usize| rows.iter().map(|r| r[s]).collect::<Vec<f64>>();
         let channels = vec![
-            channel(Signal::CommandSpeedLeft, side(&command, 0), 0.0),
-            channel(Signal::CommandSpeedRight, side(&command, 1), 0.0),
+            channel(Signal::CommandSpeedLeft, side(command, 0), 0.0),
+            channel(Signal::CommandSpeedRight, side(command, 1), 0.0),
             channel(Signal::WheelSpeedLeft, side(&wheel, 0), wheel_noise),
             channel(Signal::WheelSpeedRight, side(&wheel, 1), wheel_noise),
             channel(Signal::PoseX, x, 0.005),
@@ -145,5 +155,5 @@ pub(crate) fn diagnosed(truth: &Truth, references: Option<&Truth>) -> Diagnosis 
         recordings: vec![truth.run("a", 30, 1), truth.run("b", 20, 2)],
         held_out: vec![truth.run("c", 15, 3)],
     };
-    diagnose_response(&case, &|_| {}).expect("a diagnosis")
+    diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis")
 }

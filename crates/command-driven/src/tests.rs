@@ -117,7 +117,10 @@ fn what_the_references_do_as_well_is_not_missing() {
 fn too_few_steps_are_refused() {
     let runs = vec![Truth::stock().run("a", LEAST_STEPS - 1, 1)];
     let case = |recordings| ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
-    let error = diagnose_response(&case(runs), &|_| {}).expect_err("refused").to_string();
+    let error = diagnose_response(&case(runs), &Options::default(), &|_| {}).expect_err("refused").to_string();
     assert!(error.contains("9 command steps") && error.contains("10 are needed"), "{error}");
-    assert!(matches!(diagnose_response(&case(vec![]), &|_| {}), Err(DiagnosisError::Empty { what: "recording" })));
+    assert!(matches!(
+        diagnose_response(&case(vec![]), &Options::default(), &|_| {}),
+        Err(DiagnosisError::Empty { what: "recording" })
+    ));
 }

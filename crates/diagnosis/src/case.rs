@@ -4,11 +4,7 @@ use command_driven::ResponseCase;
 use inference::{DiagnosisError, Options};
 use speed_driven::SteadyCase;
 use torque_driven::Calibrated;
-use verdict::{Advice, Diagnosis};
-
-/// Why there is no advice on the next drive for command-driven robots.
-const NO_ADVICE: &str = "a command-driven robot is compared without forces: its elements are told apart by command \
-    steps, and which command steps would separate them better is not computed yet";
+use verdict::Diagnosis;
 
 /// What the user knows and what was recorded, by the kind of robot.
 #[derive(Debug, Clone)]
@@ -40,11 +36,7 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
     match case {
         Case::TorqueDriven(case) => torque_driven::diagnose(case, options, progress),
         Case::SpeedDriven(case) => speed_driven::diagnose_steady(case, options, progress),
-        Case::CommandDriven(case) => {
-            let mut out = command_driven::diagnose_response(case, progress)?;
-            out.next = options.next.map(|_| Advice::withheld(NO_ADVICE));
-            Ok(out)
-        }
+        Case::CommandDriven(case) => command_driven::diagnose_response(case, options, progress),
     }
 }
 

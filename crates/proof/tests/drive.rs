@@ -16,7 +16,7 @@ fn diagnosed(name: &str) -> Result<Diagnosis, Skipped> {
     let robot = case_folder::robot(&format!("{name}-drive")).unwrap();
     let paths = ["recordings", "heldout"].map(|p| vec![folder.path().join(p)]);
     let case = CaseFolder::from_paths(robot, [&[], &paths[0], &paths[1]], &mapping, &ReadOptions::default()).unwrap();
-    Ok(diagnose_response(&case.command_driven().unwrap(), &|_| {}).unwrap())
+    Ok(diagnose_response(&case.command_driven().unwrap(), &inference::Options::default(), &|_| {}).unwrap())
 }
 
 /// As it is, re-tuned, corrected, placebo on held-out windows.

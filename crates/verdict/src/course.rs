@@ -64,9 +64,10 @@ fn ramp(from: [f64; 2], to: [f64; 2]) -> f64 {
     (0..2).map(|c| (to[c] - from[c]).abs() / RAMP[c]).fold(0.0, f64::max)
 }
 
-/// Speeds of the left and right wheel, rad/s, that drive a body so: `w = (v ∓ 1.5 b ω) / r`.
-pub fn wheel_speeds([speed, turn]: [f64; 2], wheel_radius: f64, half_track: f64) -> [f64; 2] {
-    let lever = WIDENING * half_track * turn;
+/// Speeds of the left and right wheel, rad/s, that drive a body so: `w = (v ∓ b ω) / r`; of a body that skids, b is
+/// [`WIDENING`] times the half track.
+pub fn wheel_speeds([speed, turn]: [f64; 2], wheel_radius: f64, lever: f64) -> [f64; 2] {
+    let lever = lever * turn;
     [(speed - lever) / wheel_radius, (speed + lever) / wheel_radius]
 }
 

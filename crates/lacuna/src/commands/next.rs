@@ -9,10 +9,11 @@ use anyhow::{Context, Result, bail};
 use case_files::envelope::Program;
 use clap::Args as ClapArgs;
 use inference::Options;
+use robot_file::Causality;
 use robot_model::Robot;
 use serde_json::json;
 use verdict::Advice;
-use verdict::{Manoeuvre, wheel_speeds};
+use verdict::{Manoeuvre, WIDENING, wheel_speeds};
 
 use super::diagnose::{self, Input, NEXT_LENGTH};
 use super::{Outcome, Usage, listed};
@@ -46,7 +47,7 @@ const SHOWN: usize = 12;
 pub(crate) struct Args {
     #[command(flatten)]
     input: Input,
-    /// Length of the drives to choose from (torque-driven robots), 4 to 120 s.
+    /// Length of the drives to choose from (torque- and command-driven robots), 4 to 120 s.
     #[arg(long, value_name = "S", default_value_t = NEXT_LENGTH, value_parser = seconds)]
     seconds: f64,
     /// Write the best drive's profile as CSV, or that of --manoeuvre.
@@ -79,7 +80,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let lost = case.lost();
     if let Some(file) = &args.profile {
         let Some(wanted) = wanted else { bail!("there is no drive to write: {}", withheld(advice)) };
-        std::fs::write(file, profile(wanted, &case.robot.robot))
+        std::fs::write(file, profile(wanted, &case.robot.robot, case.robot.causality))
             .with_context(|| format!("cannot write '{}'", file.display()))?;
     }
     if let Some(file) = &args.picture {
@@ -118,12 +119,16 @@ fn chosen<'a>(advice: &'a Advice, name: Option<&str>) -> Result<Option<&'a Manoe
 }
 
 /// The profile as CSV, rows at equal times.
-fn profile(m: &Manoeuvre, robot: &Robot<f64>) -> String {
+///
+/// Wheels of a skid-steered body turn it less than rolling ones; those of a command-driven robot get the commands that
+/// its simulation takes for the wanted twist.
+fn profile(m: &Manoeuvre, robot: &Robot<f64>, causality: Causality) -> String {
+    let lever = if causality == Causality::CommandDriven { 1.0 } else { WIDENING };
     let mut out = "t_s,v_m_s,omega_rad_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,torque_free\n".to_owned();
     for k in 0..=(m.length() * RATE).round() as usize {
         let t = k as f64 / RATE;
         let wanted = m.wanted(t);
-        let [left, right] = wheel_speeds(wanted, robot.wheel_radius, robot.half_track);
+        let [left, right] = wheel_speeds(wanted, robot.wheel_radius, lever * robot.half_track);
         let free = u8::from(m.is_torque_free(t));
         out += &format!("{t:.2},{:.4},{:.4},{left:.4},{right:.4},{free}\n", wanted[0], wanted[1]);
     }

@@ -153,7 +153,8 @@ fn cases(kept: &[Tried]) -> Section {
 /// How it is used; stands above the proof.
 const USE: &str = "\
 `lacuna next` says which drive would tell the remaining causes apart: of a menu, and of short profiles made for the case. It takes
-what `lacuna diagnose` takes.
+what `lacuna diagnose` takes. Torque-driven robots are advised to follow wanted speeds and to coast, speed-driven ones to hold
+levels, command-driven ones to make command steps, reversals, ramps and circles; what follows was measured with the first.
 
 ```sh
 cargo xtask blind --draw-only --seed 9 --count 1 --mix 0,0,1,0 --setting normal --out target/first
