@@ -70,7 +70,7 @@ pub(super) fn rivals(windows: &Windows, base: &Base, found: &Identified, nominal
             continue;
         }
 
-        let name = format!("{stem}, {} {}", if is_there { "without" } else { "with" }, element(*e));
+        let name = format!("the same {} {}", if is_there { "without" } else { "with" }, element(*e));
         let is_of_drive = !OfDrive.part(windows).free(drive.found.model.law, *e).is_empty();
         out.push(if is_of_drive {
             (log_odds, name, drive.changed(&OfDrive, *e), ground.found.clone())
@@ -79,7 +79,7 @@ pub(super) fn rivals(windows: &Windows, base: &Base, found: &Identified, nominal
         });
     }
     out.extend(otherwise_held(&drive).map(|(log_odds, held, trial)| {
-        (log_odds, format!("{stem}, but at a wheel's limit {held}"), trial, ground.found.clone())
+        (log_odds, format!("the same, but at a wheel's limit {held}"), trial, ground.found.clone())
     }));
 
     // Together they are as probable as one.
