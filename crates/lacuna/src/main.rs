@@ -15,7 +15,7 @@ mod mcap_out;
 
 use commands::{
     Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, man, merge, next,
-    predict, report, screen, simulate,
+    predict, report, robot, screen, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -58,6 +58,8 @@ enum Command {
     Screen(Box<screen::Args>),
     /// Compare recordings with a simulation and name what it lacks.
     Diagnose(Box<diagnose::Args>),
+    /// Write a robot file that behaves like the logs of a simulator.
+    Robot(robot::Args),
     /// Simulate a robot file on the inputs of a recording.
     Simulate(simulate::Args),
     /// Forecast held-out drives with one or more robot files, and compare.
@@ -101,6 +103,7 @@ fn run() -> ExitCode {
         Command::Screen(args) => screen::run(args, cli.verbose),
         Command::Diagnose(args) => diagnose::run(args, cli.verbose),
         Command::Identify(args) => identify::run(args),
+        Command::Robot(args) => robot::run(args, cli.verbose),
         Command::Simulate(args) => simulate::run(args),
         Command::Predict(args) => predict::run(args),
         Command::Export(args) => export::run(args),

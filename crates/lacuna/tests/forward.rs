@@ -156,3 +156,57 @@ fn what_cannot_be_simulated_is_said() {
     bench.write("wrong.toml", &format!("{ROBOT}\n[[effects]]\neffect = \"paylod\"\nvalues = {{}}\n"));
     bench.run(&["simulate", "wrong.toml", "case/recordings/run_1.csv"]).failed(&["wrong.toml: line", "`payload`"]);
 }
+
+#[test]
+fn a_robot_file_is_fitted_to_the_logs_of_a_simulator() {
+    let settings = Settings {
+        content: Content::Effects(vec![]),
+        setting: Some(Setting::Normal),
+        duration_s: 16.0,
+        references: 2,
+        recordings: Some(2),
+        heldout: 1,
+        ..Settings::default()
+    };
+    let drawn = Case::draw("x", 5, &settings).unwrap();
+    let bench = Bench::empty();
+    for (path, bytes) in &drawn.files {
+        bench.write(&format!("case/{}", path.display()), std::str::from_utf8(bytes).unwrap());
+    }
+    // The simulator is the robot file of the case, which the command does not see.
+    for run in ["run_1", "run_2"] {
+        let inputs = format!("case/recordings/{run}.csv");
+        let out = bench.run(&["simulate", "case/robot.json", &inputs, "-o", &format!("logs_{run}.csv")]);
+        assert_eq!(out.code(), Some(0), "{}", out.err());
+    }
+    let robot: Value = serde_json::from_str(&bench.read("case/robot.json")).unwrap();
+    let given = |flag: &str, pointer: &str, factor: f64| {
+        let value = robot.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {robot}"));
+        [flag.to_owned(), format!("{}", factor * value)]
+    };
+    let size = [
+        given("--mass", "/mass_kg", 1.0),
+        given("--wheel-radius", "/wheel_radius_m", 1.0),
+        given("--track", "/half_track_m", 2.0),
+        given("--wheelbase", "/half_wheelbase_m", 2.0),
+    ]
+    .concat();
+    let mut args = vec!["robot", "--from-logs", "logs_run_1.csv", "logs_run_2.csv", "-o", "fitted.toml"];
+    args.extend(size.iter().map(String::as_str));
+    let run = bench.run(&args);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert!(run.out().contains("rolling_resistance") && bench.read("fitted.toml").contains("fitted to the logs"));
+
+    // What it forecasts of a drive that no fit saw is what the simulator does.
+    let held_out = ["simulate", "fitted.toml", "case/heldout/held_1.csv"];
+    assert_eq!(bench.run(&held_out).code(), Some(0));
+
+    let run = bench.run(&["robot", "--from-logs", "logs_run_1.csv", "--mass", "20"]);
+    assert_eq!(run.code(), Some(2));
+    assert!(run.err().contains("--wheel-radius") && run.err().contains("--like"), "{}", run.err());
+    bench.run(&["robot", "--from-logs", "logs_run_1.csv", "--like", "husky-a200"]).failed(&["speed-driven"]);
+    let mut wrong = args.clone();
+    let radius = args.iter().position(|a| *a == "--wheel-radius").unwrap();
+    wrong[radius + 1] = "0.4";
+    bench.run(&wrong).failed(&["does not behave like the logs", "check wheel radius"]);
+}

@@ -2,7 +2,8 @@
 //! it answers commands. TOML or JSON, read and written.
 //!
 //! `keys`: what a file may say, from the table of constants of `robot-model`. `full`, `flat`: its two forms. `read`,
-//! `write`: between a file and a [`RobotSpec`]. `text`: where a key stands, for messages. [`catalogue_json`]: the effects that may
+//! `write`: between a file and a [`RobotSpec`]. `of_size`: a robot of which only size and mass are known.
+//! `text`: where a key stands, for messages. [`catalogue_json`]: the effects that may
 //! stand in a file.
 
 pub mod catalogue_json;
@@ -10,6 +11,7 @@ mod error;
 mod flat;
 mod full;
 mod keys;
+mod of_size;
 mod read;
 mod spec;
 mod text;
@@ -20,6 +22,7 @@ use verdict::EffectAt;
 use verdict::ResponseModel;
 
 pub use error::RobotFileError;
+pub use of_size::Size;
 pub use read::BUILT_IN;
 pub use spec::{Causality, RobotSpec};
 

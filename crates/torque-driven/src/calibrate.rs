@@ -89,8 +89,20 @@ impl Regimes {
     }
 }
 
-/// Calibrates the model on the references.
+/// Calibrates the model on the references, from the robot file on.
 pub(crate) fn calibrate(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    cuts: &[Cut],
+    largest_torque: f64,
+    options: &Options,
+) -> Result<Calibration, DiagnosisError> {
+    calibrate_in(CALIBRATING.steps, robot, sigma, cuts, largest_torque, options)
+}
+
+/// The same in so many steps at most.
+pub(crate) fn calibrate_in(
+    steps: usize,
     robot: &Robot<f64>,
     sigma: &[f64; NUISANCES],
     cuts: &[Cut],
@@ -117,11 +129,16 @@ pub(crate) fn calibrate(
     // Constants and variances in turn, each by the other.
     let none = Hypothesis::default();
     let mut at = problem.begin(&none, problem.origin(), None);
-    for step in 0..CALIBRATING.steps {
+    for step in 0..steps {
+        let before = at.point.theta;
         at.cost = problem.cost(&at.point, &at.response);
         at = problem.refine(&none, at, 1, (step > 0).then_some(0));
         problem.variance = channel_variance(&problem, &at.response);
         problem.regime = regimes(&problem, &at.response).of(cuts);
+        let moved = at.point.theta.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if step + 1 >= CALIBRATING.steps && moved < CALIBRATING.settled {
+            break;
+        }
     }
 
     problem.spread = spread(&mut problem, &at.point, &at.columns)?;

@@ -52,7 +52,7 @@ impl Calibrated {
             None
         } else {
             let logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
-            Some(Simulator::new(&robot, case, &logs, largest_torque, options)?)
+            Some(Simulator::new(&robot, &case.sigma, &logs, largest_torque, options)?)
         };
         if references.is_empty() {
             let mut calibration = Calibration::by_file();
@@ -185,7 +185,7 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
 }
 
 /// Runs without their sensors' faults, cut into segments.
-fn cut_all(
+pub(crate) fn cut_all(
     runs: &[Run],
     sensors: &Redundant,
     case: &Case,
@@ -211,6 +211,7 @@ fn cut_all(
         .collect()
 }
 
-fn largest_torque(runs: &[Run]) -> f64 {
+/// Largest torque command of any run, N m.
+pub(crate) fn largest_torque(runs: &[Run]) -> f64 {
     runs.iter().flat_map(|r| &r.torque).flatten().fold(0.0_f64, |a, t| a.max(t.abs()))
 }

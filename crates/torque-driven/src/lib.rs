@@ -14,7 +14,8 @@
 //! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
 //!   `onset`: place and time.
 //! * `decide`, `judged`, `visits`: from fits to probabilities.
-//! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show.
+//! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
+//!   `fitted_robot`: a robot from such logs alone.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
@@ -33,6 +34,7 @@ mod diagnose;
 mod disc;
 mod drives;
 mod fit;
+mod fitted_robot;
 mod forward;
 mod judged;
 mod leave_out;
@@ -65,6 +67,7 @@ mod words;
 
 pub use case::{Case, HeldOut, Restart};
 pub use diagnose::{Calibrated, diagnose};
+pub use fitted_robot::{FittedConstant, FittedRobot, fit_logs};
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use run::Run;
 

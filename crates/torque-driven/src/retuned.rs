@@ -59,7 +59,7 @@ pub(crate) fn moved(
 }
 
 /// The constant that a tuning moves.
-fn constant_of(tunable: &Tunable<f64>) -> Option<&'static Constant<f64>> {
+pub(crate) fn constant_of(tunable: &Tunable<f64>) -> Option<&'static Constant<f64>> {
     Robot::<f64>::CONSTANTS.iter().find(|c| c.tuning.is_some_and(|t| t.id == tunable.id))
 }
 

@@ -8,10 +8,10 @@ use inference::algebra::inverse_spd;
 use inference::robust::NINETY;
 use inference::{DiagnosisError, Options};
 use robot_model::Robot;
-use robot_model::tunable::{COUNT as NUISANCES, tuned};
+use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Retuned;
 
-use crate::calibrate::calibrate;
+use crate::calibrate::{Calibration, calibrate_in};
 use crate::case::Case;
 use crate::retuned::moved;
 use crate::run::Run;
@@ -36,29 +36,14 @@ impl Simulator {
     /// When the logs do not determine the robot.
     pub(crate) fn new(
         robot: &Robot<f64>,
-        case: &Case,
+        sigma: &[f64; NUISANCES],
         logs: &[Cut],
         largest_torque: f64,
         options: &Options,
     ) -> Result<Self, DiagnosisError> {
-        // How far a simulator is from the file has nothing to do with how well the robot was measured: each fit starts
-        // where the last one ended, with bounds about that.
-        let wide = case.sigma.map(|s| LOGS.wider * s);
-        let mut theta = [0.0; NUISANCES];
-        let mut information = Mat::identity(NUISANCES, NUISANCES);
-        for _ in 0..LOGS.fits {
-            let there = tuned(robot, &case.sigma, &theta);
-            let fitted = calibrate(&there, &wide, logs, largest_torque, options)?;
-            information = fitted.information;
-            let moved = fitted.theta.map(|x| LOGS.wider * x);
-            theta.iter_mut().zip(moved).for_each(|(theta, moved)| *theta += moved);
-            if moved.iter().all(|moved| moved.abs() < LOGS.settled) {
-                break;
-            }
-        }
+        let (theta, known) = fit(robot, sigma, logs, largest_torque, options)?;
         let sure = Mat::zeros(NUISANCES, NUISANCES);
-        let known = inverse_spd(&information).map_or_else(|| sure.clone(), |known| known * LOGS.wider.powi(2));
-        let mut unlike_file = moved(robot, &case.sigma, [&[0.0; NUISANCES], &theta], [&sure, &known]);
+        let mut unlike_file = moved(robot, sigma, [&[0.0; NUISANCES], &theta], [&sure, &known]);
         for constant in &mut unlike_file {
             // What the simulator's laws differ in form is taken for constants.
             constant.half_width = constant.half_width.hypot(NINETY * LOGS.form_error * constant.to);
@@ -66,6 +51,27 @@ impl Simulator {
         unlike_file.retain(|c| (c.to - c.from).abs() > LOGS.told * c.half_width);
         Ok(Self { theta, unlike_file })
     }
+}
+
+/// Constants at which the plant behaves as logs show, from those of `robot` in their sigmas, with their covariance.
+///
+/// How far a simulator is from a file has nothing to do with how well the robot was measured: the prior about the file is
+/// wider, and decides what no drive can (a heavier body, or a larger inertia of the motors). Rolling resistance and dry
+/// friction are told apart by little: that takes more steps than references do, whose constants are near.
+///
+/// # Errors
+/// When the logs do not determine the robot.
+pub(crate) fn fit(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    logs: &[Cut],
+    largest_torque: f64,
+    options: &Options,
+) -> Result<([f64; NUISANCES], Mat<f64>), DiagnosisError> {
+    let wide = sigma.map(|s| LOGS.wider * s);
+    let Calibration { theta, information, .. } = calibrate_in(LOGS.steps, robot, &wide, logs, largest_torque, options)?;
+    let known = inverse_spd(&information).ok_or(DiagnosisError::Singular { stage: "fit to a simulator's logs" })?;
+    Ok((theta.map(|x| LOGS.wider * x), known * LOGS.wider.powi(2)))
 }
 
 /// Refuses logs that are no runs on the inputs of a reference or recording: of the same name, or else of the same place in

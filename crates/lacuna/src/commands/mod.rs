@@ -26,6 +26,7 @@ pub(crate) mod next;
 mod overview;
 pub(crate) mod predict;
 pub(crate) mod report;
+pub(crate) mod robot;
 pub(crate) mod screen;
 pub(crate) mod simulate;
 

@@ -65,6 +65,8 @@ use crate::channel::ByQuantity;
         least_share: f64 = 0.1, "1", "guess";
         /// Gauss–Newton steps, with the channels' variances renewed after each.
         steps: usize = 4, "1", "guess";
+        /// Move of every constant below which more steps are needless, share of its sigma.
+        settled: f64 = 0.002, "1", "guess";
         /// Gauss–Newton steps after the spread between runs has been chosen.
         last_steps: usize = 2, "1", "guess";
         /// Common factors of the run-to-run deviations that are tried.

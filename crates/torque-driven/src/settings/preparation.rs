@@ -12,14 +12,20 @@
         same: f64 = 1e-7, "rad/s, m/s²", "numerical guard: far below the resolution of any inertial sensor";
         /// How much wider than the robot file's sigmas a simulator's constants may lie about the file's.
         wider: f64 = 5.0, "1", "guess";
-        /// Fits in turn to a simulator's logs, at most.
-        fits: usize = 8, "1", "guess";
-        /// Largest move of a constant after which a fit to a simulator's logs has settled, in the robot file's sigmas.
-        settled: f64 = 0.1, "1", "guess";
+        /// Gauss–Newton steps of a fit to a simulator's logs, at most.
+        steps: usize = 60, "1", "guess";
         /// Share of a simulator's constant that other laws than the plant's may feign, one sigma.
         form_error: f64 = 0.02, "1", "equal to the model error of an effect's size";
         /// Half widths of its 90 % interval by which a simulator's constant differs from the file when it is told.
         told: f64 = 2.0, "1", "guess";
+        /// One sigma of a factor of a robot of which only size and mass are known, at least.
+        unknown_factor: f64 = 0.1, "1", "guess; fits in turn go farther than one of them";
+        /// One sigma of what a simulator's logs hold exactly: the torque that it was given.
+        exact: f64 = 1e-4, "1", "formula: next to nothing";
+        /// A robot is alike that leaves this share of what the robot that was started from was off.
+        alike: f64 = 0.2, "1", "guess";
+        /// Errors of free runs that usual sensors would not show: of wheel speeds, of the yaw rate.
+        invisible: [f64; 2] = [0.03, 0.01], "rad/s", "guess; the usual residual of fault-free drives";
         /// Most by which the rows of a log and of its recording are apart unlike, as a share.
         same_period: f64 = 0.01, "1", "guess";
         /// Most by which their torques differ, as a share of the largest.

@@ -1,0 +1,89 @@
+//! A robot of which only size and mass are known.
+
+use std::collections::BTreeMap;
+
+use robot_model::tunable::{USUAL_POSE_SIGMA, usual_sigma};
+use robot_model::{ModelError, Robot};
+
+use crate::{Causality, RobotSpec};
+
+/// Height of the centre of mass, wheel radii above the ground (guess: batteries lie at the axles, sensors above).
+const COM_HEIGHT: f64 = 1.2;
+/// Mass of the four wheels, share of the robot's (guess; that of the open Husky is 14 %).
+const WHEELS: f64 = 0.1;
+/// Adhesion of rubber on indoor floors (textbook value).
+const ADHESION: f64 = 0.7;
+/// Rolling resistance of wheels on hard ground (textbook value).
+const ROLLING: f64 = 0.03;
+/// Dry friction of a side's drivetrain, share of weight times wheel radius (guess; that of the open Husky is 2.5 %).
+const COULOMB: f64 = 0.02;
+/// Viscous friction of a side's drivetrain, share of weight times wheel radius, s (guess).
+const VISCOUS: f64 = 0.002;
+/// Inertia of the motors of a side, share of that of the body about the contact of a wheel (guess).
+const MOTORS: f64 = 0.05;
+
+/// Size and mass of a robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Size {
+    /// kg.
+    pub mass: f64,
+    /// m.
+    pub wheel_radius: f64,
+    /// Between the middles of the wheels of both sides, m.
+    pub track: f64,
+    /// Between the axles, m.
+    pub wheelbase: f64,
+}
+
+impl RobotSpec {
+    /// A torque-driven robot of this size; its other constants are those of a usual one: a box on four wheels. To start
+    /// a fit from, for the sources of all of them say "guess".
+    ///
+    /// # Errors
+    /// A size that no robot can have.
+    pub fn of_size(name: &str, size: &Size) -> Result<Self, ModelError> {
+        let Size { mass, wheel_radius, track, wheelbase } = *size;
+        let length = wheelbase + 2.0 * wheel_radius;
+        let lever = wheel_radius * mass * 9.81;
+        let robot = Robot::from_constants(&[
+            ("mass", mass),
+            ("yaw_inertia", mass * (length * length + track * track) / 12.0),
+            ("com_height", COM_HEIGHT * wheel_radius),
+            ("wheelbase", wheelbase),
+            ("track", track),
+            ("wheel_radius", wheel_radius),
+            ("wheel_inertia", 0.5 * 0.25 * WHEELS * mass * wheel_radius * wheel_radius),
+            ("motor_inertia", MOTORS * mass * wheel_radius * wheel_radius),
+            ("adhesion", ADHESION),
+            ("rolling_resistance", ROLLING),
+            ("coulomb", COULOMB * lever),
+            ("viscous", VISCOUS * lever),
+        ])?;
+        Ok(Self {
+            name: name.to_owned(),
+            description: None,
+            causality: Causality::TorqueDriven,
+            robot,
+            effects: Vec::new(),
+            response: None,
+            sources: BTreeMap::new(),
+            sigma: usual_sigma(),
+            pose_sigma: USUAL_POSE_SIGMA,
+            torque_per_current: None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_robot_of_a_size_can_be_written_and_read_and_one_without_mass_is_refused() {
+        let size = Size { mass: 20.0, wheel_radius: 0.1, track: 0.4, wheelbase: 0.36 };
+        let spec = RobotSpec::of_size("mine", &size).expect("a robot");
+        let read = RobotSpec::parse("mine.toml", &spec.to_toml().expect("written")).expect("read");
+        assert_eq!((read.robot.mass, read.robot.half_track, read.name.as_str()), (20.0, 0.2, "mine"));
+        assert!(RobotSpec::of_size("none", &Size { mass: 0.0, ..size }).is_err());
+    }
+}
