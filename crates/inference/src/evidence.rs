@@ -121,4 +121,11 @@ mod tests {
         approx::assert_relative_eq!(penalty_of_smallness(-1.0, 0.35_f64.exp(), 0.35), 0.5, epsilon = 1e-12);
         assert!(is_within_odds(-4.0, 1.0, 5.3) && !is_within_odds(-4.4, 1.0, 5.3));
     }
+
+    #[test]
+    fn weights_without_a_finite_sum_stay_and_the_limit_of_the_odds_is_outside() {
+        assert_eq!(normalised(&[0.0, 0.0]), [0.0, 0.0]);
+        assert_eq!(normalised(&[f64::INFINITY, 1.0]), [f64::INFINITY, 1.0]);
+        assert!(is_within_odds(1.5, 3.0, 2.0) && !is_within_odds(1.0, 3.0, 2.0));
+    }
 }

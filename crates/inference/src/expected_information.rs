@@ -130,7 +130,8 @@ mod tests {
         assert!(expected_bits(&p, &pair(0.0), 1.0).abs() < 1e-12);
         approx::assert_relative_eq!(expected_bits(&p, &pair(200.0), 1.0), entropy(&p), epsilon = 1e-9);
         approx::assert_relative_eq!(entropy(&[0.5, 0.5]), 1.0);
-        assert_eq!(entropy(&[1.0, 0.0]), 0.0);
+        assert_eq!(entropy(&[1.0, 0.0]).to_bits(), 0.0_f64.to_bits(), "not minus zero");
+        approx::assert_relative_eq!(entropy(&[0.25; 4]), 2.0, epsilon = 1e-12);
     }
 
     /// Of two rivals alike in probability the information is that of a binary channel with Gaussian noise:
@@ -176,5 +177,26 @@ mod tests {
             }
         }
         approx::assert_relative_eq!(expected_bits(&p, &forecasts, 1.0), entropy(&p) - after, epsilon = 0.02);
+    }
+
+    /// Worth of a pair: `p_k p_l (1 − exp(−d/T))`.
+    #[test]
+    fn the_widest_pair_is_probable_and_far_apart() {
+        let forecasts = |apart: [[f64; 3]; 3]| -> Vec<Forecast> {
+            apart.into_iter().map(|behind| Forecast::new(behind.to_vec(), |_, _| 0.0)).collect()
+        };
+        // All as far apart: the two most probable.
+        let alike = forecasts([[0.0, 2.0, 2.0], [2.0, 0.0, 2.0], [2.0, 2.0, 0.0]]);
+        let sorted = |pair: Option<(usize, usize)>| pair.map(|(k, l)| (k.min(l), k.max(l)));
+        assert_eq!(sorted(widest_pair(&[0.2, 0.45, 0.35], &alike, 1.0)), Some((1, 2)));
+        // The two most probable show the same: the next pair that differs.
+        let hidden = forecasts([[0.0, 3.0, 3.0], [3.0, 0.0, 0.0], [3.0, 0.0, 0.0]]);
+        assert_eq!(sorted(widest_pair(&[0.2, 0.45, 0.35], &hidden, 1.0)), Some((0, 1)));
+        // 0.2 · 0.2 (1 − e⁻⁴) = 0.039 against 0.2 · 0.6 (1 − e^(−0.5)) = 0.047; at ten times the temperature
+        // 0.013 against 0.0059.
+        let near = forecasts([[0.0, 4.0, 0.5], [4.0, 0.0, 0.0], [0.5, 0.0, 0.0]]);
+        assert_eq!(sorted(widest_pair(&[0.2, 0.2, 0.6], &near, 1.0)), Some((0, 2)));
+        assert_eq!(sorted(widest_pair(&[0.2, 0.2, 0.6], &near, 10.0)), Some((0, 1)));
+        assert_eq!(widest_pair(&[1.0], &forecasts([[0.0; 3]; 3])[..1], 1.0), None);
     }
 }

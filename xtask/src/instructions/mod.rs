@@ -2,6 +2,9 @@
 //!
 //! Times on a shared machine cannot fail a build; instructions can. They are those of one compiler and of the vector unit that
 //! `pulp` finds inside valgrind: where either differs from the record's, nothing is compared.
+//!
+//! Of gungraun, which starts callgrind too, its runner would have to be installed by hand in the version of the library;
+//! what is counted here are the examples that the benchmarks race, as they are.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
