@@ -11,7 +11,6 @@ use verdict::{Coverage, Diagnosis};
 
 use crate::inputs;
 pub use crate::inputs::{Loaded, mapping, robot};
-use crate::kind;
 use crate::long::Budget;
 
 /// Folders of a case with what belongs into them.
@@ -293,7 +292,11 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn case(&self) -> Result<diagnosis::Case> {
-        kind::of(self.robot.causality).case(self)
+        Ok(match self.robot.causality {
+            Causality::TorqueDriven => diagnosis::Case::TorqueDriven(Box::new(self.torque_driven()?)),
+            Causality::SpeedDriven => diagnosis::Case::SpeedDriven(Box::new(self.speed_driven()?)),
+            Causality::CommandDriven => diagnosis::Case::CommandDriven(Box::new(self.command_driven()?)),
+        })
     }
 
     /// Diagnoses the case by what drives its robot; `stage` is called with what begins.

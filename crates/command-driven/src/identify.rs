@@ -6,7 +6,6 @@ use verdict::{Alternative, Element, Scaling};
 use crate::controller::Law;
 use crate::drive::DrivePart;
 use crate::ground::{self, GroundPart};
-use crate::onset;
 use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
 use crate::windows::Windows;
 
@@ -17,38 +16,11 @@ pub(crate) struct Base {
     pub(crate) ground: Model<()>,
 }
 
-/// What was found in the recordings.
-#[derive(Debug, Clone)]
-pub(crate) struct Identified {
-    pub(crate) drive: Trial<Law>,
-    pub(crate) ground: Trial<()>,
-    /// Evidence for every element that was tried.
-    pub(crate) evidence: Weighed,
-    pub(crate) alternatives: Vec<Alternative>,
-    /// Whether every other way to hold the sides at a wheel's limit forecasts worse.
-    pub(crate) scaling_is_told: bool,
-}
-
 /// "The wheels do what is commanded, the body rolls without slip on the nominal track."
 pub(crate) fn neutral(windows: &Windows) -> Base {
     Base {
         drive: Model { law: Law::default(), x: DrivePart::new(windows, 0).neutral() },
         ground: Model { law: (), x: ground::neutral() },
-    }
-}
-
-/// Finds what the recordings show beyond the simulation.
-pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
-    progress("fitting wheel speeds to commands");
-    let of_drive = onset::found(&OfDrive, windows, &base.drive);
-    progress("fitting the motion of the body to wheel speeds");
-    let of_ground = onset::found(&OfGround { nominal }, windows, &base.ground);
-    Identified {
-        drive: of_drive.trial,
-        ground: of_ground.trial,
-        evidence: of_drive.evidence.into_iter().chain(of_ground.evidence).collect(),
-        alternatives: of_drive.alternatives,
-        scaling_is_told: of_drive.scaling_is_told,
     }
 }
 
@@ -161,7 +133,7 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
     let (kept, each) = prune(&part, base, best);
     let mut alternatives: Vec<Alternative> =
         tried.iter().map(|(what, t)| alternative(windows, what.clone(), &t.loss, &kept.loss)).collect();
-    let without = |e: Element| format!("without {}", crate::words::element(e));
+    let without = |e: Element| format!("without {}", crate::element_words::element(e));
     alternatives.extend(each.iter().filter(|(e, _)| kept.has(*e)).map(|(e, v)| Alternative {
         what: without(*e),
         rise: v.rise,

@@ -12,7 +12,8 @@ use verdict::{Remainder, Span};
 
 use crate::compare::{Motion, Simulated};
 use crate::ground::{GroundPart, Poses, RADIUS, TRACK, misses};
-use crate::identify::{Base, Identified};
+use crate::identified::Identified;
+use crate::identify::Base;
 use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::settings::{Remaining, SETTINGS};
 use crate::traces::put_together;

@@ -9,18 +9,21 @@
 //! * `run`, `windows`: command, wheels and body on one grid; windows of 2 s and command steps.
 //! * `controller`, `drive`: from command to wheel, the law and its fit.
 //! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
-//! * `search`, `identify`: which elements improve forecasts of windows that were left out.
+//! * `search`, `identify`, `identified`: which elements improve forecasts of windows that were left out.
 //! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
 //! * `left`: what the best answer leaves, where, and whether its cause is unknown.
-//! * `name`, `words`: elements as causes with intervals; sentences.
+//! * `name`, `element_words`, `words`: elements as causes with intervals; sentences.
+//! * `next/*`: which commands would tell the remaining responses apart.
 //! * `model`: a fitted response as a model of its own, run forward.
 //! * `settings`: every tuned number, with unit and source.
 
 mod compare;
 mod controller;
 mod drive;
+mod element_words;
 mod ground;
+mod identified;
 mod identify;
 mod left;
 mod model;
@@ -46,7 +49,8 @@ use verdict::{Diagnosis, Element, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
-use identify::{Base, Identified, OfDrive, OfGround, identify, neutral};
+use identified::{Identified, identify};
+use identify::{Base, OfDrive, OfGround, neutral};
 use inference::experiment::{Comparison, Standing, leave_out};
 use left::Fitted;
 use windows::{FOLDS, Windows};

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant, Span};
 
-use crate::identify::{Base, Identified, Identify};
+use crate::identified::Identified;
+use crate::identify::{Base, Identify};
 use crate::left::Remains;
 use crate::run::ResponseRun;
 use crate::search::{Evidence, Part, Trial, sigmas};

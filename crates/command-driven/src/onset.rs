@@ -10,39 +10,11 @@ use verdict::Element;
 
 use crate::identify::{Found, Identify};
 use crate::run::{STEP, WINDOW};
-use crate::search::{Model, Part, Trial, evidence, fit, losses, sigmas};
+use crate::search::{Began, Instant, Model, Part, Trial, evidence, fit, losses, sigmas};
 use crate::settings::{Onset, SETTINGS};
 use crate::windows::{FOLDS, Windows};
 
 const ONSET: Onset = SETTINGS.onset;
-
-/// What held before a response began.
-#[derive(Debug, Clone)]
-pub(crate) struct Began<L> {
-    /// What was found before, beyond the simulation.
-    pub(crate) before: Trial<L>,
-    /// Windows before and since.
-    pub(crate) windows: [Windows; 2],
-    /// Whether each window lies before, told without each fold.
-    pub(crate) early_without: Vec<Vec<bool>>,
-    /// Elements whose constants differ since.
-    pub(crate) changed: Vec<Element>,
-    /// When it began in each recording.
-    pub(crate) instants: Vec<Instant>,
-}
-
-/// When a response began in a recording.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Instant {
-    /// Recording.
-    pub(crate) run: usize,
-    /// From, until, s after its first row.
-    pub(crate) interval: [f64; 2],
-    /// 90 % interval of the beginning, s; `None` where it was there from the first row on.
-    pub(crate) range: Option<[f64; 2]>,
-    /// Fall of the cost below that of what held before, nats.
-    pub(crate) gain: f64,
-}
 
 /// What one response throughout, or another from an instant on, explains best.
 pub(crate) fn found<I: Identify>(of: &I, windows: &Windows, base: &Model<I::Law>) -> Found<I::Law> {

@@ -7,7 +7,6 @@ use inference::robust::mean_with_error;
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
-use crate::onset::Began;
 use crate::settings::{Fit, SETTINGS, Weighing};
 use crate::windows::{FOLDS, Windows};
 
@@ -51,6 +50,34 @@ pub(crate) struct Trial<L> {
     pub(crate) loss: Vec<f64>,
     /// What held before it, where it began inside recordings; it was then fitted to the windows since.
     pub(crate) began: Option<Box<Began<L>>>,
+}
+
+/// What held before a response began.
+#[derive(Debug, Clone)]
+pub(crate) struct Began<L> {
+    /// What was found before, beyond the simulation.
+    pub(crate) before: Trial<L>,
+    /// Windows before and since.
+    pub(crate) windows: [Windows; 2],
+    /// Whether each window lies before, told without each fold.
+    pub(crate) early_without: Vec<Vec<bool>>,
+    /// Elements whose constants differ since.
+    pub(crate) changed: Vec<Element>,
+    /// When it began in each recording.
+    pub(crate) instants: Vec<Instant>,
+}
+
+/// When a response began in a recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Instant {
+    /// Recording.
+    pub(crate) run: usize,
+    /// From, until, s after its first row.
+    pub(crate) interval: [f64; 2],
+    /// 90 % interval of the beginning, s; `None` where it was there from the first row on.
+    pub(crate) range: Option<[f64; 2]>,
+    /// Fall of the cost below that of what held before, nats.
+    pub(crate) gain: f64,
 }
 
 /// A model, and the one that held in early windows where it began inside recordings.

@@ -3,6 +3,8 @@
 //! A new constant is a field of [`Robot`], its row here, and its use in the plant. The checks of a robot, what a diagnosis
 //! may re-tune and what robot files hold follow from the rows.
 
+use nalgebra::RealField;
+
 use crate::error::{ModelError, finite, not_negative, positive, within};
 use crate::robot::{Robot, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use crate::scalar::{Scalar, real};
@@ -278,6 +280,60 @@ impl<T: Scalar> Robot<T> {
         row!("torque_limit", "N m", Bounds::Positive, Usual::Unlimited, "motors", |r| r.drive.limit),
         row!("gravity", "m/s2", Bounds::Positive, Usual::Value(9.81), "weight", |r| r.gravity),
     ];
+}
+
+impl<T: Scalar + RealField> Robot<T> {
+    /// A robot from constants by their names, as [`Robot::CONSTANTS`] lists them; those that are not given are usual.
+    /// Needed are nine: mass, inertias, height of the centre of mass, wheels, adhesion and rolling resistance.
+    ///
+    /// ```
+    /// use robot_model::{ModelError, Robot};
+    ///
+    /// let given = [
+    ///     ("mass", 75.0),
+    ///     ("yaw_inertia", 5.0),
+    ///     ("com_height", 0.2),
+    ///     ("wheelbase", 0.512),
+    ///     ("track", 0.5708),
+    ///     ("wheel_radius", 0.1651),
+    ///     ("wheel_inertia", 0.044),
+    ///     ("adhesion", 0.6),
+    ///     ("rolling_resistance", 0.03),
+    ///     ("coulomb", 3.0), // both sides
+    /// ];
+    /// let robot = Robot::from_constants(&given)?;
+    /// assert_eq!((robot.half_track, robot.coulomb, robot.gravity), (0.2854, [3.0, 3.0], 9.81));
+    ///
+    /// // The second entry of a name counts: a table of constants can be changed by adding to it.
+    /// let weightless = Robot::from_constants(&[&given[..], &[("mass", 0.0)]].concat());
+    /// assert_eq!(weightless.unwrap_err().to_string(), "mass is 0, but it must be larger than zero");
+    /// # Ok::<(), ModelError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A name that no constant has, one that must be given and is not, and a value that no robot can have.
+    pub fn from_constants(given: &[(&'static str, T)]) -> Result<Self, ModelError> {
+        if let Some((name, _)) = given.iter().find(|(name, _)| !Self::CONSTANTS.iter().any(|c| c.is_called(name))) {
+            return Err(ModelError::Unknown { name });
+        }
+        let find = |name: &str| given.iter().rev().find(|g| g.0 == name).map(|g| g.1);
+
+        let mut out = Self::blank();
+        for constant in Self::CONSTANTS {
+            let said = find(constant.id).or_else(|| constant.both.and_then(find));
+            let value = match (said, constant.usual) {
+                (Some(value), _) => value,
+                (None, Usual::Value(usual)) => real(usual),
+                (None, Usual::Unlimited) => real(NO_LIMIT),
+                (None, Usual::RearAxle) => -out.half_wheelbase,
+                (None, Usual::Needed) => {
+                    return Err(ModelError::Missing { name: constant.id, unit: constant.unit });
+                }
+            };
+            (constant.set)(&mut out, value);
+        }
+        out.checked()
+    }
 }
 
 #[cfg(test)]

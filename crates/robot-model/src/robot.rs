@@ -2,9 +2,7 @@
 
 use nalgebra::RealField;
 
-use crate::constants::{NO_LIMIT, Usual};
 use crate::contact::Stance;
-use crate::effect::{Coefficients, OperatingPoint};
 use crate::error::ModelError;
 use crate::paper;
 use crate::scalar::{Scalar, real};
@@ -73,58 +71,6 @@ pub struct Robot<T> {
 }
 
 impl<T: Scalar + RealField> Robot<T> {
-    /// A robot from constants by their names, as [`Robot::CONSTANTS`] lists them; those that are not given are usual.
-    /// Needed are nine: mass, inertias, height of the centre of mass, wheels, adhesion and rolling resistance.
-    ///
-    /// ```
-    /// use robot_model::{ModelError, Robot};
-    ///
-    /// let given = [
-    ///     ("mass", 75.0),
-    ///     ("yaw_inertia", 5.0),
-    ///     ("com_height", 0.2),
-    ///     ("wheelbase", 0.512),
-    ///     ("track", 0.5708),
-    ///     ("wheel_radius", 0.1651),
-    ///     ("wheel_inertia", 0.044),
-    ///     ("adhesion", 0.6),
-    ///     ("rolling_resistance", 0.03),
-    ///     ("coulomb", 3.0), // both sides
-    /// ];
-    /// let robot = Robot::from_constants(&given)?;
-    /// assert_eq!((robot.half_track, robot.coulomb, robot.gravity), (0.2854, [3.0, 3.0], 9.81));
-    ///
-    /// // The second entry of a name counts: a table of constants can be changed by adding to it.
-    /// let weightless = Robot::from_constants(&[&given[..], &[("mass", 0.0)]].concat());
-    /// assert_eq!(weightless.unwrap_err().to_string(), "mass is 0, but it must be larger than zero");
-    /// # Ok::<(), ModelError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A name that no constant has, one that must be given and is not, and a value that no robot can have.
-    pub fn from_constants(given: &[(&'static str, T)]) -> Result<Self, ModelError> {
-        if let Some((name, _)) = given.iter().find(|(name, _)| !Self::CONSTANTS.iter().any(|c| c.is_called(name))) {
-            return Err(ModelError::Unknown { name });
-        }
-        let find = |name: &str| given.iter().rev().find(|g| g.0 == name).map(|g| g.1);
-
-        let mut out = Self::blank();
-        for constant in Self::CONSTANTS {
-            let said = find(constant.id).or_else(|| constant.both.and_then(find));
-            let value = match (said, constant.usual) {
-                (Some(value), _) => value,
-                (None, Usual::Value(usual)) => real(usual),
-                (None, Usual::Unlimited) => real(NO_LIMIT),
-                (None, Usual::RearAxle) => -out.half_wheelbase,
-                (None, Usual::Needed) => {
-                    return Err(ModelError::Missing { name: constant.id, unit: constant.unit });
-                }
-            };
-            (constant.set)(&mut out, value);
-        }
-        out.checked()
-    }
-
     /// Checks every constant.
     ///
     /// # Errors
@@ -189,46 +135,6 @@ impl<T: Scalar> Robot<T> {
     /// Where the wheels stand and how they are loaded.
     pub(crate) fn stance(&self) -> Stance<T> {
         Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
-    }
-
-    /// The operating point of the robot at rest at the origin.
-    #[inline(always)]
-    pub fn at_rest(&self) -> OperatingPoint<T> {
-        OperatingPoint {
-            time: T::zero(),
-            position: [T::zero(); 2],
-            heading: [T::one(), T::zero()],
-            velocity: [T::zero(); 2],
-            yaw_rate: T::zero(),
-            wheel_speed: [T::zero(); 2],
-            wheel_angle: [T::zero(); 2],
-            mass: self.mass,
-            gravity: self.gravity,
-            hitch: [self.hitch_x - self.com[0], -self.com[1]],
-            half_base: [self.half_wheelbase, self.half_track],
-            torque: [T::zero(); 2],
-        }
-    }
-
-    /// What every instant begins with before effects change it.
-    pub fn coefficients(&self) -> Coefficients<T> {
-        Coefficients {
-            adhesion: [self.adhesion; 4],
-            slip_at_peak: [self.slip_at_peak; 4],
-            lateral: [self.lateral_factor; 4],
-            rolling: [self.rolling_resistance; 4],
-            radius: [self.wheel_radius; 4],
-            traction: [T::one(); 4],
-            twist: T::zero(),
-            coulomb: self.coulomb,
-            viscous: self.viscous,
-            stribeck: [self.stribeck; 2],
-            torque: [T::zero(); 2],
-            belt_limit: [real(UNLIMITED); 2],
-            force: [T::zero(); 2],
-            moment: T::zero(),
-            tilt: [T::zero(); 2],
-        }
     }
 }
 

@@ -2,17 +2,18 @@
 
 use std::collections::BTreeSet;
 
+use crate::cause::cause;
 use crate::found;
 use crate::name::{Named, Naming};
+use crate::sentences::sentences;
 use crate::settings::{NAMING, naming::Answer};
 use crate::traces::Forecasts;
-use crate::words::{clocks, sentences};
+use crate::words::clocks;
 use crate::{SpeedRun, SteadyCase};
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::evidence::{is_within_odds, probabilities};
-use inference::hypothesis::{Place, Sizes};
 use recordings::Signal;
-use verdict::{Cause, Diagnosis, Estimate, Loads, Verdict};
+use verdict::{Cause, Diagnosis, Loads, Verdict};
 
 const ANSWER: Answer = NAMING.answer;
 
@@ -101,30 +102,6 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
             (own.len() == 1).then(|| own[0].to_owned())
         })
         .collect()
-}
-
-pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
-    let variant = &e.parts[part];
-    let spec = variant.spec();
-    let (values, sigma) = e.of(part);
-    let parameters = variant
-        .free(&Sizes::default())
-        .iter()
-        .zip(values.iter().zip(sigma))
-        .filter_map(|(f, (&value, &sigma))| {
-            let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
-            let estimate = Estimate { value, sigma: Some(sigma).filter(|s| s.is_finite()), at_bound };
-            f.parameter.map(|i| (spec.parameters[i].name.to_owned(), estimate))
-        })
-        .collect();
-    Cause {
-        magnitude: Some(variant.magnitude(values)),
-        sigma: sigma.first().copied().filter(|s| s.is_finite()),
-        unit: inference::words::unit(spec).into(),
-        parameters,
-        side: if let Place::Side(s) = variant.place { Some(inference::words::side(s).into()) } else { None },
-        ..Cause::plain(spec.id, &inference::words::variant(variant), probability)
-    }
 }
 
 /// What the data's defects do to the answer.

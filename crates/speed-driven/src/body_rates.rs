@@ -4,8 +4,8 @@ use inference::robust::mean;
 use recordings::{Recording, Signal};
 
 use crate::clock;
-use crate::run::{SpeedRun, origin, samples};
 use crate::settings::{MEASURING, measuring::Rows};
+use crate::stamps::{origin, samples};
 
 const ROWS: Rows = MEASURING.rows;
 
@@ -44,19 +44,17 @@ impl BodyRates {
     }
 }
 
-/// Nose up at the steps of the gyro's clock, rad, from the specific force along the body.
-pub(crate) fn level(recording: &Recording, run: &SpeedRun, at: &[f64]) -> Option<Vec<f64>> {
+/// Nose up at the steps of the gyro's clock, rad, from the specific force along the body; `rows` are times on that clock,
+/// s, `forward` the speed then, m/s.
+pub(crate) fn level(recording: &Recording, [rows, forward]: [&Vec<f64>; 2], at: &[f64]) -> Option<Vec<f64>> {
     let force = recording.get(Signal::AccelX)?;
     let upward = recording.get(Signal::AccelZ).and_then(|c| mean(c.values().iter().copied()));
     if upward.is_some_and(|g| (g / ROWS.gravity - 1.0).abs() > ROWS.upright) {
         return None;
     }
-    let lag = &run.alignment.as_ref()?.lag;
     let (t, values) = samples(force, origin(recording));
     let smooth = clock::box_mean(&t, values, ROWS.level_mean);
-    let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
-    let rows: Vec<f64> = run.time.iter().zip(lag).map(|(t, l)| t + l).collect();
-    let speed = |at: f64| clock::interpolate(&rows, &forward, at);
+    let speed = |at: f64| clock::interpolate(rows, forward, at);
     let half = 0.5 * ROWS.level_mean;
     let of_step = |&at: &f64| {
         let gained = (speed(at + half) - speed(at - half)) / ROWS.level_mean;

@@ -12,7 +12,7 @@ use robot_model::effects::coulomb_side;
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
 
-use crate::answer;
+use crate::cause::cause;
 use crate::compare::{Judgement, judgement, reported, sigmas};
 use crate::name::{Named, Naming};
 use crate::pieces::GRADE;
@@ -100,7 +100,7 @@ fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
         return;
     }
     let ranked = |id: &str| out.ranked.iter().find(|c| c.effect == id).cloned();
-    let class = class.into_iter().map(|e| ranked(e.ids()[0]).unwrap_or_else(|| answer::cause(e, 0, 0.0))).collect();
+    let class = class.into_iter().map(|e| ranked(e.ids()[0]).unwrap_or_else(|| cause(e, 0, 0.0))).collect();
     insert(out, class);
 }
 

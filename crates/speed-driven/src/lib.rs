@@ -6,14 +6,14 @@
 //!
 //! # Files
 //!
-//! * `run`, `body_rates`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
+//! * `run`, `stamps`, `body_rates`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
 //!   turns; an accelerometer.
 //! * `standstill`: a body that stands while its wheels turn; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
-//! * `answer`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
-//! * `headline`, `words`: what leads the sentences; sentences.
+//! * `answer`, `cause`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
+//! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
@@ -24,6 +24,7 @@
 mod answer;
 mod attitude;
 mod body_rates;
+mod cause;
 mod changes;
 mod clock;
 mod compare;
@@ -40,8 +41,10 @@ mod next;
 mod pieces;
 mod run;
 mod scrub;
+mod sentences;
 mod settings;
 mod slopes;
+mod stamps;
 mod standstill;
 mod straight;
 #[cfg(test)]

@@ -6,6 +6,7 @@ use recordings::{Channel, Recording, Signal};
 use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
 use crate::settings::{MEASURING, measuring::Rows};
+use crate::stamps::{origin, samples};
 use inference::DiagnosisError;
 
 const ROWS: Rows = MEASURING.rows;
@@ -39,16 +40,6 @@ pub struct SpeedRun {
     pub changed: Vec<bool>,
     /// Signals that were recorded and are not used.
     pub unused: Vec<Signal>,
-}
-
-/// The first stamp of a recording, ns: times count from here, whatever epoch the stamps have.
-pub(crate) fn origin(recording: &Recording) -> i64 {
-    recording.channels().iter().filter_map(|c| c.t_ns().first().copied()).min().unwrap_or(0)
-}
-
-/// Times in s from the recording's origin, and values of a channel.
-pub(crate) fn samples(channel: &Channel, origin: i64) -> (Vec<f64>, &[f64]) {
-    (channel.t_ns().iter().map(|t| (*t - origin) as f64 * 1e-9).collect(), channel.values())
 }
 
 impl SpeedRun {
@@ -129,7 +120,11 @@ impl SpeedRun {
             run.alignment = Some(alignment);
         }
         if let Some(mut rates) = run.body_rates.take() {
-            rates.level = level(recording, &run, &rates.time);
+            let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
+            let speed =
+                |a: &Alignment| (run.time.iter().zip(&a.lag).map(|(t, lag)| t + lag).collect::<Vec<_>>(), &forward);
+            rates.level =
+                run.alignment.as_ref().map(speed).and_then(|(rows, v)| level(recording, [&rows, v], &rates.time));
             run.body_rates = Some(rates);
         }
         let rates = [Signal::GyroX, Signal::GyroY];

@@ -1,41 +1,12 @@
-//! What a speed-driven case says in sentences.
+//! Parts of a speed-driven case in words.
 
 use crate::Alignment;
-use crate::compare::{Judgement, judgement, no_difference, reported};
-use crate::headline::headline;
+use crate::compare::{Judgement, judgement, no_difference};
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
-use verdict::{
-    ClockError, Diagnosis, Hidden, LoadChange, Loads, Quantity, Ratio, Standstill, Turning, TurningChange, Verdict, Way,
-};
+use verdict::{ClockError, Hidden, LoadChange, Quantity, Ratio, Standstill, Turning, TurningChange, Way};
 
 const SENTENCES: Sentences = NAMING.sentences;
-
-/// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
-pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
-    let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
-    let mut out = headline(d, of_loads, loads, theirs);
-    // One that leads has been said.
-    let said = |r: &&Ratio| {
-        let of = format!("in {} the {} is", recordings(&r.recording), r.quantity.name());
-        !out.iter().any(|s| s.contains(&of))
-    };
-    let more: Vec<String> = reported(loads).filter(said).map(|r| load(r, theirs)).collect();
-    out.extend(more);
-
-    if loads.standstills.len() > 1 {
-        out.extend(loads.standstills.iter().map(standstill));
-    }
-    let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
-    let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
-    out.extend(more);
-    out.extend(hidden(&loads.changes.hidden));
-    out.extend(turning(&loads.turning));
-    if set_points && !loads.ratios.is_empty() {
-        out.push("All speeds here are set-points, not measured speeds.".to_owned());
-    }
-    out
-}
 
 /// How well clocks were aligned; `None` where there was one clock only.
 pub(crate) fn clocks(all: &[ClockError]) -> Option<String> {
@@ -78,7 +49,7 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
 }
 
 /// A load, how it compares with `theirs`, and whether its interval shows a difference.
-fn load(r: &Ratio, theirs: &str) -> String {
+pub(crate) fn load(r: &Ratio, theirs: &str) -> String {
     let [slow, fast] = r.range;
     let at = match r.quantity {
         Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
@@ -115,7 +86,7 @@ fn titled(names: &str) -> String {
     recordings(names).replacen('r', "R", 1)
 }
 
-fn standstill(s: &Standstill) -> String {
+pub(crate) fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
     format!("{}, from {from:.1} s to {until:.1} s: the body stands: {}.", titled(&s.recording), how_it_stands(s))
 }
@@ -204,7 +175,7 @@ pub(crate) fn turning_change(c: &TurningChange) -> String {
 }
 
 /// One sentence per recording: the longest stretches, and how much there is in all.
-fn hidden(all: &[Hidden]) -> Vec<String> {
+pub(crate) fn hidden(all: &[Hidden]) -> Vec<String> {
     let named = SENTENCES.hidden;
     let of = |list: &[Hidden]| {
         let seconds = |h: &Hidden| h.interval[1] - h.interval[0];
@@ -227,7 +198,7 @@ fn hidden(all: &[Hidden]) -> Vec<String> {
 }
 
 /// One sentence per recording.
-fn turning(all: &[Turning]) -> Vec<String> {
+pub(crate) fn turning(all: &[Turning]) -> Vec<String> {
     let of = |list: &[Turning]| {
         let seconds =
             |way: Way| list.iter().filter(|t| t.way == way).map(|t| t.interval[1] - t.interval[0]).sum::<f64>();

@@ -12,8 +12,8 @@ use robot_model::{Effect, EffectSpec, effects};
 use crate::motion::GyroError;
 use crate::run::Run;
 use crate::settings::redundancy::{Faults, SETTINGS};
-use crate::words;
 use inference::evidence::logistic;
+use inference::words::named;
 use pool::Measured;
 use verdict::{Cause, EffectAt, Estimate, Side};
 
@@ -43,6 +43,13 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
+    /// Name: with its side, and with its number where the effect has several.
+    pub(crate) fn name(&self) -> String {
+        let name = named(self.spec.name, self.side);
+        let is_one = self.spec.strengths().count() == 1;
+        if is_one { name } else { format!("{name}: {}", self.spec.parameters[self.parameter].name) }
+    }
+
     /// A fault of an effect's parameter that was measured so.
     fn new((spec, parameter): (&'static EffectSpec, usize), measured: Measured, side: Option<usize>) -> Self {
         let Measured { value: magnitude, sigma } = measured;
@@ -69,7 +76,7 @@ impl Fault {
             unit: inference::words::unit(self.spec).into(),
             parameters: BTreeMap::from([(parameter, estimate)]),
             side: self.side.map(|s| inference::words::side(s).into()),
-            ..Cause::plain(self.spec.id, &words::fault(self), of(self.spec.rarity))
+            ..Cause::plain(self.spec.id, &self.name(), of(self.spec.rarity))
         };
         iter::once(first).chain(self.alike().map(move |s| Cause::plain(s.id, s.name, of(s.rarity))))
     }

@@ -1,19 +1,11 @@
 //! Sentences for people.
 
 use catalogue::answer::{NONE, UNKNOWN};
-use inference::words::{named, probability, quantity};
+use inference::words::{probability, quantity};
 
 use crate::locate;
-use crate::redundancy::Fault;
 use crate::settings::decision::SETTINGS;
 use verdict::{Cause, Diagnosis, Verdict};
-
-/// Name of a sensor fault: with its side, and with its number where the effect has several.
-pub(crate) fn fault(f: &Fault) -> String {
-    let spec = f.spec;
-    let name = named(spec.name, f.side);
-    if spec.strengths().count() > 1 { format!("{name}: {}", spec.parameters[f.parameter].name) } else { name }
-}
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
 const SENTENCES: usize = 4;

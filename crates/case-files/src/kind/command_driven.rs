@@ -8,7 +8,6 @@ use robot_file::RobotSpec;
 use robot_model::Active;
 
 use super::{Forecast, Kind};
-use crate::case_folder::CaseFolder;
 use crate::sensor_faults;
 
 /// Commanded wheel speeds in, wheel speeds and the motion of the body out, without forces.
@@ -18,10 +17,6 @@ pub(super) struct CommandDriven;
 const LONGER: f64 = 6.0;
 
 impl Kind for CommandDriven {
-    fn case(&self, folder: &CaseFolder) -> Result<diagnosis::Case> {
-        Ok(diagnosis::Case::CommandDriven(Box::new(folder.command_driven()?)))
-    }
-
     fn budget(&self) -> f64 {
         LONGER * BUDGET
     }

@@ -6,20 +6,12 @@ use robot_file::{Causality, RobotSpec};
 use robot_model::Active;
 use verdict::Prediction;
 
-use crate::case_folder::CaseFolder;
-
 mod command_driven;
 mod speed_driven;
 mod torque_driven;
 
 /// A kind of robot, by what drives it.
 pub trait Kind: Sync {
-    /// The case of a folder as the diagnosis takes it.
-    ///
-    /// # Errors
-    /// Recordings without the signals that are needed, or a robot file without what this kind needs.
-    fn case(&self, folder: &CaseFolder) -> Result<diagnosis::Case>;
-
     /// Recorded time that a diagnosis rests on at most when nobody says otherwise, s.
     fn budget(&self) -> f64;
 

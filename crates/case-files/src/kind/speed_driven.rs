@@ -7,7 +7,6 @@ use robot_file::RobotSpec;
 use robot_model::Active;
 
 use super::{Forecast, Kind};
-use crate::case_folder::CaseFolder;
 
 /// Wheel speeds in, the torque that they take out.
 pub(super) struct SpeedDriven;
@@ -17,10 +16,6 @@ pub(super) struct SpeedDriven;
 const LONGER: f64 = 6.0;
 
 impl Kind for SpeedDriven {
-    fn case(&self, folder: &CaseFolder) -> Result<diagnosis::Case> {
-        Ok(diagnosis::Case::SpeedDriven(Box::new(folder.speed_driven()?)))
-    }
-
     fn budget(&self) -> f64 {
         LONGER * BUDGET
     }

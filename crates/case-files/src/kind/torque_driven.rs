@@ -10,16 +10,11 @@ use torque_driven::HeldOut;
 use verdict::Prediction;
 
 use super::{Forecast, Kind};
-use crate::case_folder::CaseFolder;
 
 /// Torques in, wheel speeds and the motion of the body out.
 pub(super) struct TorqueDriven;
 
 impl Kind for TorqueDriven {
-    fn case(&self, folder: &CaseFolder) -> Result<diagnosis::Case> {
-        Ok(diagnosis::Case::TorqueDriven(Box::new(folder.torque_driven()?)))
-    }
-
     fn budget(&self) -> f64 {
         BUDGET
     }

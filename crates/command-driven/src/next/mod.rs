@@ -14,7 +14,8 @@ use inference::expected_information::{expected_bits, widest_pair};
 use rayon::prelude::*;
 use verdict::{Advice, Course, Manoeuvre};
 
-use crate::identify::{Base, Identified};
+use crate::identified::Identified;
+use crate::identify::Base;
 use crate::windows::Windows;
 use forecast::{Differences, Forecaster};
 use rivals::{Rival, rivals};

@@ -3,12 +3,13 @@
 use verdict::{Contender, Element, Scaling};
 
 use crate::controller::Law;
-use crate::identify::{Base, Identified, Identify, OfDrive, OfGround};
+use crate::element_words::element;
+use crate::identified::Identified;
+use crate::identify::{Base, Identify, OfDrive, OfGround};
 use crate::name::causes_of;
 use crate::search::{Evidence, Model, Part, Trial, attempt, evidence};
 use crate::settings::{Rivals as Settings, SETTINGS};
 use crate::windows::Windows;
-use crate::words::element;
 
 const RIVALS: Settings = SETTINGS.rivals;
 

@@ -1,7 +1,7 @@
 //! What an effect is: a specification, and up to three places in which it changes the plant.
 
-use crate::robot::Robot;
-use crate::scalar::Scalar;
+use crate::robot::{Robot, UNLIMITED};
+use crate::scalar::{Scalar, real};
 
 pub mod export;
 mod spec;
@@ -108,3 +108,45 @@ pub const MAX_PARAMETERS: usize = 4;
 
 /// Values of an effect's parameters in the order of its specification; what that does not name is zero.
 pub type Values<T> = [T; MAX_PARAMETERS];
+
+impl<T: Scalar> Robot<T> {
+    /// The operating point of the robot at rest at the origin.
+    #[inline(always)]
+    pub fn at_rest(&self) -> OperatingPoint<T> {
+        OperatingPoint {
+            time: T::zero(),
+            position: [T::zero(); 2],
+            heading: [T::one(), T::zero()],
+            velocity: [T::zero(); 2],
+            yaw_rate: T::zero(),
+            wheel_speed: [T::zero(); 2],
+            wheel_angle: [T::zero(); 2],
+            mass: self.mass,
+            gravity: self.gravity,
+            hitch: [self.hitch_x - self.com[0], -self.com[1]],
+            half_base: [self.half_wheelbase, self.half_track],
+            torque: [T::zero(); 2],
+        }
+    }
+
+    /// What every instant begins with before effects change it.
+    pub fn coefficients(&self) -> Coefficients<T> {
+        Coefficients {
+            adhesion: [self.adhesion; 4],
+            slip_at_peak: [self.slip_at_peak; 4],
+            lateral: [self.lateral_factor; 4],
+            rolling: [self.rolling_resistance; 4],
+            radius: [self.wheel_radius; 4],
+            traction: [T::one(); 4],
+            twist: T::zero(),
+            coulomb: self.coulomb,
+            viscous: self.viscous,
+            stribeck: [self.stribeck; 2],
+            torque: [T::zero(); 2],
+            belt_limit: [real(UNLIMITED); 2],
+            force: [T::zero(); 2],
+            moment: T::zero(),
+            tilt: [T::zero(); 2],
+        }
+    }
+}

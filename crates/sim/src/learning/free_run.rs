@@ -1,77 +1,11 @@
-//! Prediction from the torques alone.
-
-use nn_basis::dot;
-use robot_model::paper::{State, TERMS};
+//! Errors of predictions from the torques alone.
 
 use super::course::Course;
-use super::regressor::{Equation8, Regressor, Sight};
-use crate::rk4;
 
 /// How far ahead is predicted, s.
 pub const HORIZONS: [f64; 3] = [0.1, 0.5, 2.0];
 /// Time from one start to the next, s.
 pub(super) const BETWEEN_STARTS: f64 = 0.5;
-
-/// Where a prediction starts.
-pub(super) struct Start<'a> {
-    pub(super) course: &'a Course,
-    /// Pole a of the identifier, 1/s.
-    pub(super) pole: f64,
-    /// Sample.
-    pub(super) k: usize,
-    /// Estimated wheel speeds there, rad/s.
-    pub(super) speed: [f64; 2],
-}
-
-/// Runs `ẋ = −a x + Wᵀφ(x, u) + known` with fixed weights, both outputs together: wheel speeds after each interval.
-pub(super) fn of_speeds<R: Regressor<N> + ?Sized, const N: usize>(
-    regressor: &R,
-    weight: &[[f64; N]; 2],
-    start: &Start,
-    intervals: usize,
-) -> Vec<[f64; 2]> {
-    let Start { course, pole, k, mut speed } = *start;
-    let h = course.run.step;
-    (k..k + intervals)
-        .map(|k| {
-            let sight = Sight { speed, torque: course.run.torques[k], body: &course.run.states[k] };
-            let rate = [0, 1].map(|i| {
-                let g = dot(&weight[i], &regressor.phi(i, &sight)) + regressor.known(i, pole, &sight);
-                g - pole * speed[i]
-            });
-            for i in 0..2 {
-                speed[i] += h * rate[i];
-            }
-            speed
-        })
-        .collect()
-}
-
-/// Runs Eq. 8 with fixed weights, the body carried along by known mass, geometry and adhesion from its state at the start.
-pub(super) fn of_equation_8(
-    regressor: &Equation8,
-    weight: &[[f64; TERMS]; 2],
-    start: &Start,
-    intervals: usize,
-) -> Vec<[f64; 2]> {
-    let Start { course, k, speed, .. } = *start;
-    let mut numbers = State { speed, ..course.run.states[k] }.to_array();
-    let h = course.run.step / regressor.substeps as f64;
-    (k..k + intervals)
-        .map(|k| {
-            let torque = course.run.torques[k];
-            for _ in 0..regressor.substeps {
-                numbers = rk4(&numbers, h, |n| {
-                    let state = State::from_array(*n);
-                    let (rate, out) = regressor.robot.evaluate(&state, torque);
-                    let psi = regressor.terms(&state, out.acceleration, torque);
-                    State { speed: [0, 1].map(|i| dot(&weight[i], &psi[i])), ..rate }.to_array()
-                });
-            }
-            State::from_array(numbers).speed
-        })
-        .collect()
-}
 
 /// Squared errors at the horizons, added up over starts.
 #[derive(Debug, Clone, Copy, Default)]

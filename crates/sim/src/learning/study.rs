@@ -8,8 +8,8 @@ use robot_model::paper::State;
 
 use super::course::Course;
 use super::follower::Follower;
-use super::free_run::{BETWEEN_STARTS, Errors, Start};
-use super::regressor::{Regressor, Sight};
+use super::free_run::{BETWEEN_STARTS, Errors};
+use super::regressor::{Regressor, Sight, Start};
 use super::score::Score;
 use crate::{Recipe, SimError, comparison};
 

@@ -1,0 +1,36 @@
+//! What recordings show beyond the simulation: the structure of both parts, with what begins inside a recording.
+
+use verdict::Alternative;
+
+use crate::controller::Law;
+use crate::identify::{Base, OfDrive, OfGround};
+use crate::onset;
+use crate::search::{Trial, Weighed};
+use crate::windows::Windows;
+
+/// What was found in the recordings.
+#[derive(Debug, Clone)]
+pub(crate) struct Identified {
+    pub(crate) drive: Trial<Law>,
+    pub(crate) ground: Trial<()>,
+    /// Evidence for every element that was tried.
+    pub(crate) evidence: Weighed,
+    pub(crate) alternatives: Vec<Alternative>,
+    /// Whether every other way to hold the sides at a wheel's limit forecasts worse.
+    pub(crate) scaling_is_told: bool,
+}
+
+/// Finds what the recordings show beyond the simulation.
+pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progress: &dyn Fn(&str)) -> Identified {
+    progress("fitting wheel speeds to commands");
+    let of_drive = onset::found(&OfDrive, windows, &base.drive);
+    progress("fitting the motion of the body to wheel speeds");
+    let of_ground = onset::found(&OfGround { nominal }, windows, &base.ground);
+    Identified {
+        drive: of_drive.trial,
+        ground: of_ground.trial,
+        evidence: of_drive.evidence.into_iter().chain(of_ground.evidence).collect(),
+        alternatives: of_drive.alternatives,
+        scaling_is_told: of_drive.scaling_is_told,
+    }
+}

@@ -1,0 +1,33 @@
+//! The answer of a speed-driven case in sentences.
+
+use verdict::{Diagnosis, Loads, Ratio, Verdict};
+
+use crate::compare::reported;
+use crate::headline::headline;
+use crate::words::{change, hidden, load, recordings, standstill, turning, turning_change};
+
+/// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
+pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
+    let theirs = if loads.references.is_empty() { "that of the robot file" } else { "that of the references" };
+    let mut out = headline(d, of_loads, loads, theirs);
+    // One that leads has been said.
+    let said = |r: &&Ratio| {
+        let of = format!("in {} the {} is", recordings(&r.recording), r.quantity.name());
+        !out.iter().any(|s| s.contains(&of))
+    };
+    let more: Vec<String> = reported(loads).filter(said).map(|r| load(r, theirs)).collect();
+    out.extend(more);
+
+    if loads.standstills.len() > 1 {
+        out.extend(loads.standstills.iter().map(standstill));
+    }
+    let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
+    let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
+    out.extend(more);
+    out.extend(hidden(&loads.changes.hidden));
+    out.extend(turning(&loads.turning));
+    if set_points && !loads.ratios.is_empty() {
+        out.push("All speeds here are set-points, not measured speeds.".to_owned());
+    }
+    out
+}
