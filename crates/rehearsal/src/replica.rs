@@ -30,7 +30,7 @@ impl Template {
     /// When that is too short to be diagnosed.
     pub(crate) fn new(run: &Run, seconds: f64, options: &Options) -> Result<Self, DiagnosisError> {
         let run = beginning(run, seconds);
-        let needed = (2.0 * options.segment / run.period).ceil() as usize;
+        let needed = (options.segment / run.period).ceil() as usize + 1;
         if run.rows() < needed {
             return Err(DiagnosisError::TooShort { recording: run.name.clone(), rows: run.rows(), needed });
         }
