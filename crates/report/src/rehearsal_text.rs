@@ -26,7 +26,8 @@ pub fn render(rehearsal: &Rehearsal) -> String {
 }
 
 /// How to read the table.
-const LEGEND: &str = "  found at: replicas whose answer holds the effect, of all; + those of them that name another first, or one class with it
+const LEGEND: &str = "  at 1 x: replicas that name it first + those whose answer holds it beside or in one class with another, of all;
+    -: a size beyond what the catalogue calls sensible
   otherwise: what was answered instead; look-alikes: other names in the answers, and in how many of those that name anything
 ";
 
