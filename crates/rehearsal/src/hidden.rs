@@ -55,9 +55,11 @@ impl Hidden {
         Variant { effect, axis, place }
     }
 
-    /// The effect at a multiple of its size of interest; `None` where that lies beyond the bounds of its values.
+    /// The effect at a multiple of its size of interest; `None` where that lies beyond the bounds
+    /// of its values.
     ///
-    /// A strength that may have either sign has them in turns; several components have a direction that the seed draws.
+    /// A strength that may have either sign has them in turns; several components have a direction
+    /// that the seed draws.
     pub(crate) fn dose(&self, multiple: f64, seed: u64, replica: usize) -> Option<Dose> {
         let (spec, variant) = (self.spec(), self.variant(replica));
         let mut free = variant.free(&self.sizes);

@@ -18,7 +18,8 @@ pub struct Plan {
     pub sizes: Vec<f64>,
     /// Ids of the effects; all where none is given.
     pub effects: Vec<String>,
-    /// References of a replica, on the inputs of the recordings; as many as the case has, on their own inputs, if not given.
+    /// References of a replica, on the inputs of the recordings; as many as the case has, on their
+    /// own inputs, if not given.
     pub references: Option<usize>,
     /// Replicas of each size.
     pub replicas: usize,

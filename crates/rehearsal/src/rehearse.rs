@@ -51,8 +51,8 @@ struct Done {
 }
 
 impl<'a> Rehearsing<'a> {
-    /// Takes the inputs and sensors of a case's recordings. What its references and recordings show is used for nothing else
-    /// than rates, gaps and noise.
+    /// Takes the inputs and sensors of a case's recordings. What its references and recordings show
+    /// is used for nothing else than rates, gaps and noise.
     ///
     /// # Errors
     /// A plan with which nothing can be simulated, a case without recordings, recordings that are too short.
@@ -119,8 +119,8 @@ impl<'a> Rehearsing<'a> {
         self.jobs().len()
     }
 
-    /// Simulates and diagnoses all replicas, on as many threads as rayon has; the answer depends on none of them.
-    /// `listener` is told what was diagnosed, from any thread.
+    /// Simulates and diagnoses all replicas, on as many threads as rayon has; the answer depends on
+    /// none of them. `listener` is told what was diagnosed, from any thread.
     ///
     /// # Errors
     /// When no replica can be calibrated on its references.
@@ -258,8 +258,9 @@ fn changes(common: &Common<'_>, template: &Template, dose: &Dose) -> bool {
     })
 }
 
-/// Rehearses a case: which effects a diagnosis would find on its robot and its inputs, from which size on, and how often it
-/// would alarm falsely. `listener` is told what was diagnosed, from any thread.
+/// Rehearses a case: which effects a diagnosis would find on its robot and its inputs, from which
+/// size on, and how often it would alarm falsely. `listener` is told what was diagnosed, from any
+/// thread.
 ///
 /// # Errors
 /// A plan with which nothing can be simulated, and a case that cannot be diagnosed.

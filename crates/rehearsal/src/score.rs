@@ -43,7 +43,8 @@ impl Scored {
 
     /// Scores an answer; `hidden` is the effect that was hidden, if any.
     ///
-    /// Named are the most probable cause, every cause that is more likely than not, and the members of their classes.
+    /// Named are the most probable cause, every cause that is more likely than not, and the members
+    /// of their classes.
     pub(crate) fn new(answer: &Diagnosis, hidden: Option<&str>) -> Self {
         let without = |kind| Self { kind, others: BTreeSet::new(), failure: None };
         match answer.verdict {
@@ -101,8 +102,8 @@ pub(crate) fn share_found(answers: &Answers) -> [f64; 3] {
     [rate.share().unwrap_or(0.0), low, high]
 }
 
-/// The smallest simulated size from which on at least the wanted share is found at every larger one too. Nothing is
-/// interpolated: between the sizes nobody looked.
+/// The smallest simulated size from which on at least the wanted share is found at every larger one
+/// too. Nothing is interpolated: between the sizes nobody looked.
 pub(crate) fn found_from(sizes: &[RehearsedSize], wanted: f64) -> FoundFrom {
     let found = sizes.iter().rev().take_while(|size| size.found[0] >= wanted).count();
     match sizes.get(sizes.len() - found) {

@@ -45,8 +45,8 @@ fn channel_mut(run: &mut Run, place: usize) -> &mut Vec<Option<f64>> {
 /// One sigma of each channel; `None` of those that no run holds.
 pub(crate) type Sigmas = [Option<f64>; CHANNELS.len()];
 
-/// Noise of all channels as the runs show it: places of the pose as the robot file states them, `pose_sigma` in m, others as
-/// measured, and as usual where a simulator's log shows none.
+/// Noise of all channels as the runs show it: places of the pose as the robot file states them,
+/// `pose_sigma` in m, others as measured, and as usual where a simulator's log shows none.
 pub(crate) fn noise(runs: &[&Run], pose_sigma: f64) -> (Sigmas, Vec<SensorNoise>) {
     let mut sigmas = Sigmas::default();
     let mut told = Vec::new();
@@ -85,8 +85,9 @@ fn rate(channel: &[Option<f64>], period: f64) -> Option<f64> {
     (last > first).then(|| (count - 1) as f64 / ((last - first) as f64 * period))
 }
 
-/// Sigma of white noise on a smooth signal: `1.4826 median|Δ³y| / √20`, since Δ³ of noise of one sigma has variance
-/// 1 + 9 + 9 + 1, and of a smooth signal next to none; `None` of too few samples.
+/// Sigma of white noise on a smooth signal: `1.4826 median|Δ³y| / √20`, since Δ³ of noise of one
+/// sigma has variance 1 + 9 + 9 + 1, and of a smooth signal next to none; `None` of too few
+/// samples.
 fn measured(y: &[f64]) -> Option<f64> {
     if y.len() < NOISE.least_samples {
         return None;
@@ -112,8 +113,8 @@ impl Noise {
 
 /// What the template's sensors show of a simulated drive: its rows, its gaps, noise of these sigmas.
 ///
-/// Encoders are read at the row; samples of other clocks are written in the first row after their instant, on average half
-/// a row late.
+/// Encoders are read at the row; samples of other clocks are written in the first row after their
+/// instant, on average half a row late.
 pub(crate) fn shown(template: &Run, ideal: &Recording, sigmas: &Sigmas, noise: &Noise) -> Run {
     let mut run = template.clone();
     run.from = 0.0;

@@ -24,7 +24,12 @@ const NUMBERS: [&str; 9] = [
 /// The page: one file that opens in any browser and needs no network. `program` is what rehearsed.
 pub fn render(rehearsal: &Rehearsal, robot: &str, program: &str) -> String {
     let found = rehearsal.effects.iter().filter(|effect| effect.found != verdict::FoundFrom::Never).count();
-    let heading = format!("{found} of {} effects would be found on these inputs", rehearsal.effects.len());
+    let multiples = rehearsal.effects.iter().flat_map(|effect| &effect.sizes).map(|size| size.multiple);
+    let largest = multiples.fold(0.0, f64::max);
+    let heading = format!(
+        "{found} of {} effects would be found on these inputs, at {largest} times their size of interest or less",
+        rehearsal.effects.len()
+    );
     let mut page = Page::headed(&format!("Rehearsal: {robot}"), &format!("Rehearsal of {robot}"), &[heading]);
     page.lead(&false_alarms(&rehearsal.fault_free));
 
@@ -80,20 +85,23 @@ fn figure(effect: &RehearsedEffect) -> Figure {
         Line { role: Some(Role::After), intervals, ..Line::new("95 % interval", &x, &found) },
         Line { role: Some(Role::Before), ..Line::new("named first", &x, &named).dashed() },
     ];
+    // At zero, so that all charts begin there.
+    let marks = effect.sizes.iter().map(|size| (size.size, 0.0, format!("{} x", size.multiple))).collect();
     let unit = if effect.unit == "-" { String::new() } else { format!(", {}", effect.unit) };
     Figure {
         title: effect.name.clone(),
         caption: format!(
-            "Share of replicas whose answer holds the effect, over its size, with 95 % intervals after Wilson. Found from: {}. \
-             Size of interest: {}.",
-            found_from(effect),
-            with_unit(effect.interest, effect)
+            "Share of replicas whose answer holds the effect, over its size, with 95 % intervals after Wilson; at the \
+             bottom the same sizes as multiples of the size of interest, {}. Found from: {}.",
+            with_unit(effect.interest, effect),
+            found_from(effect)
         ),
         table: (NUMBERS.to_vec(), effect.sizes.iter().map(numbers).collect()),
         drawing: Drawing::Lines(Chart {
             x_label: format!("size{unit}"),
             y_label: "share of replicas".to_owned(),
             lines,
+            marks,
             ..Chart::default()
         }),
     }

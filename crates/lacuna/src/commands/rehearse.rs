@@ -56,15 +56,15 @@ pub(crate) struct Args {
     /// Effects to hide, as `lacuna effects` lists them [default: all that the plant can have].
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     effects: Vec<String>,
-    /// References of a replica, on the inputs of the recordings: what one more is worth; 0 is none [default: those of the
-    /// case, on their own inputs].
+    /// References of a replica, on the inputs of the recordings: what one more is worth; 0 is none
+    /// [default: those of the case, on their own inputs].
     #[arg(long, value_name = "COUNT", value_parser = references)]
     references: Option<usize>,
     /// Replicas of each size.
     #[arg(long, value_name = "COUNT", default_value_t = Plan::default().replicas)]
     replicas: usize,
-    /// Replicas in which nothing is hidden: how often one would be alarmed for nothing [default: 12, or as many as of
-    /// each size].
+    /// Replicas in which nothing is hidden: how often one would be alarmed for nothing [default:
+    /// 12, or as many as of each size].
     #[arg(long, value_name = "COUNT")]
     fault_free: Option<usize>,
     /// Beginning of each recording and reference that is driven again, s.
