@@ -14,8 +14,9 @@ const SHOWN: usize = 3;
 pub fn render(rehearsal: &Rehearsal) -> String {
     let mut out = format!("{}\n", false_alarms(&rehearsal.fault_free));
     if !rehearsal.effects.is_empty() {
-        out += &format!("\n{}{}", heading("Effects that would be found"), effects(rehearsal));
-        out += LEGEND;
+        for part in ["\n", &heading("Effects that would be found"), &effects(rehearsal), LEGEND] {
+            out += part;
+        }
     }
     let left_out: Vec<String> = rehearsal.left_out.iter().map(|l| format!("{}: {}", l.effect, l.why)).collect();
     out += &listed("Not rehearsed", &left_out);
@@ -155,7 +156,7 @@ pub(crate) mod tests {
         };
         let effect = |id: &str, found: FoundFrom| RehearsedEffect {
             effect: id.to_owned(),
-            name: format!("{id} <b>"),
+            name: format!("{id} <my-name>"),
             interest: 2.0,
             unit: "kg".into(),
             sizes: vec![size(0.5, 0, 0), size(1.0, 1, 2)],
