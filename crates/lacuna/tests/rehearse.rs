@@ -82,6 +82,7 @@ fn cases_that_cannot_be_rehearsed_are_refused_in_a_sentence() {
         let run = bench.run(&["rehearse", "case", target, "nowhere/out"]);
         run.failed(&["cannot write 'nowhere/out'", "no folder 'nowhere'", "make it"]);
     }
+    bench.run(&["rehearse", "case", "--html", "case"]).failed(&["'case'", "it is a folder", "name a file in it"]);
     for kind in ["speed-driven", "command-driven"] {
         bench.write("other.toml", &ROBOT.replace("torque-driven", kind));
         bench.run(&["rehearse", "case", "--robot", "other.toml"]).failed(&[kind, "only robots that are given torques"]);

@@ -26,6 +26,14 @@ pub enum RehearsalError {
     /// No replica at all.
     #[error("no replica was asked for; give 1 or more")]
     NoReplica,
+    /// More replicas than anybody can wait for.
+    #[error("{replicas} replicas would take days; give {most} or fewer")]
+    TooMany {
+        /// As many as were asked for.
+        replicas: usize,
+        /// As many as there may be.
+        most: usize,
+    },
     /// A length that leaves nothing.
     #[error("{seconds} s of each recording is no length to rehearse; give more than zero")]
     Length {

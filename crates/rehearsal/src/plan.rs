@@ -63,6 +63,10 @@ impl Plan {
         if self.replicas == 0 {
             return Err(RehearsalError::NoReplica);
         }
+        let replicas = self.replicas.max(self.fault_free);
+        if replicas > PLAN.most {
+            return Err(RehearsalError::TooMany { replicas, most: PLAN.most });
+        }
         if self.seconds.is_nan() || self.seconds <= 0.0 {
             return Err(RehearsalError::Length { seconds: self.seconds });
         }
@@ -117,6 +121,7 @@ mod tests {
         assert!(refused(|plan| plan.sizes = vec![f64::NAN]).contains("larger than zero"));
         assert!(refused(|plan| plan.sizes.clear()).contains("at least one"));
         assert!(refused(|plan| plan.replicas = 0).contains("1 or more"));
+        assert!(refused(|plan| plan.fault_free = 1_000_000).contains("1000 or fewer"));
         assert!(refused(|plan| plan.seconds = 0.0).contains("more than zero"));
         assert!(refused(|plan| plan.effects = vec!["paylod".to_owned()]).contains("payload"));
     }

@@ -9,15 +9,17 @@
         /// Sizes that are simulated, in sizes of interest.
         sizes: [f64; 4] = [0.5, 1.0, 2.0, 4.0], "1", "guess; octaves about the size below which nobody would act";
         /// Replicas of each size.
-        replicas: usize = 3, "1", "four minutes of two cores";
+        replicas: usize = 3, "1", "three minutes of two cores";
+        /// Replicas at most, of each size and with nothing hidden.
+        most: usize = 1000, "1", "guess; hours for one effect";
         /// Replicas in which nothing is hidden, at least.
         fault_free: usize = 12, "1", "guess; with none alarmed, Wilson's interval ends at a quarter";
         /// Beginning of each recording and reference that is driven again.
-        seconds: f64 = 12.0, "s", "four minutes of two cores";
+        seconds: f64 = 12.0, "s", "three minutes of two cores";
         /// Recordings that are driven again, at most.
-        recordings: usize = 2, "1", "four minutes of two cores; a correction is compared on those left out of the fit";
+        recordings: usize = 2, "1", "three minutes of two cores; a correction is compared on those left out of the fit";
         /// References of a replica, at most.
-        references: usize = 3, "1", "four minutes of two cores";
+        references: usize = 3, "1", "three minutes of two cores";
         /// Share of replicas from which on an effect counts as found.
         wanted: f64 = 0.5, "1", "guess; found more often than not";
     }

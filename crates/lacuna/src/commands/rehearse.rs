@@ -175,8 +175,9 @@ fn program() -> String {
     format!("{name} {version}")
 }
 
-/// Refuses a file in a folder that is not there, before minutes are spent on what cannot be written.
+/// Refuses a folder, and a file in a folder that is not there, before minutes are spent on what cannot be written.
 fn is_writable(target: &str) -> Result<()> {
+    ensure!(!Path::new(target).is_dir(), "cannot write '{target}': it is a folder; name a file in it");
     let folder = Path::new(target).parent().filter(|folder| target != "-" && !folder.as_os_str().is_empty());
     let Some(folder) = folder else { return Ok(()) };
     ensure!(
