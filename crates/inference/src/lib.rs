@@ -4,7 +4,7 @@
 //!
 //! * `least_squares/*`: the one solver: bounds, priors, robust losses, eliminated blocks.
 //! * `evidence`: from scores to probabilities, classes and credible sets.
-//! * `robust`: medians, quantiles, intervals; `algebra`: the little dense algebra, over faer.
+//! * `robust`: medians, quantiles, intervals; `rate`: shares with Wilson's interval; `algebra`: the little dense algebra, over faer.
 //! * `expected_information`, `advice`: which drive to record next, in bits.
 //! * `experiment`: what a kind of robot says so that data left out of its fit are forecast like all others'.
 //! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
@@ -28,6 +28,7 @@ pub mod hypothesis;
 #[cfg(feature = "solver")]
 pub mod least_squares;
 mod options;
+pub mod rate;
 pub mod robust;
 mod settings;
 pub mod words;

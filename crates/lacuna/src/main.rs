@@ -15,7 +15,7 @@ mod mcap_out;
 
 use commands::{
     Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, man, merge, next,
-    predict, report, robot, screen, simulate,
+    predict, rehearse, report, robot, screen, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -26,6 +26,7 @@ Examples:
          --reference FLOORING --recordings SANDY_LOAM
   lacuna batch cases/ -o fleet/    every recording of a fleet, by itself
   lacuna next case/                which drive tells rivals apart
+  lacuna rehearse case/            which effects would be found there
   lacuna export verdict.json --to mjcf
   lacuna explain payload           one effect in full
 
@@ -72,6 +73,8 @@ enum Command {
     Report(report::Args),
     /// Say which drive would tell the remaining causes apart best.
     Next(next::Args),
+    /// Say which effects would be found on a robot's own inputs, and from which size.
+    Rehearse(Box<rehearse::Args>),
     /// Write a diagnosed robot as a model of a simulator, corrected.
     Export(export::Args),
     /// Follow a recording with the online neural identifier.
@@ -108,6 +111,7 @@ fn run() -> ExitCode {
         Command::Predict(args) => predict::run(args),
         Command::Export(args) => export::run(args),
         Command::Next(args) => next::run(args, cli.verbose),
+        Command::Rehearse(args) => rehearse::run(args, cli.verbose),
         Command::Report(args) => report::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),

@@ -10,6 +10,7 @@
 //! * `fleet/*`: recordings of many robots as a page; `trend` and `since` are its statistics.
 //! * `picture`, `manoeuvre`, `slopes`, `reliability`: a verdict, the next drive, claims beside a
 //!   witness, and how often answers are right, each as SVG; `drawing`: what pictures share.
+//! * `rehearsal_text`, `rehearsal_page`: which effects would be found, as text and as a page.
 //! * `words`: how numbers, causes, places and times are written, on the terminal too; `facts`, `sections`:
 //!   lists and headings.
 
@@ -22,6 +23,8 @@ mod facts;
 pub mod fleet;
 pub mod manoeuvre;
 pub mod picture;
+pub mod rehearsal_page;
+pub mod rehearsal_text;
 pub mod reliability;
 pub mod sections;
 pub mod slopes;

@@ -12,6 +12,7 @@
 //! * `response`, `response_constants`: the response of command-driven robots and its constants.
 //! * `advice`, `course`: which drive to record next, and a drive as wanted speeds.
 //! * `coverage`: which parts of long recordings a diagnosis rests on.
+//! * `rehearsal`: which effects would be found on a robot's own inputs, from which size on.
 
 mod advice;
 mod cause;
@@ -23,6 +24,7 @@ mod free_run;
 mod loads;
 mod located;
 mod prediction;
+mod rehearsal;
 mod response;
 mod response_constants;
 mod retuned;
@@ -47,6 +49,10 @@ pub use loads::{
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use prediction::Prediction;
+pub use rehearsal::{
+    Answers, FoundFrom, LookAlike, NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect,
+    RehearsedSize, SensorNoise,
+};
 pub use response::{Alternative, Earned, Element, Parameter, Response, ResponseModel, Scaling};
 pub use response_constants::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseError};
 pub use retuned::Retuned;

@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let store = Store::create(&args.out)?;
     let plan = fleet::plan(units, &store, &settings)?;
     let (before, to_do, left) = (plan.done_before, plan.to_do.len(), plan.left);
-    let progress = Counted::new(to_do, verbose);
+    let progress = Counted::new(to_do, "recordings", verbose);
     let listener = |event: &Event<'_>| match event {
         Event::Prepared(robot, took) => progress.note(&format!("prepared {robot}"), *took),
         Event::Finished(row, took) => {

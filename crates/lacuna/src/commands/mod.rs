@@ -25,6 +25,7 @@ pub(crate) mod merge;
 pub(crate) mod next;
 mod overview;
 pub(crate) mod predict;
+pub(crate) mod rehearse;
 pub(crate) mod report;
 pub(crate) mod robot;
 pub(crate) mod screen;

@@ -14,11 +14,11 @@ pub(crate) struct Counted {
 }
 
 impl Counted {
-    /// Of so many.
-    pub(crate) fn new(of: usize, verbose: bool) -> Self {
+    /// Of so many of these.
+    pub(crate) fn new(of: usize, what: &str, verbose: bool) -> Self {
         let bar = (!verbose && io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new(of as u64);
-            bar.set_style(style("{spinner} {bar:30} {pos} of {len} recordings, about {eta} left"));
+            bar.set_style(style(&format!("{{spinner}} {{bar:30}} {{pos}} of {{len}} {what}, about {{eta}} left")));
             bar.enable_steady_tick(TICK);
             bar
         });

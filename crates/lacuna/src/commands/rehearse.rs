@@ -1,0 +1,189 @@
+//! `lacuna rehearse`: which effects a diagnosis would find on a robot's own inputs.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail, ensure};
+use case_files::envelope::Program;
+use case_files::kind;
+use clap::Args as ClapArgs;
+use inference::Options;
+use rehearsal::{Plan, RehearsalError, Rehearsing};
+use serde_json::json;
+
+use super::diagnose::{self, Input};
+use super::report::write_page;
+use super::{Outcome, Usage, listed};
+use crate::console::{Counted, Progress, emit, emit_json};
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna rehearse case/
+  lacuna rehearse case/ --effects payload,grade --size 0.5,1,2 --replicas 10
+  lacuna rehearse case/ --references 0            what references are worth
+  lacuna rehearse case/ --html page.html --json rehearsal.json
+
+The torques of the recordings are driven again by the plant of the robot file,
+its constants drawn within the sigmas that the file states, with and without
+each effect; sensors get the rates, gaps and noise of the recordings. Every
+replica is diagnosed as by `lacuna diagnose`, and the answers are counted.
+Effects are present throughout, one at a time.
+
+Before the first drive there is nothing but torques that you plan: make a case
+of them with `lacuna simulate robot.toml plan.csv -o case/recordings/plan.csv`.
+
+With the defaults it takes minutes: of each drive the first 12 s, of two
+recordings, each size three times. More of each takes longer in proportion.
+The same seed gives the same answer, whatever the number of threads.
+
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
+
+const USAGE: &str = "\
+lacuna rehearse [OPTIONS] <CASE>
+       lacuna rehearse [OPTIONS] --robot <NAME|FILE>
+                       [--reference <PATH>...] --recordings <PATH>...";
+
+/// Arguments of `lacuna rehearse`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES, override_usage = USAGE)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    input: Input,
+    /// Sizes to simulate, in multiples of each effect's size of interest [default: 0.5,1,2,4].
+    #[arg(long, value_name = "X,Y", value_delimiter = ',')]
+    size: Vec<f64>,
+    /// Effects to hide, as `lacuna effects` lists them [default: all that the plant can have].
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    effects: Vec<String>,
+    /// References of a replica, on the inputs of the recordings: what one more is worth; 0 is none
+    /// [default: those of the case, on their own inputs].
+    #[arg(long, value_name = "COUNT", value_parser = references)]
+    references: Option<usize>,
+    /// Replicas of each size.
+    #[arg(long, value_name = "COUNT", default_value_t = Plan::default().replicas)]
+    replicas: usize,
+    /// Replicas in which nothing is hidden: how often one would be alarmed for nothing [default:
+    /// 12, or as many as of each size].
+    #[arg(long, value_name = "COUNT")]
+    fault_free: Option<usize>,
+    /// Beginning of each recording and reference that is driven again, s.
+    #[arg(long, value_name = "S", default_value_t = Plan::default().seconds)]
+    seconds: f64,
+    /// Recordings that are driven again, at most.
+    #[arg(long, value_name = "COUNT", default_value_t = Plan::default().recordings, value_parser = drives)]
+    drives: usize,
+    /// Seed of all that is drawn.
+    #[arg(long, value_name = "NUMBER", default_value_t = Plan::default().seed)]
+    seed: u64,
+    /// Write everything as JSON to a file; `-` is standard output, instead of the text.
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<String>,
+    /// Make a page with the curves: one file that opens in any browser, offline.
+    #[arg(long, value_name = "PAGE.html|-")]
+    html: Option<String>,
+}
+
+/// More references than anybody records.
+const MOST_REFERENCES: usize = 1000;
+
+fn references(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok().filter(|number| *number <= MOST_REFERENCES);
+    number.ok_or_else(|| format!("give a whole number from 0 to {MOST_REFERENCES}"))
+}
+
+fn drives(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok().filter(|number| *number > 0);
+    number.ok_or_else(|| "give a whole number from 1 on".to_owned())
+}
+
+impl Args {
+    fn plan(&self) -> Plan {
+        let usual = Plan::default();
+        Plan {
+            sizes: if self.size.is_empty() { usual.sizes } else { self.size.clone() },
+            effects: self.effects.iter().map(|name| name.trim().to_lowercase().replace(['-', ' '], "_")).collect(),
+            references: self.references,
+            replicas: self.replicas,
+            fault_free: self.fault_free.unwrap_or(usual.fault_free),
+            seed: self.seed,
+            seconds: self.seconds,
+            recordings: self.drives,
+        }
+    }
+}
+
+/// Rehearses a case.
+pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
+    let plan = args.plan();
+    plan.checked().map_err(told)?;
+    for target in [&args.json, &args.html].into_iter().flatten() {
+        is_writable(target)?;
+    }
+
+    let progress = Progress::new(verbose);
+    progress.stage("reading the recordings");
+    let robot = diagnose::located(&args.input)?.robot;
+    if let Some(why) = kind::of(robot.causality).no_rehearsal() {
+        bail!("robot '{}' is {}; {why}", robot.name, robot.causality.name());
+    }
+    let (folder, mapping) = diagnose::read(&args.input)?;
+    let (case, options) = (folder.torque_driven()?, Options::default());
+    progress.stage("looking which effects these inputs can show");
+    let rehearsing = Rehearsing::new(&case, &plan, &options).map_err(told)?;
+    drop(progress);
+
+    let progress = Counted::new(rehearsing.count(), "diagnoses", verbose);
+    let last = Mutex::new(Instant::now());
+    let rehearsal = rehearsing.run(&|line| {
+        // Time since the line before: of all threads together.
+        let took =
+            last.lock().map_or(Duration::ZERO, |mut last| std::mem::replace(&mut *last, Instant::now()).elapsed());
+        progress.one(line, took);
+    });
+    drop(progress);
+
+    let (rehearsal, lost) = (rehearsal.map_err(told)?, folder.lost());
+    if let Some(target) = &args.html {
+        write_page(target, &::report::rehearsal_page::render(&rehearsal, &folder.robot.name, &program()))?;
+    }
+    if let Some(target) = &args.json {
+        let whole = json!({
+            "format": 1,
+            "program": Program::default(),
+            "robot": folder.robot.to_json()?,
+            "mapping": mapping,
+            "lost": lost,
+            "rehearsal": rehearsal,
+        });
+        emit_json(target, &whole)?;
+    }
+    if ![&args.json, &args.html].iter().any(|target| target.as_deref() == Some("-")) {
+        let text = ::report::rehearsal_text::render(&rehearsal);
+        emit(&format!("{text}{}", listed("Input that was lost", &lost)))?;
+    }
+    Ok(Outcome::of(&lost))
+}
+
+/// A plan that makes no sense is wrong usage.
+fn told(error: RehearsalError) -> anyhow::Error {
+    if error.is_of_plan() { Usage(error.to_string()).into() } else { error.into() }
+}
+
+fn program() -> String {
+    let Program { name, version } = Program::default();
+    format!("{name} {version}")
+}
+
+/// Refuses a folder, and a file in a folder that is not there, before minutes are spent on what cannot be written.
+fn is_writable(target: &str) -> Result<()> {
+    ensure!(!Path::new(target).is_dir(), "cannot write '{target}': it is a folder; name a file in it");
+    let folder = Path::new(target).parent().filter(|folder| target != "-" && !folder.as_os_str().is_empty());
+    let Some(folder) = folder else { return Ok(()) };
+    ensure!(
+        folder.is_dir(),
+        "cannot write '{target}': there is no folder '{}'; make it, or name another place",
+        folder.display()
+    );
+    Ok(())
+}

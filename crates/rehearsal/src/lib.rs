@@ -1,0 +1,33 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `plan`: what is to be rehearsed; `error`: why nothing could be.
+//! * `rehearse`: the whole way, from a case to shares of replicas.
+//! * `hidden`: an effect of a given size, in the form in which a replica has it.
+//! * `replica`: a robot drawn about the robot file, its references, the drives of its recordings.
+//! * `sensors`: noise, rates and gaps of the recordings, and what such sensors show of a simulated drive.
+//! * `score`: how an answer is counted; shares, and from where on an effect is found.
+//! * `words`: limits in sentences; `random`: streams fixed by paths; `settings`: every tuned number.
+
+mod error;
+mod hidden;
+mod plan;
+mod random;
+mod rehearse;
+mod replica;
+mod score;
+mod sensors;
+mod settings;
+#[cfg(test)]
+mod tests;
+mod words;
+
+pub use error::RehearsalError;
+pub use plan::Plan;
+pub use rehearse::{Rehearsing, rehearse};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

@@ -1,0 +1,90 @@
+//! What a rehearsal says in sentences.
+
+use torque_driven::{Case, Run};
+use verdict::RehearsedEffect;
+
+use crate::plan::Plan;
+use crate::replica::Template;
+use crate::score::Kind;
+use crate::settings::SETTINGS;
+
+/// An answer in a few words.
+pub(crate) fn answer(kind: Kind, others: &[&str]) -> String {
+    let others = others.join(", ");
+    match kind {
+        Kind::First if others.is_empty() => "named".to_owned(),
+        Kind::First => format!("named, and {others}"),
+        Kind::InSet => format!("in one answer with {others}"),
+        Kind::Unknown => "unknown".to_owned(),
+        Kind::Nothing => "nothing is missing".to_owned(),
+        Kind::Wrong => format!("named {others}"),
+        Kind::Withheld => "no answer".to_owned(),
+    }
+}
+
+/// What was shortened or left away.
+pub(crate) fn shortened(
+    case: &Case,
+    real: &[&Run],
+    plan: &Plan,
+    [recordings, references]: [&[Template]; 2],
+) -> Vec<String> {
+    let mut out = Vec::new();
+    if recordings.len() < case.recordings.len() {
+        let (some, all) = (recordings.len(), case.recordings.len());
+        out.push(format!("the first {some} of {all} recordings are driven again; --drives takes more"));
+    }
+    if plan.references.is_none() && references.len() < real.len() {
+        let (some, all) = (references.len(), real.len());
+        out.push(format!("the first {some} of {all} references are driven again"));
+    }
+    let own = |templates: &[Template], runs: &[&Run]| {
+        templates.iter().zip(runs).any(|(template, run)| template.run.rows() < run.rows())
+    };
+    let all: Vec<&Run> = case.recordings.iter().collect();
+    if own(recordings, &all) || (plan.references.is_none() && own(references, real)) {
+        out.push(format!("of each drive the first {} s are driven again; --seconds takes more", plan.seconds));
+    }
+    out
+}
+
+/// What limits the answer.
+pub(crate) fn limits(effects: &[RehearsedEffect], plan: &Plan, references: usize) -> Vec<String> {
+    let mut out = vec![
+        "what is hidden obeys the very laws by which it is looked for, and nothing else of the robot differs in form: on a \
+         real robot less is found than here"
+            .to_owned(),
+        format!(
+            "constants are drawn within {} sigmas of the robot file and differ from drive to drive by {} of a sigma: a file \
+             that states them too surely makes a rehearsal too good",
+            SETTINGS.constants.farthest, SETTINGS.constants.between_drives
+        ),
+        "torques are replayed as they were recorded, from rest on level ground: a controller would have pushed harder against \
+         a large effect"
+            .to_owned(),
+        "an effect is hidden alone, throughout, on the whole robot or on one side; places, instants and pairs are not drawn, \
+         nor are constant errors of sensors"
+            .to_owned(),
+        format!(
+            "each size has {} replica{}: read the intervals, not the shares",
+            plan.replicas,
+            if plan.replicas == 1 { "" } else { "s" }
+        ),
+    ];
+    if references == 0 {
+        out.push(
+            "there is no reference: the robot file stands in its place; --references 3 tells what three would be worth"
+                .to_owned(),
+        );
+    }
+    let slowed = |effect: &&RehearsedEffect| effect.sizes.last().is_some_and(|s| s.driven < SETTINGS.seen.slowed);
+    let names: Vec<&str> = effects.iter().filter(slowed).map(|effect| effect.effect.as_str()).collect();
+    if !names.is_empty() {
+        out.push(format!(
+            "at their largest size these leave the robot less than {:.0} % of the recorded way on the same torques: {}",
+            100.0 * SETTINGS.seen.slowed,
+            names.join(", ")
+        ));
+    }
+    out
+}
