@@ -17,7 +17,7 @@ use crate::windows::Windows;
 
 /// The share of a mean squared difference, in units of the noise, that becomes a score: half of the square of
 /// z = ½ Δ² / (σ Δ), the rise of a window's loss over its deviation (that of [`crate::search::evidence`]).
-const SCORE: f64 = 1.0 / 8.0;
+const SCORE: f64 = 0.5 * 0.25;
 
 /// Rivals with what the recordings say about their noise and their constants.
 pub(super) struct Forecaster<'a> {

@@ -73,7 +73,7 @@ fn steps(levels: &[[f64; 2]], length: f64) -> Course {
 /// Linear up to a level, back through rest to the level the other way, and to rest.
 fn ramps(level: [f64; 2], length: f64) -> Course {
     let at = |(share, times): (f64, f64)| [share * length, times * level[0], times * level[1]];
-    from_rest([(0.25, 1.0), (0.75, -1.0)].map(at).to_vec(), length)
+    from_rest([(0.25, 1.0), (1.0 - 0.25, -1.0)].map(at).to_vec(), length)
 }
 
 /// Constant speed, the yaw rate a sine.
