@@ -15,10 +15,6 @@ use crate::search::{Part, Trial, columns, covariance};
 use crate::settings::SETTINGS;
 use crate::windows::Windows;
 
-/// The share of a mean squared difference, in units of the noise, that becomes a score: half of the square of
-/// z = ½ Δ² / (σ Δ), the rise of a window's loss over its deviation (that of [`crate::search::evidence`]).
-const SCORE: f64 = 0.5 * 0.25;
-
 /// Rivals with what the recordings say about their noise and their constants.
 pub(super) struct Forecaster<'a> {
     pub(super) rivals: &'a [Rival],
@@ -86,7 +82,7 @@ impl<'a> Forecaster<'a> {
             let alike = |a: usize, b: usize| {
                 if size[a] * size[b] > 0.0 { dot(&off[a], &off[b]) / (size[a] * size[b]) } else { 0.0 }
             };
-            let behind = off.iter().map(|[drive, ground]| SCORE * (drive.left + ground.left)).collect();
+            let behind = off.iter().map(|[drive, ground]| score(drive.left + ground.left)).collect();
             out.forecasts.push(Forecast::new(behind, alike));
             out.rms.push(
                 off.iter()
@@ -144,6 +140,13 @@ fn information<P: Part>(part: &P, t: &Trial<P::Law>) -> Mat<f64> {
     let n = t.free.len();
     let by_scale = || Mat::from_fn(n, n, |i, j| if i == j { scale(i).powi(-2) } else { 0.0 });
     covariance(part, t).and_then(|c| inverse_spd(&c)).unwrap_or_else(by_scale)
+}
+
+/// Fall of a rival's score from squared differences in units of the noise: `½ z²` with z = ½ Δ² / (σ Δ), the rise of a
+/// step's loss over its deviation (that of [`crate::search::evidence`]).
+fn score(squares: f64) -> f64 {
+    let squared_z = 0.25 * squares;
+    0.5 * squared_z
 }
 
 /// Weight of every row, so that each command step weighs one over the variance: its windows are not independent.
