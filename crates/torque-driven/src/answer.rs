@@ -263,7 +263,7 @@ impl Judged<'_> {
             screened,
             tuning,
             retuned: retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
-            simulator: self.simulator.map_or(Vec::new(), |s| s.unlike_file.clone()),
+            simulator: self.simulator.map(|s| s.told.clone()),
             correction,
             traces: located.traces,
             steady: None,

@@ -13,6 +13,7 @@ use crate::null_scores::NullScores;
 use crate::run::Run;
 use crate::run_numbers::{UNKNOWN, constant};
 use crate::settings::fit::{Calibrating, SETTINGS};
+use crate::settings::preparation::{self, Logs};
 use crate::simulate::Response;
 use crate::windows::Cut;
 use inference::algebra::{inverse_spd, solve_spd};
@@ -32,6 +33,7 @@ pub(crate) struct Calibration {
 }
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
+const LOGS: Logs = preparation::SETTINGS.logs;
 
 /// Constants that fault-free robots push farther than their files say, with the factor of their sigmas.
 const WIDER: [(usize, f64); 4] = [
@@ -97,51 +99,52 @@ pub(crate) fn calibrate(
     largest_torque: f64,
     options: &Options,
 ) -> Result<Calibration, DiagnosisError> {
-    calibrate_in(CALIBRATING.steps, robot, sigma, cuts, largest_torque, options)
+    calibrate_on(Driver::Robot, robot, sigma, cuts, largest_torque, options)
 }
 
-/// The same in so many steps at most.
-pub(crate) fn calibrate_in(
-    steps: usize,
+/// What was driven.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Driver {
+    /// A robot, whose ground and drivetrain differ a little from drive to drive.
+    Robot,
+    /// A simulator: its robot is the same in every run, and may be far from the file.
+    Simulator,
+}
+
+/// The same on drives of a robot or on logs of a simulator.
+pub(crate) fn calibrate_on(
+    driver: Driver,
     robot: &Robot<f64>,
     sigma: &[f64; NUISANCES],
     cuts: &[Cut],
     largest_torque: f64,
     options: &Options,
 ) -> Result<Calibration, DiagnosisError> {
-    let mut problem = Problem {
-        robot,
-        sigma: *sigma,
-        cuts,
-        has_references: true,
-        variance: Channels::from(CALIBRATING.first_sigma).map(|s| s * s),
-        regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
-        information: Mat::identity(NUISANCES, NUISANCES),
-        centre: [0.0; NUISANCES],
-        spread: CALIBRATING.usual_spread,
-        likelihood_power: options.likelihood_power,
-        outlier_scale: options.outlier_scale,
-        step: options.step,
-        largest_torque,
-        drives: Drives::default(),
-    };
-
-    // Constants and variances in turn, each by the other.
+    let mut problem = beginning(
+        driver,
+        Problem {
+            robot,
+            sigma: *sigma,
+            cuts,
+            has_references: true,
+            variance: Channels::all(0.0),
+            regime: Vec::new(),
+            information: Mat::identity(NUISANCES, NUISANCES),
+            centre: [0.0; NUISANCES],
+            spread: 0.0,
+            likelihood_power: options.likelihood_power,
+            outlier_scale: options.outlier_scale,
+            step: options.step,
+            largest_torque,
+            drives: Drives::default(),
+        },
+    );
     let none = Hypothesis::default();
-    let mut at = problem.begin(&none, problem.origin(), None);
-    for step in 0..steps {
-        let before = at.point.theta;
-        at.cost = problem.cost(&at.point, &at.response);
-        at = problem.refine(&none, at, 1, (step > 0).then_some(0));
-        problem.variance = channel_variance(&problem, &at.response);
-        problem.regime = regimes(&problem, &at.response).of(cuts);
-        let moved = at.point.theta.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        if step + 1 >= CALIBRATING.steps && moved < CALIBRATING.settled {
-            break;
-        }
-    }
+    let at = alternate(&mut problem, if driver == Driver::Robot { CALIBRATING.steps } else { LOGS.steps });
 
-    problem.spread = spread(&mut problem, &at.point, &at.columns)?;
+    if driver == Driver::Robot {
+        problem.spread = likeliest_spread(&mut problem, &at.point, &at.columns)?;
+    }
     let mut at = problem.begin(&none, at.point, None);
     at = problem.refine(&none, at, CALIBRATING.last_steps, None);
     problem.variance = channel_variance(&problem, &at.response);
@@ -163,6 +166,34 @@ pub(crate) fn calibrate_in(
         regimes,
         null_scores,
     })
+}
+
+/// A problem before anything is known of its noise.
+pub(crate) fn beginning(driver: Driver, problem: Problem<'_>) -> Problem<'_> {
+    Problem {
+        variance: Channels::from(CALIBRATING.first_sigma).map(|s| s * s),
+        regime: problem.cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
+        spread: if driver == Driver::Robot { CALIBRATING.usual_spread } else { 0.0 },
+        ..problem
+    }
+}
+
+/// Constants and variances in turn, each by the other, until the constants are settled or in so many steps.
+pub(crate) fn alternate(problem: &mut Problem<'_>, steps: usize) -> Fitted {
+    let none = Hypothesis::default();
+    let mut at = problem.begin(&none, problem.origin(), None);
+    for step in 0..steps {
+        let before = at.point.theta;
+        at.cost = problem.cost(&at.point, &at.response);
+        at = problem.refine(&none, at, 1, (step > 0).then_some(0));
+        problem.variance = channel_variance(problem, &at.response);
+        problem.regime = regimes(problem, &at.response).of(problem.cuts);
+        let moved = at.point.theta.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if step + 1 >= CALIBRATING.steps && moved < CALIBRATING.settled {
+            break;
+        }
+    }
+    at
 }
 
 impl Calibration {
@@ -243,7 +274,7 @@ fn regimes(problem: &Problem<'_>, response: &Response) -> Regimes {
 }
 
 /// The common factor of the run-to-run deviations by marginal likelihood of the linearised model.
-fn spread(problem: &mut Problem<'_>, point: &Point, columns: &Columns) -> Result<f64, DiagnosisError> {
+fn likeliest_spread(problem: &mut Problem<'_>, point: &Point, columns: &Columns) -> Result<f64, DiagnosisError> {
     let mut flat = point.clone();
     flat.run = vec![UNKNOWN; problem.cuts.len()];
     let response = problem.response(&flat, &Hypothesis::default());

@@ -26,7 +26,7 @@ const PRICES: Prices = decision::SETTINGS.prices;
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
     /// What the user's simulator believes, where its logs were given.
-    simulator: Option<Simulator>,
+    pub(crate) simulator: Option<Simulator>,
     references: Vec<Cut>,
     calibration: Calibration,
     largest_torque: f64,
@@ -51,8 +51,9 @@ impl Calibrated {
         let simulator = if logs.is_empty() {
             None
         } else {
+            let logs: Vec<Run> = logs.iter().map(Run::as_recorded).collect();
             let logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
-            Some(Simulator::new(&robot, &case.sigma, &logs, largest_torque, options)?)
+            Some(Simulator::new(case, &robot, &logs, largest_torque, options)?)
         };
         if references.is_empty() {
             let mut calibration = Calibration::by_file();

@@ -6,10 +6,10 @@ use robot_model::tunable::{COUNT as NUISANCES, Tuning, tunables, tuned};
 use crate::calibrate::{Calibration, problem};
 use crate::case::Case;
 use crate::diagnose::{cut_all, largest_torque};
-use crate::fit::{Hypothesis, Point};
+use crate::few_constants::errors;
 use crate::redundancy::Redundant;
 use crate::retuned::constant_of;
-use crate::rms::rms;
+use crate::rms::motion;
 use crate::run::Run;
 use crate::settings::preparation::{Logs, SETTINGS};
 use crate::simulator::fit;
@@ -30,6 +30,8 @@ pub struct FittedRobot {
     /// Rms error of free runs over 2 s from measured states, of the robot that was started from and of this one: wheel
     /// speed, rad/s, and yaw rate, rad/s.
     pub errors: [[f64; 2]; 2],
+    /// Rms wheel speed and yaw rate of the logs, rad/s.
+    pub motion: [f64; 2],
 }
 
 /// A constant that was fitted.
@@ -46,11 +48,11 @@ pub struct FittedConstant {
 }
 
 impl FittedRobot {
-    /// Whether it behaves as the simulator does, but for a fifth of what the start was off or what sensors of usual noise
-    /// would not show.
+    /// Whether it behaves as the simulator does, but for a small share of the motion or what sensors of usual noise would
+    /// not show.
     pub fn is_alike(&self) -> bool {
-        let [before, after] = self.errors;
-        (0..2).all(|q| after[q] <= (LOGS.alike * before[q]).max(LOGS.invisible[q]))
+        let [_, after] = self.errors;
+        (0..2).all(|q| after[q] <= (LOGS.alike * self.motion[q]).max(LOGS.invisible[q]))
     }
 }
 
@@ -66,30 +68,26 @@ pub fn fit_logs(start: &Robot<f64>, logs: &[Run], options: &Options) -> Result<F
         return Err(DiagnosisError::Empty { what: "log of a simulator" });
     }
     let robot = start.checked()?;
-    let sigma = wide_sigma();
+    let sigma = wide_sigma().map(|s| LOGS.wider * s);
     let case = Case { sigma, ..Case::new(robot) };
-    let cuts = cut_all(logs, &Redundant::default(), &case, &robot, options)?;
+    let recorded: Vec<Run> = logs.iter().map(Run::as_recorded).collect();
+    let cuts = cut_all(&recorded, &Redundant::default(), &case, &robot, options)?;
     let largest = largest_torque(logs);
-    let (theta, _) = fit(&robot, &sigma, &cuts, largest, options)?;
+    let theta = fit(&robot, &sigma, &cuts, largest, options)?;
     let fitted = tuned(&robot, &sigma, &theta).checked()?;
 
     // How far free runs are off, before and after.
     let by_file = Calibration::by_file();
     let problem = problem(&robot, &case, &cuts, &by_file, largest, options);
-    let errors = [[0.0; NUISANCES], theta].map(|theta| {
-        let at = Point { theta, ..problem.origin() };
-        let none = Hypothesis::default();
-        let responses: Vec<_> = (0..cuts.len()).map(|run| (run, problem.run_response(run, &at, &none))).collect();
-        rms(&problem, &responses)
-    });
+    let errors = [[0.0; NUISANCES], theta].map(|theta| errors(&problem, &theta));
 
-    let free = tunables::<f64>().into_iter().zip(sigma).filter(|(_, sigma)| *sigma > LOGS.exact);
+    let free = tunables::<f64>().into_iter().zip(sigma).filter(|(_, sigma)| *sigma > LOGS.wider * LOGS.exact);
     let constants = free.filter_map(|(tunable, _)| {
         let constant = constant_of(&tunable)?;
         let [from, to] = [&robot, &fitted].map(|r| (constant.get)(r));
         Some(FittedConstant { id: constant.id, unit: constant.unit, from, to })
     });
-    Ok(FittedRobot { robot: fitted, constants: constants.collect(), errors })
+    Ok(FittedRobot { robot: fitted, constants: constants.collect(), errors, motion: motion(&cuts) })
 }
 
 /// How well the constants of a robot are known of which only size and mass are: the mass as usual, other factors hardly,
@@ -105,7 +103,7 @@ fn wide_sigma() -> [f64; NUISANCES] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::driven;
+    use crate::testing::logged;
     use testing::robot;
 
     #[test]
@@ -115,7 +113,7 @@ mod tests {
         truth.yaw_inertia *= 1.3;
         truth.rolling_resistance *= 1.6;
         truth.coulomb = [0.5; 2];
-        let fitted = fit_logs(&robot(), &[driven(&truth, &[], 40.0)], &Options::default()).expect("a robot");
+        let fitted = fit_logs(&robot(), &[logged(&truth, 40.0)], &Options::default()).expect("a robot");
         let [before, after] = fitted.errors;
         assert!(fitted.is_alike() && after[0] < 0.02 * before[0] && after[1] < 0.1 * before[1], "{before:?} {after:?}");
         assert!(fitted.constants.iter().all(|c| c.id != "torque_gain"), "the torque is exact");
@@ -130,8 +128,8 @@ mod tests {
         let mut truth = robot();
         truth.half_track *= 2.0;
         truth.wheel_radius *= 2.5;
-        let fitted = fit_logs(&robot(), &[driven(&truth, &[], 40.0)], &Options::default()).expect("a robot");
-        assert!(!fitted.is_alike(), "{:?}", fitted.errors);
+        let fitted = fit_logs(&robot(), &[logged(&truth, 40.0)], &Options::default()).expect("a robot");
+        assert!(!fitted.is_alike(), "{fitted:?}");
         assert!(matches!(fit_logs(&robot(), &[], &Options::default()), Err(DiagnosisError::Empty { .. })));
     }
 }

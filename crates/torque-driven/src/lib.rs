@@ -33,6 +33,7 @@ mod decide;
 mod diagnose;
 mod disc;
 mod drives;
+mod few_constants;
 mod fit;
 mod fitted_robot;
 mod forward;

@@ -27,35 +27,45 @@ pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<R
 /// the covariance of each, in the constants' sigmas.
 pub(crate) fn moved(
     robot: &Robot<f64>,
-    sigma: &[f64; NUISANCES],
+    sigma_of: &[f64; NUISANCES],
     [first, last]: [&[f64; NUISANCES]; 2],
     [prior, known]: [&Mat<f64>; 2],
 ) -> Vec<Retuned> {
-    let [at_first, at_last] = [first, last].map(|theta| tuned(robot, sigma, theta));
     let of = |(k, tunable): (usize, &Tunable<f64>)| {
-        let constant = constant_of(tunable).filter(|_| tunable.between_visits >= RETUNE.measurable)?;
         let moved = last[k] - first[k];
         let sigma = |of: &Mat<f64>| of[(k, k)].max(0.0).sqrt();
         let known = ANSWER.curvature * sigma(known);
         let far = RETUNE.least_sigmas.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
-        if moved.abs() < far {
+        if tunable.between_visits < RETUNE.measurable || moved.abs() < far {
             return None;
         }
-
-        let (from, to) = ((constant.get)(&at_first), (constant.get)(&at_last));
-        let half_width = NINETY * known * ((to - from) / moved).abs();
-        Some(Retuned {
-            constant: tunable.id.to_owned(),
-            unit: constant.unit.to_owned(),
-            from,
-            to,
-            half_width,
-            sigmas: moved,
-        })
+        let constant = otherwise(robot, sigma_of, [first, last], k)?;
+        let half_width = NINETY * known * ((constant.to - constant.from) / moved).abs();
+        Some(Retuned { half_width, ..constant })
     };
     let mut out: Vec<Retuned> = tunables::<f64>().iter().enumerate().filter_map(of).collect();
     out.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
     out
+}
+
+/// The constant at place `k` at two tunings, without an interval; `None` of one that no robot file has.
+pub(crate) fn otherwise(
+    robot: &Robot<f64>,
+    sigma: &[f64; NUISANCES],
+    [first, last]: [&[f64; NUISANCES]; 2],
+    k: usize,
+) -> Option<Retuned> {
+    let tunable = tunables::<f64>()[k];
+    let constant = constant_of(&tunable)?;
+    let [from, to] = [first, last].map(|theta| (constant.get)(&tuned(robot, sigma, theta)));
+    Some(Retuned {
+        constant: tunable.id.to_owned(),
+        unit: constant.unit.to_owned(),
+        from,
+        to,
+        half_width: 0.0,
+        sigmas: last[k] - first[k],
+    })
 }
 
 /// The constant that a tuning moves.

@@ -3,6 +3,7 @@
 use crate::channel::{Channel, Channels};
 use crate::fit::Problem;
 use crate::simulate::RunResponse;
+use crate::windows::Cut;
 
 /// Residuals of the wheel speeds (both sides) and of the yaw rate of one run's response, where they were measured.
 pub(crate) fn residuals(problem: &Problem<'_>, run: usize, response: &[Vec<Channels<f64>>]) -> [Vec<f64>; 2] {
@@ -25,4 +26,14 @@ pub(crate) fn residuals(problem: &Problem<'_>, run: usize, response: &[Vec<Chann
 pub(crate) fn rms(problem: &Problem<'_>, responses: &[(usize, RunResponse)]) -> [f64; 2] {
     let of_run: Vec<[Vec<f64>; 2]> = responses.iter().map(|(run, y)| residuals(problem, *run, y)).collect();
     [0, 1].map(|q| inference::robust::rms(of_run.iter().flat_map(|r| r[q].iter().copied())).unwrap_or(0.0))
+}
+
+/// Root mean squared wheel speed and yaw rate of runs, rad/s.
+pub(crate) fn motion(cuts: &[Cut]) -> [f64; 2] {
+    let windows = || cuts.iter().flat_map(|cut| &cut.segments).flat_map(|s| s.observed.iter().zip(&s.valid));
+    let of = |channels: &[Channel]| {
+        let shown = windows().flat_map(|(y, valid)| channels.iter().filter(|&&c| valid[c]).map(|&c| y[c]));
+        inference::robust::rms(shown).unwrap_or(0.0)
+    };
+    [of(&Channel::WHEELS), of(&[Channel::YawRate])]
 }

@@ -1,5 +1,7 @@
 //! A torque-driven recording on its regular grid of rows.
 
+use std::f64::consts::{PI, TAU};
+
 use recordings::{Recording, Signal};
 
 use crate::settings::preparation::{Logs, Runs, SETTINGS};
@@ -133,6 +135,23 @@ impl Run {
         })
     }
 
+    /// A simulator's log, whose samples are all of their row's instant, as a robot would have recorded it: samples of
+    /// other clocks than the encoders' are written in the first row after their instant, on average half a row late.
+    pub(crate) fn as_recorded(&self) -> Self {
+        let plain = |change: f64| change;
+        // A heading may be wrapped.
+        let angle = |change: f64| (change + PI).rem_euclid(TAU) - PI;
+        let mut run = self.clone();
+        run.gyro = half_a_row_before(&self.gyro, plain);
+        run.accel = [0, 1].map(|axis| half_a_row_before(&self.accel[axis], plain));
+        run.pose = [
+            half_a_row_before(&self.pose[0], plain),
+            half_a_row_before(&self.pose[1], plain),
+            half_a_row_before(&self.pose[2], angle),
+        ];
+        run
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.torque.len()
@@ -172,6 +191,19 @@ mod noise {
         moving.angle[0][2] = Some(1.0);
         assert!(!moving.is_noise_free(), "too short a rest tells nothing");
     }
+}
+
+/// What a channel showed half a row before each of its samples, by a line to the sample before.
+fn half_a_row_before(channel: &[Option<f64>], change: impl Fn(f64) -> f64) -> Vec<Option<f64>> {
+    let mut before: Option<(usize, f64)> = None;
+    let earlier = |(k, sample): (usize, &Option<f64>)| {
+        sample.map(|y| {
+            let slope = before.map_or(0.0, |(j, x)| change(y - x) / (k - j) as f64);
+            before = Some((k, y));
+            y - 0.5 * slope
+        })
+    };
+    channel.iter().enumerate().map(earlier).collect()
 }
 
 /// Angles from speeds, rad. A sample stands for all rows since the one before it: speeds may come more seldom than torques, or

@@ -3,17 +3,16 @@
 //! A log says nothing of noise, and it need not come from a plant like ours: a fit to it gives the constants with which
 //! our plant behaves as the simulator does. Recordings are then compared with that robot, whatever the robot file says.
 
-use faer::Mat;
-use inference::algebra::inverse_spd;
 use inference::robust::NINETY;
 use inference::{DiagnosisError, Options};
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
-use verdict::Retuned;
+use verdict::{Retuned, SimulatorConstants};
 
-use crate::calibrate::{Calibration, calibrate_in};
+use crate::calibrate::{Calibration, Driver, calibrate_on, problem};
 use crate::case::Case;
-use crate::retuned::moved;
+use crate::few_constants::{FewConstants, few_constants};
+use crate::retuned::otherwise;
 use crate::run::Run;
 use crate::settings::preparation::{Logs, SETTINGS};
 use crate::windows::Cut;
@@ -25,8 +24,8 @@ const LOGS: Logs = SETTINGS.logs;
 pub(crate) struct Simulator {
     /// Its constants, from those of the robot file, in their sigmas.
     pub(crate) theta: [f64; NUISANCES],
-    /// Those that differ from the robot file.
-    pub(crate) unlike_file: Vec<Retuned>,
+    /// What of that is told.
+    pub(crate) told: SimulatorConstants,
 }
 
 impl Simulator {
@@ -35,29 +34,48 @@ impl Simulator {
     /// # Errors
     /// When the logs do not determine the robot.
     pub(crate) fn new(
+        case: &Case,
         robot: &Robot<f64>,
-        sigma: &[f64; NUISANCES],
         logs: &[Cut],
         largest_torque: f64,
         options: &Options,
     ) -> Result<Self, DiagnosisError> {
-        let (theta, known) = fit(robot, sigma, logs, largest_torque, options)?;
-        let sure = Mat::zeros(NUISANCES, NUISANCES);
-        let mut unlike_file = moved(robot, sigma, [&[0.0; NUISANCES], &theta], [&sure, &known]);
-        for constant in &mut unlike_file {
+        let wide = case.sigma.map(|s| LOGS.wider * s);
+        let all = fit(robot, &wide, logs, largest_torque, options)?;
+        let wider = Case { sigma: wide, ..Case::new(*robot) };
+        let problem = problem(robot, &wider, logs, &Calibration::by_file(), largest_torque, options);
+        let from_file = |theta: &[f64; NUISANCES], k: usize| {
+            let constant = otherwise(robot, &wide, [&[0.0; NUISANCES], theta], k)?;
             // What the simulator's laws differ in form is taken for constants.
-            constant.half_width = constant.half_width.hypot(NINETY * LOGS.form_error * constant.to);
-        }
-        unlike_file.retain(|c| (c.to - c.from).abs() > LOGS.told * c.half_width);
-        Ok(Self { theta, unlike_file })
+            let half_width = NINETY * LOGS.form_error * constant.to.abs();
+            let differs = (constant.to - constant.from).abs() > LOGS.told * half_width;
+            differs.then_some(Retuned { half_width, sigmas: LOGS.wider * constant.sigmas, ..constant })
+        };
+
+        let few = few_constants(&problem, &all);
+        let told = match &few {
+            Some(FewConstants { theta, free, or }) if free.len() <= 1 => SimulatorConstants {
+                constants: free.iter().filter_map(|&k| from_file(theta, k)).collect(),
+                or: or.iter().filter_map(|(theta, k)| from_file(theta, *k)).collect(),
+                only_together: false,
+            },
+            several => {
+                let theta = several.as_ref().map_or(&all, |few| &few.theta);
+                let mut constants: Vec<Retuned> = (0..NUISANCES).filter_map(|k| from_file(theta, k)).collect();
+                constants.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
+                SimulatorConstants { constants, or: Vec::new(), only_together: true }
+            }
+        };
+        let theta = few.map_or(all, |few| few.theta).map(|x| LOGS.wider * x);
+        Ok(Self { theta, told })
     }
 }
 
-/// Constants at which the plant behaves as logs show, from those of `robot` in their sigmas, with their covariance.
+/// Constants at which the plant behaves as logs show, from those of `robot`, in sigmas.
 ///
-/// How far a simulator is from a file has nothing to do with how well the robot was measured: the prior about the file is
-/// wider, and decides what no drive can (a heavier body, or a larger inertia of the motors). Rolling resistance and dry
-/// friction are told apart by little: that takes more steps than references do, whose constants are near.
+/// How far a simulator is from a file has nothing to do with how well the robot was measured: `sigma` is wider, and
+/// decides what no drive can (a heavier body, or a larger inertia of the motors). Rolling resistance and dry friction are
+/// told apart by little: that takes more steps than references do, whose constants are near.
 ///
 /// # Errors
 /// When the logs do not determine the robot.
@@ -67,11 +85,8 @@ pub(crate) fn fit(
     logs: &[Cut],
     largest_torque: f64,
     options: &Options,
-) -> Result<([f64; NUISANCES], Mat<f64>), DiagnosisError> {
-    let wide = sigma.map(|s| LOGS.wider * s);
-    let Calibration { theta, information, .. } = calibrate_in(LOGS.steps, robot, &wide, logs, largest_torque, options)?;
-    let known = inverse_spd(&information).ok_or(DiagnosisError::Singular { stage: "fit to a simulator's logs" })?;
-    Ok((theta.map(|x| LOGS.wider * x), known * LOGS.wider.powi(2)))
+) -> Result<[f64; NUISANCES], DiagnosisError> {
+    Ok(calibrate_on(Driver::Simulator, robot, sigma, logs, largest_torque, options)?.theta)
 }
 
 /// Refuses logs that are no runs on the inputs of a reference or recording: of the same name, or else of the same place in

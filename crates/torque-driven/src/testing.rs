@@ -50,6 +50,15 @@ pub(crate) fn blank(rows: usize) -> Run {
 
 /// A drive of the plant itself in curves, seen by perfect sensors; the pose comes in every tenth row.
 pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
+    seen(robot, doses, seconds, true)
+}
+
+/// The same drive as a simulator logs it: every sample is of its row's instant.
+pub(crate) fn logged(robot: &Robot<f64>, seconds: f64) -> Run {
+    seen(robot, &[], seconds, false)
+}
+
+fn seen(robot: &Robot<f64>, doses: &[Dose], seconds: f64, late: bool) -> Run {
     let rows = (seconds / PERIOD).round() as usize;
     let mut run = blank(rows);
     for (k, torque) in run.torque.iter_mut().enumerate() {
@@ -62,7 +71,7 @@ pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
     let plant = Plant::new(robot, &active, grid.step());
     let hold = Hold::new(grid, plant.drive().delay);
     let torque = run.torque.clone();
-    let mut sensors = Sensors { run, middle: grid.substeps / 2 };
+    let mut sensors = Sensors { run, late: late.then_some(grid.substeps / 2) };
     let Ok(()) = Rollout::new(&plant, rows, grid.substeps).run(
         &mut State::default(),
         &mut Commanded(|row, step| hold.command(&torque, row, step)),
@@ -74,34 +83,43 @@ pub(crate) fn driven(robot: &Robot<f64>, doses: &[Dose], seconds: f64) -> Run {
 /// Perfect sensors that write a run.
 struct Sensors {
     run: Run,
-    /// Steps to the middle of a row.
-    middle: usize,
+    /// Steps to the middle of a row, where samples of other clocks are taken; `None` of a simulator.
+    late: Option<usize>,
+}
+
+impl Sensors {
+    /// Writes what other sensors than encoders show into a row.
+    fn write(&mut self, row: usize, plant: &Plant<'_, f64>, s: &State<f64>) {
+        let run = &mut self.run;
+        let mut r = plant.readings(s);
+        plant.sense(&mut r);
+        run.gyro[row] = Some(r.gyro);
+        run.accel[0][row] = Some(r.accel[0]);
+        run.accel[1][row] = Some(r.accel[1]);
+        if row % 10 == 1 {
+            run.pose[0][row] = Some(s.position[0]);
+            run.pose[1][row] = Some(s.position[1]);
+            run.pose[2][row] = Some(s.heading[1].atan2(s.heading[0]));
+        }
+    }
 }
 
 impl Visitor<f64> for Sensors {
     type Stop = Infallible;
 
-    fn begin(&mut self, k: usize, _: &Plant<'_, f64>, s: &mut State<f64>) -> Result<(), Infallible> {
+    fn begin(&mut self, k: usize, plant: &Plant<'_, f64>, s: &mut State<f64>) -> Result<(), Infallible> {
         self.run.angle[0][k] = Some(s.wheel_angle[0]);
         self.run.angle[1][k] = Some(s.wheel_angle[1]);
+        if self.late.is_none() {
+            self.write(k, plant, s);
+        }
         Ok(())
     }
 
     fn step(&mut self, k: usize, step: usize, plant: &Plant<'_, f64>, s: &State<f64>) {
         // A sample belongs half a row before the row it is written in.
-        let run = &mut self.run;
-        if step + 1 != self.middle || k + 1 >= run.torque.len() {
-            return;
-        }
-        let mut r = plant.readings(s);
-        plant.sense(&mut r);
-        run.gyro[k + 1] = Some(r.gyro);
-        run.accel[0][k + 1] = Some(r.accel[0]);
-        run.accel[1][k + 1] = Some(r.accel[1]);
-        if k.is_multiple_of(10) {
-            run.pose[0][k + 1] = Some(s.position[0]);
-            run.pose[1][k + 1] = Some(s.position[1]);
-            run.pose[2][k + 1] = Some(s.heading[1].atan2(s.heading[0]));
+        if self.late == Some(step + 1) && k + 1 < self.run.torque.len() {
+            self.write(k + 1, plant, s);
         }
     }
 }

@@ -5,7 +5,7 @@ use inference::words::{probability, quantity};
 
 use crate::locate;
 use crate::settings::decision::SETTINGS;
-use verdict::{Cause, Diagnosis, Verdict};
+use verdict::{Cause, Diagnosis, SimulatorConstants, Verdict};
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
 const SENTENCES: usize = 4;
@@ -58,7 +58,7 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
-    out.extend(d.simulator.iter().take(SENTENCES).map(|constant| format!("{}.", constant.of_simulator())));
+    out.extend(d.simulator.iter().flat_map(SimulatorConstants::sentences));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
         let farthest = d.retuned.iter().take(SENTENCES);
         out.extend(farthest.map(|constant| format!("Re-tune: {}.", constant.sentence())));

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Retuned, Trace,
-    Trial,
+    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Retuned,
+    SimulatorConstants, Trace, Trial,
 };
 
 /// Version of the JSON of a diagnosis.
@@ -67,8 +67,8 @@ pub struct Diagnosis {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub retuned: Vec<Retuned>,
     /// Constants with which the user's simulator behaves otherwise than the robot file says, by its own logs.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub simulator: Vec<Retuned>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub simulator: Option<SimulatorConstants>,
     /// The simulation as this diagnosis would have it: what held-out drives are predicted with.
     pub correction: Correction,
     /// Recordings beside the simulation.
@@ -109,7 +109,7 @@ impl Diagnosis {
             screened: Vec::new(),
             tuning: BTreeMap::new(),
             retuned: Vec::new(),
-            simulator: Vec::new(),
+            simulator: None,
             correction: Correction::default(),
             traces: Vec::new(),
             steady: None,

@@ -28,6 +28,7 @@ mod rehearsal;
 mod response;
 mod response_constants;
 mod retuned;
+mod simulator;
 mod trace;
 mod trial;
 
@@ -56,6 +57,7 @@ pub use rehearsal::{
 pub use response::{Alternative, Earned, Element, Parameter, Response, ResponseModel, Scaling};
 pub use response_constants::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseError};
 pub use retuned::Retuned;
+pub use simulator::SimulatorConstants;
 pub use trace::{Compared, Trace, instant, rounded};
 pub use trial::Trial;
 

@@ -22,15 +22,21 @@ pub struct Retuned {
 impl Retuned {
     /// For people: "adhesion from 0.600 to 0.510 ± 0.020 (90 %), which is 1.3 times the sigma that the robot file states".
     pub fn sentence(&self) -> String {
+        format!("{}, which is {:.1} times the sigma that the robot file states", self.change(), self.sigmas.abs())
+    }
+
+    /// "adhesion from 0.600 to 0.510 ± 0.020 (90 %)"
+    pub(crate) fn change(&self) -> String {
         let digits = self.digits();
-        format!(
-            "{} from {:.digits$}{} to {}, which is {:.1} times the sigma that the robot file states",
-            self.constant.replace('_', " "),
-            self.from,
-            self.unit(),
-            self.now(),
-            self.sigmas.abs()
-        )
+        let name = self.constant.replace('_', " ");
+        format!("{name} from {:.digits$}{} to {}", self.from, self.unit(), self.now())
+    }
+
+    /// "adhesion from 0.600 to 0.510", of a constant that is not known by itself.
+    pub(crate) fn values(&self) -> String {
+        let (digits, unit) = (self.digits(), self.unit());
+        let name = self.constant.replace('_', " ");
+        format!("{name} from {:.digits$}{unit} to {:.digits$}{unit}", self.from, self.to)
     }
 
     /// The same of a simulator: "Your robot file says mass 22.00 kg, but your simulator behaves like 24.10 ± 0.05 kg".

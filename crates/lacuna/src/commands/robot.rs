@@ -26,8 +26,8 @@ speeds and motion that came out. Constants are fitted so that free runs over
 2 s behave as the simulator does. Together they do; one of them alone may be
 off by tens of per cent, since a heavier body shows as larger motors do.
 
-Exit codes: 0 done, 1 failed (also: no such robot behaves like the logs),
-2 wrong usage, 3 done but some input was lost.";
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.
+Failed is also a fit after which no such robot behaves like the logs.";
 
 /// Arguments of `lacuna robot`.
 #[derive(Debug, ClapArgs)]
@@ -87,15 +87,15 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let fitted = fit_logs(&start.robot, &logs, &Options::default())?;
     drop(progress);
     if !fitted.is_alike() {
-        let [before, after] = fitted.errors;
+        let ([_, after], motion) = (fitted.errors, fitted.motion);
         bail!(
-            "no robot file was written: the fitted robot does not behave like the logs (wheel speeds are off by {:.3} rad/s \
-             rms, {:.3} before; the yaw rate by {:.4} rad/s, {:.4} before); check wheel radius, track and units, or start \
-             from a robot nearer to it with --like",
+            "no robot file was written: the fitted robot does not behave like the logs (in free runs over 2 s wheel speeds \
+             are off by {:.3} rad/s rms, of {:.2} rad/s driven; the yaw rate by {:.4} of {:.3} rad/s); check wheel radius, \
+             track and units, or start from a robot nearer to it with --like",
             after[0],
-            before[0],
+            motion[0],
             after[1],
-            before[1]
+            motion[1]
         );
     }
 

@@ -17,13 +17,21 @@
         /// Share of a simulator's constant that other laws than the plant's may feign, one sigma.
         form_error: f64 = 0.02, "1", "equal to the model error of an effect's size";
         /// Half widths of its 90 % interval by which a simulator's constant differs from the file when it is told.
-        told: f64 = 2.0, "1", "guess";
+        told: f64 = 1.5, "1", "guess";
+        /// Mean squared errors of free runs, over those of a fit of all constants, with which a few explain as well.
+        as_well: f64 = 2.0, "1", "a look at eight robots whose simulator had another mass";
+        /// Mean squared errors of one constant over those of another that logs do not tell from it.
+        not_told_apart: f64 = 1.5, "1", "a look at eight robots whose simulator had another mass";
+        /// Most constants that a simulator is taken to have otherwise than the robot file, each by itself.
+        most_constants: usize = 2, "1", "guess";
+        /// Prior information of a constant that is held, in its sigmas.
+        held: f64 = 1e12, "1", "numerical guard: it moves by nothing";
         /// One sigma of a factor of a robot of which only size and mass are known, at least.
         unknown_factor: f64 = 0.1, "1", "guess; fits in turn go farther than one of them";
         /// One sigma of what a simulator's logs hold exactly: the torque that it was given.
         exact: f64 = 1e-4, "1", "formula: next to nothing";
-        /// A robot is alike that leaves this share of what the robot that was started from was off.
-        alike: f64 = 0.2, "1", "guess";
+        /// Errors of free runs of a robot that is alike, as a share of the motion, at most.
+        alike: f64 = 0.05, "1", "guess";
         /// Errors of free runs that usual sensors would not show: of wheel speeds, of the yaw rate.
         invisible: [f64; 2] = [0.03, 0.01], "rad/s", "guess; the usual residual of fault-free drives";
         /// Most by which the rows of a log and of its recording are apart unlike, as a share.
