@@ -31,6 +31,9 @@ const NEXT_LENGTH: f64 = 12.0;
 ///     Mapping file, or name of a built-in mapping, for drives that are files.
 /// reading : {"normal", "strict", "tolerant"}
 ///     What to do with bad rows and cells of files.
+/// same_robot : bool
+///     Nobody changed the robot since it was right: its mass, motors and wheels are not weighed (torque- and speed-driven
+///     robots).
 /// next : bool
 ///     Advise on the next drive too: a few seconds more.
 /// progress : callable, optional
@@ -46,7 +49,7 @@ const NEXT_LENGTH: f64 = 12.0;
 ///     When something is missing or cannot be read, or the recordings do not determine an answer.
 #[pyfunction]
 #[pyo3(signature = (case=None, *, robot=None, reference=None, recordings=None, heldout=None, mapping=None,
-    reading="normal", next=false, progress=None))]
+    reading="normal", same_robot=false, next=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is a keyword of its own in Python")]
 pub(crate) fn diagnose(
     py: Python<'_>,
@@ -57,6 +60,7 @@ pub(crate) fn diagnose(
     heldout: Option<&Bound<'_, PyAny>>,
     mapping: Option<&Bound<'_, PyAny>>,
     reading: &str,
+    same_robot: bool,
     next: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosis> {
@@ -70,7 +74,7 @@ pub(crate) fn diagnose(
         return Err(LacunaError::new_err("no robot was named; give a case folder, or robot = with drives"));
     }
     let (mapping, read) = (case::mapping(mapping)?, case::reading(reading)?);
-    let options = inference::Options { next: next.then_some(NEXT_LENGTH), ..inference::Options::default() };
+    let options = inference::Options { next: next.then_some(NEXT_LENGTH), same_robot, ..inference::Options::default() };
     let (envelope, found) = work::run(py, || {
         let listener = Listener::new(progress);
         listener.stage("reading the recordings");

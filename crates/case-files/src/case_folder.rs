@@ -153,6 +153,11 @@ impl CaseFolder {
         self.parts().iter().flat_map(|(_, l)| l.lost()).collect()
     }
 
+    /// What was lost of recordings and held-out drives, on which the answer rests: references stand in for each other.
+    pub fn lost_of_recordings(&self) -> Vec<String> {
+        self.recordings.lost().chain(self.held_out.lost()).collect()
+    }
+
     /// Files and columns that were there and that nobody asked for, in sentences.
     pub fn not_used(&self) -> Vec<String> {
         let mut out = Vec::new();

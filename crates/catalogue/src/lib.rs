@@ -52,6 +52,30 @@ pub fn find(name: &str) -> Option<Entry> {
     Some(Entry { id, effect, cause })
 }
 
+/// Whether an effect needs a hand on the robot: its mass, motors and wheels do not change by themselves.
+pub fn needs_a_hand(id: &str) -> bool {
+    use robot_model::effects::{
+        com_offset, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity, wheel_radius_mismatch,
+    };
+    let by_hand = [
+        payload::SPEC.id,
+        com_offset::SPEC.id,
+        torque_constant::SPEC.id,
+        torque_saturation::SPEC.id,
+        motor_lag::SPEC.id,
+        wheel_radius_mismatch::SPEC.id,
+        wheel_eccentricity::SPEC.id,
+    ];
+    by_hand.contains(&id)
+}
+
+/// The drive that reveals a name best; `None` where none does.
+pub fn revealed_by(id: &str) -> Option<&'static str> {
+    let entry = find(id)?;
+    let drive = entry.effect.map(|e| e.revealed_by).or(entry.cause.map(|c| c.revealed_by))?;
+    (!drive.is_empty()).then_some(drive)
+}
+
 /// The effect that a term of the torque law of a speed-driven robot stands for; [`answer::UNKNOWN`]'s name where the
 /// catalogue has none.
 pub fn of_load_term(term: LoadTerm) -> &'static str {

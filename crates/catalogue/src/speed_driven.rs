@@ -15,5 +15,19 @@ pub const STANDING: CauseSpec = CauseSpec {
     resembles: "a gyro that is off or of another scale; a track that is much longer than thought",
 };
 
+/// The ground gives way.
+pub const SOFT_GROUND: CauseSpec = CauseSpec {
+    id: "soft_ground",
+    name: "soft ground",
+    robots: "speed-driven",
+    meaning: "Wheels sink and push material before them, and in turns the ground shears instead of the tyres.",
+    size: "rolling resistance beyond that of the references",
+    unit: "-",
+    recognised: "Straight driving takes more torque, turning takes no more beyond that, and the body turns less than the same \
+        wheel speeds turned it on the references: the effective track is longer.",
+    revealed_by: "straight drives both ways, then spins both ways on the same spot",
+    resembles: "rolling resistance of hard ground where nothing turns; a slope where all drives go one way; less grip in spins",
+};
+
 /// All of them.
-pub const ALL: [&CauseSpec; 1] = [&STANDING];
+pub const ALL: [&CauseSpec; 2] = [&STANDING, &SOFT_GROUND];

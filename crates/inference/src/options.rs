@@ -15,11 +15,14 @@ pub struct Options {
     pub outlier_scale: f64,
     /// Length of the drives among which to advise on the next one, s; no advice if not given, for it takes a few seconds.
     pub next: Option<f64>,
+    /// Whether nobody changed the robot since it was right: its mass, motors and wheels are what they were, so no such
+    /// cause is weighed.
+    pub same_robot: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
         let Usual { step, segment, likelihood_power, outlier_scale } = SETTINGS.options;
-        Self { step, segment, likelihood_power, outlier_scale, next: None }
+        Self { step, segment, likelihood_power, outlier_scale, next: None, same_robot: false }
     }
 }

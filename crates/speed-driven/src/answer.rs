@@ -50,15 +50,15 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     let shares = probabilities(&scores, ANSWER.temperature);
     let (none, unknown, of_effects) = (shares[0], shares[1], &shares[2..]);
 
-    out.screened = effects.iter().filter(|e| e.parts.len() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
+    out.screened = effects.iter().filter(|e| e.causes() == 1).map(|e| (e.ids()[0].to_owned(), e.score)).collect();
 
     // An effect is as probable as all hypotheses that contain it. Singles first: its size is that alone, not the one beside
     // another effect.
     let mut causes: Vec<Cause> = Vec::new();
-    let (singles, pairs): (Vec<_>, Vec<_>) = effects.iter().zip(of_effects).partition(|(e, _)| e.parts.len() == 1);
+    let (singles, pairs): (Vec<_>, Vec<_>) = effects.iter().zip(of_effects).partition(|(e, _)| e.causes() == 1);
     for (e, &p) in singles.into_iter().chain(pairs) {
-        for part in 0..e.parts.len() {
-            match causes.iter_mut().find(|c| c.effect == e.parts[part].spec().id) {
+        for (part, id) in e.ids().into_iter().enumerate() {
+            match causes.iter_mut().find(|c| c.effect == id) {
                 Some(c) => c.probability += p,
                 None => causes.push(cause(e, part, p)),
             }
@@ -82,7 +82,7 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     if out.verdict == Verdict::Explained
         && let Some(best) = effects.first()
     {
-        out.indistinguishable = (0..best.parts.len()).map(|k| class(&effects, best, k)).collect();
+        out.indistinguishable = (0..best.causes()).map(|k| class(&effects, best, k)).collect();
     }
 }
 
@@ -92,7 +92,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
     effects
         .iter()
         .filter(|e| {
-            e.parts.len() == best.parts.len()
+            e.causes() == best.causes()
                 && is_within_odds(e.score, best.score, ANSWER.indistinguishable)
                 && e.score > -ANSWER.least_plausible
         })

@@ -1,5 +1,6 @@
 //! A fitted effect as a cause of a verdict.
 
+use catalogue::speed_driven::SOFT_GROUND;
 use inference::hypothesis::{Place, Sizes};
 use verdict::{Cause, Estimate};
 
@@ -7,6 +8,16 @@ use crate::name::Named;
 
 /// One member of a hypothesis as a cause, with its sizes, side and intervals.
 pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
+    if e.is_soft_ground {
+        // Its size is how much harder the ground rolls.
+        let (values, sigma) = e.of(0);
+        return Cause {
+            magnitude: Some(e.parts[0].magnitude(values)),
+            sigma: sigma.first().copied().filter(|s| s.is_finite()),
+            unit: SOFT_GROUND.unit.into(),
+            ..Cause::plain(SOFT_GROUND.id, SOFT_GROUND.name, probability)
+        };
+    }
     let variant = &e.parts[part];
     let spec = variant.spec();
     let (values, sigma) = e.of(part);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use catalogue::answer::NONE;
 use catalogue::command_driven::EFFECTIVE_TRACK;
-use catalogue::speed_driven::STANDING;
+use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
 use robot_model::effects::coulomb_side;
@@ -29,7 +29,7 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
         for difference in strongest(loads) {
             match difference.quantity {
-                Quantity::EffectiveTrack => insert(out, vec![track(difference)]),
+                Quantity::EffectiveTrack => insert(out, tracks(difference)),
                 _ => fitting(out, naming),
             }
         }
@@ -61,14 +61,17 @@ fn differs(r: &Ratio) -> f64 {
     1.0 - 2.0 * Normal::standard().cdf(-sigmas(r))
 }
 
-fn track(r: &Ratio) -> Cause {
+/// Another effective track; a longer one may be soft ground.
+fn tracks(r: &Ratio) -> Vec<Cause> {
     let spec = EFFECTIVE_TRACK;
-    Cause {
+    let soft = (r.ratio > 1.0).then(|| Cause::plain(SOFT_GROUND.id, SOFT_GROUND.name, ANSWER.soft * differs(r)));
+    let measured = Cause {
         magnitude: Some(r.value),
         sigma: Some(r.half / NINETY),
         unit: spec.unit.into(),
         ..Cause::plain(spec.id, spec.name, differs(r))
-    }
+    };
+    std::iter::once(measured).chain(soft).collect()
 }
 
 /// "Nothing is missing" becomes at most as probable as it is that this ratio, whose interval excludes no difference, does not
@@ -86,7 +89,7 @@ fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
 
 /// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
 fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
-    let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.parts.len() == 1);
+    let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.causes() == 1);
     let most = singles().map(|e| e.gain).fold(0.0, f64::max);
     let mut class: Vec<&Named> = Vec::new();
     for e in singles().filter(|e| e.gain > 0.0 && e.gain >= ANSWER.fits * most) {

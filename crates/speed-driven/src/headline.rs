@@ -3,7 +3,9 @@
 //! A body that stands; causes that the loads name; ratios whose intervals exclude no difference; changes inside
 //! recordings; nothing.
 
-use inference::words::{quantity, revealed_by};
+use catalogue::revealed_by;
+use catalogue::speed_driven::SOFT_GROUND;
+use inference::words::quantity;
 use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict};
 
 use crate::compare::{Judgement, judgement, reported};
@@ -86,7 +88,9 @@ fn slips(r: &Ratio) -> String {
 
 /// The class of effects that fit a difference of the loads, and what tells them apart.
 fn fits(d: &Diagnosis) -> Vec<String> {
-    let of_catalogue = |class: &&Vec<String>| class.iter().any(|id| revealed_by(id).is_some());
+    let of_catalogue = |class: &&Vec<String>| {
+        class.iter().any(|id| *id == SOFT_GROUND.id || inference::words::revealed_by(id).is_some())
+    };
     let Some(class) = d.indistinguishable.iter().find(of_catalogue) else {
         return vec!["No effect of the catalogue makes such a difference of the loads.".to_owned()];
     };

@@ -31,6 +31,7 @@ mod compare;
 mod extract;
 mod forecast;
 mod found;
+mod ground;
 mod headline;
 mod jumps;
 mod law;
@@ -99,7 +100,8 @@ pub struct SteadyCase {
     pub recordings: Vec<SpeedRun>,
 }
 
-/// Diagnoses a speed-driven case; of the options only whether to advise on the next drive counts.
+/// Diagnoses a speed-driven case; of the options those count that say whether to advise on the next drive and whether the
+/// robot is as it was.
 /// `progress` is called with the stage that begins.
 ///
 /// # Errors
@@ -151,9 +153,8 @@ pub fn diagnose_steady(
 
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
-    let comparison =
-        if differences.is_empty() { None } else { Comparison::new(&differences, &robot, &case.sigma, &calibrated) };
-    let naming = comparison.as_ref().and_then(name);
+    let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
+    let naming = comparison.as_ref().and_then(|c| name(c, options.same_robot));
 
     progress("forecasting recordings that were not used");
     let fits = Fits {
@@ -188,7 +189,7 @@ pub fn diagnose_steady(
     out.limits = limits(case, &out);
     out.limits.extend(standing_references.iter().map(words::standing_reference));
     if of_loads == Verdict::Explained {
-        let wrong = placebo.map(|named| inference::words::variants(&named.parts));
+        let wrong = placebo.map(Named::name);
         out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
     }
 
@@ -306,13 +307,10 @@ fn of_reference(r: &Reference) -> Measured {
     Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
 }
 
-/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known; the
-/// effective track is reported but names nothing: loose ground shears in ways that no rigid-ground
-/// tyre law has (left out after a look at the open runs).
+/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
 fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
     loads
         .iter()
-        .filter(|l| l.quantity != Quantity::EffectiveTrack)
         .filter(|l| {
             l.quantity != Quantity::ArcSum
                 || !loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad)

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use catalogue::speed_driven::SOFT_GROUND;
 use faer::Mat;
 use inference::algebra::{inverse_spd, whitening};
 use inference::evidence::price_of_a_constant;
@@ -9,12 +10,11 @@ use inference::least_squares::{Constant, Residuals, Settings};
 use rayon::prelude::*;
 use robot_model::Robot;
 use robot_model::effect::Role;
-use robot_model::effects::{
-    com_offset, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity, wheel_radius_mismatch,
-};
+use robot_model::effects::grade;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
+use crate::ground::{self, Track};
 use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
 use crate::settings::NAMING;
 use crate::settings::naming::{EffectFits, Priors};
@@ -26,21 +26,10 @@ use robot_model::tunable::tuned;
 const PRIORS: Priors = NAMING.priors;
 const EFFECTS: EffectFits = NAMING.effects;
 
-/// Effects that need a hand on the robot: its mass, motors and wheels do not change by themselves.
-const BY_HAND: [&str; 7] = [
-    payload::SPEC.id,
-    com_offset::SPEC.id,
-    torque_constant::SPEC.id,
-    torque_saturation::SPEC.id,
-    motor_lag::SPEC.id,
-    wheel_radius_mismatch::SPEC.id,
-    wheel_eccentricity::SPEC.id,
-];
-
 /// Price of naming an effect, nats.
 fn price(v: &Variant) -> f64 {
     let spec = v.spec();
-    PRIORS.per_effect + spec.rarity + if BY_HAND.contains(&spec.id) { PRIORS.by_hand } else { 0.0 }
+    PRIORS.per_effect + spec.rarity + if catalogue::needs_a_hand(spec.id) { PRIORS.by_hand } else { 0.0 }
 }
 
 /// One difference between a recording and the references, on the comparison scale.
@@ -51,10 +40,18 @@ pub(crate) struct Difference {
     pub(crate) reference: Measured,
 }
 
-/// One or two effects fitted to the differences.
+impl Difference {
+    pub(crate) fn is_track(&self) -> bool {
+        self.here.at.quantity == Quantity::EffectiveTrack
+    }
+}
+
+/// One or two effects fitted to the differences, or soft ground.
 #[derive(Clone)]
 pub(crate) struct Named {
     pub(crate) parts: Vec<Variant>,
+    /// Whether its effects are those of soft ground, one cause together.
+    pub(crate) is_soft_ground: bool,
     /// Free values of each effect in turn.
     pub(crate) values: Vec<f64>,
     /// One sigma of each free value.
@@ -77,9 +74,24 @@ impl Named {
         doses(&self.parts, &self.values)
     }
 
-    /// Ids of its effects in the order of the parts.
+    /// Ids of its causes: its effects in the order of the parts, or soft ground.
     pub(crate) fn ids(&self) -> Vec<&'static str> {
-        self.parts.iter().map(|v| v.spec().id).collect()
+        if self.is_soft_ground { vec![SOFT_GROUND.id] } else { self.effects().collect() }
+    }
+
+    /// Ids of its effects, also of those that are one cause together.
+    pub(crate) fn effects(&self) -> impl Iterator<Item = &'static str> {
+        self.parts.iter().map(|v| v.spec().id)
+    }
+
+    /// How many causes it names.
+    pub(crate) fn causes(&self) -> usize {
+        if self.is_soft_ground { 1 } else { self.parts.len() }
+    }
+
+    /// Its causes for people.
+    pub(crate) fn name(&self) -> String {
+        if self.is_soft_ground { SOFT_GROUND.name.to_owned() } else { inference::words::variants(&self.parts) }
     }
 }
 
@@ -143,8 +155,9 @@ fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], ca
 }
 
 /// Differences, what they weigh and what the model says of them.
-pub(crate) struct Comparison<'a> {
-    differences: &'a [Difference],
+pub(crate) struct Comparison {
+    differences: Vec<Difference>,
+    track: Option<Track>,
     model: Robot<f64>,
     weight: Mat<f64>,
     whitening: Mat<f64>,
@@ -155,22 +168,28 @@ pub(crate) struct Comparison<'a> {
     plain: Vec<f64>,
 }
 
-impl<'a> Comparison<'a> {
+impl Comparison {
     pub(crate) fn new(
-        differences: &'a [Difference],
+        differences: &[Difference],
         robot: &Robot<f64>,
         sigma: &[f64; NUISANCES],
         calibrated: &Tuned,
     ) -> Option<Self> {
         let model = tuned(robot, sigma, &calibrated.theta);
-        let c = covariance(differences, robot, sigma, calibrated);
+        let (tracks, loads): (Vec<&Difference>, Vec<&Difference>) = differences.iter().partition(|d| d.is_track());
+        let differences: Vec<Difference> = loads.into_iter().cloned().collect();
+        if differences.is_empty() {
+            return None;
+        }
+        let c = covariance(&differences, robot, sigma, calibrated);
         let mut out = Self {
-            differences,
+            track: Track::of(&tracks),
             weight: inverse_spd(&c)?,
             whitening: whitening(&c)?,
             measured: differences.iter().map(|d| d.here.value - d.reference.value).collect(),
             there: differences.iter().map(|d| predicted(&model, &[], d.reference.at)).collect(),
             plain: Vec::new(),
+            differences,
             model,
         };
         out.plain = out.residual(&[]);
@@ -212,6 +231,34 @@ impl<'a> Comparison<'a> {
         })
     }
 
+    /// Fits the same causes again.
+    pub(crate) fn refit(&self, named: &Named) -> Option<Named> {
+        if named.is_soft_ground { self.soft_ground() } else { self.fit(&named.parts, None) }
+    }
+
+    /// What the effective track leaves unexplained without any effect, nats.
+    fn plain_track(&self) -> f64 {
+        self.track.as_ref().map_or(0.0, Track::plain)
+    }
+
+    /// Soft ground: harder rolling, and turning that costs no more beyond that.
+    fn soft_ground(&self) -> Option<Named> {
+        let both = ground::parts()?;
+        let gives_way = |named: &Named| match named.values[..] {
+            [rolling, turning] => rolling > 0.0 && turning <= 0.0,
+            [rolling] => rolling > 0.0,
+            _ => false,
+        };
+        let fitted =
+            self.fit(&both, None).filter(gives_way).or_else(|| self.fit(&both[..1], None).filter(gives_way))?;
+        // One cause, whatever the number of its effects; the track is its own.
+        let singly: f64 = fitted.parts.iter().map(price).sum();
+        let of_track = |named: &Named| self.track.as_ref().map_or(0.0, |t| t.misfit(&self.model, &named.doses()));
+        let by_track = of_track(&fitted) - self.track.as_ref().map_or(0.0, Track::on_soft_ground);
+        let gain = fitted.gain + by_track;
+        Some(Named { is_soft_ground: true, score: fitted.score + by_track + singly - price(&both[0]), gain, ..fitted })
+    }
+
     /// Fits the free values of one or two effects from their neutral values (or from `start`).
     pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
         let free: Vec<(&Variant, Free)> =
@@ -244,9 +291,11 @@ impl<'a> Comparison<'a> {
 
         // Price of the free numbers: how far the data narrow them down from what was plausible before.
         let paid = fitted.occam() + parts.iter().map(price).sum::<f64>();
-        let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost;
+        let of_track = self.track.as_ref().map_or(0.0, |t| t.misfit(&self.model, &doses(parts, &fitted.values)));
+        let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost + self.plain_track() - of_track;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
-        Some(Named { parts: parts.to_vec(), values: fitted.values, sigma, score: gain - paid, gain })
+        let (parts, values, score) = (parts.to_vec(), fitted.values, gain - paid);
+        Some(Named { parts, is_soft_ground: false, values, sigma, score, gain })
     }
 
     /// Residuals of unit variance that do not go together.
@@ -268,19 +317,32 @@ impl<'a> Comparison<'a> {
         let r = Mat::from_fn(n, 1, |i, _| self.plain[i]);
         let g = a.transpose() * &self.weight * &r;
         let (x, _) = solve_spd(&(a.transpose() * &self.weight * &a), &g)?;
-        let explained: f64 = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum();
+        let explained = (0..m).map(|q| 0.5 * x[(q, 0)] * g[(q, 0)]).sum::<f64>() + self.plain_track();
         let named = best.map_or(0.0, |b| (b.gain - b.score) / b.values.len().max(1) as f64);
         Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown).max(named) * m as f64)
     }
 }
 
-/// Weighs every effect that can be present everywhere, and every pair with one of the best, against the differences.
-pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
+/// Weighs every effect that can be present everywhere, every pair with one of the best, and soft ground against the
+/// differences; of the `same_robot`, which nobody touched, only what needs no hand on it.
+pub(crate) fn name(comparison: &Comparison, same_robot: bool) -> Option<Naming> {
+    // A slope is that of a place: drives at several places share none.
+    let mut straight: Vec<&str> = comparison
+        .differences
+        .iter()
+        .filter(|d| d.here.at.quantity == Quantity::StraightLoad)
+        .map(|d| d.recording.as_str())
+        .collect();
+    straight.sort_unstable();
+    straight.dedup();
+    let one_place = straight.len() <= 1;
     let candidates: Vec<Variant> = variants(true)
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
         .filter(|v| v.spec().parameters.iter().all(|p| p.role != Role::Shape))
+        .filter(|v| one_place || v.spec().id != grade::SPEC.id)
+        .filter(|v| !same_robot || !catalogue::needs_a_hand(v.spec().id))
         .collect();
     let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
     best_first(&mut singles);
@@ -299,6 +361,7 @@ pub(crate) fn name(comparison: &Comparison<'_>) -> Option<Naming> {
         tasks.par_iter().filter_map(|(f, v)| comparison.fit(&[f.parts[0], *v], Some(&f.values))).collect();
     let mut effects = singles.clone();
     effects.extend(pairs);
+    effects.extend(comparison.soft_ground());
     best_first(&mut effects);
     let unknown = comparison.unknown(effects.first())?;
     Some(Naming { effects, unknown })

@@ -65,8 +65,7 @@ fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     found.sort_by(|a, b| b.2.total_cmp(&a.2));
     found.truncate(NEXT.most);
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
-    let name =
-        |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), |n| inference::words::variants(&n.parts));
+    let name = |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), |n| n.name());
     found
         .into_iter()
         .map(|(ids, named, score)| Rival {
@@ -225,6 +224,7 @@ mod tests {
         let form = variants(true).into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
         Named {
             parts: vec![form.expect("in the catalogue")],
+            is_soft_ground: false,
             values: vec![value],
             sigma: vec![0.1 * value],
             score,

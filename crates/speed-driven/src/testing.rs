@@ -143,6 +143,11 @@ pub(crate) fn robot() -> Robot<f64> {
 
 /// The diagnosis of drives against one of three rounds.
 pub(crate) fn diagnosis(recordings: &[&[Leg]]) -> Diagnosis {
+    diagnosis_with(recordings, &Options::default())
+}
+
+/// The same with options.
+pub(crate) fn diagnosis_with(recordings: &[&[Leg]], options: &Options) -> Diagnosis {
     let recordings =
         recordings.iter().enumerate().map(|(k, legs)| SpeedRun { name: k.to_string(), ..drive(legs, false) });
     let case = SteadyCase {
@@ -152,7 +157,7 @@ pub(crate) fn diagnosis(recordings: &[&[Leg]]) -> Diagnosis {
         references: vec![drive(&rounds(3), false)],
         recordings: recordings.collect(),
     };
-    diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis")
+    diagnose_steady(&case, options, &|_| {}).expect("a diagnosis")
 }
 
 /// A load of a recording.

@@ -2,7 +2,9 @@
 
 use verdict::{Diagnosis, Quantity, Ratio, Verdict};
 
-use crate::testing::{Leg, diagnosis, rounds};
+use inference::Options;
+
+use crate::testing::{Leg, diagnosis, diagnosis_with, rounds};
 
 fn ratio(d: &Diagnosis, quantity: Quantity) -> &Ratio {
     let loads = d.steady.as_ref().expect("loads");
@@ -53,7 +55,7 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
     assert!(d.sentences[0].starts_with("Difference: in recording 0 the effective track is 0.9"), "{:?}", d.sentences);
     assert!(d.sentences.iter().any(|s| s.starts_with("The body turns by 20 % less")), "{:?}", d.sentences);
     assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
-    assert_eq!(d.indistinguishable, [["effective_track"]]);
+    assert_eq!(d.indistinguishable, [["effective_track", "soft_ground"]]);
     agrees_with_itself(&d);
 }
 
@@ -101,6 +103,55 @@ fn another_ground_comes_before_another_robot() {
         let robot = probability("payload").max(probability("torque_constant"));
         assert!(ground > robot, "{factor}: {:?}", d.ranked);
     }
+}
+
+/// Rounds on another ground: straight load and scrub over the references', share of the yaw rate.
+fn ground(straight: f64, scrub: f64, turned: f64) -> Vec<Leg> {
+    let other = |leg: Leg| Leg { straight: straight * leg.straight, scrub: scrub * leg.scrub, turned, ..leg };
+    rounds(3).into_iter().map(other).collect()
+}
+
+fn probability(d: &Diagnosis, id: &str) -> f64 {
+    d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability)
+}
+
+#[test]
+fn ground_that_rolls_harder_and_turns_the_body_less_is_soft() {
+    let soft = diagnosis(&[&ground(2.0, 0.9, 0.78)]);
+    assert_eq!(
+        (soft.verdict, soft.ranked[0].effect.as_str()),
+        (Verdict::Explained, "soft_ground"),
+        "{:?}",
+        soft.ranked
+    );
+    assert!(soft.sentences[0].starts_with("Missing: soft ground"), "{:?}", soft.sentences);
+    assert_eq!(soft.indistinguishable[0][0], "soft_ground");
+    // The correction simulates it by the laws that make it up.
+    assert!(soft.correction.effects.iter().any(|e| e.effect == "rolling_resistance"), "{:?}", soft.correction.effects);
+
+    // With the references' track it is no more likely than rolling resistance of any ground.
+    let hard = diagnosis(&[&ground(2.0, 1.0, 1.0)]);
+    assert!(probability(&hard, "soft_ground") < probability(&hard, "rolling_resistance") + 0.05, "{:?}", hard.ranked);
+    // Turning that costs more beyond the rolling is no soft ground.
+    let rough = diagnosis(&[&ground(1.0, 2.0, 1.0)]);
+    assert!(probability(&rough, "soft_ground") < 0.02, "{:?}", rough.ranked);
+}
+
+#[test]
+fn a_robot_that_nobody_touched_has_no_other_mass_or_motors() {
+    let (recording, same_robot) = (ground(1.8, 1.8, 1.0), Options { same_robot: true, ..Options::default() });
+    let ids = |d: &Diagnosis| d.ranked.iter().filter(|c| catalogue::needs_a_hand(&c.effect)).count();
+    assert!(ids(&diagnosis(&[&recording])) > 0);
+    let same = diagnosis_with(&[&recording], &same_robot);
+    assert_eq!(ids(&same), 0, "{:?}", same.ranked);
+    assert_eq!(same.verdict, Verdict::Explained);
+}
+
+#[test]
+fn recordings_of_several_places_share_no_slope() {
+    let steep = ground(1.8, 1.0, 1.0);
+    assert!(probability(&diagnosis(&[&steep]), "grade") > 0.0);
+    assert_eq!(probability(&diagnosis(&[&steep, &steep]), "grade"), 0.0);
 }
 
 #[test]

@@ -57,11 +57,12 @@ impl Experiment for Fits<'_> {
             return None;
         }
 
-        let data: Vec<Measured> = self.known.iter().copied().chain(others.iter().map(|d| d.here)).collect();
+        let data: Vec<Measured> =
+            self.known.iter().copied().chain(others.iter().filter(|d| !d.is_track()).map(|d| d.here)).collect();
         let retuned = tune(self.robot, &self.case.sigma, &data)?;
         let comparison = name::Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated);
         let refitted = |named: &Named| {
-            let fitted = comparison.as_ref().and_then(|c| c.fit(&named.parts, None));
+            let fitted = comparison.as_ref().and_then(|c| c.refit(named));
             self.calibrated_with(fitted.map_or_else(Vec::new, |fitted| fitted.doses()))
         };
         Some(Comparison {
@@ -104,8 +105,8 @@ impl<'a> Fits<'a> {
     /// The best hypothesis that shares no effect with these and is no larger.
     fn placebo(&self) -> Option<&'a Named> {
         let best = self.best()?;
-        let own = best.ids();
-        let wrong = |e: &&Named| e.parts.len() <= best.parts.len() && !e.ids().iter().any(|id| own.contains(id));
+        let shared = |e: &Named| e.effects().any(|id| best.effects().any(|own| own == id));
+        let wrong = |e: &&Named| e.causes() <= best.causes() && !shared(e);
         self.naming?.effects.iter().find(wrong)
     }
 

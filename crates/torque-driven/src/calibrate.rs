@@ -136,6 +136,7 @@ pub(crate) fn calibrate_on(
             outlier_scale: options.outlier_scale,
             step: options.step,
             largest_torque,
+            same_robot: options.same_robot,
             drives: Drives::default(),
         },
     );
@@ -318,6 +319,7 @@ pub(crate) fn problem<'a>(
         outlier_scale: options.outlier_scale,
         step: options.step,
         largest_torque,
+        same_robot: options.same_robot,
         drives: Drives::default(),
     }
 }

@@ -101,6 +101,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) step: f64,
     /// Largest torque commanded, N m.
     pub(crate) largest_torque: f64,
+    /// Whether nobody changed the robot: what needs a hand on it is not weighed.
+    pub(crate) same_robot: bool,
     pub(crate) drives: Drives,
 }
 
@@ -146,7 +148,9 @@ impl Problem<'_> {
     pub(crate) fn variants(&self) -> Vec<Variant> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
-        variants(segments().any(|s| s.shows(Channel::ForwardVelocity)))
+        let mut all = variants(segments().any(|s| s.shows(Channel::ForwardVelocity)));
+        all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
+        all
     }
 
     /// Standard deviation of a number that runs have to themselves, in sigmas of θ or in the unit of its channel.

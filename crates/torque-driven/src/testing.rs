@@ -141,6 +141,7 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         outlier_scale: options.outlier_scale,
         step: options.step,
         largest_torque: 5.0,
+        same_robot: false,
         drives: Drives::default(),
     }
 }

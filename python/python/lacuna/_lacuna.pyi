@@ -44,6 +44,7 @@ def diagnose(
     heldout: _Drives | None = None,
     mapping: _Path | None = None,
     reading: _Reading = "normal",
+    same_robot: bool = False,
     next: bool = False,
     progress: Callable[[str], object] | None = None,
 ) -> Diagnosis: ...

@@ -45,7 +45,7 @@ Built-in robots: husky-a200, kobuki, husky-drive, warthog-drive,
 Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag
   (ROS 2 bags); lacuna (what `lacuna convert` writes)
 
-Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost,
+Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some of the recordings was lost,
   4 done and a mismatch was found (with --fail-on mismatch; replaces 3).";
 
 /// Where each stage begins, as a share of the time of a torque-driven case; measured on drawn cases.
@@ -93,6 +93,10 @@ pub(crate) struct Input {
     /// Files or folders of inputs whose response is to be predicted.
     #[arg(long, value_name = "PATH", num_args = 1.., conflicts_with = "case")]
     pub(crate) heldout: Vec<PathBuf>,
+    /// Nobody changed the robot since it was right: its mass, motors and wheels are what they were, so no such cause is
+    /// weighed (torque- and speed-driven robots).
+    #[arg(long)]
+    pub(crate) same_robot: bool,
     /// What to do with bad rows and cells of recordings.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) reading: Reading,
@@ -159,7 +163,8 @@ fn outcome(verdict: Verdict, fail_on: Option<FailOn>, lost: &[String]) -> Outcom
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
-    let options = Options { next: (args.next || args.report.is_some()).then_some(NEXT_LENGTH), ..Options::default() };
+    let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
+    let options = Options { next, same_robot: args.input.same_robot, ..Options::default() };
     let (case, mapping) = read(&args.input)?;
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
@@ -199,7 +204,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             (args.input.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
         emit(&diagnosis_text::render(diagnosis, lost, &case.not_used(), found))?;
     }
-    Ok(outcome(diagnosis.verdict, args.fail_on, lost))
+    Ok(outcome(diagnosis.verdict, args.fail_on, &case.lost_of_recordings()))
 }
 
 /// Where the parts of a case are.

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
     let (case, _) = diagnose::read(&args.input)?;
-    let options = Options { next: Some(args.seconds), ..Options::default() };
+    let options = Options { next: Some(args.seconds), same_robot: args.input.same_robot, ..Options::default() };
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
     let Some(advice) = &diagnosis.next else {

@@ -49,6 +49,16 @@
         per_unknown: f64 = 4.0, "nats", "guess";
     }
 
+    /// Soft ground.
+    soft_ground: SoftGround {
+        /// One sigma of the logarithm of the effective track that the plant's tyre laws may be wrong by.
+        by_law: f64 = 0.08, "1", "guess: laws of rigid ground";
+        /// One sigma of the logarithm of the effective track on soft ground over that on hard ground.
+        plausible: f64 = 0.25, "1", "guess: a quarter";
+        /// Most that the effective track says for or against a cause.
+        most: f64 = 6.0, "nats", "guess: a track alone names no ground";
+    }
+
     /// Fits of effects to the differences of loads.
     effects: EffectFits {
         /// Steps of a fit at most.
@@ -78,6 +88,8 @@
         least_plausible: f64 = 2.0, "nats", "guess";
         /// Probability of a body that was seen to stand: a gyro that is off looks alike.
         standing: f64 = 0.99, "1", "guess";
+        /// Probability that a longer effective track alone, without a load that differs, is soft ground.
+        soft: f64 = 0.5, "1", "guess: or another surface, or other tyres";
         /// Probability that a change inside a recording is one: it is reported where its 90 % interval shows it.
         changed: f64 = 0.9, "1", "definition of the interval";
         /// Effects that fit a difference too small to name one, at most.
