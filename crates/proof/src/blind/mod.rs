@@ -8,7 +8,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
 use examiner::Plan;
 use rayon::ThreadPool;
 
@@ -22,6 +22,7 @@ pub(crate) mod layout;
 mod score;
 pub(crate) mod seal;
 mod set;
+mod speed;
 mod tables;
 mod totals;
 pub(crate) mod truth;
@@ -35,6 +36,7 @@ Examples:
   cargo xtask blind                                    300 cases: draw, seal, diagnose, score
   cargo xtask blind --quick --judge                    12 cases; fails when a target is missed
   cargo xtask blind --draw-only --count 20 --out DIR   cases and truth for other tools
+  cargo xtask blind --kind speed --count 200           speed-driven cases
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
 
 A second run goes on where the first one stopped.
@@ -54,10 +56,23 @@ pub(crate) struct Args {
     /// Only these cases.
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
+    /// Kind of the robots: torques given, or set speeds and currents without sign (of the options for these: --seed,
+    /// --count, --out, --threads, --draw-only, --judge).
+    #[arg(long, value_enum, default_value_t = Kind::Torque)]
+    kind: Kind,
     #[command(flatten)]
     drawing: set::Drawing,
     #[command(flatten)]
     running: Running,
+}
+
+/// Kinds of robots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// Torques are given.
+    Torque,
+    /// Set speeds and currents are given.
+    Speed,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -85,16 +100,20 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     if let (Some(cases), Some(answers)) = (&args.cases, &args.answers) {
         return given::run(cases, answers, &args.only);
     }
-    let layout = Layout::new(match &args.running.out {
-        Some(folder) => folder.clone(),
-        None => output::folder("blind")?,
-    });
-    let plans = args.drawing.plans();
-    let chosen = set::chosen(&plans, &args.only)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.running.threads.unwrap_or(0))
         .build()
         .context("cannot start the threads; give fewer with --threads")?;
+    let out = |usual: &str| args.running.out.clone().map_or_else(|| output::folder(usual), Ok);
+    if args.kind == Kind::Speed {
+        let (seed, count) = args.drawing.seed_and_count();
+        let (draw_only, judge) = (args.running.draw_only, args.running.judge);
+        let set = speed::Set { seed, count, out: out("blind-speed")?, draw_only, judge };
+        return pool.install(|| speed::run(&set));
+    }
+    let layout = Layout::new(out("blind")?);
+    let plans = args.drawing.plans();
+    let chosen = set::chosen(&plans, &args.only)?;
     let seals = pool.install(|| draw::draw(&chosen, &layout))?;
     println!("Cases sealed: {} of {}, in {}", chosen.len(), plans.len(), layout.seals().display());
     if args.running.draw_only {

@@ -63,6 +63,10 @@ impl Drawing {
         if self.quick { QUICK } else { self.count }
     }
 
+    pub(super) fn seed_and_count(&self) -> (u64, usize) {
+        (self.seed, self.count())
+    }
+
     /// The cases that are to be drawn.
     pub(super) fn plans(&self) -> Vec<Plan> {
         let settings = Settings {
