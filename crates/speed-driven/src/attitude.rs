@@ -41,6 +41,8 @@ pub(crate) struct Attitude {
     pub(crate) pitch: Vec<f64>,
     /// One sigma, rad.
     pub(crate) sigma: Vec<f64>,
+    /// The same by the turning rates alone, without the loads: it drifts, and shows every ramp, rad.
+    pub(crate) by_rates: Vec<f64>,
     /// Against the rest of the recording only: no accelerometer tells the level of a body on ground that gives way.
     pub(crate) relative: bool,
 }
@@ -71,6 +73,18 @@ pub(crate) fn attitude(
     weight: f64,
     period: f64,
 ) -> Option<Attitude> {
+    let with_loads = estimate(run, readings, usual, weight, period)?;
+    let by_rates = estimate(run, &vec![None; readings.len()], usual, weight, period)?.pitch;
+    // Where the load is another from end to end the ground may tilt the body, too.
+    let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
+    let middle = median(exact).map_or(1.0, |middle| middle / usual);
+    let levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+    let relative = !levelled && middle > NAMING.priors.unnamed_straight;
+    Some(Attitude { by_rates, relative, ..with_loads })
+}
+
+/// The filter and smoother; of readings that are none it takes the turning rates alone.
+fn estimate(run: &SpeedRun, readings: &[Option<Reading>], usual: f64, weight: f64, period: f64) -> Option<Attitude> {
     let rates = run.body_rates.as_ref()?;
     let lag = &run.alignment.as_ref()?.lag;
     let (first, dt) = (*rates.time.first()?, rates.step);
@@ -90,7 +104,6 @@ pub(crate) fn attitude(
     let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
     let middle = median(exact).map_or(1.0, |middle| middle / usual);
     let excess = (middle - 1.0).abs();
-    let relative = rates.level.is_none() && middle > NAMING.priors.unnamed_straight;
     let rolling = FILTER.rolling.max(FILTER.excess * excess) * usual / weight;
     let keep = 1.0 - dt / FILTER.rolling_time;
     let mut walk = Square::zeros();
@@ -167,5 +180,6 @@ pub(crate) fn attitude(
         let at = |t: f64| if t > first - dt && t < last { interpolate(&rates.time, z, t) } else { unknown };
         run.time.iter().zip(lag).map(|(t, l)| at(t + l)).collect()
     };
-    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma: at_rows(&sigma, f64::INFINITY), relative })
+    let sigma = at_rows(&sigma, f64::INFINITY);
+    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma, by_rates: Vec::new(), relative: false })
 }

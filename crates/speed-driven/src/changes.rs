@@ -9,7 +9,7 @@ use crate::level::levels;
 use crate::pieces::{Usual, class};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Pieces};
-use crate::slopes::slopes;
+use crate::slopes::{Slopes, slopes};
 use crate::straight::{Reading, readings};
 use inference::robust::median;
 use verdict::{Changes, Hidden};
@@ -45,9 +45,13 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let Some(any) = usual.iter().flatten().next().copied() else { return Changes::default() };
     let period = run.period();
     let slope = attitude(run, &readings, any, weight, period);
-    // What the slope explains is no change of the ground.
+    let slopes = slope.as_ref().map_or_else(Slopes::default, |s| slopes(run, s));
+    // What the slope explains is no change of the ground; where no ramp was seen, the turning rates alone say what it is.
+    let beside = CHANGES.slopes.beside;
+    let unseen = |t: f64| slopes.not_seen.iter().any(|[from, until]| from - beside <= t && t <= until + beside);
     let level_ground = |slope: &Attitude| -> Vec<Option<Reading>> {
-        let pull = |i: usize| weight * slope.pitch[i] * run.forward(i).signum();
+        let pitch = |i: usize| if unseen(run.time[i]) { slope.by_rates[i] } else { slope.pitch[i] };
+        let pull = |i: usize| weight * pitch(i) * run.forward(i).signum();
         let less = |i: usize, r: Reading| match r {
             Reading::Exact(x) => Reading::Exact(x - pull(i)),
             Reading::AtMost(x) => Reading::AtMost(x - pull(i)),
@@ -57,7 +61,7 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let rest = slope.as_ref().map_or_else(|| readings.clone(), level_ground);
     let level = levels(&rest, any, period);
     let usual = usual_of(run, &rest, &level, usual);
-    let mut found = slope.as_ref().map_or_else(Vec::new, |s| slopes(run, s));
+    let mut found = slopes.found;
     found.extend(jumps(run, &rest, &level, &usual, weight, slope.is_some()));
     Changes { found, hidden: hidden(run, &readings) }
 }

@@ -1,5 +1,6 @@
 //! Jumps of the straight load, by currents.
 
+use crate::heading::{apart, directions};
 use crate::pieces::{GRADE, ROLLING, Usual, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Jumps};
@@ -98,26 +99,19 @@ pub(super) fn jumps(
 
 /// A slope depends on the heading, the ground does not: changes driven both ways tell them apart.
 fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
-    let Some(yaw) = &run.yaw_rate else { return };
-    let mut heading = vec![0.0; yaw.len()];
-    for i in 1..yaw.len() {
-        let rate = 0.5 * (yaw[i] + yaw[i - 1]);
-        let turned = rate * (run.time[i] - run.time[i - 1]);
-        heading[i] = heading[i - 1] + if turned.is_finite() { turned } else { 0.0 };
-    }
+    let Some(directions) = directions(run) else { return };
     // Direction of travel in the middle of a change.
     let direction = |c: &LoadChange| {
-        let i = run.time.partition_point(|t| *t < 0.5 * (c.interval[0] + c.interval[1])).min(heading.len() - 1);
-        heading[i] + if run.forward(i) < 0.0 { std::f64::consts::PI } else { 0.0 }
+        let i = run.time.partition_point(|t| *t < 0.5 * (c.interval[0] + c.interval[1]));
+        directions[i.min(directions.len() - 1)]
     };
     // A bound says neither that loads are alike nor that they are opposite.
     let seen: Vec<(f64, f64)> = found.iter().filter(|c| !c.bound).map(|c| (direction(c), c.slope)).collect();
     for change in found.iter_mut().filter(|c| c.causes.len() > 1 && !c.bound) {
         let (own, slope) = (direction(change), change.slope);
-        let apart = |other: f64| (other - own).sin().atan2((other - own).cos()).abs();
-        let way_back = seen.iter().any(|o| apart(o.0) > JUMPS.way_back && o.1 * slope < 0.0);
+        let way_back = seen.iter().any(|o| apart(o.0, own) > JUMPS.way_back && o.1 * slope < 0.0);
         let whichever =
-            seen.iter().any(|o| apart(o.0) > JUMPS.other_heading && (o.1 / slope - 1.0).abs() < JUMPS.scatter);
+            seen.iter().any(|o| apart(o.0, own) > JUMPS.other_heading && (o.1 / slope - 1.0).abs() < JUMPS.scatter);
         if way_back {
             change.causes = vec![GRADE];
             change.reason = "driven the other way, the load changes the opposite way".into();

@@ -32,6 +32,7 @@ mod extract;
 mod forecast;
 mod found;
 mod ground;
+mod heading;
 mod headline;
 mod jumps;
 mod law;
@@ -66,7 +67,7 @@ use inference::{DiagnosisError, Options};
 use answer::{limits, verdict};
 use compare::{Reference, matching, references, scaled};
 use model::{Measured, tune};
-use name::{Comparison, Difference, name};
+use name::{Comparison, Difference, Open, name};
 
 pub use body_rates::BodyRates;
 pub use clock::{Alignment, align, box_mean, interpolate};
@@ -153,8 +154,15 @@ pub fn diagnose_steady(
 
     progress("weighing the effects");
     let differences = differences(&loads, &refs);
+    // Drives at several places, or in several headings, share no slope.
+    let mut straight =
+        differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad).map(|d| &d.recording);
+    let first = straight.next();
+    let one_place = straight.all(|name| Some(name) == first);
+    let one_way = case.recordings.iter().filter(|run| Some(&run.name) == first).all(heading::goes_one_way);
+    let open = Open { same_robot: options.same_robot, one_slope: one_place && one_way };
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
-    let naming = comparison.as_ref().and_then(|c| name(c, options.same_robot));
+    let naming = comparison.as_ref().and_then(|c| name(c, open));
 
     progress("forecasting recordings that were not used");
     let fits = Fits {

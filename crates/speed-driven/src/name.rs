@@ -323,26 +323,25 @@ impl Comparison {
     }
 }
 
+/// Which causes are open.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Open {
+    /// Nobody touched the robot: only what needs no hand on it.
+    pub(crate) same_robot: bool,
+    /// All straight driving is at one place in one heading, so that one slope may be under all of it.
+    pub(crate) one_slope: bool,
+}
+
 /// Weighs every effect that can be present everywhere, every pair with one of the best, and soft ground against the
-/// differences; of the `same_robot`, which nobody touched, only what needs no hand on it.
-pub(crate) fn name(comparison: &Comparison, same_robot: bool) -> Option<Naming> {
-    // A slope is that of a place: drives at several places share none.
-    let mut straight: Vec<&str> = comparison
-        .differences
-        .iter()
-        .filter(|d| d.here.at.quantity == Quantity::StraightLoad)
-        .map(|d| d.recording.as_str())
-        .collect();
-    straight.sort_unstable();
-    straight.dedup();
-    let one_place = straight.len() <= 1;
+/// differences.
+pub(crate) fn name(comparison: &Comparison, open: Open) -> Option<Naming> {
     let candidates: Vec<Variant> = variants(true)
         .into_iter()
         .filter(|v| matches!(v.place, Place::Whole | Place::Side(_)))
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
         .filter(|v| v.spec().parameters.iter().all(|p| p.role != Role::Shape))
-        .filter(|v| one_place || v.spec().id != grade::SPEC.id)
-        .filter(|v| !same_robot || !catalogue::needs_a_hand(v.spec().id))
+        .filter(|v| open.one_slope || v.spec().id != grade::SPEC.id)
+        .filter(|v| !open.same_robot || !catalogue::needs_a_hand(v.spec().id))
         .collect();
     let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();
     best_first(&mut singles);

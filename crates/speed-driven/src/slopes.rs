@@ -3,14 +3,34 @@
 use crate::attitude::Attitude;
 use crate::pieces::{GRADE, pieces};
 use crate::run::SpeedRun;
-use crate::settings::{CHANGES, changes::Slopes};
+use crate::settings::{CHANGES, changes::Slopes as Settings};
 use inference::robust::NINETY;
 use verdict::LoadChange;
 
-const SLOPES: Slopes = CHANGES.slopes;
+const SLOPES: Settings = CHANGES.slopes;
+
+/// Slopes, and stretches at which the load asks for one and the turning rates saw no ramp.
+#[derive(Debug, Default)]
+pub(super) struct Slopes {
+    pub(super) found: Vec<LoadChange>,
+    pub(super) not_seen: Vec<[f64; 2]>,
+}
+
+/// Whether the turning rates saw the nose rise where a slope begins, or fall where it ends, by a fair share of it.
+fn is_ramp(run: &SpeedRun, attitude: &Attitude, [from, until]: [f64; 2], pitch: f64) -> bool {
+    let mean = |a: f64, b: f64| {
+        let inside = (0..run.time.len()).filter(|&i| a <= run.time[i] && run.time[i] <= b);
+        inference::robust::mean(inside.map(|i| attitude.by_rates[i]))
+    };
+    let [near, far] = SLOPES.ramp;
+    let rises = mean(from + near, from + far).zip(mean(from - far, from - near)).map(|(on, before)| on - before);
+    let falls = mean(until - far, until - near).zip(mean(until + near, until + far)).map(|(on, after)| on - after);
+    let seen = |step: Option<f64>| step.is_some_and(|step| step * pitch.signum() > SLOPES.ramp_share * pitch.abs());
+    seen(rises) || seen(falls)
+}
 
 /// Slopes that the gyro and the load show together.
-pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
+pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Slopes {
     let drives = |i: usize| run.forward(i).abs() > CHANGES.pieces.driving;
     let certain = |i: usize| {
         drives(i)
@@ -31,7 +51,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
         steep[i - 1] = steep[i - 1] || (steep[i] && goes_on(i - 1, i));
     }
 
-    let mut out = Vec::new();
+    let mut out = Slopes::default();
     let along = |i: usize| attitude.pitch[i] * run.forward(i).signum();
     let period = run.period();
     let levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
@@ -55,7 +75,13 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Vec<LoadChange> {
             if mean.abs() < NINETY * sigma {
                 continue;
             }
-            out.push(LoadChange {
+            let pitch = piece.iter().map(|&i| attitude.pitch[i]).sum::<f64>() / n;
+            let clear = mean.abs() > SLOPES.clear * NINETY * sigma;
+            if !levelled && !(clear && is_ramp(run, attitude, [from, until], pitch)) {
+                out.not_seen.push([from, until]);
+                continue;
+            }
+            out.found.push(LoadChange {
                 recording: run.name.clone(),
                 interval: [from, until],
                 onset: [from - SLOPES.clock, from + SLOPES.clock],

@@ -148,10 +148,11 @@ fn a_robot_that_nobody_touched_has_no_other_mass_or_motors() {
 }
 
 #[test]
-fn recordings_of_several_places_share_no_slope() {
-    let steep = ground(1.8, 1.0, 1.0);
-    assert!(probability(&diagnosis(&[&steep]), "grade") > 0.0);
-    assert_eq!(probability(&diagnosis(&[&steep, &steep]), "grade"), 0.0);
+fn drives_in_several_headings_or_places_share_no_slope() {
+    let climb = [Leg { straight: 2.0 * crate::testing::STRAIGHT, ..Leg::straight(60.0) }];
+    assert!(probability(&diagnosis(&[&climb]), "grade") > 0.0);
+    assert_eq!(probability(&diagnosis(&[&climb, &climb]), "grade"), 0.0);
+    assert_eq!(probability(&diagnosis(&[&ground(2.0, 1.0, 1.0)]), "grade"), 0.0);
 }
 
 #[test]

@@ -1,0 +1,53 @@
+//! Where a robot travels to: a slope is that of a place and a heading.
+
+use crate::run::SpeedRun;
+use crate::settings::{CHANGES, MEASURING, changes::Jumps};
+use crate::straight::is_straight;
+
+const JUMPS: Jumps = CHANGES.jumps;
+
+/// Direction of travel at the rows, rad from where the robot looked at first; `None` without a yaw rate.
+pub(crate) fn directions(run: &SpeedRun) -> Option<Vec<f64>> {
+    let yaw = run.yaw_rate.as_ref()?;
+    let mut heading = vec![0.0; yaw.len()];
+    for i in 1..yaw.len() {
+        let rate = 0.5 * (yaw[i] + yaw[i - 1]);
+        let turned = rate * (run.time[i] - run.time[i - 1]);
+        heading[i] = heading[i - 1] + if turned.is_finite() { turned } else { 0.0 };
+    }
+    let backward = |i: usize| if run.forward(i) < 0.0 { std::f64::consts::PI } else { 0.0 };
+    Some((0..heading.len()).map(|i| heading[i] + backward(i)).collect())
+}
+
+/// By how much two directions differ, rad.
+pub(crate) fn apart(a: f64, b: f64) -> f64 {
+    (a - b).sin().atan2((a - b).cos()).abs()
+}
+
+/// Whether all straight driving goes about one way, so that one slope could be under all of it. Without a yaw rate nothing
+/// speaks against that.
+pub(crate) fn goes_one_way(run: &SpeedRun) -> bool {
+    let Some(directions) = directions(run) else { return true };
+    let straight = |i: &usize| is_straight(run, *i, MEASURING.straight.hold) && !run.changed[*i] && !run.standing[*i];
+    let rows: Vec<usize> = (0..run.time.len()).filter(straight).collect();
+    let Some(&first) = rows.first() else { return true };
+    let other = rows.iter().filter(|&&i| apart(directions[i], directions[first]) > JUMPS.other_heading).count();
+    (other as f64) * run.period() < JUMPS.elsewhere
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, drive, rounds};
+
+    #[test]
+    fn straight_drives_before_and_after_a_turn_go_two_ways() {
+        assert!(goes_one_way(&drive(&[Leg::straight(60.0)], false)));
+        let there_and_back = [Leg::straight(20.0), Leg { speed: [-0.24; 2], ..Leg::straight(20.0) }];
+        assert!(!goes_one_way(&drive(&there_and_back, false)));
+        assert!(!goes_one_way(&drive(&rounds(2), false)));
+        let mut unseen = drive(&rounds(2), false);
+        unseen.yaw_rate = None;
+        assert!(goes_one_way(&unseen));
+    }
+}
