@@ -172,12 +172,12 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
         )));
     }
 
-    let (mut dd, mut dw, mut ww) = (0.0, 0.0, 0.0);
+    let (mut dd, mut dw, mut one_way) = (0.0, 0.0, 0.0);
     for &i in &rows {
         let d = run.difference(i);
         dd += d * d;
         dw += d * yaw[i];
-        ww += yaw[i] * yaw[i];
+        one_way += d;
     }
     if dw <= 0.0 {
         return Err(refuse("the gyro does not turn with the wheels: check its sign and clock".to_owned()));
@@ -196,8 +196,9 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
         .map(|p| p.iter().map(|&i| run.difference(i) * (run.difference(i) - b * yaw[i])).sum::<f64>().powi(2))
         .sum();
     let random = scatter.sqrt() / dw * (effective / (effective - 1.0)).sqrt();
-    let systematic =
-        b * (MEASURING.track.gyro_offset / (ww / rows.len() as f64).sqrt()).hypot(MEASURING.track.set_point_error);
+    // The gyro's offset adds to turns one way what it takes from turns the other way.
+    let offset = MEASURING.track.gyro_offset * one_way.abs() / dw;
+    let systematic = b * offset.hypot(MEASURING.track.set_point_error);
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
     Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
 }

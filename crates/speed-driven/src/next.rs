@@ -65,7 +65,7 @@ fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     found.sort_by(|a, b| b.2.total_cmp(&a.2));
     found.truncate(NEXT.most);
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
-    let name = |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), |n| n.name());
+    let name = |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), Named::name);
     found
         .into_iter()
         .map(|(ids, named, score)| Rival {

@@ -76,8 +76,7 @@ pub(super) fn slopes(run: &SpeedRun, attitude: &Attitude) -> Slopes {
                 continue;
             }
             let pitch = piece.iter().map(|&i| attitude.pitch[i]).sum::<f64>() / n;
-            let clear = mean.abs() > SLOPES.clear * NINETY * sigma;
-            if !levelled && !(clear && is_ramp(run, attitude, [from, until], pitch)) {
+            if !levelled && !is_ramp(run, attitude, [from, until], pitch) {
                 out.not_seen.push([from, until]);
                 continue;
             }

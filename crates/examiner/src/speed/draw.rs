@@ -1,5 +1,6 @@
 //! Draws a case: the robot, its days, and what happens.
 
+use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -182,14 +183,16 @@ fn toml(robot: &Robot, s: &mut Stream) -> String {
     let inertia = [("wheel_inertia", wheel), ("motor_inertia", 5.0 * wheel)];
     let mut out = String::from("name = \"drawn\"\ncausality = \"speed-driven\"\n\n[parameters]\n");
     for (name, unit, (value, sigma)) in known {
-        out +=
-            &format!("{name} = {{ value = {value:.5}, unit = \"{unit}\", sigma = {sigma:.5}, source = \"drawn\" }}\n");
+        let _ = writeln!(
+            out,
+            "{name} = {{ value = {value:.5}, unit = \"{unit}\", sigma = {sigma:.5}, source = \"drawn\" }}"
+        );
     }
     for (name, value) in measured {
-        out += &format!("{name} = {{ value = {value:.4}, unit = \"m\", source = \"drawn\" }}\n");
+        let _ = writeln!(out, "{name} = {{ value = {value:.4}, unit = \"m\", source = \"drawn\" }}");
     }
     for (name, value) in inertia {
-        out += &format!("{name} = {{ value = {value:.5}, unit = \"kg m2\", source = \"drawn\" }}\n");
+        let _ = writeln!(out, "{name} = {{ value = {value:.5}, unit = \"kg m2\", source = \"drawn\" }}");
     }
     out += "rest_speed = { value = 0.03, unit = \"m/s\", source = \"drawn\" }\n";
     out

@@ -54,8 +54,6 @@ const fn degrees(x: f64) -> f64 {
         least_seconds: f64 = 3.0, "s", "one of about ten settings tried on the open Husky runs";
         /// Without an accelerometer the turning rates must see the ramp: from and until, before and after its ends.
         ramp: [f64; 2] = [0.5, 4.0], "s", "guess";
-        /// And the slope must differ from level by so many half widths of its 90 % interval.
-        clear: f64 = 1.6, "1", "a look at drawn cases of seed 1: two of 200 told a slope of 2.3° ± 2.0° on level ground";
         /// Share of the slope by which they must see the nose rise or fall there.
         ramp_share: f64 = 0.5, "1", "guess";
         /// Beside a slope that they do not see, the loads say nothing of the tilt.

@@ -2,7 +2,7 @@
 
 use examiner::speed::{Sight, SpeedKind};
 
-use super::score::{ANGLE, Found, Row};
+use super::score::{ANGLE, EventScore, Row};
 use crate::blind::Rate;
 use crate::blind::score::statistics::median;
 use crate::document::{Section, number};
@@ -43,9 +43,9 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
     list.share("answered: headline right", Some(AtLeast(0.9)), hidden().filter(|r| r.answered).map(|r| r.right));
     list.share("headline contradicts a sentence", Some(AtMost(0.0)), rows.iter().map(|r| r.contradicts));
 
-    list.share("standing: found", Some(AtLeast(0.95)), events(SpeedKind::Standing).map(|(_, e)| e.found));
-    let leads = |(r, _): &(&Row, &Found)| r.classes.first().is_some_and(|c| c.iter().any(|id| id == "standing"));
-    let stood = events(SpeedKind::Standing).filter(|(_, e)| e.found).collect::<Vec<_>>();
+    list.share("standing: found", Some(AtLeast(0.95)), events(SpeedKind::Standing).map(|(_, e)| e.is_found));
+    let leads = |(r, _): &(&Row, &EventScore)| r.classes.first().is_some_and(|c| c.iter().any(|id| id == "standing"));
+    let stood = events(SpeedKind::Standing).filter(|(_, e)| e.is_found).collect::<Vec<_>>();
     list.share("standing, found: leads", Some(AtLeast(1.0)), stood.iter().map(leads));
     let onsets: Vec<f64> = stood.iter().filter_map(|(_, e)| e.onset).map(f64::abs).collect();
     list.value("standing: error of the onset, median", median(&onsets), "s", AtMost(2.0));
@@ -53,9 +53,9 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
 
     for (sight, least) in Sight::ALL.into_iter().zip([0.95, 0.9, 0.75]) {
         let seen = events(SpeedKind::Slope).filter(move |(r, _)| r.sight == sight);
-        list.share(&format!("slope, {}: found", sight.name()), Some(AtLeast(least)), seen.map(|(_, e)| e.found));
+        list.share(&format!("slope, {}: found", sight.name()), Some(AtLeast(least)), seen.map(|(_, e)| e.is_found));
     }
-    let told = || events(SpeedKind::Slope).filter(|(_, e)| e.found);
+    let told = || events(SpeedKind::Slope).filter(|(_, e)| e.is_found);
     let angles = told().filter_map(|(_, e)| e.degrees);
     list.share("slope, angle told: within 1 degree", Some(AtLeast(0.9)), angles.map(|d| d.abs() <= ANGLE));
     list.share("slope, found: wrong sign", Some(AtMost(0.0)), told().map(|(_, e)| e.wrong_sign));
@@ -69,8 +69,8 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
         );
     }
     let crossed = || events(SpeedKind::Crossing);
-    list.share("crossing: found", None, crossed().map(|(_, e)| e.found));
-    let on_time = |(_, e): (&Row, &Found)| e.onset.is_some_and(|o| o.abs() <= 2.5);
+    list.share("crossing: found", None, crossed().map(|(_, e)| e.is_found));
+    let on_time = |(_, e): (&Row, &EventScore)| e.onset.is_some_and(|o| o.abs() <= 2.5);
     list.share("crossing: found within 2.5 s", Some(AtLeast(0.9)), crossed().map(on_time));
     let minutes = 2.6 * rows.len() as f64;
     let invented: usize = rows.iter().map(|r| r.invented).sum();

@@ -14,6 +14,7 @@ const CLASS: usize = 3;
 
 /// What came of a case.
 #[derive(Debug, Clone, Serialize)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a column of the table of scores")]
 pub(super) struct Row {
     pub(super) case: String,
     pub(super) kind: SpeedKind,
@@ -31,7 +32,7 @@ pub(super) struct Row {
     pub(super) right_class: bool,
     /// Whether the headline says that nothing is wrong above a sentence that reports a difference.
     pub(super) contradicts: bool,
-    pub(super) events: Vec<Found>,
+    pub(super) events: Vec<EventScore>,
     /// Changes and standstills that belong to no event.
     pub(super) invented: usize,
     /// Ratios of the straight load and of the track whose interval holds the truth, of how many.
@@ -41,9 +42,9 @@ pub(super) struct Row {
 
 /// What is told of an event.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Found {
+pub(super) struct EventScore {
     pub(super) kind: SpeedKind,
-    pub(super) found: bool,
+    pub(super) is_found: bool,
     /// Told less hidden onset, s.
     pub(super) onset: Option<f64>,
     /// Of a slope whose angle is told, not a bound of it: told less hidden, degrees.
@@ -113,7 +114,7 @@ fn is_of(told: &Told, event: &Event) -> bool {
         && (common > COVERS * (b - a) || common > beyond)
 }
 
-fn found(all: &[Told], event: &Event) -> Found {
+fn found(all: &[Told], event: &Event) -> EventScore {
     let nearest = all.iter().filter(|t| is_of(t, event)).min_by(|x, y| {
         let off = |t: &Told| (t.interval[0] - event.interval[0]).abs();
         off(x).total_cmp(&off(y))
@@ -124,9 +125,9 @@ fn found(all: &[Told], event: &Event) -> Found {
         length(x).total_cmp(&length(y))
     });
     let degrees = event.degrees.zip(longest.and_then(|t| t.slope)).map(|(truth, told)| [truth, told]);
-    Found {
+    EventScore {
         kind: event.kind,
-        found: if event.degrees.is_some() { longest.is_some() } else { nearest.is_some() },
+        is_found: if event.degrees.is_some() { longest.is_some() } else { nearest.is_some() },
         onset: nearest.map(|t| t.interval[0] - event.interval[0]),
         degrees: degrees.filter(|_| longest.is_some_and(|t| t.is_angle)).map(|[truth, told]| told - truth),
         wrong_sign: degrees.is_some_and(|[truth, told]| truth * told < 0.0),
@@ -211,12 +212,12 @@ mod tests {
                 "steady": { "changes": { "found": [{ "interval": at, "causes": ["grade"], "slope": slope }] } } })
         };
         let right = row(&truth(SpeedKind::Slope, vec![event.clone()]), &say(4.6, [52.0, 69.0]), None);
-        assert!(right.right && right.events[0].found && !right.events[0].wrong_sign && right.invented == 0);
+        assert!(right.right && right.events[0].is_found && !right.events[0].wrong_sign && right.invented == 0);
         assert!((right.events[0].degrees.expect("told") + 0.4).abs() < 1e-9);
         let wrong = row(&truth(SpeedKind::Slope, vec![event.clone()]), &say(-4.6, [52.0, 69.0]), None);
         assert!(wrong.events[0].wrong_sign);
         let elsewhere = row(&truth(SpeedKind::Slope, vec![event]), &say(4.6, [10.0, 20.0]), None);
-        assert!(!elsewhere.events[0].found && elsewhere.invented == 1);
+        assert!(!elsewhere.events[0].is_found && elsewhere.invented == 1);
     }
 
     #[test]
