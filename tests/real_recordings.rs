@@ -50,9 +50,11 @@ fn sandy_loam_loads_straight_driving() -> Outcome {
     let [low, high] = straight.interval;
     assert!(low >= 0.8 * straight.ratio && high <= 1.2 * straight.ratio, "{straight:?}");
     assert_eq!(d.verdict, Verdict::Explained, "{}", told(&d));
-    // One-way driving cannot tell rolling resistance from a slope.
+    // The track is longer where straight driving takes more: soft ground, or rolling resistance by another law. One slope
+    // for drives at several places is not weighed.
     let class = d.indistinguishable.first().expect("a class");
-    for id in ["rolling_resistance", "grade"] {
+    assert!(class.len() <= 3 && !class.iter().any(|c| c == "grade"), "{}", told(&d));
+    for id in ["soft_ground", "rolling_resistance"] {
         assert!(class.iter().any(|c| c == id), "{}", told(&d));
     }
     tells_its_limits(&d);

@@ -76,35 +76,6 @@ impl Answer {
         Ok(envelope.diagnosis)
     }
 
-    /// The same in the words of a vocabulary: a cause that it lacks is what it calls "unknown".
-    ///
-    /// The catalogue is larger than the vocabulary of a set of cases. If the first cause is not in the vocabulary, the verdict
-    /// is "unknown"; the likeliest such cause adds its probability to that of "unknown".
-    #[must_use]
-    pub fn within(mut self, vocabulary: &[String]) -> Self {
-        let foreign =
-            |c: &AnswerCause| !["none", "unknown"].contains(&c.effect.as_str()) && !vocabulary.contains(&c.effect);
-        if self.ranked.first().is_some_and(foreign) && self.verdict == Verdict::Explained {
-            self.verdict = Verdict::Unknown;
-        }
-        let most = self.ranked.iter().filter(|c| foreign(c)).map(|c| c.probability).fold(0.0, f64::max);
-        self.ranked.retain(|c| !foreign(c));
-        match self.ranked.iter_mut().find(|c| c.effect == "unknown") {
-            Some(unknown) => unknown.probability = (unknown.probability + most).min(1.0),
-            None if most > 0.0 => self.ranked.push(AnswerCause {
-                effect: "unknown".to_owned(),
-                probability: most,
-                magnitude: None,
-                sigma: None,
-                side: None,
-                intervals: None,
-            }),
-            None => {}
-        }
-        self.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-        self
-    }
-
     /// The verdict in the scorer's words.
     pub fn verdict(&self) -> &'static str {
         match self.verdict {
@@ -158,28 +129,5 @@ mod tests {
         assert!(form.starts_with(r#"{"case":"x","verdict":"no mismatch","seconds":2.5,"ranked":[{"effect":"none","#));
         assert!(form.ends_with(r#""magnitude":-0.5,"side":"left","interval_s":{"run_1":[[1.0,2.0]]}}]}"#));
         assert!(Answer::read("{}").is_err());
-    }
-
-    #[test]
-    fn a_cause_outside_the_vocabulary_is_unknown() {
-        let cause = |effect: &str, probability: f64| {
-            format!(
-                r#"{{"effect": "{effect}", "probability": {probability}, "magnitude": 1.0, "side": null, "intervals": null}}"#
-            )
-        };
-        let told = |causes: &[String]| {
-            let text = format!(
-                r#"{{"diagnosis": {{"verdict": "explained", "sentences": [], "ranked": [{}]}}}}"#,
-                causes.join(",")
-            );
-            Answer::read(&text).expect("reads").within(&["grade".to_owned()])
-        };
-        let foreign = told(&[cause("battery_sag", 0.75), cause("grade", 0.5), cause("unknown", 0.125)]);
-        assert_eq!(foreign.verdict, Verdict::Unknown);
-        assert_eq!((foreign.ranked[0].effect.as_str(), foreign.ranked[0].probability), ("unknown", 0.875));
-        let beside = told(&[cause("grade", 0.75), cause("battery_sag", 0.25)]);
-        assert_eq!(beside.verdict, Verdict::Explained);
-        let names: Vec<&str> = beside.ranked.iter().map(|c| c.effect.as_str()).collect();
-        assert_eq!(names, ["grade", "unknown"]);
     }
 }

@@ -32,7 +32,7 @@ impl Case {
     ///
     /// # Errors
     /// If the settings make no case: a row that is no multiple of 0.5 ms, no runs, runs shorter
-    /// than four segments, or a third effect.
+    /// than four segments, or a fourth effect.
     pub fn draw(name: &str, seed: u64, settings: &Settings) -> Result<DrawnCase, Error> {
         let mut draw = Draw::new(seed, settings)?;
         let references: Vec<Run> = draw.references();
@@ -48,7 +48,7 @@ impl Case {
         let described = robot_json::describe(&draw.nominal, &draw.sheet, settings.row_rate_hz);
         put("robot.json".to_owned(), serde_json::to_string_pretty(&described)?);
         let text = |run: &Run| csv::recording(run, &draw.sheet, row, settings.pose, settings.accelerometer);
-        for (i, run) in references.iter().enumerate() {
+        for (i, run) in references.iter().take(settings.references).enumerate() {
             put(format!("reference/ref_{}.csv", i + 1), text(run));
         }
         for (i, run) in hidden.recordings.iter().enumerate() {

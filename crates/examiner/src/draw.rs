@@ -6,7 +6,7 @@ use crate::course::Course;
 use crate::drive::{Manoeuvre, kinds};
 use crate::effect::{self, EffectId, Sizing};
 use crate::events::Events;
-use crate::hidden::Hidden;
+use crate::hidden::{Hidden, Laws};
 use crate::outsider::{self, Outsider};
 use crate::random::{Stream, key};
 use crate::robot::Constants;
@@ -75,11 +75,14 @@ impl<'a> Draw<'a> {
             return Err(Error::Settings("a row must last a multiple of 0.5 ms, up to 0.1 s"));
         }
         let rows = (settings.duration_s * settings.row_rate_hz).round() as usize;
-        if rows < 400 || settings.references == 0 || settings.recordings == Some(0) {
+        if rows < 400 || settings.recordings == Some(0) {
             return Err(Error::Settings("a case needs runs of at least 400 rows"));
         }
-        if matches!(&settings.content, Content::Effects(e) if e.len() > 2) {
-            return Err(Error::Settings("at most two effects can be hidden"));
+        if matches!(&settings.content, Content::Effects(e) if e.len() > 3) {
+            return Err(Error::Settings("at most three effects can be hidden"));
+        }
+        if settings.mass_kg.is_some_and(|mass| !(2.0..=500.0).contains(&mass)) {
+            return Err(Error::Settings("a robot has a mass of 2 to 500 kg"));
         }
         let mut s = Stream::new(seed, "case", 0);
         let brush = s.unit() < 0.5;
@@ -88,9 +91,12 @@ impl<'a> Draw<'a> {
         let weak = Stream::new(seed, "setting", 0).unit() < 0.5;
         let drawn = if weak { Setting::Weak } else { Setting::Normal };
         let setting = settings.setting.unwrap_or(drawn);
-        let nominal = Constants::nominal(seed, settings.class, law);
+        let nominal = match settings.mass_kg {
+            None => Constants::nominal(seed, settings.class, law),
+            Some(mass) => Constants::of_mass(seed, mass, law),
+        };
         let recordings = settings.recordings.unwrap_or(3 + s.index(2));
-        let drives = kinds(&mut s, settings.references);
+        let drives = kinds(&mut s, settings.references.max(1));
         Ok(Self {
             seed,
             law,
@@ -155,7 +161,7 @@ impl<'a> Draw<'a> {
         self.run_on(&name, number, [Manoeuvre::Random; 2], Some(course), &h, rows)
     }
 
-    /// The runs without anything hidden.
+    /// The runs without anything hidden, at least one: torques are sized by them, whether they are shown or not.
     pub(crate) fn references(&mut self) -> Vec<Run> {
         let none = Hidden::default();
         let drives = self.drives.iter().enumerate();
@@ -240,6 +246,9 @@ impl<'a> Draw<'a> {
             place: self.settings.place,
         };
         let mut hidden = Hidden::default();
+        if self.settings.other_laws {
+            hidden.laws = Laws::draw(&mut Stream::new(self.seed, "laws", attempt));
+        }
         let mut effects = Vec::new();
         for cause in causes {
             effects.push(match cause {

@@ -218,7 +218,8 @@ pub(crate) fn hide(id: EffectId, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidden)
             sided(&mut e);
             h.runout[side] = z.draw(s, [0.035, 0.055, 0.085].map(|k| k * c.radius), 0.6);
             h.runout_phase = [s.uniform(0.0, TAU), 0.0];
-            h.runout_phase[1] = h.runout_phase[0] + s.normal(0.25);
+            let usual = s.normal(0.25);
+            h.runout_phase[1] = h.runout_phase[0] + h.laws.between_wheels.unwrap_or(usual);
             e.phase_front_rad = Some(h.runout_phase[0]);
             e.phase_rear_rad = Some(h.runout_phase[1]);
             h.runout[side]

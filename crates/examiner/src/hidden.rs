@@ -1,5 +1,7 @@
 //! Everything a case may hide, as plain numbers; the neutral value hides nothing.
 
+use crate::random::Stream;
+
 /// A disc of the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Disc {
@@ -52,7 +54,44 @@ pub(crate) struct Hidden {
     pub gyro_scale: f64,
     /// Fraction of rows with a frozen encoder.
     pub frozen: [f64; 2],
+    pub laws: Laws,
     pub foreign: Foreign,
+}
+
+/// Exponents and courses of laws that another hand would write otherwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Laws {
+    /// Exponent of the speed in the exponential of stiction.
+    pub stribeck: f64,
+    /// Exponent of the speed in the drag.
+    pub drag: f64,
+    /// Whether a drift rises in proportion to time until twice its time constant, not by an exponential.
+    pub linear_drift: bool,
+    /// Angle between the run-outs of the front and the rear wheel of a side, rad; near zero if not given.
+    pub between_wheels: Option<f64>,
+}
+
+impl Default for Laws {
+    fn default() -> Self {
+        Self { stribeck: 2.0, drag: 2.0, linear_drift: false, between_wheels: None }
+    }
+}
+
+impl Laws {
+    /// Laws of another hand.
+    pub(crate) fn draw(s: &mut Stream) -> Self {
+        Self {
+            stribeck: s.uniform(0.5, 2.0),
+            drag: s.uniform(1.0, 2.5),
+            linear_drift: s.unit() < 0.5,
+            between_wheels: Some(s.uniform(0.0, std::f64::consts::TAU)),
+        }
+    }
+
+    /// Share of a drift that has come up at time `t` with this time constant, s.
+    pub(crate) fn drift(&self, t: f64, time_constant: f64) -> f64 {
+        if self.linear_drift { (0.5 * t / time_constant).min(1.0) } else { 1.0 - (-t / time_constant).exp() }
+    }
 }
 
 impl Default for Hidden {
@@ -87,6 +126,7 @@ impl Default for Hidden {
             gyro_bias: 0.0,
             gyro_scale: 0.0,
             frozen: [0.0; 2],
+            laws: Laws::default(),
             foreign: Foreign::default(),
         }
     }

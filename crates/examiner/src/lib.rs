@@ -2,7 +2,8 @@
 //!
 //! # Files
 //!
-//! * `case`, `set`: one case from a seed, and sets of cases with a given mix.
+//! * `case`, `set`, `wide`: one case from a seed, sets of cases with a given mix, and sets of robots,
+//!   sensors and visits of every sort; `turns`: items in turn.
 //! * `settings`: what a drawn case is to look like; `draw`: the robot, what it hides, its drives.
 //! * `effect`, `hidden`, `outsider`, `events`: what can be hidden, and what must be answered by
 //!   "unknown".
@@ -39,7 +40,9 @@ mod set;
 mod settings;
 pub mod speed;
 mod truth;
+mod turns;
 mod tyre;
+mod wide;
 
 pub use case::{Again, Case, DrawnCase};
 pub use course::Course;
@@ -52,3 +55,4 @@ pub use set::{Mix, Plan, set};
 pub use settings::{Content, Place, RobotClass, Setting, Settings, Severity};
 pub use truth::{EffectTruth, HeldoutTruth, RecordingTruth, Truth, sha256};
 pub use tyre::TyreLaw;
+pub use wide::wide;

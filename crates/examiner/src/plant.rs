@@ -83,7 +83,7 @@ impl Plant {
         let f = &h.foreign;
         let mut m = Moment {
             torque,
-            coulomb: if h.drift == 0.0 { 0.0 } else { h.drift * (1.0 - (-t / h.drift_time).exp()) },
+            coulomb: if h.drift == 0.0 { 0.0 } else { h.drift * h.laws.drift(t, h.drift_time) },
             rolling: h.onset.map_or(0.0, |(at, fr)| if t >= at { fr } else { 0.0 }),
             ..Moment::default()
         };
@@ -142,7 +142,7 @@ impl Plant {
             let side = i / 2;
             let mut dry = 0.5 * (c.coulomb[side] + h.coulomb[side] + m.coulomb).max(0.0);
             if h.stiction > 0.0 {
-                dry += 0.5 * h.stiction * (-(omega[i] / h.stribeck_speed).powi(2)).exp();
+                dry += 0.5 * h.stiction * (-power((omega[i] / h.stribeck_speed).abs(), h.laws.stribeck)).exp();
             }
             if omega[i] < 0.0 {
                 dry += 0.5 * f.ratchet;
@@ -249,7 +249,8 @@ impl Plant {
         let h = &self.hidden;
         let (vx, vy) = (s[VELOCITY], s[VELOCITY + 1]);
         if h.drag > 0.0 {
-            let speed = (vx * vx + vy * vy).sqrt();
+            // The size is the force at 1 m/s, whatever the exponent.
+            let speed = power((vx * vx + vy * vy).sqrt(), h.laws.drag - 1.0);
             force[0] -= h.drag * speed * vx;
             force[1] -= h.drag * speed * vy;
         }
@@ -292,4 +293,15 @@ impl Plant {
 /// Four numbers of a state.
 fn four(s: &State, at: usize) -> [f64; 4] {
     std::array::from_fn(|i| s[at + i])
+}
+
+/// A power of a number that is not negative; squares and first powers as products.
+fn power(x: f64, exponent: f64) -> f64 {
+    if exponent == 2.0 {
+        x * x
+    } else if exponent == 1.0 {
+        x
+    } else {
+        x.powf(exponent)
+    }
 }

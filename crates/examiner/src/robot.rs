@@ -89,21 +89,44 @@ fn digits(x: f64) -> f64 {
     (x * scale).round() / scale
 }
 
-/// The class's middle values: mass, half base, half track, radius, height, wheel inertia, motor
-/// inertia per side, dry and viscous friction per side.
+/// Middle values of the classes from small to large: mass, half base, half track, radius, height,
+/// wheel inertia, motor inertia per side, dry and viscous friction per side.
+const MIDDLE: [[f64; 9]; 3] = [
+    [5.0, 0.1, 0.125, 0.06, 0.07, 0.0006, 0.002, 0.05, 0.011],
+    [20.0, 0.176, 0.216, 0.097, 0.12, 0.006, 0.018, 0.33, 0.13],
+    [62.0, 0.256, 0.2775, 0.165, 0.18, 0.05, 0.14, 1.7, 0.75],
+];
+
 fn middle(class: RobotClass) -> [f64; 9] {
-    match class {
-        RobotClass::Small => [5.0, 0.1, 0.125, 0.06, 0.07, 0.0006, 0.002, 0.05, 0.011],
-        RobotClass::Medium => [20.0, 0.176, 0.216, 0.097, 0.12, 0.006, 0.018, 0.33, 0.13],
-        RobotClass::Large => [62.0, 0.256, 0.2775, 0.165, 0.18, 0.05, 0.14, 1.7, 0.75],
-    }
+    MIDDLE[match class {
+        RobotClass::Small => 0,
+        RobotClass::Medium => 1,
+        RobotClass::Large => 2,
+    }]
+}
+
+/// Middle values of a robot of some mass: powers of the mass between the classes, and beyond them the power of the
+/// nearest two.
+fn middle_of(mass: f64) -> [f64; 9] {
+    let [low, high] = if mass < MIDDLE[1][0] { [MIDDLE[0], MIDDLE[1]] } else { [MIDDLE[1], MIDDLE[2]] };
+    let share = (mass / low[0]).ln() / (high[0] / low[0]).ln();
+    std::array::from_fn(|i| low[i] * (high[i] / low[i]).powf(share))
 }
 
 impl Constants {
     /// The user's robot.
     pub(crate) fn nominal(seed: u64, class: RobotClass, law: TyreLaw) -> Self {
+        Self::around(middle(class), seed, law)
+    }
+
+    /// The user's robot, of about this mass, kg.
+    pub(crate) fn of_mass(seed: u64, mass: f64, law: TyreLaw) -> Self {
+        Self::around(middle_of(mass), seed, law)
+    }
+
+    fn around(middle: [f64; 9], seed: u64, law: TyreLaw) -> Self {
         let mut s = Stream::new(seed, "robot", 0);
-        let [mass, base, track, radius, height, wheel, motor, dry, viscous] = middle(class);
+        let [mass, base, track, radius, height, wheel, motor, dry, viscous] = middle;
         let size = s.uniform(0.92, 1.08);
         let mass = digits(mass * s.uniform(0.8, 1.22));
         let half_base = digits(base * size);
@@ -254,6 +277,17 @@ mod tests {
         assert_eq!(digits(12.345_678), 12.346);
         assert_eq!(digits(0.001_234_567), 0.001_234_6);
         assert_eq!(digits(-0.3), -0.3);
+    }
+
+    #[test]
+    fn robots_of_any_mass_pass_through_the_classes() {
+        for of_class in super::MIDDLE {
+            for (a, b) in super::middle_of(of_class[0]).into_iter().zip(of_class) {
+                assert!((a / b - 1.0).abs() < 1e-12);
+            }
+        }
+        let [mass, base, _, radius, ..] = super::middle_of(300.0);
+        assert!((mass - 300.0).abs() < 1e-9 && base > 0.4 && radius > 0.25 && radius < base);
     }
 
     #[test]

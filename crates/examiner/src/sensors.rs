@@ -17,13 +17,23 @@ pub(crate) struct Sheet {
     pub yaw: f64,
     pub imu_rate: f64,
     pub pose_rate: f64,
+    pub heavy_tails: bool,
 }
 
+/// Share of samples that err more than usual where tails are heavy, and how many times more.
+const OUTLIERS: (f64, f64) = (0.03, 5.0);
+
 impl Sheet {
-    /// The sensors of a class of robot.
+    /// The sensors of a robot of this size.
     pub(crate) fn new(settings: &Settings) -> Self {
         let k = settings.noise;
-        let torque_step = match settings.class {
+        let class = match settings.mass_kg {
+            None => settings.class,
+            Some(mass) if mass < 10.0 => RobotClass::Small,
+            Some(mass) if mass < 40.0 => RobotClass::Medium,
+            Some(_) => RobotClass::Large,
+        };
+        let torque_step = match class {
             RobotClass::Small => 0.002,
             RobotClass::Medium => 0.01,
             RobotClass::Large => 0.05,
@@ -40,6 +50,7 @@ impl Sheet {
             yaw: 0.004 * k,
             imu_rate: 97.0,
             pose_rate: 9.7,
+            heavy_tails: settings.heavy_tails,
         }
     }
 
@@ -84,15 +95,27 @@ impl Sampler {
         let (h, s) = (&self.sheet, &mut self.stream);
         if self.next_imu < end {
             self.next_imu += 1.0 / h.imu_rate;
-            let gyro = rate + self.gyro_bias + s.normal(h.gyro);
-            let accel = [0, 1].map(|i| felt[i] + self.accel_bias[i] + s.normal(h.accel));
+            let wild = wild(h, s);
+            let gyro = rate + self.gyro_bias + wild * s.normal(h.gyro);
+            let accel = [0, 1].map(|i| felt[i] + self.accel_bias[i] + wild * s.normal(h.accel));
             self.imu = Some([gyro, accel[0], accel[1]]);
         }
         if self.next_pose < end {
             self.next_pose += 1.0 / h.pose_rate;
-            self.pose = Some([pose[0] + s.normal(h.place), pose[1] + s.normal(h.place), pose[2] + s.normal(h.yaw)]);
+            let wild = wild(h, s);
+            self.pose = Some([
+                pose[0] + wild * s.normal(h.place),
+                pose[1] + wild * s.normal(h.place),
+                pose[2] + wild * s.normal(h.yaw),
+            ]);
         }
     }
+}
+
+/// How many times its usual error a sample has. Nothing is drawn where tails are not heavy.
+fn wild(sheet: &Sheet, s: &mut Stream) -> f64 {
+    let (share, times) = OUTLIERS;
+    if sheet.heavy_tails && s.unit() < share { times } else { 1.0 }
 }
 
 /// Rows at which an encoder is frozen: bursts that cover about the fraction.

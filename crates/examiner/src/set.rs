@@ -1,6 +1,7 @@
 //! Sets of cases with a given mix.
 
 use crate::random::{Stream, key};
+use crate::turns::Turns;
 use crate::{Case, Content, DrawnCase, EffectId, Error, Outsider, Setting, Settings, Severity, TyreLaw};
 
 /// Relative shares of the kinds of cases in a set.
@@ -14,11 +15,13 @@ pub struct Mix {
     pub pair: f64,
     /// Something outside the vocabulary.
     pub outsider: f64,
+    /// Three effects.
+    pub triple: f64,
 }
 
 impl Default for Mix {
     fn default() -> Self {
-        Self { null: 0.2, single: 0.5, pair: 0.18, outsider: 0.12 }
+        Self { null: 0.2, single: 0.5, pair: 0.18, outsider: 0.12, triple: 0.0 }
     }
 }
 
@@ -47,7 +50,7 @@ impl Plan {
 /// Plans a set of `n` cases. Kinds come in the shares of the mix, effects, outsiders, severities,
 /// tyre laws and settings in turn, all in an order that the seed draws.
 pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
-    let shares = [mix.null, mix.single, mix.pair, mix.outsider].map(|s| s.max(0.0));
+    let shares = [mix.null, mix.single, mix.pair, mix.outsider, mix.triple].map(|s| s.max(0.0));
     let counts = apportion(n, shares);
     let mut s = Stream::new(seed, "set", 0);
     let mut singles = turns(&mut s, &EffectId::ALL, counts[1]);
@@ -67,6 +70,8 @@ pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
     contents.extend(pairs.map(|(a, b)| Content::Effects(vec![a, b])));
     let outsiders = turns(&mut s, &Outsider::ALL, counts[3]);
     contents.extend(outsiders.into_iter().map(Content::Outsider));
+    let mut threes = Turns::new(&physical, Stream::new(seed, "three at once", 0));
+    contents.extend((0..counts[4]).map(|_| Content::Effects(threes.different(3))));
     let severities = turns(&mut s, &Severity::ALL, n);
     let mut plans: Vec<_> = contents
         .into_iter()
@@ -93,11 +98,11 @@ pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
 }
 
 /// Whole numbers that sum to `n` in the given shares, by largest remainder.
-fn apportion(n: usize, shares: [f64; 4]) -> [usize; 4] {
+fn apportion(n: usize, shares: [f64; 5]) -> [usize; 5] {
     let total: f64 = shares.iter().sum();
     let exact = shares.map(|s| if total > 0.0 { n as f64 * s / total } else { 0.0 });
     let mut counts = exact.map(|e| e as usize);
-    let mut order = [0, 1, 2, 3];
+    let mut order = [0, 1, 2, 3, 4];
     order.sort_by(|a, b| exact[*b].fract().total_cmp(&exact[*a].fract()));
     let missing = n.saturating_sub(counts.iter().sum());
     for i in order.into_iter().cycle().take(missing) {
@@ -125,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_set_has_its_mix_and_is_stable() {
-        assert_eq!(apportion(10, [0.2, 0.5, 0.18, 0.12]), [2, 5, 2, 1]);
+        assert_eq!(apportion(10, [0.2, 0.5, 0.18, 0.12, 0.0]), [2, 5, 2, 1, 0]);
         let plans = set(4, 100, Mix::default(), &Settings::default());
         let nulls = plans.iter().filter(|p| p.settings.content == Content::Null);
         assert_eq!((plans.len(), nulls.count()), (100, 20));

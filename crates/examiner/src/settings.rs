@@ -71,7 +71,7 @@ pub enum Place {
 pub enum Content {
     /// Nothing.
     Null,
-    /// These effects of the vocabulary.
+    /// These effects of the vocabulary, three at most.
     Effects(Vec<EffectId>),
     /// One effect of the vocabulary, whichever the seed draws.
     AnySingle,
@@ -85,6 +85,7 @@ pub enum Content {
 
 /// Everything about a case that is not drawn.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "sensors and laws that are there or not")]
 pub struct Settings {
     /// What is hidden.
     pub content: Content,
@@ -94,8 +95,10 @@ pub struct Settings {
     pub setting: Option<Setting>,
     /// The tyre law of the true robot; drawn if not given.
     pub law: Option<TyreLaw>,
-    /// The size of the robot.
+    /// The size of the robot, unless its mass is given.
     pub class: RobotClass,
+    /// Middle of the mass, kg, between 2 and 500; lengths, inertias and friction follow those of the classes.
+    pub mass_kg: Option<f64>,
     /// Rows per second: 50, 100 or 200 (any divisor of 4000 works).
     pub row_rate_hz: f64,
     /// Whether pose samples are there.
@@ -104,9 +107,11 @@ pub struct Settings {
     pub accelerometer: bool,
     /// Factor on all sensor noise but quantisation.
     pub noise: f64,
+    /// Whether three in a hundred samples of gyro, accelerometer and pose err by five times the noise.
+    pub heavy_tails: bool,
     /// Length of reference runs and recordings; held-out runs last 5/6 of it.
     pub duration_s: f64,
-    /// Number of reference runs.
+    /// Number of reference runs; none is possible.
     pub references: usize,
     /// Number of recordings; three or four if not given.
     pub recordings: Option<usize>,
@@ -127,6 +132,8 @@ pub struct Settings {
     pub controller_gain: f64,
     /// How many sigmas at most each constant of the robot moves after the references: re-tuning explains that.
     pub moved: f64,
+    /// Whether laws have other exponents and courses than usual: stiction, drag, drift with time, wheels out of true.
+    pub other_laws: bool,
 }
 
 impl Default for Settings {
@@ -137,10 +144,12 @@ impl Default for Settings {
             setting: None,
             law: None,
             class: RobotClass::Medium,
+            mass_kg: None,
             row_rate_hz: 100.0,
             pose: true,
             accelerometer: true,
             noise: 1.0,
+            heavy_tails: false,
             duration_s: 24.0,
             references: 3,
             recordings: None,
@@ -152,6 +161,7 @@ impl Default for Settings {
             drives: Vec::new(),
             controller_gain: 1.0,
             moved: 0.0,
+            other_laws: false,
         }
     }
 }

@@ -35,6 +35,11 @@ impl Rate {
         let whole = 1.0 + z2 / n;
         [((centre - half) / whole).max(0.0), ((centre + half) / whole).min(1.0)]
     }
+
+    /// "3 of 4", for few cases, which need no interval; "-" where nothing was counted.
+    pub fn counted(self) -> String {
+        if self.count == 0 { "-".to_owned() } else { format!("{} of {}", self.hits, self.count) }
+    }
 }
 
 impl fmt::Display for Rate {
@@ -65,6 +70,7 @@ mod tests {
         let rate: Rate = [true, false, true, true].into_iter().collect();
         assert_eq!((rate.hits, rate.count, rate.share()), (3, 4, Some(0.75)));
         assert_eq!(rate.to_string(), "75.0 % (3/4; 30 to 95)");
+        assert_eq!((rate.counted(), Rate::default().counted()), ("3 of 4".to_owned(), "-".to_owned()));
         assert_eq!(Rate::default().to_string(), "-");
     }
 }

@@ -21,7 +21,7 @@ use crate::{locate, retuned, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
-use inference::hypothesis::{Place, Variant};
+use inference::hypothesis::Place;
 use robot_model::tunable::tuned;
 use verdict::FORMAT;
 use verdict::{Cause, Diagnosis, Estimate, Trial, Verdict};
@@ -199,16 +199,8 @@ impl Judged<'_> {
             .held_out
             .iter()
             .map(|h| {
-                // Where an effect began at an instant, it is there throughout what follows.
                 let doses = corrector.map_or(Vec::new(), |w| {
-                    let always: Vec<(Variant, Vec<Option<f64>>)> = w
-                        .trial
-                        .hypothesis
-                        .parts
-                        .iter()
-                        .map(|(v, o)| (*v, o.iter().map(|_| Some(-1.0)).collect()))
-                        .collect();
-                    let doses = Hypothesis { parts: always }.doses(&w.trial.fitted.point.effects, 0);
+                    let doses = w.trial.hypothesis.lasting().doses(&w.trial.fitted.point.effects, 0);
                     doses.iter().map(Dose::active).collect()
                 });
                 let corrected = predict(h, &tuned(p.robot, &p.sigma, &forecaster), &doses, gyro, self.options.step);

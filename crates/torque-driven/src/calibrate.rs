@@ -149,7 +149,14 @@ pub(crate) fn calibrate_on(
     let mut at = problem.begin(&none, at.point, None);
     at = problem.refine(&none, at, CALIBRATING.last_steps, None);
     problem.variance = channel_variance(&problem, &at.response);
-    let regimes = regimes(&problem, &at.response);
+    let regimes = if driver == Driver::Robot && cuts.len() < CALIBRATING.enough_references {
+        // What a fit leaves of the drives that it was fitted to is too little, and few drives do not show by how much.
+        let usual = Channels::from(CALIBRATING.usual_residual);
+        problem.variance = Channels::from_fn(|c| problem.variance[c].max(usual[c].powi(2)));
+        Regimes::default()
+    } else {
+        regimes(&problem, &at.response)
+    };
     problem.regime = regimes.of(cuts);
 
     // What the references know of the constants is the prior of the recordings.

@@ -113,7 +113,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let mut scored: Vec<Scored> = found
         .singles
         .iter()
-        .chain(&found.pairs)
+        .chain(&found.several)
         .map(|t| {
             let visits = visits::supporting(problem, base, t);
             let once = if visits.is_some_and(|n| n < SETTINGS.visits.needed) { PRICES.one_visit } else { 0.0 };
@@ -154,7 +154,7 @@ mod tests {
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let problem = problem(&robot, &cuts);
         let retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
-        let found = SearchResult { retuned, singles: Vec::new(), pairs: Vec::new(), screened: Vec::new() };
+        let found = SearchResult { retuned, singles: Vec::new(), several: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
@@ -180,7 +180,7 @@ mod tests {
         let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
         retuned.cost += 100.0;
         let singles = ["viscous_friction", "rolling_resistance"].map(|id| gained(&problem, &retuned, id, 24.0));
-        let found = SearchResult { retuned, singles: singles.to_vec(), pairs: Vec::new(), screened: Vec::new() };
+        let found = SearchResult { retuned, singles: singles.to_vec(), several: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);
 
         let named: f64 = decision.scored.iter().map(|s| s.probability).sum();

@@ -115,8 +115,9 @@ impl Calibrated {
                 (found, decision) = weigh(&calibration, known);
             }
         }
-        // Without references the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
-        for _ in 1..if self.references.is_empty() { CALIBRATING.most_searches } else { 1 } {
+        // Without references, and with one, the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
+        let is_noise_learnt = self.references.len() < CALIBRATING.enough_references;
+        for _ in 1..if is_noise_learnt { CALIBRATING.most_searches } else { 1 } {
             let before = problem(&robot, case, &recordings, &calibration, largest, options);
             let best = decision.scored.first().filter(|s| s.probability > decision.none);
             if !calibration.learn_noise(&before, best.map_or(&found.retuned, |s| &s.trial.fitted)) {

@@ -13,67 +13,18 @@ use sim::rollout::Grid;
 
 use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
+pub(crate) use crate::hypothesis::Hypothesis;
 use crate::run_numbers::{RunNumber, RunNumbers, UNKNOWN};
 use crate::settings::fit::{Fit, SETTINGS};
 use crate::simulate::{Body, Response, RunResponse, free_run};
 use crate::windows::Cut;
 use inference::hypothesis::{Dose, Sizes};
-use inference::hypothesis::{Free, Onsets, Variant, variants};
+use inference::hypothesis::{Free, Variant, variants};
 use verdict::Correction;
 
 /// Cost of a response that is not finite.
 const HOPELESS: f64 = 1e300;
 const FIT: Fit = SETTINGS.fit;
-
-/// Effects that a fit includes, with the onsets of those that have one.
-#[derive(Clone, Default)]
-pub(crate) struct Hypothesis {
-    pub(crate) parts: Vec<(Variant, Onsets)>,
-}
-
-impl Hypothesis {
-    pub(crate) fn single(variant: Variant, onsets: Onsets) -> Self {
-        Self { parts: vec![(variant, onsets)] }
-    }
-
-    /// Its effects, in order.
-    pub(crate) fn ids(&self) -> Vec<&'static str> {
-        self.parts.iter().map(|(v, _)| v.spec().id).collect()
-    }
-
-    /// Its effects with where they are present.
-    pub(crate) fn variants(&self) -> impl Iterator<Item = &Variant> {
-        self.parts.iter().map(|(variant, _)| variant)
-    }
-
-    /// Of several effects each one alone, with its values.
-    pub(crate) fn each_alone(&self, effects: &[f64]) -> Vec<(Self, Vec<f64>)> {
-        let mut rest = effects;
-        let alone = |part: &(Variant, Onsets)| {
-            let (own, others) = rest.split_at(part.0.count());
-            rest = others;
-            (Self { parts: vec![part.clone()] }, own.to_vec())
-        };
-        if self.parts.len() > 1 { self.parts.iter().map(alone).collect() } else { Vec::new() }
-    }
-
-    pub(crate) fn free(&self, sizes: &Sizes) -> Vec<Free> {
-        self.parts.iter().flat_map(|(v, _)| v.free(sizes)).collect()
-    }
-
-    pub(crate) fn doses(&self, e: &[f64], run: usize) -> Vec<Dose> {
-        let mut at = 0;
-        self.parts
-            .iter()
-            .map(|(v, onsets)| {
-                let n = v.count();
-                let dose = v.dose(&e[at..at + n], onsets.get(run).copied().flatten());
-                at += n;
-                dose
-            })
-            .collect()
-    }
-}
 
 /// Everything a fit compares with and is bound by.
 #[derive(Clone)]

@@ -11,6 +11,7 @@
 //!   reference.
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
+//! * `hypothesis`: effects that are missing together.
 //! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
 //!   `onset`: place and time.
 //! * `decide`, `judged`, `visits`: from fits to probabilities.
@@ -37,6 +38,7 @@ mod few_constants;
 mod fit;
 mod fitted_robot;
 mod forward;
+mod hypothesis;
 mod judged;
 mod leave_out;
 mod local;

@@ -1,4 +1,4 @@
-//! The search: screen, finalists, refits, pairs.
+//! The search: screen, finalists, refits, two effects together, three.
 
 use std::sync::Arc;
 
@@ -7,13 +7,14 @@ use robot_model::EffectSpec;
 use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::screen::screen;
-use crate::settings::search::{Finalists, Pairs, Retuning, SETTINGS};
+use crate::settings::search::{Finalists, Pairs, Retuning, SETTINGS, Thirds};
 use crate::trial::{SearchResult, Trial};
 use crate::{disc, onset};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const RETUNING: Retuning = SETTINGS.retuning;
 const PAIRS: Pairs = SETTINGS.pairs;
+const THIRDS: Thirds = SETTINGS.thirds;
 
 /// Places that are left to common and to rare effects.
 struct Places([usize; 2]);
@@ -150,10 +151,16 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
     }
 
     progress("looking for a second effect");
-    let pairs = pairs(problem, &singles, &origin);
-    if let Some(best) = pairs.first() {
+    let mut several = pairs(problem, &singles, &origin);
+    if let Some(best) = several.first() {
         converge_members(problem, best, &mut singles);
     }
+    let three = thirds(problem, &singles, &several, &origin, progress);
+    if let Some(best) = three.first() {
+        converge_members(problem, best, &mut several);
+    }
+    several.extend(three);
+    best_first(&mut several);
 
     let mut screened: Vec<(String, f64)> =
         by_id(&first).iter().map(|c| (c.variant.spec().id.to_owned(), c.evidence)).collect();
@@ -162,28 +169,25 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
             s.1 = s.1.max(c.evidence);
         }
     }
-    SearchResult { retuned, singles, pairs, screened }
+    SearchResult { retuned, singles, several, screened }
 }
 
-/// Fits each member of a pair alone from the pair's tuning: a single that had not converged would invent a gain for
-/// whatever stands beside it.
-fn converge_members(problem: &Problem<'_>, pair: &Trial, singles: &mut [Trial]) {
-    let mut from = 0;
-    for (variant, _) in &pair.hypothesis.parts {
-        let until = from + variant.count();
-        for single in singles.iter_mut().filter(|t| t.hypothesis.parts[0].0.label() == variant.label()) {
-            if single.fitted.cost - pair.fitted.cost > PAIRS.least_second {
-                let effects = pair.fitted.point.effects[from..until].to_vec();
-                let start = begin(problem, &single.hypothesis, &pair.fitted.point, &effects, &pair.fitted);
-                let again = problem.refine(&single.hypothesis, start, FINALISTS.more_steps, Some(2));
-                if again.cost < single.fitted.cost {
-                    single.fitted = again;
-                }
+/// Fits what a hypothesis holds with one effect less again, from its tuning: a fit that had not converged would invent a
+/// gain for the effect that is added.
+fn converge_members(problem: &Problem<'_>, whole: &Trial, members: &mut [Trial]) {
+    for member in members.iter_mut().filter(|t| t.hypothesis.parts.len() + 1 == whole.hypothesis.parts.len()) {
+        let Some(effects) = whole.hypothesis.values_of(&member.hypothesis, &whole.fitted.point.effects) else {
+            continue;
+        };
+        if member.fitted.cost - whole.fitted.cost > PAIRS.least_second {
+            let start = begin(problem, &member.hypothesis, &whole.fitted.point, &effects, &whole.fitted);
+            let again = problem.refine(&member.hypothesis, start, FINALISTS.more_steps, Some(2));
+            if again.cost < member.fitted.cost {
+                member.fitted = again;
             }
         }
-        from = until;
     }
-    best_first(singles);
+    best_first(members);
 }
 
 fn best_first(trials: &mut [Trial]) {
@@ -229,10 +233,52 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
     out
 }
 
-/// Partners of `first`, screened with it present at its fitted size.
+/// Third effects beside the two best pairs, where a second effect matters: screened with both at their sizes, refitted from
+/// the calibrated point, the best with more steps.
+fn thirds(
+    problem: &Problem<'_>,
+    singles: &[Trial],
+    pairs: &[Trial],
+    origin: &Fitted,
+    progress: &dyn Fn(&str),
+) -> Vec<Trial> {
+    let single = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
+    let mut out: Vec<Trial> = Vec::new();
+    for pair in pairs.iter().take(THIRDS.pairs).filter(|t| single - t.fitted.cost > THIRDS.least_second) {
+        if out.is_empty() {
+            progress("looking for a third effect");
+        }
+        let (h2, e2) = (&pair.hypothesis, &pair.fitted.point.effects);
+        let base = begin(problem, h2, &origin.point, e2, origin);
+        let partners = screen_beside(problem, &base, pair);
+        for p in partners.into_iter().filter(|p| p.evidence > THIRDS.partner_evidence).take(THIRDS.partners) {
+            let mut h = h2.clone();
+            h.parts.push((p.variant, p.onsets.clone()));
+            let sorted = |h: &Hypothesis| {
+                let mut ids = h.ids();
+                ids.sort_unstable();
+                ids
+            };
+            if out.iter().any(|t| sorted(&t.hypothesis) == sorted(&h)) {
+                continue;
+            }
+            let start: Vec<f64> = e2.iter().chain(&p.start).copied().collect();
+            let start = begin(problem, &h, &origin.point, &start, origin);
+            out.push(refit(problem, h, start, FINALISTS.steps, None));
+        }
+    }
+    best_first(&mut out);
+    for trial in out.iter_mut().take(THIRDS.polished) {
+        *trial = polish(problem, trial, FINALISTS.more_steps);
+    }
+    best_first(&mut out);
+    out
+}
+
+/// Partners of the effects of `first`, screened with these present at their fitted sizes.
 fn screen_beside(problem: &Problem<'_>, base: &Fitted, first: &Trial) -> Vec<Candidate> {
-    let id = first.hypothesis.parts[0].0.spec().id;
-    let others: Vec<_> = problem.variants().into_iter().filter(|v| v.spec().id != id).collect();
+    let ids = first.hypothesis.ids();
+    let others: Vec<_> = problem.variants().into_iter().filter(|v| !ids.contains(&v.spec().id)).collect();
     let list = screen(problem, base, &others, &first.hypothesis);
     by_id(&list).into_iter().cloned().collect()
 }

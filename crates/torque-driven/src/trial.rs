@@ -14,7 +14,8 @@ pub(crate) struct Trial {
 pub(crate) struct SearchResult {
     pub(crate) retuned: Fitted,
     pub(crate) singles: Vec<Trial>,
-    pub(crate) pairs: Vec<Trial>,
+    /// Two or three effects together.
+    pub(crate) several: Vec<Trial>,
     /// Best evidence of the screens per effect id, for the report.
     pub(crate) screened: Vec<(String, f64)>,
 }
@@ -22,7 +23,7 @@ pub(crate) struct SearchResult {
 impl SearchResult {
     /// Takes a fit that was found elsewhere, unless the same hypothesis was fitted better here.
     pub(crate) fn include(&mut self, trial: Trial) {
-        let list = if trial.hypothesis.parts.len() > 1 { &mut self.pairs } else { &mut self.singles };
+        let list = if trial.hypothesis.parts.len() > 1 { &mut self.several } else { &mut self.singles };
         let labels = |t: &Trial| t.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
         match list.iter_mut().find(|t| labels(t) == labels(&trial)) {
             Some(known) if known.fitted.cost <= trial.fitted.cost => {}
@@ -53,7 +54,7 @@ mod tests {
         let mut found = SearchResult {
             retuned: retuned.clone(),
             singles: vec![trial(&["payload"], 5.0)],
-            pairs: Vec::new(),
+            several: Vec::new(),
             screened: Vec::new(),
         };
         found.include(trial(&["payload"], 7.0));
@@ -62,13 +63,17 @@ mod tests {
         assert_eq!((found.singles.len(), found.singles[0].fitted.cost), (1, 3.0));
         found.include(trial(&["viscous_friction"], 9.0));
         found.include(trial(&["payload", "viscous_friction"], 2.0));
-        assert_eq!((found.singles.len(), found.pairs.len()), (2, 1));
+        assert_eq!((found.singles.len(), found.several.len()), (2, 1));
 
-        let pair = &found.pairs[0].hypothesis;
+        let pair = &found.several[0].hypothesis;
         let alone = pair.each_alone(&[2.0, 0.1]);
         let ids: Vec<Vec<&str>> = alone.iter().map(|(h, _)| h.ids()).collect();
         assert_eq!(ids, [["payload"], ["viscous_friction"]]);
         assert_eq!([&*alone[0].1, &*alone[1].1], [&[2.0][..], &[0.1]]);
         assert!(found.singles[0].hypothesis.each_alone(&[2.0]).is_empty());
+        assert_eq!(pair.values_of(&alone[1].0, &[2.0, 0.1]), Some(vec![0.1]));
+        let swapped = Hypothesis { parts: pair.parts.iter().rev().cloned().collect() };
+        assert_eq!(pair.values_of(&swapped, &[2.0, 0.1]), Some(vec![0.1, 2.0]));
+        assert_eq!(alone[0].0.values_of(&swapped, &[2.0]), None);
     }
 }

@@ -17,7 +17,7 @@ pub(super) const FEW: usize = 100;
 pub(super) fn figures(rows: &[Row], failed: usize) -> Vec<Figure> {
     let of = |kinds: &[Kind]| Totals::of(&rows.iter().filter(|r| kinds.contains(&r.kind)).collect::<Vec<_>>());
     let (all, single, pair) = (of(&Kind::ALL), of(&[Kind::Single]), of(&[Kind::Pair]));
-    let mut list = List { figures: Vec::new(), few: rows.len() < FEW };
+    let mut list = List::new(rows);
     list.free("cases", Some(rows.len() as f64), "");
     for kind in Kind::ALL {
         list.free(&format!("cases, {}", kind.name()), Some(rows.iter().filter(|r| r.kind == kind).count() as f64), "");
@@ -61,27 +61,35 @@ pub(super) fn figures(rows: &[Row], failed: usize) -> Vec<Figure> {
     list.free("time of a case by the clock, median", median(&all.seconds), "s");
     list.free("time of a case by the clock, longest", largest(&all.seconds), "s");
     list.asked("memory of a case, most", largest(&all.memory), "MiB", AtMost(128.0));
-    list.figures
+    list.figures()
 }
 
 /// Figures in the making; what there are no cases for is left out.
-struct List {
+pub(super) struct List {
     figures: Vec<Figure>,
     /// So few cases that chance alone misses targets: one is missed only where its 95 % interval excludes it.
     few: bool,
 }
 
 impl List {
-    fn free(&mut self, name: &str, value: Option<f64>, unit: &str) {
+    pub(super) fn new(rows: &[Row]) -> Self {
+        Self { figures: Vec::new(), few: rows.len() < FEW }
+    }
+
+    pub(super) fn figures(self) -> Vec<Figure> {
+        self.figures
+    }
+
+    pub(super) fn free(&mut self, name: &str, value: Option<f64>, unit: &str) {
         self.figures.extend(value.map(|v| Figure::free(name, v, unit)));
     }
 
-    fn asked(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
+    pub(super) fn asked(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
         self.figures.extend(value.map(|v| Figure::free(name, v, unit).asked(asked)));
     }
 
     /// A figure of which a few cases say nothing: its target is not asked of them.
-    fn of_many(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
+    pub(super) fn of_many(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
         if self.few {
             self.free(name, value, unit);
         } else {
@@ -89,7 +97,7 @@ impl List {
         }
     }
 
-    fn rate(&mut self, name: &str, rate: Rate, asked: Asked) {
+    pub(super) fn rate(&mut self, name: &str, rate: Rate, asked: Asked) {
         let [low, high] = rate.interval();
         let permits = match asked {
             AtLeast(least) => high >= least,
@@ -99,7 +107,7 @@ impl List {
         self.permitted(rate.count > 0 && permits);
     }
 
-    fn median(&mut self, name: &str, values: &[f64], unit: &str, asked: Asked) {
+    pub(super) fn median(&mut self, name: &str, values: &[f64], unit: &str, asked: Asked) {
         // The median is beyond the target where more than half of the values are.
         let beyond = values.iter().map(|v| match asked {
             AtLeast(least) => *v < least,

@@ -9,7 +9,6 @@ use case_files::answers::Answer;
 use case_files::{case_folder, predictions};
 use recordings::ReadOptions;
 
-use super::diagnose::vocabulary;
 use crate::output::{self, Figure};
 
 /// Diagnoses every case; a case that fails is named and does not stop the others.
@@ -38,7 +37,7 @@ pub(super) fn run(cases: &Path, answers: &Path, only: &[String]) -> Result<bool>
         times.push(seconds);
         match outcome {
             Ok(d) => {
-                Answer::of(&d)?.within(&vocabulary()).write(answers, &name, seconds)?;
+                Answer::of(&d)?.write(answers, &name, seconds)?;
                 predictions::write(&answers.join(&name), &d)?;
                 let whole = answers.join(&name).join("diagnosis.json");
                 fs::write(&whole, serde_json::to_string_pretty(&d)?)

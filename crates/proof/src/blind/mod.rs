@@ -26,6 +26,7 @@ mod speed;
 mod tables;
 mod totals;
 pub(crate) mod truth;
+mod wide;
 mod write;
 
 use layout::Layout;
@@ -36,6 +37,7 @@ Examples:
   cargo xtask blind                                    300 cases: draw, seal, diagnose, score
   cargo xtask blind --quick --judge                    12 cases; fails when a target is missed
   cargo xtask blind --draw-only --count 20 --out DIR   cases and truth for other tools
+  cargo xtask blind --wide                             robots, sensors and visits of every sort
   cargo xtask blind --kind speed --count 200           speed-driven cases
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
 
@@ -132,7 +134,7 @@ fn examine(args: &Args, plans: &[&Plan], layout: &Layout, seals: &seal::Seals, p
         .zip(&outcomes)
         .map(|(plan, outcome)| score::row(layout, plan, seals, outcome.as_ref().ok()))
         .collect::<Result<Vec<_>>>()?;
-    let figures = figures::figures(&rows, failed);
+    let figures = if args.drawing.is_wide() { wide::figures(&rows, failed) } else { figures::figures(&rows, failed) };
     write::all(layout, &args.drawing.described(), &rows, &figures)?;
     let missed = figures.iter().any(|f| f.pass == Some(false));
     Ok(failed == 0 && !(args.running.judge && missed))

@@ -11,6 +11,7 @@ const QUICK: usize = 12;
 /// How a set is drawn.
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Drawing")]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command")]
 pub(super) struct Drawing {
     /// Seed of the set.
     #[arg(long, default_value_t = 2026)]
@@ -21,8 +22,9 @@ pub(super) struct Drawing {
     /// Twelve cases, of each kind at least one.
     #[arg(long, conflicts_with = "count")]
     quick: bool,
-    /// Shares of cases with nothing hidden, one effect, two, and a cause outside the vocabulary [default: 0.2,0.5,0.18,0.12].
-    #[arg(long, value_name = "NULL,SINGLE,PAIR,OUTSIDER", value_parser = mix)]
+    /// Shares of cases with nothing hidden, one effect, two, a cause outside the vocabulary, and, if given, three effects
+    /// [default: 0.2,0.5,0.18,0.12].
+    #[arg(long, value_name = "NULL,SINGLE,PAIR,OUTSIDER[,THREE]", value_parser = mix)]
     mix: Option<Mix>,
     /// Tyre law of the true robots; both in turn if not given.
     #[arg(long, value_parser = one_of([("brush", TyreLaw::Brush), ("pacejka", TyreLaw::Pacejka)]))]
@@ -50,6 +52,12 @@ pub(super) struct Drawing {
     /// How far each constant of the robot moves after these at most, in the sigmas that its file states.
     #[arg(long, value_name = "SIGMAS", default_value_t = Settings::default().moved)]
     moved: f64,
+    /// Robots of 5 to 300 kg, 20 to 1000 rows/s, sensors left out, none to ten references, constants that moved, heavy
+    /// tails, laws by another hand, up to three effects at once: each case has its own.
+    #[arg(long, conflicts_with_all = [
+        "mix", "law", "setting", "class", "rate", "noise", "duration", "references", "moved", "no_pose", "no_accel",
+    ])]
+    wide: bool,
     /// Leave out the pose.
     #[arg(long)]
     no_pose: bool,
@@ -59,6 +67,10 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
+    pub(super) fn is_wide(&self) -> bool {
+        self.wide
+    }
+
     fn count(&self) -> usize {
         if self.quick { QUICK } else { self.count }
     }
@@ -69,6 +81,9 @@ impl Drawing {
 
     /// The cases that are to be drawn.
     pub(super) fn plans(&self) -> Vec<Plan> {
+        if self.wide {
+            return examiner::wide(self.seed, self.count());
+        }
         let settings = Settings {
             setting: self.setting,
             law: self.law,
@@ -87,6 +102,9 @@ impl Drawing {
 
     /// One line for people.
     pub(super) fn described(&self) -> String {
+        if self.wide {
+            return format!("Wide set of {} cases, seed {}.", self.count(), self.seed);
+        }
         let law = self.law.map_or("both tyre laws", TyreLaw::name);
         let setting = self.setting.map_or("normal and weak", Setting::name);
         let without = match (self.no_pose, self.no_accel) {
@@ -139,14 +157,16 @@ fn mix(text: &str) -> Result<Mix, String> {
         .split(',')
         .map(|s| s.trim().parse().map_err(|_| format!("'{s}' is no number")))
         .collect::<Result<_, _>>()?;
-    let [null, single, pair, outsider] = shares[..] else {
-        return Err(format!("four shares are needed, these are {}", shares.len()));
+    let (null, single, pair, outsider, triple) = match shares[..] {
+        [null, single, pair, outsider] => (null, single, pair, outsider, 0.0),
+        [null, single, pair, outsider, triple] => (null, single, pair, outsider, triple),
+        _ => return Err(format!("four or five shares are needed, these are {}", shares.len())),
     };
     let sensible = shares.iter().all(|s| s.is_finite() && *s >= 0.0) && shares.iter().sum::<f64>() > 0.0;
     if !sensible {
         return Err("shares must be finite, not negative, and not all zero".to_owned());
     }
-    Ok(Mix { null, single, pair, outsider })
+    Ok(Mix { null, single, pair, outsider, triple })
 }
 
 #[cfg(test)]
@@ -168,7 +188,8 @@ mod tests {
     #[test]
     fn a_mix_is_four_sensible_shares() {
         let read = mix("0, 1,0.5,0").expect("reads");
-        assert_eq!((read.null, read.single, read.pair, read.outsider), (0.0, 1.0, 0.5, 0.0));
+        assert_eq!((read.null, read.single, read.pair, read.outsider, read.triple), (0.0, 1.0, 0.5, 0.0, 0.0));
+        assert_eq!(mix("0,0,0,0,1").expect("reads").triple, 1.0);
         for bad in ["1,2,3", "a,0,0,0", "0,0,0,0", "-1,2,0,0", "inf,0,0,0"] {
             assert!(mix(bad).is_err(), "{bad}");
         }

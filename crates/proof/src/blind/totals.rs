@@ -15,6 +15,10 @@ pub(super) struct Totals {
     /// Pairs.
     pub(super) one_of_pair: Rate,
     pub(super) both_of_pair: Rate,
+    /// All three of those with three, in the 90 % set.
+    pub(super) three_in_set: Rate,
+    /// An effect that is not hidden is told to be there.
+    pub(super) invented: Rate,
     pub(super) in_set: Rate,
     pub(super) set_sizes: Vec<f64>,
     /// Cases with nothing hidden whose verdict is something else.
@@ -50,7 +54,7 @@ impl Totals {
     pub(super) fn of(rows: &[&Row]) -> Self {
         let of_kind = |kinds: &'static [Kind]| rows.iter().filter(move |r| kinds.contains(&r.kind));
         let (nulls, pairs) = (of_kind(&[Kind::Null]), of_kind(&[Kind::Pair]));
-        let hidden = of_kind(&[Kind::Single, Kind::Pair]);
+        let hidden = of_kind(&[Kind::Single, Kind::Pair, Kind::Triple]);
         let parts = || rows.iter().flat_map(|r| &r.parts);
         let some = |f: &dyn Fn(&Part) -> Option<f64>| parts().filter_map(f).collect::<Vec<f64>>();
         let errors = |r: &Part| r.onset_errors.clone();
@@ -64,6 +68,8 @@ impl Totals {
             class: rows.iter().map(|r| r.naming.class).collect(),
             one_of_pair: pairs.clone().map(|r| r.naming.any_in_three).collect(),
             both_of_pair: pairs.map(|r| r.naming.all_in_three).collect(),
+            three_in_set: of_kind(&[Kind::Triple]).map(|r| r.belief.in_set).collect(),
+            invented: rows.iter().map(|r| r.naming.invented).collect(),
             in_set: rows.iter().map(|r| r.belief.in_set).collect(),
             set_sizes: rows.iter().map(|r| r.belief.set_size as f64).collect(),
             alarmed: nulls.clone().map(|r| !r.naming.right).collect(),

@@ -89,7 +89,7 @@ fn plans(args: &Args) -> Vec<Plan> {
         heldout: 1,
         ..Settings::default()
     };
-    let mix = Mix { null: 0.0, single: 1.0, pair: 0.0, outsider: 0.0 };
+    let mix = Mix { null: 0.0, single: 1.0, pair: 0.0, outsider: 0.0, triple: 0.0 };
     let mut plans = examiner::set(args.seed, args.count, mix, &settings);
     plans.retain(|p| args.only.is_empty() || args.only.contains(&p.name));
     plans

@@ -6,13 +6,11 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::decide::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::hypothesis::THROUGHOUT;
 use crate::run_numbers::UNKNOWN;
 use crate::settings::{fit, next::SETTINGS};
 use inference::algebra::solve_spd;
 use inference::hypothesis::{Free, Place};
-
-/// An onset before the beginning: there throughout.
-const THROUGHOUT: Option<f64> = Some(-1.0);
 
 /// A hypothesis that may be true.
 pub(crate) struct Rival {
@@ -47,7 +45,7 @@ impl Rival {
         }
         let free = hypothesis.free(&problem.sizes());
         let further = further(&information, hypothesis, &free, &fitted.point.effects);
-        let parts = hypothesis.parts.iter().map(|(v, _)| (*v, vec![THROUGHOUT]));
+        let parts = hypothesis.parts.iter().map(|(v, _)| (*v, vec![Some(THROUGHOUT)]));
         let names: Vec<String> = hypothesis.parts.iter().map(|(v, _)| inference::words::variant(v)).collect();
         Some(Self {
             effects: ids(hypothesis),
@@ -67,7 +65,11 @@ impl Rival {
         let of = |onset: Option<f64>| Hypothesis {
             parts: self.hypothesis.parts.iter().map(|(v, _)| (*v, vec![onset])).collect(),
         };
-        if begins { vec![of(THROUGHOUT), of(Some(0.5 * length)), of(None)] } else { vec![self.hypothesis.clone()] }
+        if begins {
+            vec![of(Some(THROUGHOUT)), of(Some(0.5 * length)), of(None)]
+        } else {
+            vec![self.hypothesis.clone()]
+        }
     }
 
     /// Centre and radius of the first place that it names.

@@ -77,7 +77,9 @@ use crate::channel::ByQuantity;
         spread_width: f64 = 0.6, "1", "guess";
         /// Correlation of the errors of left and right dry friction in a robot file.
         coulomb_correlation: f64 = 0.8, "1", "guess: one owner, one gearbox type, one measurement";
-        /// Without references: what a tuned simulation of a robot leaves in each channel.
+        /// References below which no channel is trusted beyond what a tuned simulation of a robot usually leaves.
+        enough_references: usize = 2, "1", "formula: one drive cannot be left out to see what a fit to the others leaves of it";
+        /// Without references, and with too few: what a tuned simulation of a robot leaves in each channel.
         usual_residual: ByQuantity = ByQuantity {
             wheel_speed: 0.12,
             yaw_rate: 0.03,

@@ -101,6 +101,20 @@
         /// Gain of a second effect that could matter.
         least_second: f64 = 12.0, "nats", "guess";
     }
+
+    /// Refits of three effects together.
+    thirds: Thirds {
+        /// Gain of the best pair over the best single effect from which a third effect is looked for.
+        least_second: f64 = 20.0, "nats", "guess";
+        /// Pairs beside which one is looked for.
+        pairs: usize = 2, "1", "guess";
+        /// Partners of a pair that are tried.
+        partners: usize = 3, "1", "guess";
+        /// Evidence that a partner must exceed.
+        partner_evidence: f64 = 5.0, "nats", "guess";
+        /// Threes that get more steps.
+        polished: usize = 2, "1", "guess";
+    }
 }
 
 /// As this crate uses them.

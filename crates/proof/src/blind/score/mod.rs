@@ -13,6 +13,7 @@ use super::truth;
 
 mod belief;
 mod calibration;
+mod conditions;
 mod heldout;
 mod naming;
 mod sizes;
@@ -22,6 +23,7 @@ mod testing;
 
 pub(super) use belief::Belief;
 pub(super) use calibration::{bins, expected_error};
+pub(super) use conditions::{Conditions, STRATA};
 pub(super) use heldout::HeldOut;
 pub(super) use naming::Naming;
 pub(super) use sizes::Part;
@@ -42,12 +44,14 @@ pub(super) enum Kind {
     Single,
     /// Two of them.
     Pair,
+    /// Three of them.
+    Triple,
     /// Something outside the vocabulary.
     Outsider,
 }
 
 impl Kind {
-    pub(super) const ALL: [Self; 4] = [Self::Null, Self::Single, Self::Pair, Self::Outsider];
+    pub(super) const ALL: [Self; 5] = [Self::Null, Self::Single, Self::Pair, Self::Triple, Self::Outsider];
 
     /// Its name for people, in the plural.
     pub(super) fn name(self) -> &'static str {
@@ -55,6 +59,7 @@ impl Kind {
             Self::Null => "nothing hidden",
             Self::Single => "singles",
             Self::Pair => "pairs",
+            Self::Triple => "three at once",
             Self::Outsider => "outsiders",
         }
     }
@@ -64,13 +69,14 @@ impl Kind {
             [] => Self::Null,
             _ if truth.verdict == UNKNOWN => Self::Outsider,
             [_] => Self::Single,
-            _ => Self::Pair,
+            [_, _] => Self::Pair,
+            _ => Self::Triple,
         }
     }
 
     /// Whether effects of the vocabulary are hidden.
     pub(super) fn in_catalogue(self) -> bool {
-        matches!(self, Self::Single | Self::Pair)
+        matches!(self, Self::Single | Self::Pair | Self::Triple)
     }
 }
 
@@ -86,6 +92,8 @@ pub(super) struct Row {
     pub(super) severity: Option<u8>,
     /// Whether the noise drowns an effect.
     pub(super) below_noise: bool,
+    /// What the case was recorded under.
+    pub(super) conditions: Conditions,
     /// Ids of the hidden effects, or the kind of outsider.
     pub(super) hidden: Vec<String>,
     /// The verdict in the scorer's words; `None` if there is no answer.
@@ -119,12 +127,22 @@ impl<'a> RankedAnswer<'a> {
     }
 }
 
+/// Causes outside the examiner's vocabulary that the catalogue has a name for, by the kind of outsider: that name is as right
+/// as "unknown" is. A load that shifts, a cable, gusts and the like have none.
+const NAMESAKES: [(&str, &str); 2] = [("voltage_sag", "battery_sag"), ("contact_loss", "contact_loss")];
+
+/// The name that the catalogue has for a hidden outsider.
+fn namesake(truth: &Truth) -> Option<&'static str> {
+    let kind = truth.effects.first()?.kind.as_deref()?;
+    NAMESAKES.iter().find(|(outsider, _)| *outsider == kind).map(|(_, name)| *name)
+}
+
 /// What the answer should be: ids of effects, "none" or "unknown".
-fn wanted(kind: Kind, truth: &Truth) -> Vec<&str> {
+fn wanted<'a>(kind: Kind, truth: &'a Truth, first: Option<&str>) -> Vec<&'a str> {
     match kind {
         Kind::Null => vec![NONE],
-        Kind::Outsider => vec![UNKNOWN],
-        Kind::Single | Kind::Pair => truth.effects.iter().map(|e| e.id.as_str()).collect(),
+        Kind::Outsider => vec![namesake(truth).filter(|name| first == Some(*name)).unwrap_or(UNKNOWN)],
+        Kind::Single | Kind::Pair | Kind::Triple => truth.effects.iter().map(|e| e.id.as_str()).collect(),
     }
 }
 
@@ -137,6 +155,7 @@ pub(super) fn row(layout: &Layout, plan: &Plan, seals: &Seals, record: Option<&R
     let heldout = HeldOut::of(&opened, predictions.as_deref())?;
     let row = scored(&opened.truth, plan.settings.duration_s, answer.as_ref(), heldout);
     Ok(Row {
+        conditions: Conditions::of(&plan.settings),
         seconds: record.map(|r| r.seconds),
         processor_seconds: record.and_then(|r| r.processor_seconds),
         peak_memory: record.and_then(|r| r.peak_memory),
@@ -153,7 +172,7 @@ fn scored(truth: &Truth, duration: f64, answer: Option<&Answer>, heldout: HeldOu
         ranked: &ranked,
         classes: answer.map_or(&[], |t| t.indistinguishable.as_slice()),
     };
-    let wanted = wanted(kind, truth);
+    let wanted = wanted(kind, truth, ranked_answer.named().first().copied());
     Row {
         case: truth.case.clone(),
         kind,
@@ -161,6 +180,7 @@ fn scored(truth: &Truth, duration: f64, answer: Option<&Answer>, heldout: HeldOu
         setting: truth.setting.clone(),
         severity: truth.effects.first().map(|e| e.severity),
         below_noise: truth.below_noise,
+        conditions: Conditions::default(),
         hidden: truth.effects.iter().map(|e| e.kind.clone().unwrap_or_else(|| e.id.clone())).collect(),
         verdict: answer.map(Answer::verdict),
         naming: Naming::of(kind, &wanted, ranked_answer),

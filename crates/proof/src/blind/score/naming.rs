@@ -23,6 +23,8 @@ pub(in crate::blind) struct Naming {
     pub(in crate::blind) any_in_three: bool,
     /// All hidden effects are.
     pub(in crate::blind) all_in_three: bool,
+    /// An effect that is not hidden is told to be there more likely than not, in the class of nothing that is.
+    pub(in crate::blind) invented: bool,
     /// A sensor is blamed for a sensor's fault, the robot for the robot's; where something is blamed.
     pub(in crate::blind) sort: Option<bool>,
 }
@@ -34,14 +36,19 @@ impl Naming {
         let explained = answer.verdict == Some(Verdict::Explained);
         let right = match kind {
             Kind::Null => matches!(answer.verdict, Some(Verdict::NoMismatch | Verdict::Withheld)),
-            Kind::Outsider => answer.verdict == Some(Verdict::Unknown),
-            Kind::Single | Kind::Pair => explained && first.is_some_and(|e| wanted.contains(&e)),
+            Kind::Outsider if wanted == [super::UNKNOWN] => answer.verdict == Some(Verdict::Unknown),
+            Kind::Single | Kind::Pair | Kind::Triple | Kind::Outsider => {
+                explained && first.is_some_and(|e| wanted.contains(&e))
+            }
         };
         let blamed = first.filter(|_| explained);
         let shares_class = |effect: &str| {
             let holding = answer.classes.iter().filter(|c| c.iter().any(|e| e == effect));
             holding.flatten().any(|e| wanted.contains(&e.as_str()))
         };
+        let likely = answer.ranked.iter().filter(|c| c.probability > LIKELY && c.effect != super::NONE);
+        let foreign = |e: &str| e != super::UNKNOWN && !wanted.contains(&e) && !shares_class(e);
+        let invented = explained_or_unknown(answer.verdict) && likely.clone().any(|c| foreign(&c.effect));
         let in_three = |e: &&str| named.iter().take(FIRST).any(|n| n == e);
         Self {
             answer: match answer.verdict {
@@ -55,15 +62,24 @@ impl Naming {
             class: right || kind.in_catalogue() && blamed.is_some_and(shares_class),
             any_in_three: kind.in_catalogue() && wanted.iter().any(in_three),
             all_in_three: kind.in_catalogue() && wanted.iter().all(in_three),
+            invented,
             sort: blamed.and_then(|b| match kind {
                 Kind::Null => None,
                 // No outsider is a fault of a sensor.
                 Kind::Outsider => Some(!is_sensor(b)),
-                Kind::Single | Kind::Pair => Some(wanted.iter().any(|w| is_sensor(w) == is_sensor(b))),
+                Kind::Single | Kind::Pair | Kind::Triple => Some(wanted.iter().any(|w| is_sensor(w) == is_sensor(b))),
             }),
             first: named.iter().take(FIRST).map(|e| (*e).to_owned()).collect(),
         }
     }
+}
+
+/// Probability above which a cause is told to be there.
+const LIKELY: f64 = 0.5;
+
+/// Whether causes are told at all.
+fn explained_or_unknown(verdict: Option<Verdict>) -> bool {
+    matches!(verdict, Some(Verdict::Explained | Verdict::Unknown))
 }
 
 /// Whether an effect changes only what a sensor says.
@@ -113,6 +129,17 @@ mod tests {
         assert!(!naming(Kind::Null, &["none"], Verdict::Unknown, &[], &[]).right);
         assert!(naming(Kind::Outsider, &["unknown"], Verdict::Unknown, &ranked, &[]).right);
         let n = naming(Kind::Outsider, &["unknown"], Verdict::Explained, &[("gyro_scale", 1.0)], &[]);
-        assert!(!n.right && !n.class && n.sort == Some(false));
+        assert!(!n.right && !n.class && n.sort == Some(false) && n.invented);
+    }
+
+    #[test]
+    fn an_outsider_that_the_catalogue_names_is_right_by_that_name_and_no_other() {
+        let ranked = [("battery_sag", 0.9), ("payload", 0.6)];
+        let n = naming(Kind::Outsider, &["battery_sag"], Verdict::Explained, &ranked, &[]);
+        assert!(n.right && n.invented, "the payload is not there");
+        let n = naming(Kind::Outsider, &["unknown"], Verdict::Explained, &ranked, &[]);
+        assert!(!n.right);
+        let n = naming(Kind::Outsider, &["unknown"], Verdict::Unknown, &[("unknown", 0.9), ("payload", 0.4)], &[]);
+        assert!(n.right && !n.invented, "what is less likely than not is not told to be there");
     }
 }

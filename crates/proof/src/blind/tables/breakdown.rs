@@ -50,7 +50,7 @@ fn by_kind(rows: &[&Row]) -> Section {
 
 fn by_difficulty(rows: &[&Row]) -> Section {
     let header = ["cases with effects", "cases", "top-1", "both of a pair", "called unknown", "missed", "size error"];
-    let mut out = Section::new("By difficulty", "Singles and pairs.", &header);
+    let mut out = Section::new("By difficulty", "One effect or more.", &header);
     let hidden: Vec<&Row> = rows.iter().copied().filter(|r| r.kind.in_catalogue()).collect();
     let names = |f: fn(&Row) -> &str| hidden.iter().map(|r| f(r).to_owned()).collect::<BTreeSet<_>>();
     let mut parts: Vec<(String, Vec<&Row>)> = Vec::new();
@@ -90,10 +90,10 @@ fn by_effect(rows: &[&Row]) -> Section {
         out.rows.push(cells([
             effect.clone(),
             t.cases.to_string(),
-            counted(t.right),
-            counted(t.class),
+            t.right.counted(),
+            t.class.counted(),
             number(median(&t.size_errors)),
-            counted(t.size_held),
+            t.size_held.counted(),
             number(mean(&t.overlaps)),
         ]));
     }
@@ -108,7 +108,7 @@ fn outsiders(rows: &[&Row]) -> Section {
         let part = || all.iter().filter(|r| r.hidden.first() == Some(outsider));
         let unknown: Rate = part().map(|r| r.naming.right).collect();
         let others: Vec<&str> = part().filter(|r| !r.naming.right).map(|r| r.naming.answer.as_str()).collect();
-        out.rows.push(cells([outsider.clone(), unknown.count.to_string(), counted(unknown), others.join(", ")]));
+        out.rows.push(cells([outsider.clone(), unknown.count.to_string(), unknown.counted(), others.join(", ")]));
     }
     out
 }
@@ -150,13 +150,8 @@ fn held_out(rows: &[&Row]) -> Section {
             number(median(&all.closed[of])),
             number(mean(&all.closed[of])),
             number(median(&all.closed_from_own[of])),
-            counted(all.worse[of]),
+            all.worse[of].counted(),
         ]));
     }
     out
-}
-
-/// Few cases need no interval.
-fn counted(rate: Rate) -> String {
-    if rate.count == 0 { "-".to_owned() } else { format!("{} of {}", rate.hits, rate.count) }
 }

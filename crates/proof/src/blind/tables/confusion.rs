@@ -28,7 +28,7 @@ pub(super) fn table(rows: &[&Row]) -> Section {
     let numbers: Vec<String> = (1..=effects.len()).map(|n| n.to_string()).collect();
     let header: Vec<&str> =
         std::iter::once("hidden").chain(others.iter().copied()).chain(numbers.iter().map(String::as_str)).collect();
-    let note = "Number of cases by what was hidden (rows; pairs are left out) and the answer (columns; the numbers are those of the rows).";
+    let note = "Number of cases by what was hidden (rows; cases with several effects are left out) and the answer (columns; the numbers are those of the rows).";
     let mut out = Section::new("Confusion", note, &header);
     for (row, (hidden, answers)) in counts.iter().enumerate() {
         let (name, right) = match hidden {
@@ -52,6 +52,6 @@ fn hidden(row: &Row) -> Option<Hidden> {
         Kind::Null => Some(Hidden::Nothing),
         Kind::Single => first().map(Hidden::Effect),
         Kind::Outsider => first().map(Hidden::Outside),
-        Kind::Pair => None,
+        Kind::Pair | Kind::Triple => None,
     }
 }

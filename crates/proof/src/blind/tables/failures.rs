@@ -3,9 +3,9 @@
 use super::super::score::{Kind, Row};
 use crate::document::Section;
 
-/// Whether the answer is wrong; of a pair both effects are asked for.
+/// Whether the answer is wrong; of several effects all are asked for.
 pub(in crate::blind) fn fails(row: &Row) -> bool {
-    !row.naming.right || row.kind == Kind::Pair && !row.naming.all_in_three
+    !row.naming.right || matches!(row.kind, Kind::Pair | Kind::Triple) && !row.naming.all_in_three
 }
 
 /// What was hidden, in a word.
@@ -13,7 +13,7 @@ pub(in crate::blind) fn hidden(row: &Row) -> String {
     match row.kind {
         Kind::Null => "nothing".to_owned(),
         Kind::Outsider => format!("outside: {}", row.hidden.join(" + ")),
-        Kind::Single | Kind::Pair => row.hidden.join(" + "),
+        Kind::Single | Kind::Pair | Kind::Triple => row.hidden.join(" + "),
     }
 }
 
@@ -25,7 +25,7 @@ pub(in crate::blind) fn answered(row: &Row) -> String {
 pub(super) fn table(rows: &[&Row]) -> Section {
     let header =
         ["case", "hidden", "severity", "setting", "law", "answered", "effects by rank", "probability of the first"];
-    let mut out = Section::new("Wrong answers", "Of a pair both effects must be among the first three.", &header);
+    let mut out = Section::new("Wrong answers", "Of two or three effects all must be among the first three.", &header);
     for r in rows.iter().filter(|r| fails(r)) {
         let noise = if r.below_noise { ", below the noise" } else { "" };
         out.rows.push(vec![

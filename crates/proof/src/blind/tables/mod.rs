@@ -10,6 +10,7 @@ use crate::output::Figure;
 mod breakdown;
 mod confusion;
 mod failures;
+mod strata;
 
 pub(super) use failures::{answered, fails, hidden};
 
@@ -21,6 +22,7 @@ pub(super) fn all(rows: &[Row], figures: &[Figure]) -> Vec<Section> {
     let every: Vec<&Row> = rows.iter().collect();
     let mut out = vec![listed(figures)];
     out.extend(breakdown::all(&every));
+    out.extend(strata::table(&every));
     out.push(confusion::table(&every));
     out.extend([BINS, FINE].map(|count| reliability(&every, count)));
     out.push(failures::table(&every));
