@@ -7,8 +7,8 @@ use inference::evidence::{logistic, penalty_of_smallness, probabilities};
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::trial::{SearchResult, Trial};
-use crate::visits;
-use inference::hypothesis::{Place, Sizes, Variant};
+use crate::{stand_in, visits};
+use inference::hypothesis::{Onsets, Place, Sizes, Variant};
 
 const PRICES: Prices = SETTINGS.prices;
 const UNKNOWN: Unknown = SETTINGS.unknown;
@@ -47,20 +47,25 @@ impl Decision {
 
 /// Penalty of a hypothesis.
 pub(crate) fn penalty(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> f64 {
-    let mut at = 0;
-    let mut sum = 0.0;
-    for (i, (v, onsets)) in h.parts.iter().enumerate() {
+    penalties(h, effects, sizes).iter().sum()
+}
+
+/// What each part of a hypothesis pays.
+fn penalties(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> Vec<f64> {
+    let mut rest = effects;
+    let one = |(i, (v, onsets)): (usize, &(Variant, Onsets))| {
         let n = v.count();
-        let e = &effects[at..at + n];
-        at += n;
+        let (own, others) = rest.split_at(n);
+        rest = others;
         let disc = if v.place == Place::Disc { 3 } else { 0 };
-        sum += PRICES.per_effect + v.spec().rarity + PRICES.per_shape * (n - disc - 1) as f64;
-        sum += if v.place == Place::Disc { PRICES.disc } else { 0.0 };
-        sum += if onsets.iter().any(Option::is_some) { PRICES.onset } else { 0.0 };
-        sum += if i > 0 { PRICES.second } else { 0.0 };
-        sum += penalty_of_smallness(v.magnitude(e), sizes.interest(v.spec()), PRICES.size_width);
-    }
-    sum
+        let form = PRICES.per_effect + v.spec().rarity + PRICES.per_shape * (n - disc - 1) as f64;
+        let place = if v.place == Place::Disc { PRICES.disc } else { 0.0 };
+        let onset = if onsets.iter().any(Option::is_some) { PRICES.onset } else { 0.0 };
+        let second = if i > 0 { PRICES.second } else { 0.0 };
+        let small = penalty_of_smallness(v.magnitude(own), sizes.interest(v.spec()), PRICES.size_width);
+        form + place + onset + second + small
+    };
+    h.parts.iter().enumerate().map(one).collect()
 }
 
 /// Evidence of a fitted hypothesis by the curvature of its cost (Laplace), less its penalty, nats:
@@ -133,12 +138,46 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
     let unknown = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
-    let scores: Vec<f64> = std::iter::once(none).chain(scored.iter().map(|s| s.score)).collect();
-    let shares = probabilities(&scores, PRICES.temperature);
-    for (s, share) in scored.iter_mut().zip(&shares[1..]) {
-        s.probability = (1.0 - unknown) * share;
+    let owners: Vec<(Option<usize>, f64)> = std::iter::once((None, none))
+        .chain(scored.iter().enumerate().map(|(i, s)| (Some(i), s.score)))
+        .chain(moved_instead(problem, &scored))
+        .collect();
+    let scores: Vec<f64> = owners.iter().map(|(_, score)| *score).collect();
+    let mut nothing = 0.0;
+    for ((owner, _), share) in owners.iter().zip(probabilities(&scores, PRICES.temperature)) {
+        match owner {
+            Some(i) => scored[*i].probability += (1.0 - unknown) * share,
+            None => nothing += (1.0 - unknown) * share,
+        }
     }
-    Decision { scored, none: (1.0 - unknown) * shares[0], unknown }
+    Decision { scored, none: nothing, unknown }
+}
+
+/// Hypotheses in which a constant that moved since the references stands for one of the effects: whose probability they add
+/// to (that of the remaining effects; `None` for "nothing is missing"), and their scores.
+fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<(Option<usize>, f64)> {
+    if !problem.has_references {
+        return Vec::new();
+    }
+    let labels = |h: &Hypothesis| h.variants().map(Variant::label).collect::<Vec<_>>();
+    let mut out = Vec::new();
+    for s in scored {
+        let own = penalties(&s.trial.hypothesis, &s.trial.fitted.point.effects, &problem.sizes());
+        for (part, price) in stand_in::instead(problem, &s.trial) {
+            let mut rest = s.trial.hypothesis.clone();
+            rest.parts.remove(part);
+            // The effect that comes first pays no price of a second one; what remains of two effects is one.
+            let second = if part == 0 && !rest.parts.is_empty() { PRICES.second } else { 0.0 };
+            let score = s.score + own[part] + second - price;
+            if rest.parts.is_empty() {
+                out.push((None, score));
+            } else {
+                let rest = labels(&rest);
+                out.extend(scored.iter().position(|o| labels(&o.trial.hypothesis) == rest).map(|i| (Some(i), score)));
+            }
+        }
+    }
+    out
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@
 //! * `hypothesis`: effects that are missing together.
 //! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
 //!   `onset`: place and time.
-//! * `decide`, `judged`, `visits`: from fits to probabilities.
+//! * `decide`, `judged`, `visits`, `stand_in`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
@@ -61,6 +61,7 @@ mod settings;
 mod simulate;
 mod simulator;
 mod smooth;
+mod stand_in;
 #[cfg(test)]
 mod testing;
 mod trial;

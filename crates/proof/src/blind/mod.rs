@@ -5,6 +5,7 @@
 //! truth, if its seal holds, and answers --score--> rows --Totals--> figures and tables
 //! ```
 
+use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
@@ -77,8 +78,12 @@ enum Kind {
     Speed,
 }
 
+/// Marks about the tables in a page of the documentation.
+const MARKS: [&str; 2] = ["<!-- begin: cargo xtask blind -->\n", "<!-- end: cargo xtask blind -->\n"];
+
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Running")]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command")]
 struct Running {
     /// Folder for everything that is written [default: target/blind].
     #[arg(long, value_name = "DIR")]
@@ -95,6 +100,9 @@ struct Running {
     /// Fail when a target is missed.
     #[arg(long)]
     judge: bool,
+    /// Also write the tables into docs/blind.md, docs/blind-wide.md or docs/blind-speed.md.
+    #[arg(long, conflicts_with = "draw_only")]
+    docs: bool,
 }
 
 /// Runs the command; true if nothing failed to run and, when judged, no target was missed.
@@ -109,8 +117,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let out = |usual: &str| args.running.out.clone().map_or_else(|| output::folder(usual), Ok);
     if args.kind == Kind::Speed {
         let (seed, count) = args.drawing.seed_and_count();
-        let (draw_only, judge) = (args.running.draw_only, args.running.judge);
-        let set = speed::Set { seed, count, out: out("blind-speed")?, draw_only, judge };
+        let Running { draw_only, judge, docs, .. } = args.running;
+        let set = speed::Set { seed, count, out: out("blind-speed")?, draw_only, judge, docs };
         return pool.install(|| speed::run(&set));
     }
     let layout = Layout::new(out("blind")?);
@@ -135,7 +143,16 @@ fn examine(args: &Args, plans: &[&Plan], layout: &Layout, seals: &seal::Seals, p
         .map(|(plan, outcome)| score::row(layout, plan, seals, outcome.as_ref().ok()))
         .collect::<Result<Vec<_>>>()?;
     let figures = if args.drawing.is_wide() { wide::figures(&rows, failed) } else { figures::figures(&rows, failed) };
-    write::all(layout, &args.drawing.described(), &rows, &figures)?;
+    let page = write::all(layout, &args.drawing.described(), &rows, &figures)?;
+    if args.running.docs {
+        let name = if args.drawing.is_wide() { "blind-wide.md" } else { "blind.md" };
+        output::into_docs(name, MARKS, &output::below_title(&page)?)?;
+        if !args.drawing.is_wide() {
+            let picture = output::docs("blind-reliability.svg");
+            fs::copy(layout.root().join(write::PICTURE), &picture)
+                .with_context(|| format!("cannot write '{}'", picture.display()))?;
+        }
+    }
     let missed = figures.iter().any(|f| f.pass == Some(false));
     Ok(failed == 0 && !(args.running.judge && missed))
 }

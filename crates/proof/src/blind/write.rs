@@ -13,19 +13,22 @@ use crate::document::{number, to_markdown, to_page};
 use crate::output::{Figure, write};
 
 const TITLE: &str = "Blind cases";
+/// The reliability diagram.
+pub(super) const PICTURE: &str = "reliability.svg";
 /// Wrong answers on standard output; the page has all.
 const SHOWN: usize = 12;
 
-/// Writes all files and prints the summary.
-pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) -> Result<()> {
+/// Writes all files and prints the summary; the tables as Markdown.
+pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) -> Result<String> {
     let folder = layout.root();
     write(folder, "summary.json", &serde_json::to_string_pretty(figures)?)?;
     write(folder, "scores.json", &serde_json::to_string_pretty(rows)?)?;
     let sections = tables::all(rows, figures);
     let intro = format!("{set} {}", verdict(figures, rows.len() < FEW));
-    write(folder, "blind.md", &to_markdown(TITLE, &intro, &sections))?;
+    let tables = to_markdown(TITLE, &intro, &sections);
+    write(folder, "blind.md", &tables)?;
     let bins = bins(&rows.iter().collect::<Vec<_>>(), tables::FINE);
-    write(folder, "reliability.svg", &reliability::svg(&bins)?)?;
+    write(folder, PICTURE, &reliability::svg(&bins)?)?;
     let mut page = Page::new(TITLE);
     page.paragraph(&intro);
     to_page(&mut page, &sections[..1]);
@@ -35,7 +38,7 @@ pub(super) fn all(layout: &Layout, set: &str, rows: &[Row], figures: &[Figure]) 
     write(folder, "page.html", &page.render())?;
     print!("{}", summary(set, rows, figures));
     println!("\nAll of it: {}/page.html, blind.md, summary.json, scores.json", folder.display());
-    Ok(())
+    Ok(tables)
 }
 
 /// How many targets are met, in a sentence.

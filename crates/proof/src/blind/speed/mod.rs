@@ -27,6 +27,8 @@ pub(super) struct Set {
     pub(super) draw_only: bool,
     /// Fail when a target is missed.
     pub(super) judge: bool,
+    /// Also write docs/blind-speed.md.
+    pub(super) docs: bool,
 }
 
 /// Draws, seals, asks and scores; true if, when judged, no target was missed.
@@ -67,7 +69,11 @@ pub(super) fn run(set: &Set) -> Result<bool> {
     );
     write(&set.out, "summary.json", &serde_json::to_string_pretty(&figures)?)?;
     write(&set.out, "scores.json", &serde_json::to_string_pretty(&rows)?)?;
-    write(&set.out, "blind-speed.md", &to_markdown("Blind cases, speed-driven", &intro, &sections))?;
+    let page = to_markdown("Blind cases, speed-driven", &intro, &sections);
+    write(&set.out, "blind-speed.md", &page)?;
+    if set.docs {
+        output::into_docs("blind-speed.md", super::MARKS, &output::below_title(&page)?)?;
+    }
     print!("{intro}\n{}", to_text(&sections));
     println!("\nAll of it: {}/blind-speed.md, summary.json, scores.json", set.out.display());
     Ok(!(set.judge && missed > 0))

@@ -1,0 +1,106 @@
+//! Effects that a constant of the robot can stand for: the constant may have moved since the references.
+
+use robot_model::Robot;
+use robot_model::tunable::{COUNT as NUISANCES, tunables};
+
+use crate::fit::Problem;
+use crate::run_numbers::constant;
+use crate::trial::Trial;
+use inference::hypothesis::{Place, Variant};
+
+/// The constant that an effect is, and how far it would have moved, in the unit of its tuning: the logarithm of a factor, or
+/// an offset.
+fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<(usize, f64)> {
+    let factor = |of: f64| (of > 0.0 && of + size > 0.0).then(|| (1.0 + size / of).ln());
+    match (variant.spec().id, variant.place) {
+        ("torque_constant", Place::Whole) => Some((constant("torque_constant"), factor(1.0)?)),
+        ("payload", Place::Whole) => Some((constant("mass"), factor(robot.mass)?)),
+        ("com_offset", Place::Whole) => match variant.axis {
+            Some(0) => Some((constant("com_x"), size)),
+            Some(1) => Some((constant("com_y"), size)),
+            _ => None,
+        },
+        ("turning_resistance", Place::Whole) => Some((constant("lateral_factor"), factor(1.0)?)),
+        ("slip_stiffness", Place::Whole) => Some((constant("slip_at_peak"), factor(1.0)?)),
+        ("viscous_friction", Place::Whole) => Some((constant("viscous"), factor(robot.viscous[0])?)),
+        ("rolling_resistance", Place::Whole) => {
+            Some((constant("rolling_resistance"), factor(robot.rolling_resistance)?))
+        }
+        ("coulomb_side", Place::Side(side)) => {
+            let place = [constant("coulomb_left"), constant("coulomb_right")];
+            Some((place[side.min(1)], factor(robot.coulomb[side.min(1)])?))
+        }
+        _ => None,
+    }
+}
+
+/// Price of a constant that moved instead of an effect: `½ z² + ln K` with its move `z`, in standard deviations of what it
+/// moves by between visits, and the number `K` of constants of which one moved. `None` where no constant stands for it.
+fn price(variant: &Variant, size: f64, problem: &Problem<'_>) -> Option<f64> {
+    let (place, moved) = stand_in(variant, size, problem.robot)?;
+    let of_visits = spread(&problem.sigma, place)?;
+    Some(0.5 * (moved / of_visits).powi(2) + (NUISANCES as f64).ln())
+}
+
+/// How far a constant moves from visit to visit, one standard deviation, in the unit of its tuning.
+fn spread(sigma: &[f64; NUISANCES], place: usize) -> Option<f64> {
+    let moves = sigma[place] * tunables::<f64>()[place].between_visits;
+    (moves > 0.0).then_some(moves)
+}
+
+/// The parts of a hypothesis that a constant can stand for, by their place in it, and what each pays as a constant that moved.
+pub(crate) fn instead(problem: &Problem<'_>, trial: &Trial) -> Vec<(usize, f64)> {
+    let mut rest = trial.fitted.point.effects.as_slice();
+    let mut out = Vec::new();
+    for (part, (variant, _)) in trial.hypothesis.parts.iter().enumerate() {
+        let (own, others) = rest.split_at(variant.count());
+        rest = others;
+        let size = own.first().copied().unwrap_or(0.0);
+        out.extend(price(variant, size, problem).map(|price| (part, price)));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::{Hypothesis, Point};
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use testing::robot;
+
+    #[test]
+    fn an_effect_as_large_as_its_constants_sigma_costs_little_as_that_constant() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let of = |id: &str| problem.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
+        let priced = |id: &str, size: f64| price(&of(id), size, &problem);
+
+        let sigma =
+            problem.sigma[constant("torque_constant")] * tunables::<f64>()[constant("torque_constant")].between_visits;
+        let one = priced("torque_constant", sigma.exp() - 1.0).expect("a constant stands for it");
+        approx::assert_relative_eq!(one, 0.5 + (NUISANCES as f64).ln(), epsilon = 1e-9);
+        let four = priced("torque_constant", (4.0 * sigma).exp() - 1.0).expect("a constant stands for it");
+        approx::assert_relative_eq!(four, 8.0 + (NUISANCES as f64).ln(), epsilon = 1e-9);
+        assert!(
+            priced("payload", 0.3 * robot.mass).expect("mass stands for it") > 100.0,
+            "a third of the mass is no drift"
+        );
+        assert_eq!(priced("grade", 0.05), None);
+        assert_eq!(priced("torque_constant", -1.5), None, "no factor is negative");
+    }
+
+    #[test]
+    fn each_part_of_a_hypothesis_can_be_a_constant() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let of = |id: &str| problem.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
+        let h = Hypothesis { parts: ["grade", "payload"].map(|id| (of(id), Vec::new())).to_vec() };
+        let point = Point { effects: vec![0.01, 0.02, 0.5], ..problem.origin() };
+        let fitted = problem.begin(&h, point, None);
+        let found = instead(&problem, &Trial { hypothesis: h, fitted });
+        assert_eq!(found.iter().map(|(part, _)| *part).collect::<Vec<_>>(), [1]);
+    }
+}
