@@ -137,7 +137,7 @@ fn namesake(truth: &Truth) -> Option<&'static str> {
     NAMESAKES.iter().find(|(outsider, _)| *outsider == kind).map(|(_, name)| *name)
 }
 
-/// What the answer should be: ids of effects, "none" or "unknown".
+/// What the answer should be: ids of effects, "none" or "unknown"; `first` is the effect that an answer explains by.
 fn wanted<'a>(kind: Kind, truth: &'a Truth, first: Option<&str>) -> Vec<&'a str> {
     match kind {
         Kind::Null => vec![NONE],
@@ -172,7 +172,8 @@ fn scored(truth: &Truth, duration: f64, answer: Option<&Answer>, heldout: HeldOu
         ranked: &ranked,
         classes: answer.map_or(&[], |t| t.indistinguishable.as_slice()),
     };
-    let wanted = wanted(kind, truth, ranked_answer.named().first().copied());
+    let explained = ranked_answer.verdict == Some(Verdict::Explained);
+    let wanted = wanted(kind, truth, ranked_answer.named().first().copied().filter(|_| explained));
     Row {
         case: truth.case.clone(),
         kind,
