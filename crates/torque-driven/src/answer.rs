@@ -17,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
 use crate::settings::fit;
-use crate::{locate, retuned, words};
+use crate::{locate, retuned, stand_in, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -74,6 +74,7 @@ impl Judged<'_> {
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
         let spec = variant.spec();
         let strengths = variant.strengths().len();
+        let moved = stand_in::sigma_of_size(self.problem, variant, e[0]);
         let mut place = None;
         let mut of_disc = ["x", "y", "radius"].into_iter();
         let parameters = free
@@ -83,6 +84,7 @@ impl Judged<'_> {
             .filter_map(|(i, (f, &value))| {
                 let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(spec.parameters[i].name))?;
                 let model = if f.parameter.is_some() { ANSWER.model_error * value } else { 0.0 };
+                let model = if i == 0 { model.hypot(moved) } else { model };
                 let sigma = sigmas.as_ref().map(|s| (ANSWER.curvature * s[before + i]).hypot(model));
                 let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
                 Some((name.to_owned(), Estimate { value, sigma, at_bound }))
@@ -101,7 +103,8 @@ impl Judged<'_> {
         let sigma = sigmas.as_ref().map(|s| {
             let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
             let curvature: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();
-            (ANSWER.curvature.powi(2) * curvature + (ANSWER.model_error * variant.magnitude(e)).powi(2)).sqrt()
+            let model = ANSWER.model_error * variant.magnitude(e);
+            (ANSWER.curvature.powi(2) * curvature + model.powi(2) + moved.powi(2)).sqrt()
         });
         Cause {
             effect: spec.id.to_owned(),

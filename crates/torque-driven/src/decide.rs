@@ -218,7 +218,8 @@ mod tests {
         let problem = problem(&robot, &cuts);
         let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
         retuned.cost += 100.0;
-        let singles = ["viscous_friction", "rolling_resistance"].map(|id| gained(&problem, &retuned, id, 24.0));
+        // No constant stands for either.
+        let singles = ["quadratic_drag", "constant_pull"].map(|id| gained(&problem, &retuned, id, 24.0));
         let found = SearchResult { retuned, singles: singles.to_vec(), several: Vec::new(), screened: Vec::new() };
         let decision = decide(&problem, &found, &[1.0], 0.0);
 
@@ -231,5 +232,23 @@ mod tests {
         // The score that fault-free drives reach is the least that names anything.
         let strict = decide(&problem, &found, &[1.0], 100.0);
         assert!(strict.none > 0.99 * (1.0 - strict.unknown), "{}", strict.none);
+    }
+
+    #[test]
+    fn a_constant_that_may_have_moved_takes_from_a_small_effect_and_not_from_a_large_one() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+        retuned.cost += 100.0;
+        let named = |size: f64| {
+            let mut single = gained(&problem, &retuned, "torque_constant", 60.0);
+            single.fitted.point.effects = vec![size];
+            let several = Vec::new();
+            let found = SearchResult { retuned: retuned.clone(), singles: vec![single], several, screened: Vec::new() };
+            decide(&problem, &found, &[1.0], 0.0).scored[0].probability
+        };
+        assert!(named(0.012) < 0.5, "{}", named(0.012));
+        assert!(named(0.2) > 0.9, "{}", named(0.2));
     }
 }

@@ -8,28 +8,37 @@ use crate::run_numbers::constant;
 use crate::trial::Trial;
 use inference::hypothesis::{Place, Variant};
 
-/// The constant that an effect is, and how far it would have moved, in the unit of its tuning: the logarithm of a factor, or
-/// an offset.
-fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<(usize, f64)> {
-    let factor = |of: f64| (of > 0.0 && of + size > 0.0).then(|| (1.0 + size / of).ln());
+/// A constant that an effect is, under another name.
+struct StandIn {
+    /// Its place among the tunable constants.
+    place: usize,
+    /// How far it would have moved, in the unit of its tuning: the logarithm of a factor, or an offset.
+    moved: f64,
+    /// Change of the effect's size with that move.
+    slope: f64,
+}
+
+/// The constant that stands for an effect of a size, if one does and can move so far.
+fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<StandIn> {
+    let offset = |id| Some(StandIn { place: constant(id), moved: size, slope: 1.0 });
+    let factor = |id, of: f64| {
+        let possible = of > 0.0 && of + size > 0.0;
+        possible.then(|| StandIn { place: constant(id), moved: (1.0 + size / of).ln(), slope: of + size })
+    };
     match (variant.spec().id, variant.place) {
-        ("torque_constant", Place::Whole) => Some((constant("torque_constant"), factor(1.0)?)),
-        ("payload", Place::Whole) => Some((constant("mass"), factor(robot.mass)?)),
+        ("torque_constant", Place::Whole) => factor("torque_constant", 1.0),
+        ("payload", Place::Whole) => factor("mass", robot.mass),
         ("com_offset", Place::Whole) => match variant.axis {
-            Some(0) => Some((constant("com_x"), size)),
-            Some(1) => Some((constant("com_y"), size)),
+            Some(0) => offset("com_x"),
+            Some(1) => offset("com_y"),
             _ => None,
         },
-        ("turning_resistance", Place::Whole) => Some((constant("lateral_factor"), factor(1.0)?)),
-        ("slip_stiffness", Place::Whole) => Some((constant("slip_at_peak"), factor(1.0)?)),
-        ("viscous_friction", Place::Whole) => Some((constant("viscous"), factor(robot.viscous[0])?)),
-        ("rolling_resistance", Place::Whole) => {
-            Some((constant("rolling_resistance"), factor(robot.rolling_resistance)?))
-        }
-        ("coulomb_side", Place::Side(side)) => {
-            let place = [constant("coulomb_left"), constant("coulomb_right")];
-            Some((place[side.min(1)], factor(robot.coulomb[side.min(1)])?))
-        }
+        ("turning_resistance", Place::Whole) => factor("lateral_factor", 1.0),
+        ("slip_stiffness", Place::Whole) => factor("slip_at_peak", 1.0),
+        ("viscous_friction", Place::Whole) => factor("viscous", robot.viscous[0]),
+        ("rolling_resistance", Place::Whole) => factor("rolling_resistance", robot.rolling_resistance),
+        ("coulomb_side", Place::Side(0)) => factor("coulomb_left", robot.coulomb[0]),
+        ("coulomb_side", Place::Side(1)) => factor("coulomb_right", robot.coulomb[1]),
         _ => None,
     }
 }
@@ -37,9 +46,19 @@ fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<(usize, 
 /// Price of a constant that moved instead of an effect: `½ z² + ln K` with its move `z`, in standard deviations of what it
 /// moves by between visits, and the number `K` of constants of which one moved. `None` where no constant stands for it.
 fn price(variant: &Variant, size: f64, problem: &Problem<'_>) -> Option<f64> {
-    let (place, moved) = stand_in(variant, size, problem.robot)?;
-    let of_visits = spread(&problem.sigma, place)?;
-    Some(0.5 * (moved / of_visits).powi(2) + (NUISANCES as f64).ln())
+    let constant = stand_in(variant, size, problem.robot)?;
+    let of_visits = spread(&problem.sigma, constant.place)?;
+    Some(0.5 * (constant.moved / of_visits).powi(2) + (NUISANCES as f64).ln())
+}
+
+/// What the constant that stands for an effect may have moved by since the references, as one sigma of the effect's size.
+/// Zero without references: the constants' own sigmas are then in every fit.
+pub(crate) fn sigma_of_size(problem: &Problem<'_>, variant: &Variant, size: f64) -> f64 {
+    let moved = || {
+        let constant = stand_in(variant, size, problem.robot)?;
+        Some(spread(&problem.sigma, constant.place)? * constant.slope)
+    };
+    if problem.has_references { moved().unwrap_or(0.0) } else { 0.0 }
 }
 
 /// How far a constant moves from visit to visit, one standard deviation, in the unit of its tuning.
@@ -88,6 +107,9 @@ mod tests {
             "a third of the mass is no drift"
         );
         assert_eq!(priced("grade", 0.05), None);
+        let of_size = |id: &str, size: f64| sigma_of_size(&problem, &of(id), size);
+        approx::assert_relative_eq!(of_size("torque_constant", 0.2), 1.2 * sigma, epsilon = 1e-12);
+        assert_eq!(of_size("grade", 0.05), 0.0);
         assert_eq!(priced("torque_constant", -1.5), None, "no factor is negative");
     }
 
