@@ -86,7 +86,7 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     }
 }
 
-/// Effects that could stand in for one member of the best hypothesis, itself first.
+/// The likeliest effects that could stand in for one member of the best hypothesis, itself first.
 fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
     let rest: Vec<&str> = best.ids().into_iter().enumerate().filter(|(i, _)| *i != member).map(|(_, id)| id).collect();
     effects
@@ -101,6 +101,7 @@ fn class(effects: &[&Named], best: &Named, member: usize) -> Vec<String> {
             let own: Vec<&str> = ids.iter().copied().filter(|id| !rest.contains(id)).collect();
             (own.len() == 1).then(|| own[0].to_owned())
         })
+        .take(ANSWER.members)
         .collect()
 }
 

@@ -41,8 +41,12 @@ pub(crate) struct Attitude {
     pub(crate) pitch: Vec<f64>,
     /// One sigma, rad.
     pub(crate) sigma: Vec<f64>,
-    /// The same by the turning rates alone, without the loads: it drifts, and shows every ramp, rad.
+    /// The same by the turning rates alone, without the loads: it drifts, rad.
     pub(crate) by_rates: Vec<f64>,
+    /// How far the nose has risen by its own turning `∫ (b_y − ω_y) dt`, rad: a roll that a turn makes a pitch is none.
+    pub(crate) nose: Vec<f64>,
+    /// How far the body has turned about its vertical axis, rad.
+    pub(crate) turned: Vec<f64>,
     /// Against the rest of the recording only: no accelerometer tells the level of a body on ground that gives way.
     pub(crate) relative: bool,
 }
@@ -65,28 +69,36 @@ fn update(x: &mut State, p: &mut Square, h: &State, z: f64, r: f64) {
 }
 
 /// Slope at the rows; `None` without all three turning rates. `usual` is the straight load on level ground, N m, and
-/// `weight` the torque of the robot's weight at a wheel's radius `m g r`, N m.
+/// `weight` the torque of the robot's weight at a wheel's radius `m g r`, N m. On the stretches `sloping`, from and until
+/// in s, the ground does not count as level.
 pub(crate) fn attitude(
     run: &SpeedRun,
     readings: &[Option<Reading>],
     usual: f64,
     weight: f64,
-    period: f64,
+    sloping: &[[f64; 2]],
 ) -> Option<Attitude> {
-    let with_loads = estimate(run, readings, usual, weight, period)?;
-    let by_rates = estimate(run, &vec![None; readings.len()], usual, weight, period)?.pitch;
+    let with_loads = estimate(run, readings, usual, weight, sloping)?;
+    let by_rates = estimate(run, &vec![None; readings.len()], usual, weight, sloping)?;
     // Where the load is another from end to end the ground may tilt the body, too.
     let exact = readings.iter().flatten().filter(|r| r.is_exact()).map(|r| r.value());
     let middle = median(exact).map_or(1.0, |middle| middle / usual);
     let levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
     let relative = !levelled && middle > NAMING.priors.unnamed_straight;
-    Some(Attitude { by_rates, relative, ..with_loads })
+    Some(Attitude { by_rates: by_rates.pitch, nose: by_rates.nose, relative, ..with_loads })
 }
 
 /// The filter and smoother; of readings that are none it takes the turning rates alone.
-fn estimate(run: &SpeedRun, readings: &[Option<Reading>], usual: f64, weight: f64, period: f64) -> Option<Attitude> {
+fn estimate(
+    run: &SpeedRun,
+    readings: &[Option<Reading>],
+    usual: f64,
+    weight: f64,
+    sloping: &[[f64; 2]],
+) -> Option<Attitude> {
     let rates = run.body_rates.as_ref()?;
     let lag = &run.alignment.as_ref()?.lag;
+    let period = run.period();
     let (first, dt) = (*rates.time.first()?, rates.step);
     let rows = rates.time.len();
 
@@ -113,6 +125,8 @@ fn estimate(run: &SpeedRun, readings: &[Option<Reading>], usual: f64, weight: f6
     walk[(4, 4)] = rolling * rolling * (1.0 - keep * keep);
 
     let level = rates.level.as_ref().map(|level| (level, level_of(level, dt)));
+    let typical_lag = median(lag.iter().copied()).unwrap_or(0.0);
+    let slopes = |t: f64| sloping.iter().any(|[from, until]| *from <= t - typical_lag && t - typical_lag <= *until);
 
     // Forward: expect by the turning rates, correct by the loads.
     let mut x = State::zeros();
@@ -136,8 +150,11 @@ fn estimate(run: &SpeedRun, readings: &[Option<Reading>], usual: f64, weight: f6
         p = transition * p * transition.transpose() + walk;
         let (expected_x, expected_p) = (x, p);
 
-        for axis in 0..2 {
-            update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, FILTER.level * FILTER.level * FILTER.level_every / dt);
+        if !slopes(first + dt * k as f64) {
+            let variance = FILTER.level * FILTER.level * FILTER.level_every / dt;
+            for axis in 0..2 {
+                update(&mut x, &mut p, &State::ith(axis, 1.0), 0.0, variance);
+            }
         }
         if let Some((level, (every, sigma))) = level
             && k % every == 0
@@ -175,11 +192,26 @@ fn estimate(run: &SpeedRun, readings: &[Option<Reading>], usual: f64, weight: f6
     // On the rows, where the gyro was on.
     let pitch: Vec<f64> = steps.iter().map(|s| s.x[0]).collect();
     let sigma: Vec<f64> = steps.iter().map(|s| s.p[(0, 0)].max(0.0).sqrt()).collect();
+    let nose = integral(rates.rate[1].iter().zip(&steps).map(|(wy, s)| dt * (s.x[2] - wy)));
+    let turned = integral(rates.rate[2].iter().map(|wz| dt * wz));
     let last = first + dt * rows as f64;
     let at_rows = |z: &[f64], unknown: f64| -> Vec<f64> {
         let at = |t: f64| if t > first - dt && t < last { interpolate(&rates.time, z, t) } else { unknown };
         run.time.iter().zip(lag).map(|(t, l)| at(t + l)).collect()
     };
     let sigma = at_rows(&sigma, f64::INFINITY);
-    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma, by_rates: Vec::new(), relative: false })
+    let held = |z: &[f64]| run.time.iter().zip(lag).map(|(t, l)| interpolate(&rates.time, z, t + l)).collect();
+    let [nose, turned] = [held(&nose), held(&turned)];
+    Some(Attitude { pitch: at_rows(&pitch, 0.0), sigma, by_rates: Vec::new(), nose, turned, relative: false })
+}
+
+/// Running sums.
+fn integral(steps: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sum = 0.0;
+    steps
+        .map(|step| {
+            sum += step;
+            sum
+        })
+        .collect()
 }

@@ -44,13 +44,21 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let readings = readings(run);
     let Some(any) = usual.iter().flatten().next().copied() else { return Changes::default() };
     let period = run.period();
-    let slope = attitude(run, &readings, any, weight, period);
-    let slopes = slope.as_ref().map_or_else(Slopes::default, |s| slopes(run, s));
-    // What the slope explains is no change of the ground; where no ramp was seen, the turning rates alone say what it is.
-    let beside = CHANGES.slopes.beside;
-    let unseen = |t: f64| slopes.not_seen.iter().any(|[from, until]| from - beside <= t && t <= until + beside);
+    let found = attitude(run, &readings, any, weight, &[]);
+    let slopes = found.as_ref().map_or_else(Slopes::default, |s| slopes(run, s));
+    // What is sloping there is not drawn to the level.
+    let slope = found.and_then(|a| {
+        if slopes.found.is_empty() { Some(a) } else { attitude(run, &readings, any, weight, &slopes.stretches()) }
+    });
+    let slopes = match &slope {
+        Some(attitude) => slopes.measured_again(run, attitude),
+        None => slopes,
+    };
+    // What a slope explains is no change of the ground; elsewhere the tilt is too uncertain to correct a load by it.
+    let sloping = slopes.stretches();
+    let is_sloping = |t: f64| sloping.iter().any(|[from, until]| *from <= t && t <= *until);
     let level_ground = |slope: &Attitude| -> Vec<Option<Reading>> {
-        let pitch = |i: usize| if unseen(run.time[i]) { slope.by_rates[i] } else { slope.pitch[i] };
+        let pitch = |i: usize| if is_sloping(run.time[i]) { slope.pitch[i] } else { 0.0 };
         let pull = |i: usize| weight * pitch(i) * run.forward(i).signum();
         let less = |i: usize, r: Reading| match r {
             Reading::Exact(x) => Reading::Exact(x - pull(i)),
@@ -63,7 +71,7 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let usual = usual_of(run, &rest, &level, usual);
     let mut found = slopes.found;
     found.extend(jumps(run, &rest, &level, &usual, weight, slope.is_some()));
-    Changes { found, hidden: hidden(run, &readings) }
+    Changes { found, tentative: slopes.tentative, hidden: hidden(run, &readings) }
 }
 
 /// Finds the changes of the straight load inside these recordings, and marks their rows so that the load of the whole
@@ -77,6 +85,7 @@ pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes
         let most = 2 * straight.iter().filter(|t| inside(**t)).count() > straight.len();
         run.changed = run.time.iter().map(|t| !most && inside(*t)).collect();
         out.found.extend(own.found);
+        out.tentative.extend(own.tentative);
         out.hidden.extend(own.hidden);
     }
     out
@@ -184,6 +193,26 @@ mod tests {
         assert_eq!(ground[0].causes, [ROLLING]);
         assert!(near(ground[0].onset, 30.0), "{ground:?}");
         assert_eq!(found(&[Leg::straight(60.0)], true), []);
+    }
+
+    #[test]
+    fn a_roll_that_drifts_is_no_slope_once_the_robot_has_turned() {
+        // The roll rate is off for a second before a turn of 90°, which makes the roll a pitch.
+        let legs = [Leg::straight(30.0), Leg::turn(7.5), Leg::straight(2.0), Leg::turn(7.5), Leg::straight(30.0)];
+        let mut run = drive(&legs, true);
+        let rates = run.body_rates.as_mut().expect("three rates");
+        for (t, roll) in rates.time.iter().zip(&mut rates.rate[0]) {
+            if (28.0..29.0).contains(t) {
+                *roll += 9_f64.to_radians();
+            }
+        }
+        let all = changes(&run, &USUAL, WEIGHT);
+        assert_eq!(all.found, []);
+        assert!(!all.tentative.is_empty() && all.tentative.iter().all(|c| c.slope.abs() > 1.6), "{all:?}");
+        // A slope of that size that is driven onto straight is one.
+        let straight = [Leg::straight(30.0), Leg::straight(15.0).slope(3.0), Leg::straight(30.0)];
+        let all = changes(&drive(&straight, true), &USUAL, WEIGHT);
+        assert_eq!((all.found.len(), all.tentative.len()), (1, 0), "{all:?}");
     }
 
     #[test]

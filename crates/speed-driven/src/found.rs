@@ -93,7 +93,7 @@ fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
     let most = singles().map(|e| e.gain).fold(0.0, f64::max);
     let mut class: Vec<&Named> = Vec::new();
     for e in singles().filter(|e| e.gain > 0.0 && e.gain >= ANSWER.fits * most) {
-        if class.len() < ANSWER.fitting && class.iter().all(|other| other.ids() != e.ids()) {
+        if class.len() < ANSWER.members && class.iter().all(|other| other.ids() != e.ids()) {
             class.push(e);
         }
     }

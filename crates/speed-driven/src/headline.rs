@@ -134,12 +134,7 @@ fn named(d: &Diagnosis) -> Vec<String> {
     let of_loads = |class: &&Vec<String>| class.iter().all(|id| *id != catalogue::speed_driven::STANDING.id);
     let mut out = Vec::new();
     for class in d.indistinguishable.iter().filter(of_loads) {
-        let mut names = names(d, class);
-        let less = names.len().saturating_sub(SENTENCES.members);
-        if less > 1 {
-            names.truncate(SENTENCES.members);
-            names.push(format!("one of {less} less likely causes"));
-        }
+        let names = names(d, class);
         let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
         let tail =
             if names.len() > 1 { "; these recordings cannot tell which".to_owned() } else { format!(", {size}") };

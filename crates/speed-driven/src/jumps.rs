@@ -23,8 +23,7 @@ pub(super) fn jumps(
 ) -> Vec<LoadChange> {
     let period = run.period();
     let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
-    let step = weight * JUMPS.slope.to_radians();
-    let changed = |i: &usize| (level[*i] - base(*i)).abs() > step.max((1.0 - 1.0 / UNNAMED) * base(*i));
+    let changed = |i: &usize| (level[*i] - base(*i)).abs() > (1.0 - 1.0 / UNNAMED) * base(*i);
     let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
 
     let mut out = Vec::new();

@@ -151,6 +151,24 @@ pub(crate) fn change(c: &LoadChange) -> String {
     )
 }
 
+/// Tilts that decide nothing.
+pub(crate) fn tentative(tilts: &[LoadChange]) -> Option<String> {
+    let most = tilts.iter().map(|c| c.slope.abs()).max_by(f64::total_cmp)?;
+    let mut when: Vec<String> = Vec::new();
+    for c in tilts {
+        let [from, until] = c.interval;
+        when.push(format!("{} {from:.0}-{until:.0} s", recordings(&c.recording)));
+    }
+    let more = when.len().saturating_sub(SENTENCES.hidden);
+    when.truncate(SENTENCES.hidden);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    Some(format!(
+        "In turns the three rates leave a tilt of up to {most:.1}° open ({}{more}): a roll that drifts shows the same. It \
+         decides nothing here; drive straight there, or record an accelerometer.",
+        when.join(", ")
+    ))
+}
+
 pub(crate) fn turning_change(c: &TurningChange) -> String {
     let what = match c.one_way {
         None => "the ground is another there".to_owned(),

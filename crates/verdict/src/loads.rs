@@ -193,6 +193,9 @@ pub struct LoadChange {
 pub struct Changes {
     /// Changes of the load.
     pub found: Vec<LoadChange>,
+    /// Tilts that only a turn of the robot shows: a gyro that drifts shows the same, so that they decide nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tentative: Vec<LoadChange>,
     /// Driving in which no change could have been seen (turns, stops), s.
     pub hidden: Vec<Hidden>,
 }

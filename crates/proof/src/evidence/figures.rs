@@ -186,6 +186,7 @@ fn slopes_of(e: &Evidence, hard: bool, out: &mut Vec<Figure>) {
         let most = |of: &dyn Fn(&SeenTilt) -> Option<f64>| seen.iter().filter_map(of).max_by(f64::total_cmp);
         if !seen.is_empty() {
             add(out, &name("tilts found"), Some(count(Outcome::Found)), "", None);
+            add(out, &name("tilts told that decide nothing"), Some(count(Outcome::Tentative)), "", None);
             add(out, &name("tilts reported as not observable"), Some(count(Outcome::Hidden)), "", None);
             add(out, &name("tilts missed"), Some(count(Outcome::Missed)), "", asked(0.0));
         }

@@ -24,6 +24,8 @@ pub(super) struct SeenTilt {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
     Found,
+    /// Told as a tilt that decides nothing.
+    Tentative,
     /// Told as a stretch in which nothing could be seen.
     Hidden,
     Missed,
@@ -96,8 +98,16 @@ fn one(tilted: Tilted, answer: &Answer, witness: &Witness, hides: bool) -> SeenT
         .filter(|(o, _)| *o > 0.0)
         .max_by(|a, b| a.0.total_cmp(&b.0));
     let hidden: f64 = answer.changes("hidden").iter().map(|h| overlap(interval(&h["interval"]), tilted.interval)).sum();
+    let tentative: f64 =
+        answer.changes("tentative").iter().map(|c| overlap(interval(&c["interval"]), tilted.interval)).sum();
     let Some((_, change)) = best else {
-        let outcome = if hides && hidden > MOSTLY * length { Outcome::Hidden } else { Outcome::Missed };
+        let outcome = if tentative > MOSTLY * length {
+            Outcome::Tentative
+        } else if hides && hidden > MOSTLY * length {
+            Outcome::Hidden
+        } else {
+            Outcome::Missed
+        };
         return SeenTilt { tilted, outcome, onset: None, end: None, angle: None, contradicted: false, decided: false };
     };
     let moment = |what: &str, truth: f64| {

@@ -96,6 +96,7 @@ fn verdicts(e: &Evidence) -> Section {
 fn outcome(o: Outcome) -> Cell {
     match o {
         Outcome::Found => toned("found", Tone::Good),
+        Outcome::Tentative => "told, decides nothing".into(),
         Outcome::Hidden => "reported as not observable".into(),
         Outcome::Missed => toned("missed", Tone::Bad),
     }

@@ -56,8 +56,10 @@ const fn degrees(x: f64) -> f64 {
         ramp: [f64; 2] = [0.5, 4.0], "s", "guess";
         /// Share of the slope by which they must see the nose rise or fall there.
         ramp_share: f64 = 0.5, "1", "guess";
-        /// Beside a slope that they do not see, the loads say nothing of the tilt.
-        beside: f64 = 10.0, "s", "guess";
+        /// A robot that turned by this much at the end of a slope may have turned into it.
+        turned: f64 = 0.35, "rad", "guess: 20°";
+        /// A slope's angle is that of its middle: so much at either end is ramp.
+        flank: f64 = 2.0, "s", "guess: a robot's length at walking pace, and the mean of the accelerometer";
         /// Gaps in the sight of a slope that do not end it.
         gap: f64 = 2.0, "s", "guess";
         /// Clocks are aligned to about this: taken off and added where a slope begins and ends.
@@ -90,8 +92,6 @@ const fn degrees(x: f64) -> f64 {
     jumps: Jumps {
         /// A change shorter than this is not reported: straight driving.
         least: f64 = 1.5, "s", "guess";
-        /// Slope whose pull counts as a jump of the load.
-        slope: f64 = 1.9, "°", "chosen after a look at the open Husky runs";
         /// No friction falls to this share of the usual load: the robot runs downhill.
         below_friction: f64 = 0.35, "1", "guess";
         /// For how long both sides read nothing where the robot runs downhill.

@@ -92,8 +92,8 @@
         soft: f64 = 0.5, "1", "guess: or another surface, or other tyres";
         /// Probability that a change inside a recording is one: it is reported where its 90 % interval shows it.
         changed: f64 = 0.9, "1", "definition of the interval";
-        /// Effects that fit a difference too small to name one, at most.
-        fitting: usize = 3, "1", "field study: longer classes cannot be acted upon";
+        /// Members of a class at most, the likeliest; the table of causes has all.
+        members: usize = 3, "1", "field study: longer classes cannot be acted upon";
         /// They explain at least this share of what the best of them does.
         fits: f64 = 0.5, "1", "guess";
         /// Causes below this probability are not listed.
@@ -104,8 +104,6 @@
     sentences: Sentences {
         /// Drives that are named to split a class: the first ones are enough to begin with.
         drives: usize = 3, "1", "guess";
-        /// Members of a class that are named in a sentence; the table has all.
-        members: usize = 3, "1", "field study: longer lists cannot be acted upon";
         /// Speeds of pooled recordings that differ by more than this are given as a range.
         one_speed: f64 = 0.05, "m/s", "guess";
         /// Times closer than this are one moment.
