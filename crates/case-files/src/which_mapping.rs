@@ -104,6 +104,18 @@ fn built_in_for_bags() -> impl Iterator<Item = (&'static str, Mapping)> {
     all.filter(|(_, mapping)| mapping.files.iter().any(|entry| entry.topic.is_some()))
 }
 
+/// The same for a case folder: what it holds as `mapping.toml` goes before what is built in.
+///
+/// # Errors
+/// As [`named_or_built_in`].
+pub fn of_case(name: Option<&str>, folder: Option<&Path>, paths: &[PathBuf]) -> Result<Mapping> {
+    let own = folder.map(|folder| folder.join("mapping.toml")).filter(|file| file.is_file());
+    match (name, own) {
+        (None, Some(own)) => case_folder::mapping(&own.to_string_lossy()),
+        _ => named_or_built_in(name, paths),
+    }
+}
+
 /// The mapping that was named, else the built-in one for these recordings: self-describing columns for tables; for bags
 /// one that fits the first of a path. What nobody has looked at is not used: a mapping is proposed by `lacuna check` only.
 ///

@@ -168,3 +168,29 @@ fn recordings_in_another_format_give_the_same_verdict() {
         assert_eq!(a["diagnosis"][key], b["diagnosis"][key]);
     }
 }
+
+#[test]
+fn a_mapping_in_the_case_folder_is_used_unless_another_is_named() {
+    let bench = Bench::new();
+    let renamed = |text: &str| text.replace("wheel_speed_left_rad_s", "wl").replace("wheel_speed_right_rad_s", "wr");
+    for file in ["case/reference/ref_1.csv", "case/recordings/run_1.csv"] {
+        let text = bench.read(file);
+        bench.write(file, &renamed(&text));
+    }
+    let signal =
+        |name: &str, column: &str, unit: &str| format!("{name} = {{ column = \"{column}\", unit = \"{unit}\" }}\n");
+    let mapping = [
+        "name = \"mine\"\n\n[[files]]\npattern = \"*.csv\"\n".to_owned(),
+        "time = { column = \"time_s\", unit = \"s\", rate_hz = 100.0 }\n\n[files.signals]\n".to_owned(),
+        signal("wheel_speed_left", "wl", "rad/s"),
+        signal("wheel_speed_right", "wr", "rad/s"),
+        signal("torque_left", "torque_left_Nm", "N m"),
+        signal("torque_right", "torque_right_Nm", "N m"),
+    ];
+    bench.write("case/mapping.toml", &mapping.concat());
+    let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
+    let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap_or_else(|_| panic!("{}", run.err()));
+    assert_eq!(json["mapping"], "mine", "{}", run.err());
+    let run = bench.run(&["diagnose", "case", "--mapping", "skid-steer-columns"]);
+    assert!(run.err().contains("no signal wheel_angle_left or wheel_speed_left"), "{}", run.err());
+}

@@ -224,7 +224,7 @@ pub(crate) fn located(args: &Input) -> Result<Located> {
         }
         (None, None) => bail!("no robot was named; do so with --robot"),
     };
-    let mapping = which_mapping::named_or_built_in(args.mapping.as_deref(), &paths.concat())?;
+    let mapping = which_mapping::of_case(args.mapping.as_deref(), args.case.as_deref(), &paths.concat())?;
     Ok(Located { robot, paths, mapping })
 }
 

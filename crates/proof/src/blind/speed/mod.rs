@@ -107,14 +107,8 @@ fn ask(binary: &Binary, out: &Path, name: &str) -> Result<(Value, Option<f64>)> 
     }
     let ended = child::run(
         Command::new(&binary.path)
-            .args(["diagnose", "--robot"])
-            .arg(folder.join("robot.toml"))
-            .arg("--mapping")
-            .arg(folder.join("mapping.toml"))
-            .arg("--reference")
-            .arg(folder.join("reference"))
-            .arg("--recordings")
-            .arg(folder.join("recordings"))
+            .arg("diagnose")
+            .arg(&folder)
             .arg("--json")
             .arg(&verdict)
             .env("RAYON_NUM_THREADS", "1")
