@@ -124,8 +124,9 @@ impl CaseFolder {
         for loaded in &mut parts {
             for read in &mut loaded.reads {
                 let files = file_names(read);
+                let per_current = robot.torque_per_current.map(|[value, _]| value);
                 let (recording, left_out) =
-                    diagnosis::possible(read.recording.clone(), &robot.robot).with_context(|| files)?;
+                    diagnosis::possible(read.recording.clone(), &robot.robot, per_current).with_context(|| files)?;
                 read.recording = recording;
                 loaded.impossible.extend(left_out);
             }

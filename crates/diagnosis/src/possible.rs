@@ -12,16 +12,21 @@ const POSSIBLE: Possible = SETTINGS.possible;
 /// Standard acceleration of free fall, m/s² (CGPM 1901).
 const GRAVITY: f64 = 9.806_65;
 
-/// A recording of which what cannot be was left out, and a sentence on each channel that lost samples.
+/// A recording of which what cannot be was left out, and a sentence on each channel that lost samples. Currents are judged
+/// by the torque at the wheels that they give, N m/A, where it is known.
 ///
 /// # Errors
 /// When more than a few samples of a channel cannot be, or a channel as a whole contradicts the wheels or gravity: its
 /// unit is wrong, or the robot file is of another robot.
-pub fn possible(recording: Recording, robot: &Robot<f64>) -> Result<(Recording, Vec<String>), DiagnosisError> {
+pub fn possible(
+    recording: Recording,
+    robot: &Robot<f64>,
+    torque_per_current: Option<f64>,
+) -> Result<(Recording, Vec<String>), DiagnosisError> {
     let mut told = Vec::new();
     let mut channels = Vec::new();
     for channel in recording.channels() {
-        let bound = Bound::of(channel, robot);
+        let bound = Bound::of(channel, robot, torque_per_current);
         let inside = bound.as_ref().map_or(channel.len(), |b| channel.samples().filter(|s| b.holds(s.1)).count());
         let outside = channel.len() - inside;
         if let (Some(bound), 1..) = (&bound, outside) {
@@ -59,7 +64,7 @@ struct Bound {
 }
 
 impl Bound {
-    fn of(channel: &Channel, robot: &Robot<f64>) -> Option<Self> {
+    fn of(channel: &Channel, robot: &Robot<f64>, torque_per_current: Option<f64>) -> Option<Self> {
         let span = channel.span_ns().map_or(0, |(from, to)| to - from) as f64 * 1e-9;
         let speed = POSSIBLE.fastest;
         let wheel = speed / robot.wheel_radius;
@@ -95,6 +100,18 @@ impl Bound {
                             "{:.3} N m, the weight times the wheels' radius, are as much as tyres hold, and this is more \
                              than {} times that",
                             holds, POSSIBLE.torque
+                        ),
+                    )
+                }
+                Unit::Ampere => {
+                    let per_current = torque_per_current.filter(|k| *k > 0.0)?;
+                    let holds = robot.mass * GRAVITY * robot.wheel_radius;
+                    at_most(
+                        POSSIBLE.torque * holds / per_current,
+                        format!(
+                            "with {per_current} N m/A (torque_per_current in the robot file) it would be more than {} times \
+                             {holds:.3} N m, the weight times the wheels' radius, which is as much as tyres hold",
+                            POSSIBLE.torque
                         ),
                     )
                 }
@@ -151,7 +168,8 @@ fn is_wheel(signal: Signal) -> bool {
 
 /// Units smaller than `unit` that would make a value possible, by the factor to `unit`.
 fn explaining(unit: Unit, possible: impl Fn(f64) -> bool) -> Vec<&'static str> {
-    const SMALLER: [&str; 11] = ["deg/s", "rpm", "mrad/s", "deg", "mrad", "mm", "cm", "mm/s", "km/h", "mm/s2", "mNm"];
+    const SMALLER: [&str; 12] =
+        ["deg/s", "rpm", "mrad/s", "deg", "mrad", "mm", "cm", "mm/s", "km/h", "mm/s2", "mNm", "mA"];
     let of_unit = |name: &&str| parse_unit(name).is_some_and(|s| s.unit == unit && possible(s.factor));
     SMALLER.into_iter().filter(of_unit).collect()
 }

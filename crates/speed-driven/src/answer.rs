@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::cause::cause;
+use crate::compare::steady_seconds;
 use crate::found;
+use crate::guesses::guesses;
 use crate::name::{Named, Naming};
 use crate::sentences::sentences;
 use crate::settings::{NAMING, naming::Answer};
@@ -27,6 +29,10 @@ pub(super) fn verdict(
     let mut out = Diagnosis::withheld();
     if let Some(naming) = naming {
         weigh(naming, &mut out);
+        // Too little was driven to say that nothing differs.
+        if out.verdict == Verdict::NoMismatch && steady_seconds(&loads).iter().sum::<f64>() < ANSWER.needed {
+            out.verdict = Verdict::Withheld;
+        }
         // A wrong cause that forecasts left-out recordings as well is in the class.
         let as_good = forecasts.placebo.filter(|_| forecasts.standing.is_some_and(|s| s.is_matched_by_placebo()));
         if let Some(class) = out.indistinguishable.first_mut() {
@@ -132,6 +138,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
     if !blind.is_empty() {
         out.push(format!("no gyro was recorded in {}: no effective track can be measured there", blind.join(", ")));
     }
+    out.extend(all().flat_map(guesses));
     out.extend(unused(all().flat_map(|r| &r.unused)));
     if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
         out.push("some straight loads are compared with references driven at another speed".to_owned());

@@ -182,6 +182,19 @@ fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Rati
     }
 }
 
+/// Steady driving of the recordings behind the loads that are compared, straight and turning, s.
+pub(crate) fn steady_seconds(loads: &Loads) -> [f64; 2] {
+    let of = |straight: bool| {
+        let own = loads.ratios.iter().filter(|r| match r.quantity {
+            Quantity::StraightLoad => straight,
+            Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => !straight,
+            Quantity::EffectiveTrack | Quantity::Asymmetry => false,
+        });
+        own.map(|r| r.seconds).sum()
+    };
+    [of(true), of(false)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

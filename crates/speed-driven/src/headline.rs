@@ -8,12 +8,13 @@ use catalogue::speed_driven::SOFT_GROUND;
 use inference::words::quantity;
 use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict};
 
-use crate::compare::{Judgement, judgement, reported};
+use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{longest, strongest};
-use crate::settings::{NAMING, naming::Sentences};
+use crate::settings::{NAMING, naming::Answer, naming::Sentences};
 use crate::words::{change, compared, how_it_stands, recordings, turning_change};
 
 const SENTENCES: Sentences = NAMING.sentences;
+const ANSWER: Answer = NAMING.answer;
 
 /// The first sentences; `of_loads` is the verdict of the loads alone, `theirs` what they are compared with.
 pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
@@ -33,18 +34,19 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
 /// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.
 fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
     let whole = match of_loads {
-        Verdict::Withheld if leads => "These recordings permit no answer: too little steady driving.",
-        Verdict::Withheld => "The other rows hold too little steady driving to compare any load.",
+        Verdict::Withheld if leads => too_little(loads),
+        Verdict::Withheld => "The other rows hold too little steady driving to compare any load.".to_owned(),
         _ if leads => {
             "No mismatch: the simulation explains the loads of steady driving; nothing needs to be added to it."
+                .to_owned()
         }
-        _ => "The other rows show no mismatch: the simulation explains their loads.",
+        _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
     };
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
     let largest = turning.iter().max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()));
     let Some(clearest) = steepest.map(change).or_else(|| largest.map(turning_change)) else {
-        return vec![whole.to_owned()];
+        return vec![whole];
     };
     let count = straight.len() + turning.len();
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
@@ -67,6 +69,20 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
         out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d) });
     }
     out
+}
+
+/// What is missing for an answer, and by how much.
+fn too_little(loads: &Loads) -> String {
+    let [straight, turning] = steady_seconds(loads);
+    let missing = (ANSWER.needed - straight - turning).max(0.0);
+    let what = if straight < turning { "straight at one speed" } else { "turns both ways at one speed" };
+    let asked = if missing > 0.0 { format!("{missing:.0} s more") } else { "more".to_owned() };
+    format!(
+        "These recordings permit no answer: too little steady driving. {straight:.0} s of straight driving and {turning:.0} s of \
+         turning at constant speed can be compared with the references, {:.0} s in all are needed. Record at least {asked}, \
+         {what}.",
+        ANSWER.needed
+    )
 }
 
 fn difference(r: &Ratio, theirs: &str) -> String {

@@ -13,6 +13,7 @@
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
 //! * `answer`, `cause`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
+//! * `guesses`: what a mapping may have wrong.
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
@@ -32,6 +33,7 @@ mod extract;
 mod forecast;
 mod found;
 mod ground;
+mod guesses;
 mod heading;
 mod headline;
 mod jumps;

@@ -35,14 +35,14 @@ fn scaled(channels: &Channels, signal: Signal, factor: f64) -> Channels {
 }
 
 fn refused(channels: &Channels) -> String {
-    possible(recording(channels), &robot()).map(|_| ()).expect_err("impossible").to_string()
+    possible(recording(channels), &robot(), Some(0.5)).map(|_| ()).expect_err("impossible").to_string()
 }
 
 #[test]
 fn a_drive_as_robots_drive_stays_as_it_is() {
     let robot = robot();
     let real = recording(&drive(&robot));
-    let (kept, told) = possible(real.clone(), &robot).expect("possible");
+    let (kept, told) = possible(real.clone(), &robot, Some(0.5)).expect("possible");
     assert_eq!((kept, told), (real, Vec::new()));
 }
 
@@ -52,7 +52,7 @@ fn a_spike_is_left_out_and_told() {
     let mut channels = drive(&robot);
     channels[8].1[300].1 = 1e300;
     channels[3].1[10].1 = -5e3;
-    let (kept, told) = possible(recording(&channels), &robot).expect("possible");
+    let (kept, told) = possible(recording(&channels), &robot, Some(0.5)).expect("possible");
     assert_eq!(kept.get(Signal::PoseYaw).map(Channel::len), Some(ROWS - 1));
     assert_eq!(kept.get(Signal::GyroZ).map(Channel::len), Some(ROWS - 1));
     assert_eq!(told.len(), 2);
@@ -93,8 +93,27 @@ fn accelerations_in_g_or_without_gravity_are_told_and_kept() {
     let robot = robot();
     for (factor, word) in [(1.0 / GRAVITY, "`unit = \"g\"`"), (0.001, "gravity was taken off")] {
         let other = recording(&scaled(&drive(&robot), Signal::AccelZ, factor));
-        let (kept, told) = possible(other.clone(), &robot).expect("possible");
+        let (kept, told) = possible(other.clone(), &robot, Some(0.5)).expect("possible");
         assert_eq!(kept, other);
         assert!(told[0].contains(word), "{told:?}");
     }
+}
+
+#[test]
+fn currents_are_judged_by_the_torque_that_they_give() {
+    let robot = robot();
+    let drive = |amperes: f64| {
+        let mut channels = drive(&robot);
+        channels.retain(|c| c.0 != Signal::TorqueLeft);
+        channels.push((Signal::CurrentLeft, samples(ROWS, move |t| amperes * (1.5 + t.sin()))));
+        recording(&channels)
+    };
+    let per_current = robot.mass * GRAVITY * robot.wheel_radius / 20.0;
+    assert!(possible(drive(4.0), &robot, Some(per_current)).is_ok_and(|(_, told)| told.is_empty()));
+    let told = possible(drive(4000.0), &robot, Some(per_current)).expect_err("milliamperes").to_string();
+    assert!(
+        told.contains("current_left") && told.contains("torque_per_current") && told.contains("unit = \"mA\""),
+        "{told}"
+    );
+    assert!(possible(drive(4000.0), &robot, None).is_ok(), "nothing says what a current gives");
 }

@@ -119,6 +119,18 @@
         set_point_error: f64 = 0.015, "1", "guess";
     }
 
+    /// What a mapping may have wrong.
+    guesses: Guesses {
+        /// A value is negative beyond this share of the largest.
+        noise: f64 = 0.02, "1", "guess";
+        /// For so long at least.
+        seconds: f64 = 2.0, "s", "guess";
+        /// Speed from which the robot moves.
+        moving: f64 = 0.02, "m/s", "guess";
+        /// Set speeds are constant in more than the first share of the rows, measured ones in less than the second.
+        constant: [f64; 2] = [0.1, 0.9], "1", "guess: no encoder shows the same speed for seconds, no profile changes all the time";
+    }
+
     /// Loads over those of the references.
     ratios: Ratios {
         /// Steady driving that makes an answer firm.

@@ -96,6 +96,8 @@
         members: usize = 3, "1", "field study: longer classes cannot be acted upon";
         /// They explain at least this share of what the best of them does.
         fits: f64 = 0.5, "1", "guess";
+        /// Steady driving of the recordings from which on "nothing is missing" can be said.
+        needed: f64 = 20.0, "s", "guess: twice what makes one load firm";
         /// Causes below this probability are not listed.
         listed: f64 = 1e-3, "1", "guess";
     }
