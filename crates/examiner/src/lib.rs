@@ -11,11 +11,13 @@
 //! * `drive`, `course`, `run`, `sensors`: closed-loop drives and what sensors show of them.
 //! * `robot`, `robot_json`: the robot as its user knows it.
 //! * `free`, `measure`: how much a hidden effect matters, by free runs.
+//! * `command`: command-driven cases, with a controller, wheels and a ground of their own.
 //! * `speed`: speed-driven cases, with a law of steady torques, sensors and events of their own.
 //! * `csv`, `truth`: the files of a case, and what was hidden, for the scorer.
 //! * `random`: random numbers fixed by a path of keys; `error`: what can go wrong.
 
 mod case;
+pub mod command;
 mod contact;
 mod course;
 mod csv;

@@ -15,8 +15,10 @@ use rayon::ThreadPool;
 
 use crate::{binary, output};
 
+mod command;
 mod diagnose;
 mod draw;
+mod drawn;
 mod figures;
 mod given;
 pub(crate) mod layout;
@@ -40,6 +42,8 @@ Examples:
   cargo xtask blind --draw-only --count 20 --out DIR   cases and truth for other tools
   cargo xtask blind --wide                             robots, sensors and visits of every sort
   cargo xtask blind --kind speed --count 200           speed-driven cases
+  cargo xtask blind --kind command --count 200         command-driven cases
+  cargo xtask blind --kind all --count 200             so many of each kind
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
 
 A second run goes on where the first one stopped.
@@ -59,8 +63,8 @@ pub(crate) struct Args {
     /// Only these cases.
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
-    /// Kind of the robots: torques given, or set speeds and currents without sign (of the options for these: --seed,
-    /// --count, --out, --threads, --draw-only, --judge).
+    /// Kind of the robots; of the options, other kinds than torques know --seed, --count, --out, --threads, --draw-only,
+    /// --judge and --docs.
     #[arg(long, value_enum, default_value_t = Kind::Torque)]
     kind: Kind,
     #[command(flatten)]
@@ -76,6 +80,10 @@ enum Kind {
     Torque,
     /// Set speeds and currents are given.
     Speed,
+    /// Commanded and measured wheel speeds and a pose are given.
+    Command,
+    /// So many of each kind, one after the other.
+    All,
 }
 
 /// Marks about the tables in a page of the documentation.
@@ -100,7 +108,7 @@ struct Running {
     /// Fail when a target is missed.
     #[arg(long)]
     judge: bool,
-    /// Also write the tables into docs/blind.md, docs/blind-wide.md or docs/blind-speed.md.
+    /// Also write the tables into the page of the set in docs/.
     #[arg(long, conflicts_with = "draw_only")]
     docs: bool,
 }
@@ -115,13 +123,30 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         .build()
         .context("cannot start the threads; give fewer with --threads")?;
     let out = |usual: &str| args.running.out.clone().map_or_else(|| output::folder(usual), Ok);
-    if args.kind == Kind::Speed {
-        let (seed, count) = args.drawing.seed_and_count();
-        let Running { draw_only, judge, docs, .. } = args.running;
-        let set = speed::Set { seed, count, out: out("blind-speed")?, draw_only, judge, docs };
-        return pool.install(|| speed::run(&set));
+    let (seed, count) = args.drawing.seed_and_count();
+    let Running { draw_only, judge, docs, .. } = args.running;
+    let of = |out: PathBuf| drawn::Set { seed, count, out, draw_only, judge, docs };
+    let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
+    let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
+    match args.kind {
+        Kind::Torque => torque(args, out("blind")?, &pool),
+        Kind::Speed => speed(out("blind-speed")?),
+        Kind::Command => command(out("blind-command")?),
+        Kind::All => {
+            let folder = out("blind-all")?;
+            let kinds = [
+                torque(args, folder.join("torque"), &pool)?,
+                speed(folder.join("speed"))?,
+                command(folder.join("command"))?,
+            ];
+            Ok(kinds.into_iter().all(|met| met))
+        }
     }
-    let layout = Layout::new(out("blind")?);
+}
+
+/// Torque-driven cases.
+fn torque(args: &Args, out: PathBuf, pool: &ThreadPool) -> Result<bool> {
+    let layout = Layout::new(out);
     let plans = args.drawing.plans();
     let chosen = set::chosen(&plans, &args.only)?;
     let seals = pool.install(|| draw::draw(&chosen, &layout))?;
@@ -129,7 +154,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     if args.running.draw_only {
         return Ok(true);
     }
-    examine(args, &chosen, &layout, &seals, &pool)
+    examine(args, &chosen, &layout, &seals, pool)
 }
 
 /// Diagnoses what was drawn, then opens the truth and scores.

@@ -3,31 +3,11 @@
 use examiner::speed::{Sight, SpeedKind};
 
 use super::score::{ANGLE, EventScore, Row};
-use crate::blind::Rate;
+use crate::blind::drawn::List;
 use crate::blind::score::statistics::median;
-use crate::document::{Section, number};
+use crate::document::Section;
 use crate::output::Asked::{AtLeast, AtMost};
-use crate::output::{Asked, Figure};
-
-struct List(Vec<Figure>);
-
-impl List {
-    /// A share, where there is anything to count.
-    fn share(&mut self, name: &str, asked: Option<Asked>, cases: impl Iterator<Item = bool>) {
-        let rate: Rate = cases.collect();
-        if let Some(share) = rate.share() {
-            let figure = Figure::free(format!("{name} (of {})", rate.count), share, "");
-            self.0.push(match asked {
-                Some(asked) => figure.asked(asked),
-                None => figure,
-            });
-        }
-    }
-
-    fn value(&mut self, name: &str, value: Option<f64>, unit: &str, asked: Asked) {
-        self.0.extend(value.map(|value| Figure::free(name, value, unit).asked(asked)));
-    }
-}
+use crate::output::Figure;
 
 /// All figures.
 pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
@@ -36,7 +16,7 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
     let events = |kind: SpeedKind| {
         rows.iter().flat_map(move |r| r.events.iter().filter(move |e| e.kind == kind).map(move |e| (r, e)))
     };
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     list.share("nothing hidden: alarmed", Some(AtMost(0.02)), of(SpeedKind::FaultFree).map(|r| r.answered));
     list.share("refused", Some(AtMost(0.0)), rows.iter().map(|r| r.verdict == "refused"));
     list.share("something hidden: answered", Some(AtLeast(0.7)), hidden().map(|r| r.answered));
@@ -85,20 +65,8 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
     list.0
 }
 
-/// Tables of a page: figures, and every case that is wrong.
-pub(super) fn sections(rows: &[Row], figures: &[Figure]) -> Vec<Section> {
-    let mut table = Section::new("Figures", "", &["figure", "found", "", "asked", ""]);
-    for f in figures {
-        let met = f.pass.map_or("", |pass| if pass { "yes" } else { "NO" });
-        let cells = [
-            f.name.clone(),
-            number(Some(f.value)),
-            f.unit.clone(),
-            f.target.clone().unwrap_or_default(),
-            met.to_owned(),
-        ];
-        table.rows.push(cells.map(Into::into).to_vec());
-    }
+/// Every case that is wrong.
+pub(super) fn wrong(rows: &[Row]) -> Section {
     let mut wrong = Section::new(
         "Cases that are not right",
         "Of a case in which nothing is hidden: alarmed; of others: another leading class, or none.",
@@ -110,5 +78,5 @@ pub(super) fn sections(rows: &[Row], figures: &[Figure]) -> Vec<Section> {
         let cells = [r.case.clone(), r.kind.name().to_owned(), r.sight.name().to_owned(), r.verdict.clone(), class];
         wrong.rows.push(cells.map(Into::into).to_vec());
     }
-    vec![table, wrong]
+    wrong
 }

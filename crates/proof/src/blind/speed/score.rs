@@ -15,7 +15,7 @@ const CLASS: usize = 3;
 /// What came of a case.
 #[derive(Debug, Clone, Serialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a column of the table of scores")]
-pub(super) struct Row {
+pub(in crate::blind) struct Row {
     pub(super) case: String,
     pub(super) kind: SpeedKind,
     pub(super) sight: Sight,

@@ -1,0 +1,49 @@
+//! `cargo xtask blind --kind command`: command-driven cases with something hidden.
+
+use std::path::PathBuf;
+
+use examiner::command::{CommandPlan, CommandTruth};
+use serde_json::Value;
+
+use super::drawn::Subject;
+use crate::document::Section;
+use crate::output::Figure;
+
+mod figures;
+mod score;
+
+/// Command-driven robots.
+pub(super) struct CommandDriven;
+
+impl Subject for CommandDriven {
+    type Plan = CommandPlan;
+    type Truth = CommandTruth;
+    type Row = score::Row;
+    const PAGE: [&'static str; 2] = ["blind-command.md", "Blind cases, command-driven"];
+    const LAW: &'static str = "a discrete controller with wheels of second order behind it";
+
+    fn plans(seed: u64, count: usize) -> Vec<CommandPlan> {
+        CommandPlan::set(seed, count)
+    }
+
+    fn name(plan: &CommandPlan) -> &str {
+        &plan.name
+    }
+
+    fn draw(plan: &CommandPlan) -> (Vec<(PathBuf, Vec<u8>)>, CommandTruth) {
+        let case = plan.draw();
+        (case.files, case.truth)
+    }
+
+    fn row(truth: &CommandTruth, diagnosis: &Value, processor_seconds: Option<f64>) -> score::Row {
+        score::row(truth, diagnosis, processor_seconds)
+    }
+
+    fn figures(rows: &[score::Row]) -> Vec<Figure> {
+        figures::figures(rows)
+    }
+
+    fn tables(rows: &[score::Row]) -> Vec<Section> {
+        figures::tables(rows)
+    }
+}

@@ -1,0 +1,102 @@
+//! One answer against what was hidden, in the program's own words.
+
+use examiner::command::{CommandTruth, Hidden};
+use serde::Serialize;
+use serde_json::Value;
+
+/// What came of a case.
+#[derive(Debug, Clone, Serialize)]
+pub(in crate::blind) struct Row {
+    pub(super) case: String,
+    pub(super) hidden: Vec<Hidden>,
+    /// As the verdict says it; "refused" without one.
+    pub(super) verdict: String,
+    pub(super) headline: String,
+    /// Causes that are named: members of the classes.
+    pub(super) named: Vec<String>,
+    /// Whether each hidden thing is named.
+    pub(super) found: Vec<bool>,
+    /// Named causes that were not hidden.
+    pub(super) invented: Vec<String>,
+    /// Numbers that were hidden and are told: name, error over half of the 90 % interval.
+    pub(super) errors: Vec<(String, f64)>,
+    /// Position left out over 2 s: error as simulated, and corrected, over it.
+    pub(super) forecast: Option<f64>,
+    pub(super) processor_seconds: Option<f64>,
+}
+
+impl Row {
+    /// Whether a cause or "unknown" is told.
+    pub(super) fn is_answered(&self) -> bool {
+        matches!(self.verdict.as_str(), "explained" | "unknown")
+    }
+}
+
+/// The name of the cause that something hidden is.
+fn cause(hidden: Hidden) -> &'static str {
+    match hidden {
+        Hidden::DeadTime => "transport_delay",
+        Hidden::Lag => "motor_lag",
+        Hidden::Gains | Hidden::TurnLimit | Hidden::Ramps => "drive_command",
+        Hidden::Track => "effective_track",
+        Hidden::Radius => "rolling_radius",
+        Hidden::TurnSlip => "turning_slip",
+        Hidden::SideRadius => "wheel_radius_mismatch",
+    }
+}
+
+fn list<'a>(v: &'a Value, keys: &[&str]) -> &'a [Value] {
+    keys.iter().fold(v, |v, key| &v[*key]).as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Scores an answer; null is a refusal.
+pub(super) fn row(truth: &CommandTruth, d: &Value, processor_seconds: Option<f64>) -> Row {
+    let text = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+    let named: Vec<String> =
+        list(d, &["indistinguishable"]).iter().flat_map(|class| list(class, &[])).map(text).collect();
+    let causes: Vec<&str> = truth.hidden.iter().map(|h| cause(*h)).collect();
+    let parameters = list(d, &["response", "parameters"]);
+    let error = |(name, value): (&String, &f64)| {
+        let told = parameters.iter().find(|p| p["id"] == name.as_str())?;
+        let half = told["half_width"].as_f64().filter(|half| *half > 0.0)?;
+        Some((name.clone(), (told["value"].as_f64()? - value) / half))
+    };
+    let forecast = list(d, &["free_runs"])
+        .iter()
+        .find(|f| f["quantity"].as_str().is_some_and(|q| q.starts_with("position (rms)")));
+    Row {
+        case: truth.case.clone(),
+        hidden: truth.hidden.clone(),
+        verdict: d["verdict"].as_str().unwrap_or("refused").to_owned(),
+        headline: list(d, &["sentences"]).first().map(text).unwrap_or_default(),
+        found: causes.iter().map(|c| named.iter().any(|n| n == c)).collect(),
+        invented: named.iter().filter(|n| !causes.contains(&n.as_str())).cloned().collect(),
+        named,
+        errors: truth.numbers.iter().filter_map(error).collect(),
+        forecast: forecast.and_then(|f| Some(f["corrected"].as_f64()? / f["nominal"].as_f64()?)),
+        processor_seconds,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_cause_is_found_by_its_name_and_a_number_by_its_interval() {
+        let truth = CommandTruth {
+            case: "c001".into(),
+            hidden: vec![Hidden::DeadTime, Hidden::Track],
+            numbers: [("dead_time".to_owned(), 0.2), ("track_factor".to_owned(), 1.5)].into(),
+        };
+        let say = json!({ "verdict": "explained", "sentences": ["x"],
+            "indistinguishable": [["transport_delay", "body_lag"]],
+            "response": { "parameters": [{ "id": "dead_time", "value": 0.21, "half_width": 0.02 }] },
+            "free_runs": [{ "quantity": "position (rms), m", "nominal": 0.4, "corrected": 0.1 }] });
+        let row = row(&truth, &say, None);
+        assert_eq!((row.found, row.invented), (vec![true, false], vec!["body_lag".to_owned()]));
+        assert!(row.errors.len() == 1 && (row.errors[0].1 - 0.5).abs() < 1e-9, "{:?}", row.errors);
+        assert!(row.forecast.is_some_and(|f| (f - 0.25).abs() < 1e-9));
+    }
+}
