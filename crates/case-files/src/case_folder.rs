@@ -285,6 +285,7 @@ impl CaseFolder {
         };
         Ok(command_driven::ResponseCase {
             robot: self.robot.robot,
+            geometry_sigma: self.robot.geometry_sigma,
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
             held_out: runs(&self.held_out)?,

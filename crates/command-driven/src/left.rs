@@ -337,7 +337,13 @@ mod tests {
         for (truth, verdict) in [(Truth::perfect(), Verdict::NoMismatch), (Truth::stock(), Verdict::Explained)] {
             for recordings in [[11, 12], [21, 22]] {
                 let recordings = recordings.map(|seed| truth.run("r", 25, seed)).to_vec();
-                let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+                let case = ResponseCase {
+                    robot: robot(),
+                    geometry_sigma: [0.01; 2],
+                    references: vec![],
+                    recordings,
+                    held_out: vec![],
+                };
                 let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
                 assert_eq!(d.verdict, verdict, "{:?}", d.ranked);
                 assert!(probability(&d, UNKNOWN.id) < 0.01, "{:?}", d.ranked);

@@ -13,6 +13,7 @@
 //! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
 //! * `left`: what the best answer leaves, where, and whether its cause is unknown.
+//! * `moved`: radius and track that the robot file may have wrong.
 //! * `name`, `element_words`, `words`: elements as causes with intervals; sentences.
 //! * `next/*`: which commands would tell the remaining responses apart.
 //! * `model`: a fitted response as a model of its own, run forward.
@@ -27,6 +28,7 @@ mod identified;
 mod identify;
 mod left;
 mod model;
+mod moved;
 mod name;
 mod next;
 mod onset;
@@ -45,7 +47,7 @@ use inference::robust::mean_with_error;
 use robot_model::Robot;
 
 use inference::{DiagnosisError, Options};
-use verdict::{Diagnosis, Element, Response, Verdict};
+use verdict::{Diagnosis, Element, Parameter, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
@@ -53,6 +55,7 @@ use identified::{Identified, identify};
 use identify::{Base, OfDrive, OfGround, neutral};
 use inference::experiment::{Comparison, Standing, leave_out};
 use left::Fitted;
+use moved::moved;
 use windows::{FOLDS, Windows};
 use words::Figures;
 
@@ -74,6 +77,8 @@ pub struct Readme;
 pub struct ResponseCase {
     /// The user's robot model: wheel radius and track.
     pub robot: Robot<f64>,
+    /// One sigma of wheel radius and track, as a share of each, as the robot file states them.
+    pub geometry_sigma: [f64; 2],
     /// Recordings in which the simulation is right; without any, the simulation is "the wheels do what is commanded,
     /// the body rolls without slip on the nominal track".
     pub references: Vec<ResponseRun>,
@@ -141,10 +146,15 @@ pub fn diagnose_response(
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
     let off = [summary(&left_out.nominal[0])[0], off_error];
-    out.ranked = name::ranked(&found, &response.parameters, off, nominal[1], &remains, &case.recordings);
+    // References have measured radius and track; without any they are as sure as the robot file is.
+    let moved = if case.references.is_empty() { moved(case, nominal, &response.parameters) } else { Vec::new() };
+    out.ranked = name::ranked(&found, &response.parameters, &moved, (off, nominal[1]), &remains, &case.recordings);
+    let is_moved = |p: &&Parameter| moved.iter().any(|m| m.element == p.element && m.is_likely());
+    let all_moved = response.parameters.iter().all(|p| is_moved(&p));
+    out.retuned = moved.iter().filter(|m| m.is_likely()).map(|m| m.retuned.clone()).collect();
     out.verdict = if remains.mostly > SETTINGS.left.likely {
         Verdict::Unknown
-    } else if response.parameters.is_empty() {
+    } else if all_moved {
         Verdict::NoMismatch
     } else {
         Verdict::Explained

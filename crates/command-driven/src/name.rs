@@ -6,6 +6,7 @@ use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant, Spa
 use crate::identified::Identified;
 use crate::identify::{Base, Identify};
 use crate::left::Remains;
+use crate::moved::Moved;
 use crate::run::ResponseRun;
 use crate::search::{Evidence, Part, Trial, sigmas};
 use crate::settings::{Answer, SETTINGS};
@@ -134,12 +135,13 @@ pub(crate) fn causes_of(present: &[Element]) -> impl Iterator<Item = &'static st
 
 /// Causes by probability; of those that are sure, the one nearer to the command first.
 ///
-/// `off`: what the wheels do otherwise than commanded, with its standard error.
+/// `moved`: constants that the robot file may have wrong. `off`: what the wheels do otherwise than commanded, with its
+/// standard error.
 pub(crate) fn ranked(
     found: &Identified,
     parameters: &[Parameter],
-    off: [f64; 2],
-    track: f64,
+    moved: &[Moved],
+    (off, track): ([f64; 2], f64),
     remains: &Remains,
     runs: &[ResponseRun],
 ) -> Vec<Cause> {
@@ -147,7 +149,8 @@ pub(crate) fn ranked(
     let mut present = Vec::new();
     for (spec, elements, size) in CAUSES {
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
-        let p = own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
+        let of_file = moved.iter().find(|m| elements.contains(&m.element)).map_or(0.0, |m| m.probability);
+        let p = (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         present.push(p);
         if p < ANSWER.listed {
             continue;

@@ -325,7 +325,13 @@ mod tests {
     fn a_track_that_widens_in_one_recording_only_is_absent_in_the_other() {
         let truth = begins(90.0, Truth::perfect(), |t| t.ground[TRACK] = 1.5, Truth::perfect);
         let recordings = vec![truth.run("a", 30, 4), Truth::perfect().run("b", 20, 5)];
-        let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+        let case = ResponseCase {
+            robot: robot(),
+            geometry_sigma: [0.01; 2],
+            references: vec![],
+            recordings,
+            held_out: vec![],
+        };
         let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
         began(&d, "effective_track", "a", 90.0);
@@ -340,7 +346,13 @@ mod tests {
     fn what_is_there_all_the_time_or_never_does_not_begin() {
         for truth in [Truth::perfect(), Truth::stock()] {
             let recordings = vec![truth.run("a", 30, 31), truth.run("b", 30, 32)];
-            let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+            let case = ResponseCase {
+                robot: robot(),
+                geometry_sigma: [0.01; 2],
+                references: vec![],
+                recordings,
+                held_out: vec![],
+            };
             let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
             assert!(d.ranked.iter().all(|c| c.intervals.is_none()) && d.located.spans.is_empty(), "{:?}", d.ranked);
         }

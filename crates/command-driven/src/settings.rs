@@ -115,6 +115,10 @@
         /// which a short lag forgets sooner.
         wider: f64 = 1.5, "1",
             "of 100 made-up robots, 90 % intervals then held the truth in 90 to 99, a lag's in 81";
+        /// What a cause costs more than an error of the robot file.
+        cause: f64 = 3.0, "nats", "guess: one in twenty, as for an element";
+        /// Radius and track change by about so much where tyres or ground are others, one sigma.
+        change: f64 = 0.3, "1", "guess: tyres by a tenth, effective tracks by a half";
         /// Causes below this probability are not listed.
         listed: f64 = 0.1, "1", "above the 0.05 that what left-out windows say nothing about keeps of its prior";
         /// Beyond this probability the way from command to ground orders causes.

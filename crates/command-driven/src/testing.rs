@@ -151,6 +151,7 @@ impl Truth {
 pub(crate) fn diagnosed(truth: &Truth, references: Option<&Truth>) -> Diagnosis {
     let case = ResponseCase {
         robot: robot(),
+        geometry_sigma: [0.01; 2],
         references: references.iter().map(|r| r.run("reference", 40, 7)).collect(),
         recordings: vec![truth.run("a", 30, 1), truth.run("b", 20, 2)],
         held_out: vec![truth.run("c", 15, 3)],

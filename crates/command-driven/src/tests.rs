@@ -116,7 +116,13 @@ fn what_the_references_do_as_well_is_not_missing() {
 #[test]
 fn too_few_steps_are_refused() {
     let runs = vec![Truth::stock().run("a", LEAST_STEPS - 1, 1)];
-    let case = |recordings| ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+    let case = |recordings| ResponseCase {
+        robot: robot(),
+        geometry_sigma: [0.01; 2],
+        references: vec![],
+        recordings,
+        held_out: vec![],
+    };
     let error = diagnose_response(&case(runs), &Options::default(), &|_| {}).expect_err("refused").to_string();
     assert!(error.contains("9 command steps") && error.contains("10 are needed"), "{error}");
     assert!(matches!(

@@ -117,10 +117,8 @@ fn where_left(remains: &Remains) -> String {
 /// What the named causes say.
 fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
     if d.verdict == Verdict::NoMismatch {
-        return vec![
-            "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says."
-                .to_owned(),
-        ];
+        let none = "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says.";
+        return std::iter::once(none.to_owned()).chain(retuned(d)).collect();
     }
     let drive = r.parameters.iter().any(|p| p.element.is_drive());
     let ground = r.parameters.iter().any(|p| !p.element.is_drive());
@@ -152,6 +150,7 @@ fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, referen
                 .to_owned(),
         );
     }
+    out.extend(retuned(d));
     let mut shares = Vec::new();
     for (what, unit, e) in figures.position.iter().map(|e| ("position", "m", e)).chain([("yaw", "rad", &figures.yaw)]) {
         shares.push(format!(
@@ -166,6 +165,11 @@ fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, referen
         shares.join("; ")
     ));
     out
+}
+
+/// Constants within the sigma of the robot file.
+fn retuned(d: &Diagnosis) -> impl Iterator<Item = String> {
+    d.retuned.iter().map(|r| format!("Re-tune {}.", r.sentence()))
 }
 
 fn controller(r: &Response) -> String {

@@ -8,6 +8,7 @@ use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
 use serde::Deserialize;
 
+use crate::keys::USUAL_GEOMETRY_SIGMA;
 use crate::keys::{Given, spreads};
 use crate::text::RobotText;
 use crate::{Causality, RobotFileError, RobotSpec};
@@ -193,6 +194,7 @@ impl FlatRobot {
             response: None,
             sources: BTreeMap::new(),
             torque_per_current: None,
+            geometry_sigma: [USUAL_GEOMETRY_SIGMA; 2],
         })
     }
 

@@ -9,7 +9,9 @@ use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
 
-use crate::keys::{Given, KEYS, Key, NAMES, POSE_NOISE, TORQUE_PER_CURRENT, is_constant, spreads};
+use crate::keys::{
+    GEOMETRY, Given, KEYS, Key, NAMES, POSE_NOISE, TORQUE_PER_CURRENT, USUAL_GEOMETRY_SIGMA, is_constant, spreads,
+};
 use crate::text::RobotText;
 use crate::{Causality, DiagnosisError, EffectAt, ResponseModel, RobotFileError, RobotSpec};
 
@@ -119,6 +121,10 @@ impl File {
             pose_sigma: beside(POSE_NOISE).map_or(USUAL_POSE_SIGMA, |g| g.value),
             torque_per_current: beside(TORQUE_PER_CURRENT)
                 .map(|g| [g.value, g.sigma.unwrap_or(USUAL_CURRENT_SIGMA * g.value)]),
+            geometry_sigma: GEOMETRY.map(|key| {
+                let stated = beside(key).and_then(|g| Some(g.sigma? / g.value.abs()));
+                stated.filter(|sigma| *sigma > 0.0).unwrap_or(USUAL_GEOMETRY_SIGMA)
+            }),
             sources: self.parameters.0.into_iter().map(|(key, q)| (key.name, q.source)).collect(),
             name: self.name,
             description: self.description,

@@ -7,6 +7,10 @@ use robot_model::tunable::{COUNT, Tunable, Tuning, tunables};
 
 /// Torque at the wheels of a side per ampere.
 pub(crate) const TORQUE_PER_CURRENT: &str = "torque_per_current";
+/// Constants that are measured with a tape and known to a share of themselves.
+pub(crate) const GEOMETRY: [&str; 2] = ["wheel_radius", "track"];
+/// One sigma of these where a file states none, as a share: tyre pressure and a tape measure.
+pub(crate) const USUAL_GEOMETRY_SIGMA: f64 = 0.01;
 /// Noise of the pose sensor.
 pub(crate) const POSE_NOISE: &str = "pose_noise";
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use robot_model::tunable::{USUAL_POSE_SIGMA, usual_sigma};
 use robot_model::{ModelError, Robot};
 
+use crate::keys::USUAL_GEOMETRY_SIGMA;
 use crate::{Causality, RobotSpec};
 
 /// Height of the centre of mass, wheel radii above the ground (guess: batteries lie at the axles, sensors above).
@@ -70,6 +71,7 @@ impl RobotSpec {
             sigma: usual_sigma(),
             pose_sigma: USUAL_POSE_SIGMA,
             torque_per_current: None,
+            geometry_sigma: [USUAL_GEOMETRY_SIGMA; 2],
         })
     }
 }

@@ -54,6 +54,8 @@ pub struct RobotSpec {
     pub pose_sigma: f64,
     /// Torque at the wheels of a side per ampere, and its one sigma, when currents are recorded.
     pub torque_per_current: Option<[f64; 2]>,
+    /// One sigma of the wheels' radius and of the track, as a share of each.
+    pub geometry_sigma: [f64; 2],
 }
 
 impl RobotSpec {

@@ -9,7 +9,7 @@ use robot_model::tunable::{Tunable, Tuning, USUAL_POSE_SIGMA, tunables};
 use verdict::Correction;
 
 use crate::full::{File, Parameters, Quantity};
-use crate::keys::{KEYS, POSE_NOISE, TORQUE_PER_CURRENT, keys_of};
+use crate::keys::{GEOMETRY, KEYS, POSE_NOISE, TORQUE_PER_CURRENT, USUAL_GEOMETRY_SIGMA, keys_of};
 use crate::{DiagnosisError, RobotFileError, RobotSpec};
 
 /// What a parameter without a source came from.
@@ -79,6 +79,10 @@ impl RobotSpec {
     fn sigma_of(&self, key: &str, value: f64) -> Option<f64> {
         if let Some([_, sigma]) = self.torque_per_current.filter(|_| key == TORQUE_PER_CURRENT) {
             return Some(sigma);
+        }
+        if let Some(k) = GEOMETRY.iter().position(|g| *g == key) {
+            let sigma = self.geometry_sigma[k];
+            return (sigma != USUAL_GEOMETRY_SIGMA).then_some(sigma * value.abs());
         }
         let is_under = |t: &Tunable<f64>| keys_of(t).first() == Some(&key);
         let (tunable, sigma) = tunables::<f64>().into_iter().zip(self.sigma).find(|(t, _)| is_under(t))?;

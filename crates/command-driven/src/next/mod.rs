@@ -112,7 +112,13 @@ mod tests {
     /// Advice from these drives.
     fn advised(recordings: &[Recording]) -> Advice {
         let recordings = recordings.iter().map(|r| ResponseRun::new(r).expect("a run")).collect();
-        let case = ResponseCase { robot: robot(), references: vec![], recordings, held_out: vec![] };
+        let case = ResponseCase {
+            robot: robot(),
+            geometry_sigma: [0.01; 2],
+            references: vec![],
+            recordings,
+            held_out: vec![],
+        };
         let options = Options { next: Some(LENGTH), ..Options::default() };
         diagnose_response(&case, &options, &|_| {}).expect("a diagnosis").next.expect("advice")
     }

@@ -23,7 +23,7 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
 
     // Tyres and track are known to some per cent, as the file says.
     let mut robot =
-        Robot::ideal(radius * (1.0 + s.normal(0.006)), track * (1.0 + s.normal(0.006)), s.uniform(0.02, 0.04));
+        Robot::ideal(radius * (1.0 + s.normal(0.006)), track * (1.0 + s.normal(0.006)), s.uniform(0.004, 0.01));
     let hidden = chosen(plan, &mut stream("command hidden"));
     let mut numbers = BTreeMap::new();
     let mut s = stream("command sizes");
@@ -107,7 +107,9 @@ fn commands(fastest: f64, track_per_radius: f64, s: &mut Stream) -> Vec<([f64; 2
         // No faster turn than 2.5 rad/s.
         let most = (0.5 * fastest).min(1.25 * track_per_radius);
         let turn = s.uniform(-1.0, 1.0) * most;
-        out.push(([forward - turn, forward + turn], s.uniform(SECONDS[0], SECONDS[1])));
+        // Commands come with the rows: 20 Hz.
+        let seconds = (s.uniform(SECONDS[0], SECONDS[1]) * 20.0).round() / 20.0;
+        out.push(([forward - turn, forward + turn], seconds));
         if k % 8 == 7 {
             out.push(([0.0; 2], 3.0));
         }

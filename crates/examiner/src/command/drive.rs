@@ -33,7 +33,7 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// A robot whose wheels do what is commanded, but for a lag of a few hundredths of a second.
+    /// A robot whose wheels do what is commanded, but for a lag of some thousandths of a second.
     pub fn ideal(radius: f64, track: f64, lag: f64) -> Self {
         Self {
             radius,

@@ -4,6 +4,9 @@ use examiner::command::{CommandTruth, Hidden};
 use serde::Serialize;
 use serde_json::Value;
 
+/// Above this probability a cause is named: this kind has no classes.
+const LIKELY: f64 = 0.5;
+
 /// What came of a case.
 #[derive(Debug, Clone, Serialize)]
 pub(in crate::blind) struct Row {
@@ -12,7 +15,7 @@ pub(in crate::blind) struct Row {
     /// As the verdict says it; "refused" without one.
     pub(super) verdict: String,
     pub(super) headline: String,
-    /// Causes that are named: members of the classes.
+    /// Causes that are named.
     pub(super) named: Vec<String>,
     /// Whether each hidden thing is named.
     pub(super) found: Vec<bool>,
@@ -52,8 +55,9 @@ fn list<'a>(v: &'a Value, keys: &[&str]) -> &'a [Value] {
 /// Scores an answer; null is a refusal.
 pub(super) fn row(truth: &CommandTruth, d: &Value, processor_seconds: Option<f64>) -> Row {
     let text = |v: &Value| v.as_str().unwrap_or_default().to_owned();
-    let named: Vec<String> =
-        list(d, &["indistinguishable"]).iter().flat_map(|class| list(class, &[])).map(text).collect();
+    let likely = list(d, &["ranked"]).iter().filter(|c| c["probability"].as_f64().is_some_and(|p| p > LIKELY));
+    let answers = ["none", "unknown"];
+    let named: Vec<String> = likely.map(|c| text(&c["effect"])).filter(|id| !answers.contains(&id.as_str())).collect();
     let causes: Vec<&str> = truth.hidden.iter().map(|h| cause(*h)).collect();
     let parameters = list(d, &["response", "parameters"]);
     let error = |(name, value): (&String, &f64)| {
@@ -91,7 +95,8 @@ mod tests {
             numbers: [("dead_time".to_owned(), 0.2), ("track_factor".to_owned(), 1.5)].into(),
         };
         let say = json!({ "verdict": "explained", "sentences": ["x"],
-            "indistinguishable": [["transport_delay", "body_lag"]],
+            "ranked": [{ "effect": "transport_delay", "probability": 0.99 }, { "effect": "body_lag", "probability": 0.7 },
+                { "effect": "effective_track", "probability": 0.3 }, { "effect": "unknown", "probability": 0.6 }],
             "response": { "parameters": [{ "id": "dead_time", "value": 0.21, "half_width": 0.02 }] },
             "free_runs": [{ "quantity": "position (rms), m", "nominal": 0.4, "corrected": 0.1 }] });
         let row = row(&truth, &say, None);

@@ -1,0 +1,86 @@
+//! Wheel radius and track that the robot file may have wrong: what lies within its sigma is re-tuned, not blamed.
+
+use inference::robust::NINETY;
+use verdict::{Element, Parameter, Retuned};
+
+use crate::ResponseCase;
+use crate::settings::{Answer, SETTINGS};
+
+const ANSWER: Answer = SETTINGS.answer;
+
+/// A constant of the robot file that these recordings want otherwise.
+pub(crate) struct Moved {
+    pub(crate) element: Element,
+    /// Probability that the file is wrong about it, and nothing is missing there.
+    pub(crate) probability: f64,
+    pub(crate) retuned: Retuned,
+}
+
+impl Moved {
+    /// Whether it is re-tuned rather than named as a cause.
+    pub(crate) fn is_likely(&self) -> bool {
+        self.probability > 0.5
+    }
+}
+
+/// Log density of a Gaussian without its constant.
+fn log_density(x: f64, sigma: f64) -> f64 {
+    -0.5 * (x / sigma).powi(2) - sigma.ln()
+}
+
+/// Radius and track among the fitted constants, each with the probability that the file is wrong about it: an error of the
+/// file's sigma against a change of the robot or the ground, `p = N(δ; 0, σ² + s²) / (N(δ; 0, σ² + s²) + e^{-c} N(δ; 0, τ² + s²))`
+/// with a relative deviation δ known to s, the file's sigma σ, the usual change τ and the price c of a cause.
+pub(crate) fn moved(case: &ResponseCase, nominal: [f64; 2], parameters: &[Parameter]) -> Vec<Moved> {
+    let of = |(k, (element, name)): (usize, (Element, &str))| {
+        let p = parameters.iter().find(|p| p.element == element)?;
+        let delta = p.value / p.simulated.filter(|s| *s > 0.0).unwrap_or(1.0) - 1.0;
+        let own = p.half_width.map_or(0.0, |half| half / NINETY);
+        let file = case.geometry_sigma[k];
+        let odds = log_density(delta, file.hypot(own)) + ANSWER.cause - log_density(delta, ANSWER.change.hypot(own));
+        let retuned = Retuned {
+            constant: name.to_owned(),
+            unit: "m".to_owned(),
+            from: nominal[k],
+            to: nominal[k] * (1.0 + delta),
+            half_width: nominal[k] * NINETY * own,
+            sigmas: delta / file,
+        };
+        Some(Moved { element, probability: inference::evidence::logistic(odds), retuned })
+    };
+    [(Element::Radius, "wheel_radius"), (Element::Track, "track")].into_iter().enumerate().filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::robot;
+
+    fn probability(value: f64) -> f64 {
+        let case = ResponseCase {
+            robot: robot(),
+            geometry_sigma: [0.01, 0.02],
+            references: vec![],
+            recordings: vec![],
+            held_out: vec![],
+        };
+        let parameter = Parameter {
+            element: Element::Track,
+            id: "track_factor".into(),
+            unit: "-".into(),
+            value,
+            half_width: Some(0.002),
+            simulated: Some(1.0),
+            at_bound: false,
+        };
+        let all = moved(&case, [0.1, 0.5], &[parameter]);
+        assert!(all.len() == 1 && (all[0].retuned.to - 0.5 * value).abs() < 1e-12, "{:?}", all[0].retuned);
+        all[0].probability
+    }
+
+    #[test]
+    fn what_lies_within_the_files_sigma_is_retuned_and_what_lies_far_beyond_is_a_cause() {
+        assert!(probability(1.01) > 0.95 && probability(0.97) > 0.9);
+        assert!(probability(1.2) < 1e-6 && probability(0.9) < 0.05);
+    }
+}
