@@ -95,16 +95,15 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
 
     let mounting = sigmas.mounting.unwrap_or(known.mounting);
     let origin = sigmas.origin.unwrap_or(known.origin);
-    let of = |usual: f64| scatter.share * usual;
-    add(Quantity::Mounting, "direction of the pose's frame", "rad", mounting, usual.mounting, of(usual.mounting));
-    add(Quantity::OriginX, "place of the pose's origin, x", "m", origin, usual.origin, of(usual.origin));
-    add(Quantity::OriginY, "place of the pose's origin, y", "m", origin, usual.origin, of(usual.origin));
+    add(Quantity::Mounting, "direction of the pose's frame", "rad", mounting, usual.mounting, scatter.mounting);
+    add(Quantity::OriginX, "place of the pose's origin, x", "m", origin, usual.origin, scatter.origin);
+    add(Quantity::OriginY, "place of the pose's origin, y", "m", origin, usual.origin, scatter.origin);
     if robot.has_rollers() {
-        add(Quantity::RollerSlip, "slip of the rollers sideways", "1", known.slip, usual.slip, of(usual.slip));
+        add(Quantity::RollerSlip, "slip of the rollers sideways", "1", known.slip, usual.slip, scatter.slip);
     }
-    add(Quantity::TurnSlip, "slip in turns", "1", known.slip, usual.slip, of(usual.slip));
-    add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.slip, usual.turning, of(usual.turning));
-    add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.slip, usual.speed, of(usual.speed));
+    add(Quantity::TurnSlip, "slip in turns", "1", known.slip, usual.slip, scatter.slip);
+    add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.growing, usual.turning, scatter.growing);
+    add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.growing, usual.speed, scatter.growing);
     let cornering = [
         (Quantity::Sideslip, "sideways slip in curves", "s"),
         (Quantity::CorneringForward, "turning lost in curves", "rad s/m"),
@@ -112,7 +111,7 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
     ];
     let sideways = if robot.has_rollers() { 3 } else { 2 };
     for (quantity, name, unit) in cornering.into_iter().take(sideways) {
-        add(quantity, name, unit, known.slip, usual.cornering, of(usual.cornering));
+        add(quantity, name, unit, known.growing, usual.cornering, scatter.growing);
     }
     add(Quantity::ClockOffset, "offset of the clocks", "s", known.offset, usual.offset, scatter.offset);
     add(Quantity::ClockRate, "rate of the clocks", "1", known.rate, usual.rate, scatter.rate);

@@ -118,7 +118,7 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Odomet
         return Err(OdometryError::Empty);
     }
     progress("fitting the pose to the wheels' motion");
-    let solved = solve(&case.robot, &case.references, &case.recordings.iter().collect::<Vec<_>>())?;
+    let solved = solve(&case.robot, &case.references, &case.recordings.iter().collect::<Vec<_>>(), None)?;
     let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
     progress("naming what would make them agree");
     Ok(findings(case, &data, &solved))
@@ -161,17 +161,26 @@ fn data<'a>(
 }
 
 /// Fits drives and names causes.
+///
+/// `start` is where another fit of nearly the same drives ended.
 pub(crate) fn solve(
     robot: &WheeledRobot,
     references: &[Drive],
     drives: &[&Drive],
+    start: Option<&[f64]>,
 ) -> Result<Solved, OdometryError> {
     let constants = constants(robot);
     let prior = prior(robot, &constants, references)?;
     let causes = causes(robot, &constants);
     let mut data = Data::new(robot, &constants, drives.to_vec())?;
-    let mut start: Vec<f64> = prior.mean.iter().copied().collect();
-    align(robot, &constants, drives, &mut start);
+    let start = start.map_or_else(
+        || {
+            let mut start: Vec<f64> = prior.mean.iter().copied().collect();
+            align(robot, &constants, drives, &mut start);
+            start
+        },
+        <[f64]>::to_vec,
+    );
 
     let (mut fit, mut named) = weigh(&data, &prior, &causes, start).ok_or_else(|| short(&data))?;
     // Lost counts are found beside the best answer, and then left out of it.
@@ -221,7 +230,10 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
 fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
     let lever = SETTINGS.windows.lever;
     let errors = data.errors(theta.as_slice());
-    let used = |drive: usize| data.windows[drive].iter().zip(&errors[drive]).filter(|(w, _)| w.is_moving());
+    let used = |drive: usize| {
+        let all = data.windows[drive].iter().zip(&errors[drive]).zip(&data.dropped[drive]);
+        all.filter(|((w, _), dropped)| w.is_moving() && !**dropped).map(|(both, _)| both)
+    };
     let all = || (0..errors.len()).flat_map(used);
     let error = rms(all().flat_map(|(_, e)| *e)).unwrap_or(0.0);
     let way = rms(all().flat_map(|(w, _)| [w.moved[0], w.moved[1], w.moved[2] / lever])).unwrap_or(0.0);

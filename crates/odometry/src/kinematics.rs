@@ -51,60 +51,70 @@ struct Rule {
 pub(crate) struct Kinematics<'a> {
     robot: &'a WheeledRobot,
     geometry: &'a Geometry,
-    /// 3 × measured wheels, where no wheel is steered.
-    fixed: Option<DMatrix<f64>>,
+    /// Rules of the wheels that are not steered.
+    fixed: Rules,
+    /// What they and no other rules determine: inverse of their normal matrix.
+    inverse: Option<Matrix3<f64>>,
+}
+
+/// A sum of rules: their normal matrix, and for each measured wheel what a radian of it adds to the right side.
+#[derive(Clone)]
+struct Rules {
+    normal: Matrix3<f64>,
+    right: Vec<Vector3<f64>>,
+}
+
+impl Rules {
+    fn add(&mut self, rule: &Rule) {
+        let row = Vector3::from(rule.row);
+        self.normal += row * row.transpose();
+        if let Some((k, metres)) = rule.turn {
+            self.right[k] += row * metres;
+        }
+    }
 }
 
 impl<'a> Kinematics<'a> {
     pub(crate) fn new(robot: &'a WheeledRobot, geometry: &'a Geometry) -> Self {
-        let mut out = Self { robot, geometry, fixed: None };
+        let nothing = Rules { normal: Matrix3::zeros(), right: vec![Vector3::zeros(); geometry.radius.len()] };
+        let mut out = Self { robot, geometry, fixed: nothing, inverse: None };
+        for rule in out.rules(0.0, |wheel| !wheel.steered) {
+            out.fixed.add(&rule);
+        }
         if !robot.is_steered() {
-            out.fixed = Some(out.jacobian(0.0));
+            out.inverse = Some(out.fixed.normal.try_inverse().unwrap_or_else(Matrix3::zeros));
         }
         out
     }
 
-    /// Motion in the frame of the body: forward and left, m, and turned, rad.
+    /// Motion in the frame of the body: forward and left, m, and turned, rad: `(AᵀA)⁻¹ Aᵀ b`.
     pub(crate) fn motion(&self, turns: &[f64], steering: f64) -> [f64; 3] {
-        let mut out = [0.0; 3];
-        let add = |jacobian: &DMatrix<f64>| {
-            for (k, turn) in turns.iter().enumerate() {
-                for (axis, sum) in out.iter_mut().enumerate() {
-                    *sum += jacobian[(axis, k)] * turn;
-                }
-            }
-        };
-        match &self.fixed {
-            Some(jacobian) => Some(jacobian).into_iter().for_each(add),
-            None => Some(&self.jacobian(steering)).into_iter().for_each(add),
+        let mut right = Vector3::zeros();
+        for (column, turn) in self.fixed.right.iter().zip(turns) {
+            right += column * *turn;
         }
-        out
+        let inverse = self.inverse.unwrap_or_else(|| {
+            let mut normal = self.fixed.normal;
+            self.each_rule(steering, |wheel| wheel.steered, |rule| {
+                let row = Vector3::from(rule.row);
+                normal += row * row.transpose();
+                if let Some((k, metres)) = rule.turn {
+                    right += row * (metres * turns[k]);
+                }
+            });
+            normal.try_inverse().unwrap_or_else(Matrix3::zeros)
+        });
+        (inverse * right).into()
     }
 
-    /// Metres and radians of the body per radian of each measured wheel: `(AᵀA)⁻¹ Aᵀ B`.
-    fn jacobian(&self, steering: f64) -> DMatrix<f64> {
-        let rules = self.rules(steering);
-        let mut normal = Matrix3::<f64>::zeros();
-        let mut right = DMatrix::<f64>::zeros(3, self.geometry.radius.len());
-        for rule in &rules {
-            let row = Vector3::from(rule.row);
-            normal += row * row.transpose();
-            if let Some((k, metres)) = rule.turn {
-                for axis in 0..3 {
-                    right[(axis, k)] += row[axis] * metres;
-                }
-            }
-        }
-        let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let mut out = DMatrix::<f64>::zeros(3, right.ncols());
-        for (i, k) in (0..3).flat_map(|i| (0..right.ncols()).map(move |k| (i, k))) {
-            out[(i, k)] = (0..3).map(|j| inverse[(i, j)] * right[(j, k)]).sum();
-        }
-        out
-    }
-
-    fn rules(&self, steering: f64) -> Vec<Rule> {
+    fn rules(&self, steering: f64, of: impl Fn(&Wheel) -> bool) -> Vec<Rule> {
         let mut out = Vec::new();
+        self.each_rule(steering, of, |rule| out.push(rule));
+        out
+    }
+
+    /// Tells every rule of some wheels at a steering angle.
+    fn each_rule(&self, steering: f64, of: impl Fn(&Wheel) -> bool, mut tell: impl FnMut(Rule)) {
         let mut plain: Vec<(f64, Vec<[f64; 2]>)> = Vec::new();
         let mut measured = 0;
         for wheel in &self.robot.wheels {
@@ -120,34 +130,36 @@ impl<'a> Kinematics<'a> {
                 measured += 1;
                 (measured - 1, wheel.radius * self.geometry.radius[measured - 1])
             });
+            if !of(wheel) {
+                continue;
+            }
 
             if wheel.roller == 0.0 {
                 if turn.is_some() {
-                    out.push(Rule { row: along(place, [cos, sin]), turn });
+                    tell(Rule { row: along(place, [cos, sin]), turn });
                 }
                 if wheel.steered {
-                    out.push(Rule { row: along(place, [-sin, cos]), turn: None });
+                    tell(Rule { row: along(place, [-sin, cos]), turn: None });
                 } else {
                     parallel(&mut plain, wheel, place);
                 }
             } else if let Some((k, metres)) = turn {
                 let axle = [-(direction + wheel.roller).sin(), (direction + wheel.roller).cos()];
                 let rolled = metres * (axle[0] * cos + axle[1] * sin);
-                out.push(Rule { row: along(place, axle), turn: Some((k, rolled)) });
+                tell(Rule { row: along(place, axle), turn: Some((k, rolled)) });
             }
         }
         for (direction, places) in plain {
             let n = places.len() as f64;
             let middle = [0, 1].map(|axis| places.iter().map(|p| p[axis]).sum::<f64>() / n);
-            out.push(Rule { row: along(middle, [-direction.sin(), direction.cos()]), turn: None });
+            tell(Rule { row: along(middle, [-direction.sin(), direction.cos()]), turn: None });
         }
-        out
     }
 
     /// Refuses a robot whose wheels leave a motion open, and says which.
     pub(crate) fn determines(robot: &WheeledRobot) -> Result<(), OdometryError> {
         let geometry = Geometry::given(robot);
-        let kinematics = Kinematics { robot, geometry: &geometry, fixed: None };
+        let kinematics = Kinematics::new(robot, &geometry);
         let size = robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1])).fold(0.0, f64::max);
         if size <= 0.0 {
             return Err(open(robot, "its turning: all wheels stand at the origin"));
@@ -157,7 +169,7 @@ impl<'a> Kinematics<'a> {
             angles.extend(SETTINGS.wheels.steering);
         }
         for angle in angles {
-            let rules = kinematics.rules(angle);
+            let rules = kinematics.rules(angle, |_| true);
             let rows = DMatrix::from_fn(rules.len().max(3), 3, |i, j| {
                 // Turning counts by the way that it moves the outermost wheel.
                 rules.get(i).map_or(0.0, |rule| rule.row[j] / if j == 2 { size } else { 1.0 })

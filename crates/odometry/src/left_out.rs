@@ -49,10 +49,12 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
     let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
     names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
     let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let start = solve(&case.robot, &case.references, &all, None)?.fit.theta;
     for left in &keys {
         progress(&format!("forecasting {left}"));
         let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == *left);
-        let solved = solve(&case.robot, &case.references, &rest)?;
+        let solved = solve(&case.robot, &case.references, &rest, Some(&start))?;
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let of = |theta: &nalgebra::DVector<f64>| Some(laws(&case.robot, &solved.constants, theta.as_slice()));
         let mut models: Vec<Option<Laws>> = vec![

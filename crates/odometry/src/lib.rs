@@ -9,7 +9,8 @@
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
-//! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `file/*`: robot files of this kind, and drives from tables.
+//! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `settings`: every tuned number.
 
 mod answer;
@@ -21,6 +22,7 @@ mod diagnose;
 mod drive;
 mod dropout;
 mod error;
+pub mod file;
 mod fit;
 mod forecast;
 mod kinematics;

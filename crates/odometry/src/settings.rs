@@ -88,6 +88,8 @@
         origin: f64 = 0.001, "m", "guess";
         /// Share of slip that belongs to every drive.
         slip: f64 = 0.001, "1", "guess";
+        /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.
+        growing: f64 = 3e-4, "s/rad; s/m; s", "guess; a third of the share";
         /// Clock of the counts against that of the pose.
         offset: f64 = 0.02, "s", "guess; a few periods of usual logs";
         /// Rate of the clocks.
@@ -125,8 +127,14 @@
     /// By how much constants differ from session to session although nothing is changed: one sigma, before the sessions
     /// themselves are asked.
     scatter: Scatter {
-        /// Share of the usual size of slips, mounting and origin.
-        share: f64 = 0.02, "1", "guess; motion capture is set up anew";
+        /// Direction of the pose's frame.
+        mounting: f64 = 1e-3, "rad", "guess; motion capture is set up anew";
+        /// Place of the pose's origin.
+        origin: f64 = 1e-3, "m", "guess; motion capture is set up anew";
+        /// Slip in turns and of rollers.
+        slip: f64 = 1e-3, "1", "guess; floors differ";
+        /// Slips that grow with a rate, a speed or an acceleration: less, or they would scatter with slip once more.
+        growing: f64 = 3e-4, "s/rad; s/m; s", "guess; floors differ";
         /// Radius, relative.
         radius: f64 = 4e-4, "1", "guess; temperature and wear";
         /// Distances between wheels, relative.
@@ -163,7 +171,7 @@
         /// Remaining error over the way, beyond which what is left asks for a cause.
         left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
         /// Share of the re-tuned error that has to be left then.
-        left_of_retuned: f64 = 0.6, "1", "guess";
+        left_of_retuned: f64 = 0.8, "1", "guess";
         /// Sigmas of the pose's noise beyond which what is left is more than noise.
         left_noise: f64 = 4.0, "1", "guess";
     }
@@ -175,7 +183,7 @@
         /// Share of such windows' misfit that one wheel has to account for.
         share: f64 = 0.7, "1", "guess";
         /// Share of the counts that has to be lost in a window.
-        lost: f64 = 0.03, "1", "guess";
+        lost: f64 = 0.1, "1", "guess";
         /// Windows that show it at least.
         windows: usize = 2, "1", "guess";
         /// Share of a drive's windows that show it at most: what shows in all is no dropout.

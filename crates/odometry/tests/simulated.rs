@@ -77,6 +77,11 @@ fn healthy_robots_are_not_alarmed_and_intervals_hold_the_truth() {
             if matches!(findings.answer, Answer::Named | Answer::Unknown) {
                 alarms.push(format!("{kind:?} {seed}: {:?}", findings.named.iter().map(|c| &c.label).collect::<Vec<_>>()));
             }
+            if std::env::var_os("ODOMETRY_SHOW").is_some() {
+                let z: Vec<String> = case.truth.radius.iter().copied().chain([case.truth.base]).zip(&findings.constants)
+                    .map(|(t, e)| format!("{:.2}", (e.value - t) / e.half_width * 1.645)).collect();
+                eprintln!("{kind:?} noise {:.5} factor {} z {}", findings.noise, findings.scatter, z.join(" "));
+            }
             let truths = case.truth.radius.iter().copied().chain([case.truth.base]);
             for (truth, estimate) in truths.zip(&findings.constants) {
                 // Only the sum of track and wheelbase shows of a mecanum robot.
@@ -89,7 +94,6 @@ fn healthy_robots_are_not_alarmed_and_intervals_hold_the_truth() {
         }
     }
     assert!(alarms.len() * 100 <= cases * 5, "{} of {cases}: {alarms:#?}", alarms.len());
-    eprintln!("{inside} of {constants}");
     let share = inside as f64 / constants as f64;
     assert!((0.87..=0.93).contains(&share), "{share} of {constants} intervals hold the truth");
 }
