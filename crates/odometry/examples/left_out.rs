@@ -17,12 +17,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let case = Case { robot: file.robot, references: Vec::new(), recordings };
     let findings = diagnose(&case, &|_| {})?;
-    println!("{:?} noise {:.4} scatter {} shares {:.3?}", findings.answer, findings.noise, findings.scatter, findings.shares);
+    println!(
+        "{:?} noise {:.4} scatter {:.2} shares {:.3?}",
+        findings.answer, findings.noise, findings.scatter, findings.shares
+    );
     for cause in &findings.named {
         println!("  {} {:.2} alike {:?}", cause.label, cause.probability, cause.alike);
     }
     for e in &findings.constants {
-        println!("  {:36} {:9.5} -> {:9.5} +- {:.5} {} ({:.1} sigmas)", e.name, e.given, e.value, e.half_width, e.unit, e.sigmas);
+        println!(
+            "  {:36} {:9.5} -> {:9.5} +- {:.5} {} ({:.1} sigmas)",
+            e.name, e.given, e.value, e.half_width, e.unit, e.sigmas
+        );
     }
     let table = left_out(&case, &|_| {})?;
     for (name, errors) in &table.rows {

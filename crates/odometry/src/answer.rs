@@ -78,7 +78,8 @@ fn cause(named: &NamedCause) -> Cause {
         out.sigma = Some(first.half_width / NINETY / factor.abs());
         out.unit = named.spec.unit.into();
     }
-    let number = |e: &Estimate| verdict::Estimate { value: e.value, sigma: Some(e.half_width / NINETY), at_bound: false };
+    let number =
+        |e: &Estimate| verdict::Estimate { value: e.value, sigma: Some(e.half_width / NINETY), at_bound: false };
     out.parameters = named.estimates.iter().map(|e| (e.name.clone(), number(e))).collect();
     if !named.intervals.is_empty() {
         let mut intervals: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
@@ -206,7 +207,8 @@ fn forecast_sentence(table: &Table) -> Option<String> {
 
 fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
     let mut out = vec![
-        "a wrong radius of all wheels and a wrong scale of the pose look the same: lengths are those of the pose".to_owned(),
+        "a wrong radius of all wheels and a wrong scale of the pose look the same: lengths are those of the pose"
+            .to_owned(),
         format!(
             "{} sessions, {} drives, {} windows; constants are taken to differ between sessions by {:.2} times the usual \
              scatter, and intervals hold for a new session's mean only",

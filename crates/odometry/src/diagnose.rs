@@ -135,7 +135,7 @@ fn prior(robot: &WheeledRobot, constants: &[Constant], references: &[Drive]) -> 
     let data = Data::new(robot, constants, references.iter().collect())?;
     let causes = causes(robot, constants);
     let (fit, named) = weigh(&data, &of_file, &causes, vec![0.0; n]).ok_or(short(&data))?;
-    let deviation = scatter(&data, fit.factor);
+    let deviation = scatter(&data, fit.factors);
     let between = DMatrix::from_diagonal(&deviation.component_mul(&deviation));
     Ok(Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between })
 }
@@ -210,13 +210,11 @@ fn align(robot: &WheeledRobot, constants: &[Constant], drives: &[&Drive], start:
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
     let every: Vec<usize> = (0..causes.len()).collect();
-    let wide = Prior {
-        mean: prior.mean.clone(),
-        covariance: crate::name::covariance(&prior.covariance, causes, &every),
-    };
+    let wide =
+        Prior { mean: prior.mean.clone(), covariance: crate::name::covariance(&prior.covariance, causes, &every) };
     let mut fit = fit(data, &wide, start)?;
     let weighed = |fit: &Fit| {
-        let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factor), &prior.mean)?;
+        let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
         name(&evidence, &prior.covariance, causes)
     };
     let first = weighed(&fit)?;
@@ -267,9 +265,8 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
 
     let rules = SETTINGS.naming;
     let floor = pose_noise(data).max(SETTINGS.windows.floor);
-    let is_left = best.1 > rules.left_share
-        && best.0 > rules.left_of_retuned * tuned.0
-        && best.0 > rules.left_noise * floor;
+    let is_left =
+        best.1 > rules.left_share && best.0 > rules.left_of_retuned * tuned.0 && best.0 > rules.left_noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
     let answer = if is_left {
         Answer::Unknown
@@ -291,7 +288,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         constants: all,
         retuned,
         noise: fit.scale,
-        scatter: fit.factor,
+        scatter: fit.factors[0],
         shares: [given.1, tuned.1, best.1],
         counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
         told,
@@ -349,13 +346,7 @@ fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
 }
 
 /// A constant in the words of the robot file: factors become lengths.
-fn estimate(
-    robot: &WheeledRobot,
-    constant: &Constant,
-    prior: &Prior,
-    posterior: &Posterior,
-    k: usize,
-) -> Estimate {
+fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
     let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
     let sigmas = (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt();
     let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);

@@ -58,7 +58,8 @@ impl Drive {
         let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
         let measured = robot.measured();
         if wheels.len() != measured.len() {
-            let what = format!("{} columns of wheels, but the robot has {} measured wheels", wheels.len(), measured.len());
+            let what =
+                format!("{} columns of wheels, but the robot has {} measured wheels", wheels.len(), measured.len());
             return Err(wrong(what));
         }
         if robot.is_steered() && steering.is_none() {
@@ -77,7 +78,9 @@ impl Drive {
         }
         let finite = wheels.iter().flatten().chain(steering.iter().flatten()).all(|x| x.is_finite());
         if !finite {
-            return Err(wrong("wheel or steering columns hold values that are no numbers; cut the drive there".to_owned()));
+            return Err(wrong(
+                "wheel or steering columns hold values that are no numbers; cut the drive there".to_owned(),
+            ));
         }
 
         let mut told = Vec::new();
@@ -90,14 +93,16 @@ impl Drive {
                     let lacks = || OdometryError::Wheel {
                         robot: robot.name.clone(),
                         wheel: wheel.name.clone(),
-                        what: "counts are recorded, but counts_per_turn is missing; give the counts of one turn of the \
+                        what:
+                            "counts are recorded, but counts_per_turn is missing; give the counts of one turn of the \
                                wheel, gear included"
-                            .to_owned(),
+                                .to_owned(),
                     };
                     std::f64::consts::TAU / wheel.counts_per_turn.ok_or_else(lacks)?
                 }
             };
-            let column = if data == WheelData::Counter { unwrapped(column, &wheel.name, &mut told) } else { column.clone() };
+            let column =
+                if data == WheelData::Counter { unwrapped(column, &wheel.name, &mut told) } else { column.clone() };
             for row in 1..rows {
                 turns[row][k] = unit
                     * match data {
@@ -179,7 +184,9 @@ impl Drive {
             return Err(OdometryError::Drive { drive: self.name.clone(), what });
         };
         let measured = robot.measured();
-        let way = |row: &Vec<f64>| row.iter().zip(&measured).map(|(t, &w)| (t * robot.wheels[w].radius).abs()).fold(0.0, f64::max);
+        let way = |row: &Vec<f64>| {
+            row.iter().zip(&measured).map(|(t, &w)| (t * robot.wheels[w].radius).abs()).fold(0.0, f64::max)
+        };
         let rolled: f64 = self.turns.iter().map(way).sum();
         let reach = seen.iter().map(|p| (p[0] - start[0]).hypot(p[1] - start[1])).fold(0.0, f64::max);
         let wheels_reach = rolled.max(RULES.way);
@@ -272,7 +279,13 @@ mod tests {
         let robot = robot().with_wheels(|_, w| crate::Wheel { counts_per_turn: None, ..w });
         let time: Vec<f64> = (0..100).map(f64::from).collect();
         let column = vec![1.0; 100];
-        let refused = Drive::new("a", &robot, time, (WheelData::Counts, &[column.clone(), column]), None, vec![[0.0; 3]; 100]);
-        assert!(refused.unwrap_err().to_string().contains("wheel 'left': counts are recorded, but counts_per_turn is missing"));
+        let refused =
+            Drive::new("a", &robot, time, (WheelData::Counts, &[column.clone(), column]), None, vec![[0.0; 3]; 100]);
+        assert!(
+            refused
+                .unwrap_err()
+                .to_string()
+                .contains("wheel 'left': counts are recorded, but counts_per_turn is missing")
+        );
     }
 }

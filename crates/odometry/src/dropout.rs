@@ -26,7 +26,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
         .enumerate()
         .filter_map(|(k, c)| if let Quantity::Radius(wheel) = c.quantity { Some((k, wheel)) } else { None })
         .collect();
-    let mut out = Vec::new();
+    let mut out: Vec<Lost> = Vec::new();
     for drive in 0..data.drives.len() {
         let size = |e: &[f64; 3]| e.iter().map(|e| (e / scale).powi(2)).sum::<f64>();
         let far: Vec<usize> =
@@ -58,5 +58,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
             }
         }
     }
-    out
+    // Several encoders do not fail at once: then the body slid.
+    let one = out.iter().all(|found| found.wheel == out[0].wheel);
+    if one { out } else { Vec::new() }
 }

@@ -45,7 +45,9 @@ pub enum OdometryError {
     #[error("the case has no recording; at least one is needed")]
     Empty,
     /// The drives do not determine a fit.
-    #[error("the drives hold {windows} windows of {length} s with motion, but at least {needed} are needed; record longer")]
+    #[error(
+        "the drives hold {windows} windows of {length} s with motion, but at least {needed} are needed; record longer"
+    )]
     Short {
         /// Windows there are.
         windows: usize,

@@ -8,6 +8,7 @@
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 
+use crate::constants::Quantity;
 use crate::motion::implied;
 use crate::settings::SETTINGS;
 use crate::windows::Data;
@@ -82,8 +83,8 @@ pub(crate) struct Fit {
     pub(crate) sessions: Vec<Session>,
     /// Sigma of a window's errors, m.
     pub(crate) scale: f64,
-    /// Factor on the scatter of all constants.
-    pub(crate) factor: f64,
+    /// Factors on the scatter of all constants, and on that of the clocks.
+    pub(crate) factors: [f64; 2],
 }
 
 /// A least-squares problem of the shared solver.
@@ -192,8 +193,14 @@ pub(crate) fn columns(data: &Data<'_>, theta: &[f64], drive: usize) -> Vec<Vec<[
 }
 
 /// Sigmas of the deviations of sessions.
-pub(crate) fn scatter(data: &Data<'_>, factor: f64) -> DVector<f64> {
-    DVector::from_iterator(data.constants.len(), data.constants.iter().map(|c| factor * c.scatter))
+///
+/// `factors` are those on the usual scatter: of all constants, and of the clocks.
+pub(crate) fn scatter(data: &Data<'_>, [others, clocks]: [f64; 2]) -> DVector<f64> {
+    let of = |c: &crate::Constant| {
+        let is_clock = matches!(c.quantity, Quantity::ClockOffset | Quantity::ClockRate);
+        c.scatter * if is_clock { clocks } else { others }
+    };
+    DVector::from_iterator(data.constants.len(), data.constants.iter().map(of))
 }
 
 /// Fits the constants from `start`, scale of errors and scatter of sessions included; `None` where a prior is no covariance.
@@ -202,41 +209,43 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     let settings = Settings { iterations: 20, least_relative_fall: 1e-6, ..Settings::gauss_newton() };
     let mut theta = start;
     let mut scale = data.scale(&data.errors(&theta));
-    let mut factor = 1.0;
+    let mut factors = [1.0; 2];
     let mut sessions = Vec::new();
     for _ in 0..SETTINGS.fitting.rounds {
-        let problem = Windowed { data, prior, information: information.clone(), scatter: scatter(data, factor), scale };
+        let problem =
+            Windowed { data, prior, information: information.clone(), scatter: scatter(data, factors), scale };
         let outcome = minimise(&problem, problem.at(theta), &settings);
         (theta, sessions) = (outcome.at.theta, outcome.at.sessions);
         // What a session has of its own is no noise of its windows.
         let of_session = |session: &Session| {
-            let deviation = session.deviation(&scatter(data, factor));
+            let deviation = session.deviation(&scatter(data, factors));
             deviation.map_or_else(|| theta.clone(), |d| theta.iter().zip(d.iter()).map(|(t, d)| t + d).collect())
         };
         let thetas: Vec<Vec<f64>> = sessions.iter().map(of_session).collect();
         let now = data.scale(&data.errors_by_session(&thetas));
-        let best = scatter_factor(data, prior, &theta, &sessions);
-        let at_rest = (now / scale).ln().abs() < SETTINGS.fitting.same_scale && best == factor;
-        (scale, factor) = (now, best);
+        let best = scatter_factors(data, prior, &theta, &sessions);
+        let at_rest = (now / scale).ln().abs() < SETTINGS.fitting.same_scale && best == factors;
+        (scale, factors) = (now, best);
         if at_rest {
             break;
         }
     }
     // The equations belong to the scale that is told.
     sessions = if sessions.is_empty() { sessions } else { equations(data, &theta, scale) };
-    Some(Fit { theta, sessions, scale, factor })
+    Some(Fit { theta, sessions, scale, factors })
 }
 
-/// The factor on the scatter of sessions under which they are most probable together.
-fn scatter_factor(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Session]) -> f64 {
+/// The factors on the scatter of sessions under which they are most probable together.
+fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Session]) -> [f64; 2] {
     let rules = SETTINGS.scatter;
-    let score = |factor: f64| {
-        let scatter = scatter(data, factor);
+    let score = |factors: [f64; 2]| {
+        let scatter = scatter(data, factors);
         let evidence = crate::weigh::Evidence::new(theta, sessions, &scatter, &prior.mean)
             .and_then(|e| Some(e.of(&prior.covariance)? - e.base));
-        evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (factor.ln() / rules.width).powi(2)
+        let [others, clocks] = [factors[0].ln() / rules.width, factors[1].ln() / rules.clock_width];
+        evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (others * others + clocks * clocks)
     };
-    let scores = rules.factors.map(score);
-    let best = (0..scores.len()).max_by(|a, b| scores[*a].total_cmp(&scores[*b])).unwrap_or(0);
-    rules.factors[best]
+    let pairs = rules.factors.iter().flat_map(|a| rules.clocks.iter().map(move |b| [*a, *b]));
+    let best = pairs.map(|pair| (score(pair), pair)).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or([1.0; 2], |(_, pair)| pair)
 }

@@ -95,13 +95,17 @@ impl<'a> Kinematics<'a> {
         }
         let inverse = self.inverse.unwrap_or_else(|| {
             let mut normal = self.fixed.normal;
-            self.each_rule(steering, |wheel| wheel.steered, |rule| {
-                let row = Vector3::from(rule.row);
-                normal += row * row.transpose();
-                if let Some((k, metres)) = rule.turn {
-                    right += row * (metres * turns[k]);
-                }
-            });
+            self.each_rule(
+                steering,
+                |wheel| wheel.steered,
+                |rule| {
+                    let row = Vector3::from(rule.row);
+                    normal += row * row.transpose();
+                    if let Some((k, metres)) = rule.turn {
+                        right += row * (metres * turns[k]);
+                    }
+                },
+            );
             normal.try_inverse().unwrap_or_else(Matrix3::zeros)
         });
         (inverse * right).into()

@@ -89,7 +89,7 @@
         /// Share of slip that belongs to every drive.
         slip: f64 = 0.001, "1", "guess";
         /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.
-        growing: f64 = 3e-4, "s/rad; s/m; s", "guess; a third of the share";
+        growing: f64 = 2e-4, "s/rad; s/m; s", "guess; a fifth of the share";
         /// Clock of the counts against that of the pose.
         offset: f64 = 0.02, "s", "guess; a few periods of usual logs";
         /// Rate of the clocks.
@@ -134,7 +134,7 @@
         /// Slip in turns and of rollers.
         slip: f64 = 1e-3, "1", "guess; floors differ";
         /// Slips that grow with a rate, a speed or an acceleration: less, or they would scatter with slip once more.
-        growing: f64 = 3e-4, "s/rad; s/m; s", "guess; floors differ";
+        growing: f64 = 2e-4, "s/rad; s/m; s", "guess; floors differ";
         /// Radius, relative.
         radius: f64 = 4e-4, "1", "guess; temperature and wear";
         /// Distances between wheels, relative.
@@ -147,6 +147,10 @@
         rate: f64 = 1e-5, "1", "quartz";
         /// Factors on all of these that are tried.
         factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
+        /// Factors on the scatter of the clocks that are tried: logs that are matched by hand differ in both offset and rate.
+        clocks: [f64; 4] = [1.0, 5.0, 25.0, 125.0], "1", "guess; up to a tenth of a per cent";
+        /// Sigma of the logarithm of the factor of the clocks.
+        clock_width: f64 = 2.0, "1", "guess; by hand or by wire";
         /// Sigma of the logarithm of that factor.
         width: f64 = 1.0, "1", "guess; a factor of e";
     }

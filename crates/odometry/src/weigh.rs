@@ -35,8 +35,7 @@ impl Evidence {
         mean: &DVector<f64>,
     ) -> Option<Self> {
         let n = theta.len();
-        let mut out =
-            Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
+        let mut out = Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
         let d = mean - DVector::from_column_slice(theta);
         for session in sessions {
             let marginal = session.marginal(scatter)?;

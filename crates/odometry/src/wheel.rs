@@ -76,7 +76,10 @@ impl WheeledRobot {
     /// Two driven wheels on one axle, `track` apart: 0 left, 1 right. Casters follow.
     pub fn differential(radius: f64, track: f64) -> Self {
         let half = 0.5 * track;
-        Self::of("differential", vec![Wheel::new("left", [0.0, half], radius), Wheel::new("right", [0.0, -half], radius)])
+        Self::of(
+            "differential",
+            vec![Wheel::new("left", [0.0, half], radius), Wheel::new("right", [0.0, -half], radius)],
+        )
     }
 
     /// A driven and steered front wheel, `wheelbase` before an axle of two free wheels whose middle is the origin.
@@ -120,14 +123,16 @@ impl WheeledRobot {
     pub fn mecanum_4(radius: f64, wheelbase: f64, track: f64) -> Self {
         let (x, y) = (0.5 * wheelbase, 0.5 * track);
         let eighth = std::f64::consts::FRAC_PI_4;
-        let wheel =
-            |name: &str, place: [f64; 2], roller: f64| Wheel { roller, ..Wheel::new(name, place, radius) };
-        Self::of("mecanum-4", vec![
-            wheel("front left", [x, y], eighth),
-            wheel("front right", [x, -y], -eighth),
-            wheel("rear left", [-x, y], -eighth),
-            wheel("rear right", [-x, -y], eighth),
-        ])
+        let wheel = |name: &str, place: [f64; 2], roller: f64| Wheel { roller, ..Wheel::new(name, place, radius) };
+        Self::of(
+            "mecanum-4",
+            vec![
+                wheel("front left", [x, y], eighth),
+                wheel("front right", [x, -y], -eighth),
+                wheel("rear left", [-x, y], -eighth),
+                wheel("rear right", [-x, -y], eighth),
+            ],
+        )
     }
 
     /// Sides that are driven as a whole and turn the robot by skidding, with the effective track between them: as a
@@ -183,10 +188,16 @@ impl WheeledRobot {
         }
         for wheel in &self.wheels {
             if !(wheel.radius > 0.0 && wheel.radius.is_finite()) {
-                return Err(wrong(wheel, format!("radius {} m; a radius is a positive length in metres", wheel.radius)));
+                return Err(wrong(
+                    wheel,
+                    format!("radius {} m; a radius is a positive length in metres", wheel.radius),
+                ));
             }
             if let Some(counts) = wheel.counts_per_turn.filter(|c| !(*c > 0.0 && c.is_finite())) {
-                return Err(wrong(wheel, format!("counts_per_turn {counts}; give the counts of one turn of the wheel")));
+                return Err(wrong(
+                    wheel,
+                    format!("counts_per_turn {counts}; give the counts of one turn of the wheel"),
+                ));
             }
             let numbers = [wheel.place[0], wheel.place[1], wheel.direction, wheel.roller];
             if numbers.iter().any(|x| !x.is_finite()) {

@@ -53,9 +53,10 @@ fn what_is_hidden_is_named_first() {
             let seed = 100 * (kind as u64) + h as u64;
             let findings = found(&drawn(kind, h, 3, 60.0, seed));
             let first = findings.named.first().map_or("", |c| c.spec.id);
-            let is_right = findings.named.first().is_some_and(|c| {
-                c.spec.id == expected(h) || c.alike.iter().any(|a| a.starts_with(expected(h)))
-            });
+            let is_right = findings
+                .named
+                .first()
+                .is_some_and(|c| c.spec.id == expected(h) || c.alike.iter().any(|a| a.starts_with(expected(h))));
             all += 1;
             right += usize::from(is_right);
             if !is_right {
@@ -75,11 +76,21 @@ fn healthy_robots_are_not_alarmed_and_intervals_hold_the_truth() {
             let findings = found(&case);
             cases += 1;
             if matches!(findings.answer, Answer::Named | Answer::Unknown) {
-                alarms.push(format!("{kind:?} {seed}: {:?}", findings.named.iter().map(|c| &c.label).collect::<Vec<_>>()));
+                alarms.push(format!(
+                    "{kind:?} {seed}: {:?}",
+                    findings.named.iter().map(|c| &c.label).collect::<Vec<_>>()
+                ));
             }
             if std::env::var_os("ODOMETRY_SHOW").is_some() {
-                let z: Vec<String> = case.truth.radius.iter().copied().chain([case.truth.base]).zip(&findings.constants)
-                    .map(|(t, e)| format!("{:.2}", (e.value - t) / e.half_width * 1.645)).collect();
+                let z: Vec<String> = case
+                    .truth
+                    .radius
+                    .iter()
+                    .copied()
+                    .chain([case.truth.base])
+                    .zip(&findings.constants)
+                    .map(|(t, e)| format!("{:.2}", (e.value - t) / e.half_width * 1.645))
+                    .collect();
                 eprintln!("{kind:?} noise {:.5} factor {} z {}", findings.noise, findings.scatter, z.join(" "));
             }
             let truths = case.truth.radius.iter().copied().chain([case.truth.base]);

@@ -90,7 +90,9 @@ mod tests {
         let file = RobotFile::built_in("differential").expect("a file").expect("a robot");
         let refused = |table: &str| file.drive("a", table).unwrap_err().to_string();
         assert!(refused(&table(80).replace("tick_left", "left")).contains("no column 'tick_left'; it has time_s"));
-        assert!(refused(&table(80).replace(",106,106", ",x,106")).contains("row 1, column 'tick_right': 'x' is no number"));
+        assert!(
+            refused(&table(80).replace(",106,106", ",x,106")).contains("row 1, column 'tick_right': 'x' is no number")
+        );
         assert!(refused(&table(9)).contains("9 rows, but at least 40"));
     }
 }

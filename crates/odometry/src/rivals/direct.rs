@@ -24,9 +24,12 @@ pub(super) fn end_poses(robot: &WheeledRobot, drives: &[&Drive]) -> Option<Laws>
 /// Geometry and frame that bring windows where they were measured.
 pub(super) fn with_frame(robot: &WheeledRobot, drives: &[&Drive]) -> Option<Laws> {
     let length = SETTINGS.windows.length;
-    fitted(robot, drives, |drive| Some(windows(drive, length, length)), |quantity| {
-        matches!(quantity, Quantity::Mounting | Quantity::OriginX | Quantity::OriginY)
-    })
+    fitted(
+        robot,
+        drives,
+        |drive| Some(windows(drive, length, length)),
+        |quantity| matches!(quantity, Quantity::Mounting | Quantity::OriginX | Quantity::OriginY),
+    )
 }
 
 fn fitted(
