@@ -52,10 +52,11 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
             (explained, Lost { wheel, drive, windows })
         };
         let best = wheels.iter().map(of_wheel).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((explained, found)) = best {
-            if explained > RULES.share * total && found.windows.len() >= RULES.windows {
-                out.push(found);
-            }
+        if let Some((explained, found)) = best
+            && explained > RULES.share * total
+            && found.windows.len() >= RULES.windows
+        {
+            out.push(found);
         }
     }
     // Several encoders do not fail at once: then the body slid.

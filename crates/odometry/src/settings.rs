@@ -170,7 +170,7 @@
         /// A factor on the radius this near to a familiar one is told as that.
         familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
         /// Familiar factors: counts on both edges, half turns, gears.
-        factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, 6.283_185_307_179_586, 0.159_154_943_091_895], "1",
+        factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, std::f64::consts::TAU, 1.0 / std::f64::consts::TAU], "1",
             "edges of encoders, diameters for radii, turns for radians";
         /// Remaining error over the way, beyond which what is left asks for a cause.
         left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";

@@ -238,7 +238,7 @@ fn drive(kind: Kind, robot: &WheeledRobot, t: &Truth, name: &str, seconds: f64, 
             }
             counter.push(((turned[shown][wheel] - missing[wheel]) / std::f64::consts::TAU * COUNTS).round());
         }
-        steers.push(steering[(shown + before) / 2 + 1 - usize::from(shown == steps)]);
+        steers.push(steering[usize::midpoint(shown, before) + 1 - usize::from(shown == steps)]);
         let [px, py, yaw] = bodies[at(now)];
         let (sin, cos) = yaw.sin_cos();
         let noise = [5e-4 * draw.normal(), 5e-4 * draw.normal(), 1e-3 * draw.normal()];
