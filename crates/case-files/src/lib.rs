@@ -11,6 +11,7 @@ pub mod envelope;
 pub mod inputs;
 pub mod kind;
 pub mod long;
+pub mod odometry;
 pub mod predictions;
 pub mod propose;
 #[cfg(feature = "page")]

@@ -10,6 +10,7 @@ mod blind;
 mod evidence;
 mod mujoco;
 mod next;
+mod odometry;
 
 pub use evidence::drive_layout;
 
@@ -31,6 +32,8 @@ enum Command {
     Mujoco(mujoco::Args),
     /// Ask whether it pays to follow the advice on the next drive.
     Next(next::Args),
+    /// Calibrate open recordings of wheel counts and poses, and forecast sessions left out.
+    Odometry(odometry::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -43,6 +46,7 @@ pub fn run() -> ExitCode {
         Command::Evidence(args) => evidence::run(&args),
         Command::Mujoco(args) => mujoco::run(&args),
         Command::Next(args) => next::run(&args),
+        Command::Odometry(args) => odometry::run(&args),
         Command::Bag(args) => bag::run(&args),
     })
 }

@@ -9,13 +9,14 @@ use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
+use case_files::odometry::OdometryCase;
 use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::Options;
 use recordings::Mapping;
 use verdict::Verdict;
 
-use super::{Outcome, Reading, report};
+use super::{Outcome, Reading, odometry, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -29,6 +30,8 @@ Examples:
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
   lacuna diagnose --robot husky-drive --recordings drives/ --heldout unseen/
+  lacuna diagnose --robot my-differential.toml --recordings drives/
+        wheel counts and a pose, with a robot file of kind = \"odometry\"
 
 A case folder:
   robot.toml    or robot.json; or name a robot with --robot
@@ -41,7 +44,8 @@ A case folder:
   heldout/      inputs whose response is to be predicted (may be missing)
 
 Built-in robots: husky-a200, kobuki, husky-drive, warthog-drive,
-  hendzel-trojnacki-2014
+  hendzel-trojnacki-2014; of wheel counts and a pose (kind = \"odometry\"):
+  differential, tricycle, omni-3, omni-4, mecanum-4, skid-steer-4
 Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag
   (ROS 2 bags); lacuna (what `lacuna convert` writes)
 
@@ -163,6 +167,9 @@ fn outcome(verdict: Verdict, fail_on: Option<FailOn>, lost: &[String]) -> Outcom
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
+    if let Some(case) = odometry::case(&args.input)? {
+        return odometry_verdict(args, &case, progress);
+    }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
     let options = Options { next, same_robot: args.input.same_robot, ..Options::default() };
     let (case, mapping) = read(&args.input)?;
@@ -205,6 +212,25 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         emit(&diagnosis_text::render(diagnosis, lost, &case.not_used(), found))?;
     }
     Ok(outcome(diagnosis.verdict, args.fail_on, &case.lost_of_recordings()))
+}
+
+/// Diagnoses a case of which wheel motion and pose are compared.
+fn odometry_verdict(args: &Args, case: &OdometryCase, progress: Progress) -> Result<Outcome> {
+    let diagnosis = case.diagnose(&|what| progress.stage(what))?;
+    drop(progress);
+
+    odometry::warn_of_unused(args.report.is_some(), args.mcap.is_some(), args.predictions.is_some(), args.next);
+    if let Some(file) = &args.picture {
+        let svg = ::report::picture::svg(&diagnosis)?;
+        std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
+    }
+    if let Some(target) = &args.json {
+        emit_json(target, &case.envelope(&diagnosis)?)?;
+    }
+    if args.json.as_deref() != Some("-") {
+        emit(&diagnosis_text::render(&diagnosis, &[], &case.ignored, None))?;
+    }
+    Ok(outcome(diagnosis.verdict, args.fail_on, &[]))
 }
 
 /// Where the parts of a case are.

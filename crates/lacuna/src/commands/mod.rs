@@ -23,6 +23,7 @@ pub(crate) mod identify;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod next;
+mod odometry;
 mod overview;
 pub(crate) mod predict;
 pub(crate) mod rehearse;

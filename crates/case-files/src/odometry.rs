@@ -1,0 +1,134 @@
+//! Cases of robots whose wheel motion is compared with a pose: robot files of `kind = "odometry"`, tables of their drives.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use odometry::file::RobotFile;
+use odometry::{Case, Drive, diagnosis, left_out};
+use serde_json::{Value, json};
+use verdict::Diagnosis;
+
+use crate::case_folder::{folders, robot_of};
+use crate::envelope::Program;
+use crate::inputs::{is_path, list};
+
+/// Version of the JSON of such a case.
+const FORMAT: u32 = 1;
+
+/// A case with what was read for it.
+#[derive(Debug)]
+pub struct OdometryCase {
+    /// The robot and its drives.
+    pub case: Case,
+    /// The robot file, or the built-in robot's name.
+    pub robot: String,
+    /// Files of the references, then of the recordings.
+    pub files: [Vec<String>; 2],
+    /// Other things in the folders, which were not read.
+    pub ignored: Vec<String>,
+}
+
+/// The robot that is named, a file or built in; `None` where it is of another kind.
+///
+/// # Errors
+/// A file that cannot be read, or holds what no such robot can have.
+pub fn robot(name: &str) -> Result<Option<RobotFile>> {
+    if Path::new(name).is_file() {
+        let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
+        return if RobotFile::is_one(&text) { Ok(Some(RobotFile::parse(name, &text)?)) } else { Ok(None) };
+    }
+    if is_path(name) {
+        return Ok(None);
+    }
+    RobotFile::built_in(name).transpose().map_err(Into::into)
+}
+
+/// The case of a folder, or of a robot with files, if its robot is of this kind.
+///
+/// # Errors
+/// As [`robot`]; tables that cannot be read.
+pub fn read(
+    folder: Option<&Path>,
+    robot_name: Option<&str>,
+    [reference, recordings]: [&[PathBuf]; 2],
+) -> Result<Option<OdometryCase>> {
+    let name = match (robot_name, folder) {
+        (Some(name), _) => name.to_owned(),
+        // What is wrong with a folder without a robot is said where other kinds are read.
+        (None, Some(folder)) => match robot_of(folder) {
+            Ok(path) => path.display().to_string(),
+            Err(_) => return Ok(None),
+        },
+        (None, None) => return Ok(None),
+    };
+    let Some(file) = robot(&name)? else { return Ok(None) };
+
+    let mut ignored = Vec::new();
+    let parts: [Vec<PathBuf>; 2] = match folder {
+        Some(folder) => {
+            let [reference, recordings, _] = folders(folder);
+            [reference, recordings].map(|part| if part.is_dir() { vec![part] } else { Vec::new() })
+        }
+        None => [reference.to_vec(), recordings.to_vec()],
+    };
+    let mut drives: [Vec<Drive>; 2] = Default::default();
+    let mut files: [Vec<String>; 2] = Default::default();
+    for (part, paths) in parts.iter().enumerate() {
+        for path in tables(paths, &mut ignored)? {
+            let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
+            let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+            drives[part].push(file.drive(&stem, &text)?);
+            files[part].push(path.display().to_string());
+        }
+    }
+    let [references, recordings] = drives;
+    if recordings.is_empty() {
+        bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
+    }
+    Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, robot: name, files, ignored }))
+}
+
+/// Tables below paths, sorted within each folder.
+fn tables(paths: &[PathBuf], ignored: &mut Vec<String>) -> Result<Vec<PathBuf>> {
+    let mut out = Vec::new();
+    for path in paths {
+        ensure!(path.exists(), "there is no file or folder '{}'; give a table, or a folder of tables", path.display());
+        if path.is_dir() {
+            for inside in list(path)? {
+                let is_table = inside.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+                if is_table { out.push(inside) } else { ignored.push(inside.display().to_string()) }
+            }
+        } else {
+            out.push(path.clone());
+        }
+    }
+    Ok(out)
+}
+
+impl OdometryCase {
+    /// Diagnoses the case, and forecasts what is left out of the fit in turn.
+    ///
+    /// # Errors
+    /// Drives that do not determine an answer.
+    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        let findings = odometry::diagnose(&self.case, progress)?;
+        let table = left_out(&self.case, progress)?;
+        Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
+    }
+
+    /// A diagnosis with what it was made from, as JSON.
+    ///
+    /// # Errors
+    /// A number that JSON cannot hold.
+    pub fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
+        Ok(json!({
+            "format": FORMAT,
+            "kind": "odometry",
+            "program": Program::default(),
+            "robot": self.robot,
+            "sources": { "reference": self.files[0], "recordings": self.files[1] },
+            "ignored_files": self.ignored,
+            "diagnosis": diagnosis,
+        }))
+    }
+}

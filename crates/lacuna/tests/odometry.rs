@@ -1,0 +1,108 @@
+//! `lacuna diagnose` for robots of which wheel counts and a pose are recorded.
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::Bench;
+use serde_json::Value;
+
+const ROBOT: &str = r#"
+name = "cart"
+kind = "odometry"
+
+[[wheel]]
+name = "left"
+place = [0.0, 0.15]
+radius = 0.05
+radius_sigma = 0.0003
+counts_per_turn = 4000.0
+column = "left"
+
+[[wheel]]
+name = "right"
+place = [0.0, -0.15]
+radius = 0.05
+radius_sigma = 0.0003
+counts_per_turn = 4000.0
+column = "right"
+
+[known]
+track_sigma = 0.003
+
+[columns]
+time = "t"
+wheels = "counts"
+x = "x"
+y = "y"
+yaw = "yaw"
+"#;
+
+/// Levels of both wheels at 20 Hz; the right wheel is 5 % larger than the file says.
+fn drive(phase: f64) -> String {
+    let mut out = String::from("t,left,right,x,y,yaw\n");
+    let (mut x, mut y, mut yaw) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for k in 0..1200_u32 {
+        let level = f64::from(k / 60) + phase;
+        let speeds = [4.0 + 2.0 * (1.7 * level).sin(), 4.0 + 2.0 * (2.9 * level).cos()];
+        let counts = speeds.map(|s| (s * 0.05 / std::f64::consts::TAU * 4000.0).round());
+        if k > 0 {
+            let ways = [0.05, 0.0525].map(|r| r * std::f64::consts::TAU / 4000.0);
+            let (l, r) = (ways[0] * counts[0], ways[1] * counts[1]);
+            let turned = (r - l) / 0.3;
+            x += 0.5 * (l + r) * (yaw + 0.5 * turned).cos();
+            y += 0.5 * (l + r) * (yaw + 0.5 * turned).sin();
+            yaw += turned;
+        }
+        let rough = |s: f64| 5e-4 * (f64::from(k) * 7.3 + s).sin();
+        let t = f64::from(k) * 0.05;
+        writeln!(
+            out,
+            "{t:.2},{},{},{:.5},{:.5},{:.5}",
+            counts[0],
+            counts[1],
+            x + rough(0.0),
+            y + rough(1.0),
+            yaw + rough(2.0)
+        )
+        .unwrap();
+    }
+    out
+}
+
+fn bench() -> Bench {
+    let bench = Bench::empty();
+    bench.write("case/robot.toml", ROBOT);
+    for (k, phase) in [0.0, 0.4, 0.8].into_iter().enumerate() {
+        bench.write(&format!("case/recordings/run_{k}.csv"), &drive(phase));
+    }
+    bench
+}
+
+#[test]
+fn a_wheel_that_is_too_large_is_named_with_its_radius() {
+    let bench = bench();
+    let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for part in ["radius_of_one_wheel", "scale of the pose", "from counts alone", "OptiOdom"] {
+        assert!(run.out().contains(part), "no `{part}` in {}", run.out());
+    }
+    let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
+    assert_eq!((&json["kind"], &json["diagnosis"]["verdict"]), (&"odometry".into(), &"explained".into()));
+    let radius = json["diagnosis"]["tuning"]["radius of right"].as_f64().unwrap();
+    let other = json["diagnosis"]["tuning"]["radius of left"].as_f64().unwrap();
+    assert!((radius / other - 1.05).abs() < 0.003, "{radius} over {other}");
+    assert_eq!(bench.run(&["diagnose", "case", "--fail-on", "mismatch"]).code(), Some(4));
+}
+
+#[test]
+fn what_cannot_be_is_one_clear_sentence() {
+    let bench = bench();
+    bench.run(&["diagnose", "case", "--mapping", "lacuna"]).failed(&["kind odometry", "leave out --mapping lacuna"]);
+    bench.write("case/robot.toml", &ROBOT.replace("[0.0, -0.15]", "[0.0, 0.15]"));
+    bench.run(&["diagnose", "case"]).failed(&["cart", "do not determine its turning"]);
+    bench.write("case/robot.toml", &ROBOT.replacen("counts_per_turn = 4000.0\n", "", 1));
+    bench.run(&["diagnose", "case"]).failed(&["'left' has counts but no counts_per_turn"]);
+    bench.write("case/robot.toml", &ROBOT.replace("\"left\"\n\n", "\"links\"\n\n"));
+    bench.run(&["diagnose", "case"]).failed(&["run_0", "no column 'links'", "it has t, left, right"]);
+}

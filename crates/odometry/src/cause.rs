@@ -1,0 +1,72 @@
+//! What may make wheel motion and pose disagree: directions in the space of the constants.
+
+use crate::constants::{Constant, Quantity};
+use crate::settings::SETTINGS;
+use crate::wheel::WheeledRobot;
+use catalogue::{CauseSpec, odometry as spec};
+
+/// A cause that can be named.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cause {
+    /// What is known about it.
+    pub spec: &'static CauseSpec,
+    /// The wheel that it is about, or which distance.
+    pub of: Option<String>,
+    /// Directions in which it moves the constants: weights by constant; each with its usual size, one sigma.
+    pub(crate) directions: Vec<(Vec<(usize, f64)>, f64)>,
+}
+
+impl Cause {
+    /// Its id with the wheel or distance that it is about.
+    pub fn label(&self) -> String {
+        self.of.as_ref().map_or_else(|| self.spec.id.to_owned(), |of| format!("{} ({of})", self.spec.id))
+    }
+
+    /// Indices of the constants that it moves, each once.
+    pub(crate) fn moves(&self) -> Vec<usize> {
+        let mut out: Vec<usize> = self.directions.iter().flat_map(|(d, _)| d.iter().map(|(k, _)| *k)).collect();
+        out.sort_unstable();
+        out.dedup();
+        out
+    }
+}
+
+/// The causes that can show in a robot's drives.
+pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause> {
+    let mut out: Vec<Cause> = Vec::new();
+    let radii: Vec<usize> =
+        (0..constants.len()).filter(|&k| matches!(constants[k].quantity, Quantity::Radius(_))).collect();
+    let all = (radii.iter().map(|&k| (k, 1.0)).collect(), SETTINGS.usual.radius);
+    out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all] });
+
+    let measured = robot.measured();
+    for (k, constant) in constants.iter().enumerate() {
+        let spec = match constant.quantity {
+            Quantity::Radius(_) if radii.len() < 2 => continue,
+            Quantity::Radius(_) => &spec::RADIUS_OF_ONE_WHEEL,
+            Quantity::Across | Quantity::Along | Quantity::Reach => &spec::WHEEL_DISTANCE,
+            Quantity::SteeringOffset => &spec::STEERING_ZERO,
+            Quantity::SteeringGain => &spec::STEERING_GAIN,
+            Quantity::Mounting => &spec::POSE_MOUNTING,
+            Quantity::OriginX | Quantity::OriginY => &spec::POSE_ORIGIN,
+            Quantity::RollerSlip => &spec::ROLLER_SLIP,
+            Quantity::TurnSlip => &spec::SLIP_IN_TURNS,
+            Quantity::RateSlip => &spec::SLIP_WITH_TURNING,
+            Quantity::SpeedSlip => &spec::SLIP_WITH_SPEED,
+            Quantity::Sideslip | Quantity::CorneringForward | Quantity::CorneringSideways => &spec::CORNERING_SLIP,
+            Quantity::ClockOffset => &spec::COUNTS_CLOCK_OFFSET,
+            Quantity::ClockRate => &spec::CLOCK_RATE,
+        };
+        let of = match constant.quantity {
+            Quantity::Radius(wheel) => Some(robot.wheels[measured[wheel]].name.clone()),
+            Quantity::Across | Quantity::Along | Quantity::Reach => Some(constant.name.clone()),
+            _ => None,
+        };
+        let direction = (vec![(k, 1.0)], constant.usual);
+        match out.iter_mut().find(|cause| cause.spec == spec && of.is_none()) {
+            Some(cause) => cause.directions.push(direction),
+            None => out.push(Cause { spec, of, directions: vec![direction] }),
+        }
+    }
+    out
+}

@@ -1,0 +1,140 @@
+//! The constants of a robot of which the motion of its body depends, and how well they are known.
+
+use crate::kinematics::{Geometry, Kinematics};
+use crate::motion::Laws;
+use crate::settings::SETTINGS;
+use crate::wheel::WheeledRobot;
+
+/// What a constant is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Logarithm of the factor on the radius of a measured wheel.
+    Radius(usize),
+    /// Logarithm of the factor on distances across the robot.
+    Across,
+    /// Logarithm of the factor on distances along the robot.
+    Along,
+    /// Logarithm of the factor on the distance of all wheels from the centre.
+    Reach,
+    /// Added to the steering angle, rad.
+    SteeringOffset,
+    /// Logarithm of the factor on the steering angle.
+    SteeringGain,
+    /// Direction of the pose's x axis in the robot, rad.
+    Mounting,
+    /// Place of the pose's origin in the robot, x, m.
+    OriginX,
+    /// The same, y.
+    OriginY,
+    /// Share of sideways motion that rollers lose.
+    RollerSlip,
+    /// Share of the way that is lost in turns.
+    TurnSlip,
+    /// Share of turning that is lost, per turning rate, s/rad.
+    RateSlip,
+    /// Share of the way that is lost, per speed, s/m.
+    SpeedSlip,
+    /// Sideways slip velocity per sideways acceleration, s.
+    Sideslip,
+    /// Turning lost per sideways acceleration of forward motion, rad s/m.
+    CorneringForward,
+    /// The same of sideways motion.
+    CorneringSideways,
+    /// By how much the clock of the counts is behind that of the pose, s.
+    ClockOffset,
+    /// By which share the clock of the counts is slow.
+    ClockRate,
+}
+
+/// A constant, how well it is known, and by how much sessions differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constant {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its name in answers.
+    pub name: String,
+    /// Unit of its value.
+    pub unit: &'static str,
+    /// One sigma of what is known before any drive.
+    pub sigma: f64,
+    /// One sigma of the value that it has as a cause.
+    pub usual: f64,
+    /// One sigma by which sessions differ.
+    pub scatter: f64,
+}
+
+/// The constants that can show in a robot's drives.
+pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
+    let (known, usual, scatter) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter);
+    let sigmas = robot.sigmas;
+    let mut out = Vec::new();
+    let mut add = |quantity, name: &str, unit, sigma: f64, usual: f64, scatter: f64| {
+        out.push(Constant { quantity, name: name.to_owned(), unit, sigma, usual, scatter });
+    };
+
+    for (k, &wheel) in robot.measured().iter().enumerate() {
+        let name = format!("radius of {}", robot.wheels[wheel].name);
+        let sigma = sigmas.radius.unwrap_or(known.radius);
+        add(Quantity::Radius(k), &name, "1", sigma, usual.radius, scatter.radius);
+    }
+    let across = sigmas.across.unwrap_or(known.distance);
+    let along = sigmas.along.unwrap_or(known.distance);
+    if robot.is_omni() {
+        let sigma = across.min(along);
+        add(Quantity::Reach, "distance from centre to wheels", "1", sigma, usual.distance, scatter.distance);
+    } else {
+        add(Quantity::Across, "track", "1", across, usual.distance, scatter.distance);
+        add(Quantity::Along, "wheelbase", "1", along, usual.distance, scatter.distance);
+    }
+    if robot.is_steered() {
+        let sigma = sigmas.steering.unwrap_or(known.steering);
+        add(Quantity::SteeringOffset, "steering zero", "rad", sigma, usual.steering, scatter.steering);
+        let sigma = sigmas.steering_gain.unwrap_or(known.steering_gain);
+        add(Quantity::SteeringGain, "steering gain", "1", sigma, usual.steering_gain, scatter.steering);
+    }
+
+    let mounting = sigmas.mounting.unwrap_or(known.mounting);
+    let origin = sigmas.origin.unwrap_or(known.origin);
+    add(Quantity::Mounting, "direction of the pose's frame", "rad", mounting, usual.mounting, scatter.mounting);
+    add(Quantity::OriginX, "place of the pose's origin, x", "m", origin, usual.origin, scatter.origin);
+    add(Quantity::OriginY, "place of the pose's origin, y", "m", origin, usual.origin, scatter.origin);
+    if robot.has_rollers() {
+        add(Quantity::RollerSlip, "slip of the rollers sideways", "1", known.slip, usual.slip, scatter.slip);
+    }
+    add(Quantity::TurnSlip, "slip in turns", "1", known.slip, usual.slip, scatter.slip);
+    add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.growing, usual.turning, scatter.growing);
+    add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.growing, usual.speed, scatter.growing);
+    let cornering = [
+        (Quantity::Sideslip, "sideways slip in curves", "s"),
+        (Quantity::CorneringForward, "turning lost in curves", "rad s/m"),
+        (Quantity::CorneringSideways, "turning lost in sideways curves", "rad s/m"),
+    ];
+    let sideways = if robot.has_rollers() { 3 } else { 2 };
+    for (quantity, name, unit) in cornering.into_iter().take(sideways) {
+        add(quantity, name, unit, known.growing, usual.cornering, scatter.growing);
+    }
+    add(Quantity::ClockOffset, "offset of the clocks", "s", known.offset, usual.offset, scatter.offset);
+    add(Quantity::ClockRate, "rate of the clocks", "1", known.rate, usual.rate, scatter.rate);
+
+    out.retain(|constant| acts(robot, constant.quantity));
+    out
+}
+
+/// Whether a constant of the geometry changes any motion of this robot.
+fn acts(robot: &WheeledRobot, quantity: Quantity) -> bool {
+    if !matches!(quantity, Quantity::Across | Quantity::Along | Quantity::Reach) {
+        return true;
+    }
+    let given = Laws::given(robot);
+    let moved = given.with(&[(quantity, 1.0)]);
+    let motions = |geometry: &Geometry| -> Vec<[f64; 3]> {
+        let kinematics = Kinematics::new(robot, geometry);
+        let wheels = geometry.radius.len();
+        let turn = |k: usize| (0..wheels).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
+        let steering = SETTINGS.wheels.steering;
+        (0..wheels).flat_map(|k| steering.map(|angle| kinematics.motion(&turn(k), angle))).collect()
+    };
+    let (before, after) = (motions(&given.geometry), motions(&moved.geometry));
+    let differ = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).any(|(a, b)| (a - b).abs() > 1e-9 * a.abs());
+    before.iter().zip(&after).any(differ)
+}

@@ -1,0 +1,371 @@
+//! From a case to what was found.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::case::Case;
+use crate::cause::{Cause, causes};
+use crate::clock;
+use crate::constants::{Constant, Quantity, constants};
+use crate::drive::Drive;
+use crate::dropout::{self, Lost};
+use crate::error::OdometryError;
+use crate::fit::{Fit, Prior, equations, fit, scatter};
+use crate::name::{Named, name};
+use crate::settings::SETTINGS;
+use crate::weigh::{Evidence, Posterior};
+use crate::wheel::WheeledRobot;
+use crate::windows::Data;
+use catalogue::CauseSpec;
+use catalogue::odometry::LOST_COUNTS;
+use inference::robust::{NINETY, rms};
+
+/// Kind of answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Wheels and pose agree as well as the robot is known: nothing is missing.
+    Nothing,
+    /// They agree once constants are set within what the owner states.
+    Retune,
+    /// Causes beyond that were named.
+    Named,
+    /// Something is missing, and nothing that can be named accounts for it.
+    Unknown,
+}
+
+/// A constant as it was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Its name.
+    pub name: String,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// As the robot file, or the references, have it.
+    pub given: f64,
+    /// As the recordings have it.
+    pub value: f64,
+    /// Half width of its 90 % interval.
+    pub half_width: f64,
+    /// How far it moved, in the sigmas with which it was known.
+    pub sigmas: f64,
+}
+
+impl Estimate {
+    /// Whether it moved by half of what is known of it and more, to where its interval leaves the given value out.
+    pub fn is_moved(&self) -> bool {
+        (self.value - self.given).abs() > self.half_width && self.sigmas.abs() > 0.5
+    }
+}
+
+/// A cause that was named, or may be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCause {
+    /// What is known about it.
+    pub spec: &'static CauseSpec,
+    /// Its id with what it is about.
+    pub label: String,
+    /// Probability that it is part of the truth.
+    pub probability: f64,
+    /// Labels of causes that these drives cannot tell from it.
+    pub alike: Vec<String>,
+    /// The constants that it moves.
+    pub estimates: Vec<Estimate>,
+    /// When it was there: recording, and from when to when, s; empty where it was there all the time.
+    pub intervals: Vec<(String, [f64; 2])>,
+}
+
+/// What the drives of a case say.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// Kind of answer.
+    pub answer: Answer,
+    /// Causes that were named, the one that the data would miss most first.
+    pub named: Vec<NamedCause>,
+    /// Causes that were not, with their probabilities.
+    pub others: Vec<(String, f64)>,
+    /// All constants with the named causes.
+    pub constants: Vec<Estimate>,
+    /// Constants re-tuned within what is known, with no cause.
+    pub retuned: Vec<Estimate>,
+    /// Sigma of a window's error, m.
+    pub noise: f64,
+    /// Factor on the usual scatter of constants between sessions.
+    pub scatter: f64,
+    /// Root mean square error of windows over their way: as given, re-tuned, with the named causes.
+    pub shares: [f64; 3],
+    /// Sessions, drives, windows.
+    pub counts: [usize; 3],
+    /// What was done to the recordings, for people.
+    pub told: Vec<String>,
+}
+
+/// Drives with the constants fitted to them, and what was named.
+pub(crate) struct Solved {
+    pub(crate) constants: Vec<Constant>,
+    pub(crate) causes: Vec<Cause>,
+    pub(crate) prior: Prior,
+    pub(crate) fit: Fit,
+    pub(crate) named: Named,
+    pub(crate) lost: Vec<Lost>,
+}
+
+/// Compares wheel motion and pose of a case, and names what would make them agree.
+///
+/// # Errors
+/// When the robot cannot be, or there are too few drives.
+pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, OdometryError> {
+    case.robot.checked()?;
+    if case.recordings.is_empty() {
+        return Err(OdometryError::Empty);
+    }
+    progress("fitting the pose to the wheels' motion");
+    let solved = solve(&case.robot, &case.references, &case.recordings.iter().collect::<Vec<_>>(), None)?;
+    let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
+    progress("naming what would make them agree");
+    Ok(findings(case, &data, &solved))
+}
+
+/// What is known before the recordings: of the robot file, or of the references.
+fn prior(robot: &WheeledRobot, constants: &[Constant], references: &[Drive]) -> Result<Prior, OdometryError> {
+    let n = constants.len();
+    let known = DMatrix::from_diagonal(&DVector::from_iterator(n, constants.iter().map(|c| c.sigma.powi(2))));
+    let of_file = Prior { mean: DVector::zeros(n), covariance: known };
+    if references.is_empty() {
+        return Ok(of_file);
+    }
+    let data = Data::new(robot, constants, references.iter().collect())?;
+    let causes = causes(robot, constants);
+    let (fit, named) = weigh(&data, &of_file, &causes, vec![0.0; n]).ok_or(short(&data))?;
+    let deviation = scatter(&data, fit.factors);
+    let between = DMatrix::from_diagonal(&deviation.component_mul(&deviation));
+    Ok(Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between })
+}
+
+fn short(data: &Data<'_>) -> OdometryError {
+    let windows = data.windows.iter().map(Vec::len).sum();
+    OdometryError::Short { windows, length: SETTINGS.windows.length, needed: SETTINGS.windows.least }
+}
+
+fn data<'a>(
+    robot: &'a WheeledRobot,
+    constants: &'a [Constant],
+    drives: Vec<&'a Drive>,
+    lost: &[Lost],
+) -> Result<Data<'a>, OdometryError> {
+    let mut data = Data::new(robot, constants, drives)?;
+    for found in lost {
+        for (window, _) in &found.windows {
+            data.dropped[found.drive][*window] = true;
+        }
+    }
+    Ok(data)
+}
+
+/// Fits drives and names causes.
+///
+/// `start` is where another fit of nearly the same drives ended.
+pub(crate) fn solve(
+    robot: &WheeledRobot,
+    references: &[Drive],
+    drives: &[&Drive],
+    start: Option<&[f64]>,
+) -> Result<Solved, OdometryError> {
+    let constants = constants(robot);
+    let prior = prior(robot, &constants, references)?;
+    let causes = causes(robot, &constants);
+    let mut data = Data::new(robot, &constants, drives.to_vec())?;
+    let start = start.map_or_else(
+        || {
+            let mut start: Vec<f64> = prior.mean.iter().copied().collect();
+            align(robot, &constants, drives, &mut start);
+            start
+        },
+        <[f64]>::to_vec,
+    );
+
+    let (mut fit, mut named) = weigh(&data, &prior, &causes, start).ok_or_else(|| short(&data))?;
+    // Lost counts are found beside the best answer, and then left out of it.
+    let lost = dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale);
+    if !lost.is_empty() {
+        data = self::data(robot, &constants, drives.to_vec(), &lost)?;
+        (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
+    }
+    drop(data);
+    Ok(Solved { constants, causes, prior, fit, named, lost })
+}
+
+/// Starts clocks where speeds agree, if they do not as they are.
+fn align(robot: &WheeledRobot, constants: &[Constant], drives: &[&Drive], start: &mut [f64]) {
+    let found: Vec<[f64; 2]> = drives.iter().filter_map(|d| clock::alignment(robot, d)).collect();
+    if 2 * found.len() < drives.len() {
+        return;
+    }
+    for (index, quantity) in [Quantity::ClockOffset, Quantity::ClockRate].into_iter().enumerate() {
+        let middle = inference::robust::median(found.iter().map(|f| f[index]));
+        if let Some((k, value)) = constants.iter().position(|c| c.quantity == quantity).zip(middle) {
+            start[k] = value;
+        }
+    }
+}
+
+/// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
+fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
+    let every: Vec<usize> = (0..causes.len()).collect();
+    let wide =
+        Prior { mean: prior.mean.clone(), covariance: crate::name::covariance(&prior.covariance, causes, &every) };
+    let mut fit = fit(data, &wide, start)?;
+    let weighed = |fit: &Fit| {
+        let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
+        name(&evidence, &prior.covariance, causes)
+    };
+    let first = weighed(&fit)?;
+    fit.theta = first.posterior.mean.iter().copied().collect();
+    fit.sessions = equations(data, &fit.theta, fit.scale);
+    let named = weighed(&fit)?;
+    Some((fit, named))
+}
+
+/// Root mean square error of the windows over the root mean square of their way and turning.
+fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
+    let lever = SETTINGS.windows.lever;
+    let errors = data.errors(theta.as_slice());
+    let used = |drive: usize| {
+        let all = data.windows[drive].iter().zip(&errors[drive]).zip(&data.dropped[drive]);
+        all.filter(|((w, _), dropped)| w.is_moving() && !**dropped).map(|(both, _)| both)
+    };
+    let all = || (0..errors.len()).flat_map(used);
+    let error = rms(all().flat_map(|(_, e)| *e)).unwrap_or(0.0);
+    let way = rms(all().flat_map(|(w, _)| [w.moved[0], w.moved[1], w.moved[2] / lever])).unwrap_or(0.0);
+    (error, error / way.max(f64::MIN_POSITIVE))
+}
+
+fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
+    let Solved { constants, causes, prior, fit, named, lost } = solved;
+    let estimates = |posterior: &Posterior| -> Vec<Estimate> {
+        (0..constants.len()).map(|k| estimate(&case.robot, &constants[k], prior, posterior, k)).collect()
+    };
+    let all = estimates(&named.posterior);
+    let retuned = estimates(&named.retuned);
+    let given = share(data, &prior.mean);
+    let tuned = share(data, &named.retuned.mean);
+    let best = share(data, &named.posterior.mean);
+
+    let of_cause = |weighed: &crate::name::Weighed| {
+        let cause = &causes[weighed.cause];
+        NamedCause {
+            spec: cause.spec,
+            label: cause.label(),
+            probability: weighed.probability,
+            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
+            estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
+            intervals: Vec::new(),
+        }
+    };
+    let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
+    named_causes.extend(dropouts(case, data, lost));
+
+    let rules = SETTINGS.naming;
+    let floor = pose_noise(data).max(SETTINGS.windows.floor);
+    let is_left =
+        best.1 > rules.left_share && best.0 > rules.left_of_retuned * tuned.0 && best.0 > rules.left_noise * floor;
+    let moved = retuned.iter().any(Estimate::is_moved);
+    let answer = if is_left {
+        Answer::Unknown
+    } else if !named_causes.is_empty() {
+        Answer::Named
+    } else if moved {
+        Answer::Retune
+    } else {
+        Answer::Nothing
+    };
+    let mut told: Vec<String> =
+        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
+    told.sort();
+    told.dedup();
+    Findings {
+        answer,
+        named: named_causes,
+        others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
+        constants: all,
+        retuned,
+        noise: fit.scale,
+        scatter: fit.factors[0],
+        shares: [given.1, tuned.1, best.1],
+        counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
+        told,
+    }
+}
+
+/// Noise of a window by neighbouring rows of the pose, m: second differences know no motion.
+fn pose_noise(data: &Data<'_>) -> f64 {
+    let mut second = Vec::new();
+    for drive in &data.drives {
+        for w in drive.pose.windows(3) {
+            let bend = [0, 1].map(|axis| w[2][axis] - 2.0 * w[1][axis] + w[0][axis]);
+            if bend.iter().all(|b| b.is_finite()) {
+                second.push(bend[0].hypot(bend[1]));
+            }
+        }
+    }
+    // Variances of second differences are six times those of samples; two samples bound a window.
+    inference::robust::median(second).unwrap_or(0.0) / 3.0_f64.sqrt()
+}
+
+fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
+    let measured = case.robot.measured();
+    let mut out: Vec<NamedCause> = Vec::new();
+    for found in lost {
+        let wheel = &case.robot.wheels[measured[found.wheel]].name;
+        let label = format!("{} ({wheel})", LOST_COUNTS.id);
+        let time = |w: usize| {
+            let window = data.windows[found.drive][w];
+            [data.drives[found.drive].time[window.from], data.drives[found.drive].time[window.to]]
+        };
+        let intervals = found.windows.iter().map(|(w, _)| (data.drives[found.drive].name.clone(), time(*w)));
+        let share = inference::robust::mean(found.windows.iter().map(|(_, s)| *s)).unwrap_or(0.0);
+        let spread = rms(found.windows.iter().map(|(_, s)| s - share)).unwrap_or(0.0);
+        match out.iter_mut().find(|n| n.label == label) {
+            Some(same) => same.intervals.extend(intervals),
+            None => out.push(NamedCause {
+                spec: &LOST_COUNTS,
+                label,
+                probability: 1.0 - SETTINGS.naming.listed,
+                alike: Vec::new(),
+                estimates: vec![Estimate {
+                    name: format!("share of the counts of {wheel} that is lost"),
+                    unit: "1",
+                    given: 0.0,
+                    value: share,
+                    half_width: NINETY * spread,
+                    sigmas: 0.0,
+                }],
+                intervals: intervals.collect(),
+            }),
+        }
+    }
+    out
+}
+
+/// A constant in the words of the robot file: factors become lengths.
+fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
+    let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
+    let sigmas = (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt();
+    let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);
+    let extent = |axis: usize| places(axis).fold(f64::MIN, f64::max) - places(axis).fold(f64::MAX, f64::min);
+    let length = match constant.quantity {
+        Quantity::Radius(wheel) => Some(robot.wheels[robot.measured()[wheel]].radius),
+        Quantity::Across => Some(extent(1)),
+        Quantity::Along => Some(extent(0)),
+        Quantity::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
+        Quantity::SteeringGain => Some(1.0),
+        _ => None,
+    };
+    let (given, value, half_width) = match length {
+        Some(length) => {
+            let value = length * posterior.mean[k].exp();
+            (length * prior.mean[k].exp(), value, NINETY * sd * value.abs())
+        }
+        None => (prior.mean[k], posterior.mean[k], NINETY * sd),
+    };
+    let unit = if length.is_some() && constant.quantity != Quantity::SteeringGain { "m" } else { constant.unit };
+    Estimate { name: constant.name.clone(), unit, given, value, half_width, sigmas }
+}

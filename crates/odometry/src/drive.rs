@@ -1,0 +1,291 @@
+//! A drive: turns of the wheels, steering and the measured pose on one grid of rows.
+
+use crate::error::OdometryError;
+use crate::settings::{DriveRules, SETTINGS};
+use crate::wheel::WheeledRobot;
+
+const RULES: DriveRules = SETTINGS.drive;
+
+/// A drive of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    /// Its name in messages.
+    pub name: String,
+    /// Session without a change on the robot; constants may differ between sessions.
+    pub session: String,
+    /// Time of each row, s, rising.
+    pub time: Vec<f64>,
+    /// Turns of each measured wheel since the row before, rad; of the first row they do not count.
+    pub turns: Vec<Vec<f64>>,
+    /// Steering angle during each row, rad; needed where a wheel is steered.
+    pub steering: Option<Vec<f64>>,
+    /// Measured x, y, m, and yaw, rad, unwrapped; NaN where the pose was not seen.
+    pub pose: Vec<[f64; 3]>,
+    /// What was done to it before the comparison, for people.
+    pub told: Vec<String>,
+}
+
+/// What the columns of the wheels hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WheelData {
+    /// Counts since the row before.
+    Counts,
+    /// Counts since any instant, of a counter that may wrap around.
+    Counter,
+    /// Angle, rad.
+    Angle,
+    /// Speed, rad/s.
+    Speed,
+}
+
+impl Drive {
+    /// A drive from columns: one of each measured wheel, in the order of the robot's wheels.
+    ///
+    /// Counters that wrap around are unwrapped, and a pose that can only be in millimetres or degrees is taken as such; both
+    /// are told in [`Drive::told`].
+    ///
+    /// # Errors
+    /// When columns are missing, of unlike length or not finite, when counts lack `counts_per_turn`, or when the unit of the
+    /// pose cannot be told.
+    pub fn new(
+        name: &str,
+        robot: &WheeledRobot,
+        time: Vec<f64>,
+        (data, wheels): (WheelData, &[Vec<f64>]),
+        steering: Option<Vec<f64>>,
+        pose: Vec<[f64; 3]>,
+    ) -> Result<Self, OdometryError> {
+        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let measured = robot.measured();
+        if wheels.len() != measured.len() {
+            let what =
+                format!("{} columns of wheels, but the robot has {} measured wheels", wheels.len(), measured.len());
+            return Err(wrong(what));
+        }
+        if robot.is_steered() && steering.is_none() {
+            return Err(wrong("the robot has a steered wheel, but no steering angle is mapped".to_owned()));
+        }
+        let rows = time.len();
+        let lengths = wheels.iter().map(Vec::len).chain(steering.iter().map(Vec::len)).chain([pose.len()]);
+        if let Some(other) = { lengths }.find(|n| *n != rows) {
+            return Err(wrong(format!("a column of {other} rows beside {rows} rows of time")));
+        }
+        if rows < RULES.rows {
+            return Err(wrong(format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)));
+        }
+        if let Some(row) = (1..rows).find(|&k| time[k].partial_cmp(&time[k - 1]) != Some(std::cmp::Ordering::Greater)) {
+            return Err(wrong(format!("time does not rise in row {row}; sort the rows, or remove repeated ones")));
+        }
+        let finite = wheels.iter().flatten().chain(steering.iter().flatten()).all(|x| x.is_finite());
+        if !finite {
+            return Err(wrong(
+                "wheel or steering columns hold values that are no numbers; cut the drive there".to_owned(),
+            ));
+        }
+
+        let mut told = Vec::new();
+        let mut turns = vec![vec![0.0; wheels.len()]; rows];
+        for (k, column) in wheels.iter().enumerate() {
+            let wheel = &robot.wheels[measured[k]];
+            let unit = match data {
+                WheelData::Angle | WheelData::Speed => 1.0,
+                WheelData::Counts | WheelData::Counter => {
+                    let lacks = || OdometryError::Wheel {
+                        robot: robot.name.clone(),
+                        wheel: wheel.name.clone(),
+                        what:
+                            "counts are recorded, but counts_per_turn is missing; give the counts of one turn of the \
+                               wheel, gear included"
+                                .to_owned(),
+                    };
+                    std::f64::consts::TAU / wheel.counts_per_turn.ok_or_else(lacks)?
+                }
+            };
+            let column =
+                if data == WheelData::Counter { unwrapped(column, &wheel.name, &mut told) } else { column.clone() };
+            for row in 1..rows {
+                turns[row][k] = unit
+                    * match data {
+                        WheelData::Counts => column[row],
+                        WheelData::Counter | WheelData::Angle => column[row] - column[row - 1],
+                        WheelData::Speed => 0.5 * (column[row] + column[row - 1]) * (time[row] - time[row - 1]),
+                    };
+            }
+        }
+        let mut out = Self { name: name.to_owned(), session: name.to_owned(), time, turns, steering, pose, told };
+        out.unwrap_yaw();
+        out.guess_units(robot)?;
+        Ok(out)
+    }
+
+    /// The same drive of a session.
+    #[must_use]
+    pub fn of_session(mut self, session: &str) -> Self {
+        session.clone_into(&mut self.session);
+        self
+    }
+
+    /// Rows with a pose.
+    pub(crate) fn is_seen(&self, row: usize) -> bool {
+        self.pose[row].iter().all(|x| x.is_finite())
+    }
+
+    /// Rates of the body about a row, of motions by rows: m/s, m/s, rad/s.
+    pub(crate) fn rates(&self, motion: &[[f64; 3]], row: usize) -> [f64; 3] {
+        let (mut first, mut last) = (row, row);
+        while first > 1 && self.time[row] - self.time[first - 1] <= RULES.rate {
+            first -= 1;
+        }
+        while last + 1 < motion.len() && self.time[last + 1] - self.time[row] <= RULES.rate {
+            last += 1;
+        }
+        let span = self.time[last] - self.time[first - 1];
+        [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
+    }
+
+    /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` about
+    /// the middle of the drive: row `t` shows what the counts have at `t − offset − rate (t − t_mid)`.
+    pub(crate) fn at_shifted_clock(&self, path: &[[f64; 3]], [offset, rate]: [f64; 2]) -> Vec<[f64; 3]> {
+        let middle = 0.5 * (self.time[0] + self.time[self.time.len() - 1]);
+        let mut k = 0;
+        let at = |t: f64| {
+            let t = t - offset - rate * (t - middle);
+            while k + 2 < self.time.len() && self.time[k + 1] < t {
+                k += 1;
+            }
+            while k > 0 && self.time[k] > t {
+                k -= 1;
+            }
+            // Outside the recording the wheels are taken to go on as in its last row.
+            let share = (t - self.time[k]) / (self.time[k + 1] - self.time[k]);
+            [0, 1, 2].map(|axis| path[k][axis] + share * (path[k + 1][axis] - path[k][axis]))
+        };
+        self.time.iter().copied().map(at).collect()
+    }
+
+    fn unwrap_yaw(&mut self) {
+        let mut last: Option<f64> = None;
+        for pose in &mut self.pose {
+            if pose[2].is_finite() {
+                if let Some(before) = last {
+                    let turns = ((pose[2] - before) / std::f64::consts::TAU).round();
+                    pose[2] -= turns * std::f64::consts::TAU;
+                }
+                last = Some(pose[2]);
+            }
+        }
+    }
+
+    /// Tells a pose in millimetres by its way against that of the wheels.
+    fn guess_units(&mut self, robot: &WheeledRobot) -> Result<(), OdometryError> {
+        let seen: Vec<[f64; 3]> = (0..self.pose.len()).filter(|&k| self.is_seen(k)).map(|k| self.pose[k]).collect();
+        let Some(start) = seen.first() else {
+            let what = "the pose is never seen; map pose_x, pose_y and pose_yaw".to_owned();
+            return Err(OdometryError::Drive { drive: self.name.clone(), what });
+        };
+        let measured = robot.measured();
+        let way = |row: &Vec<f64>| {
+            row.iter().zip(&measured).map(|(t, &w)| (t * robot.wheels[w].radius).abs()).fold(0.0, f64::max)
+        };
+        let rolled: f64 = self.turns.iter().map(way).sum();
+        let reach = seen.iter().map(|p| (p[0] - start[0]).hypot(p[1] - start[1])).fold(0.0, f64::max);
+        let wheels_reach = rolled.max(RULES.way);
+        if reach < RULES.unit * wheels_reach {
+            return Ok(());
+        }
+        let factor = reach / wheels_reach;
+        // A reach is at most the way: a pose in millimetres has up to a thousand times the way in metres.
+        if factor <= RULES.unit_tolerance * RULES.milli && RULES.milli <= RULES.unit_tolerance * RULES.unit * factor {
+            for pose in &mut self.pose {
+                pose[0] /= RULES.milli;
+                pose[1] /= RULES.milli;
+            }
+            self.told.push(format!(
+                "recording '{}': the pose moves by {reach:.0} where the wheels roll {rolled:.2} m: it is taken to be in \
+                 millimetres; state the unit in the mapping",
+                self.name
+            ));
+            return Ok(());
+        }
+        let what = format!(
+            "the pose moves by {reach:.0} where the wheels roll {rolled:.2} m; state its unit in the mapping, or correct \
+             the radius or counts_per_turn"
+        );
+        Err(OdometryError::Drive { drive: self.name.clone(), what })
+    }
+}
+
+/// A counter without its jumps where it wraps around.
+fn unwrapped(column: &[f64], wheel: &str, told: &mut Vec<String>) -> Vec<f64> {
+    let largest = column.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+    let fits = |range: &&f64| largest > RULES.wrap * **range && column.iter().all(|c| c.abs() <= **range);
+    let Some(&range) = RULES.ranges.iter().rev().find(fits) else { return column.to_vec() };
+    let mut added = 0.0;
+    let mut wraps = 0;
+    let mut out = Vec::with_capacity(column.len());
+    for (k, &count) in column.iter().enumerate() {
+        if k > 0 {
+            let jump = count - column[k - 1];
+            if jump.abs() > RULES.wrap * range {
+                added -= range * jump.signum();
+                wraps += 1;
+            }
+        }
+        out.push(count + added);
+    }
+    told.push(format!("the counter of wheel '{wheel}' wraps around at {range:.0} {wraps} times: it was unwrapped"));
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn robot() -> WheeledRobot {
+        WheeledRobot::differential(0.05, 0.3).with_wheels(|_, w| crate::Wheel { counts_per_turn: Some(1000.0), ..w })
+    }
+
+    fn straight(data: WheelData, column: impl Fn(usize) -> f64, scale: f64) -> Result<Drive, OdometryError> {
+        let time: Vec<f64> = (0..100).map(|k| 0.05 * f64::from(k)).collect();
+        let wheel: Vec<f64> = (0..100).map(column).collect();
+        let metres = std::f64::consts::TAU * 0.05 / 1000.0;
+        let pose = (0..100).map(|k| [scale * metres * 300.0 * f64::from(k), 0.0, 0.0]).collect();
+        Drive::new("a", &robot(), time, (data, &[wheel.clone(), wheel]), None, pose)
+    }
+
+    #[test]
+    fn a_counter_that_wraps_around_is_unwrapped_and_told() {
+        let drive = straight(WheelData::Counter, |k| ((k * 300) % 65_536) as f64, 1.0).expect("no wrap");
+        assert!(drive.told.is_empty());
+        let start = 50_000;
+        let wrapped = straight(WheelData::Counter, |k| ((start + k * 300) % 65_536) as f64, 1.0).expect("a wrap");
+        assert_eq!(wrapped.turns, drive.turns);
+        assert!(wrapped.told[0].contains("wraps around at 65536 1 times"), "{:?}", wrapped.told);
+        let counts = straight(WheelData::Counts, |_| 300.0, 1.0).expect("counts");
+        assert_eq!(counts.turns[1..], drive.turns[1..]);
+    }
+
+    #[test]
+    fn a_pose_in_millimetres_is_told_and_a_nonsense_one_refused() {
+        let drive = straight(WheelData::Counts, |_| 300.0, 1000.0).expect("millimetres");
+        assert!(drive.told[0].contains("millimetres"), "{:?}", drive.told);
+        let length = drive.pose[99][0];
+        approx::assert_relative_eq!(length, std::f64::consts::TAU * 0.05 * 0.3 * 99.0, epsilon = 1e-9);
+        assert!(straight(WheelData::Counts, |_| 300.0, 1e6).unwrap_err().to_string().contains("state its unit"));
+    }
+
+    #[test]
+    fn counts_without_counts_per_turn_are_refused_by_wheel() {
+        let robot = robot().with_wheels(|_, w| crate::Wheel { counts_per_turn: None, ..w });
+        let time: Vec<f64> = (0..100).map(f64::from).collect();
+        let column = vec![1.0; 100];
+        let refused =
+            Drive::new("a", &robot, time, (WheelData::Counts, &[column.clone(), column]), None, vec![[0.0; 3]; 100]);
+        assert!(
+            refused
+                .unwrap_err()
+                .to_string()
+                .contains("wheel 'left': counts are recorded, but counts_per_turn is missing")
+        );
+    }
+}

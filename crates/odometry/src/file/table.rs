@@ -1,0 +1,98 @@
+//! Drives from tables of comma-separated values.
+
+use crate::drive::Drive;
+use crate::error::OdometryError;
+use crate::file::robot::RobotFile;
+
+impl RobotFile {
+    /// A drive from a table with a line of column names; its name is that of the file.
+    ///
+    /// Empty cells of the pose were not seen. Rows without a time are refused.
+    ///
+    /// # Errors
+    /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
+    pub fn drive(&self, name: &str, table: &str) -> Result<Drive, OdometryError> {
+        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
+        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
+        let names = &self.columns;
+        let place = |column: &String| {
+            header.iter().position(|h| h == column).ok_or_else(|| {
+                let there: Vec<&str> = header.iter().collect();
+                wrong(format!("no column '{column}'; it has {}: correct [columns] of the robot file", there.join(", ")))
+            })
+        };
+        let mut places = vec![place(&names.time)?];
+        for column in names.wheels.iter().chain(&names.steering).chain(&names.pose) {
+            places.push(place(column)?);
+        }
+
+        let mut columns: Vec<Vec<f64>> = vec![Vec::new(); places.len()];
+        let first_of_pose = places.len() - names.pose.len();
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
+            for (k, &at) in places.iter().enumerate() {
+                let cell = record.get(at).unwrap_or("");
+                let value = if cell.is_empty() && k >= first_of_pose { Ok(f64::NAN) } else { cell.parse::<f64>() };
+                let value = value.map_err(|_| {
+                    wrong(format!("row {}, column '{}': '{cell}' is no number", row + 1, header.get(at).unwrap_or("")))
+                })?;
+                columns[k].push(value);
+            }
+        }
+
+        let wheels = &columns[1..=names.wheels.len()];
+        let steering = names.steering.as_ref().map(|_| {
+            let column = &columns[names.wheels.len() + 1];
+            column.iter().map(|s| s * names.angle).collect::<Vec<f64>>()
+        });
+        let pose = (0..columns[0].len())
+            .map(|row| {
+                let [x, y, yaw] = [0, 1, 2].map(|axis| columns[first_of_pose + axis][row]);
+                [x * names.length, y * names.length, yaw * names.angle]
+            })
+            .collect();
+        let drive = Drive::new(name, &self.robot, columns[0].clone(), (names.data, wheels), steering, pose)?;
+        let session = names.session_separator.as_ref().and_then(|s| name.rsplit_once(s.as_str()));
+        Ok(match session {
+            Some((session, _)) => drive.of_session(session),
+            None => drive,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Write;
+
+    fn table(rows: usize) -> String {
+        let mut out = "time_s,x_m,y_m,yaw_rad,tick_right,tick_left\n".to_owned();
+        for k in 0..rows {
+            let t = 0.05 * k as f64;
+            let pose = if k == 7 { ",,".to_owned() } else { format!("{},0.0,0.0", 0.2 * t) };
+            _ = writeln!(out, "{t},{pose},106,106");
+        }
+        out
+    }
+
+    #[test]
+    fn a_table_is_a_drive_of_its_session() {
+        let file = RobotFile::built_in("differential").expect("a file").expect("a robot");
+        let drive = file.drive("D02-01", &table(80)).expect("a drive");
+        assert_eq!((drive.session.as_str(), drive.time.len()), ("D02", 80));
+        assert!(drive.pose[7][0].is_nan() && drive.pose[8][0] > 0.0);
+        approx::assert_relative_eq!(drive.turns[1][0], std::f64::consts::TAU * 106.0 / 2796.8, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_table_is_one_clear_sentence() {
+        let file = RobotFile::built_in("differential").expect("a file").expect("a robot");
+        let refused = |table: &str| file.drive("a", table).unwrap_err().to_string();
+        assert!(refused(&table(80).replace("tick_left", "left")).contains("no column 'tick_left'; it has time_s"));
+        assert!(
+            refused(&table(80).replace(",106,106", ",x,106")).contains("row 1, column 'tick_right': 'x' is no number")
+        );
+        assert!(refused(&table(9)).contains("9 rows, but at least 40"));
+    }
+}

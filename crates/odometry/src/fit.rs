@@ -1,0 +1,251 @@
+//! Fits of the constants to windows of many sessions, each with a deviation of its own.
+//!
+//! Errors `e` of a window, in sigmas, count by the pseudo-Huber loss `k² (√(1 + |e|²/k²) − 1)`. The constants of a session
+//! are those of the robot plus a deviation `δ ~ N(0, T)`, which is eliminated (Schur complement): sessions then weigh by what
+//! they say of the robot, not by their length, and the interval of a constant is as wide as sessions scatter (Laird & Ware
+//! 1982, random effects).
+
+use faer::Mat;
+use nalgebra::{DMatrix, DVector};
+
+use crate::constants::Quantity;
+use crate::motion::implied;
+use crate::settings::SETTINGS;
+use crate::windows::Data;
+use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
+
+/// What is known of the constants before the drives.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Prior {
+    pub(crate) mean: DVector<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+}
+
+impl Prior {
+    fn information(&self) -> Option<DMatrix<f64>> {
+        self.covariance.clone().cholesky().map(|c| c.inverse())
+    }
+}
+
+/// Normal equations of a session: curvature, slope and cost of its own windows.
+#[derive(Debug, Clone)]
+pub(crate) struct Session {
+    pub(crate) curvature: DMatrix<f64>,
+    pub(crate) slope: DVector<f64>,
+    pub(crate) cost: f64,
+}
+
+/// A session whose deviation is eliminated.
+pub(crate) struct Marginal {
+    pub(crate) curvature: DMatrix<f64>,
+    pub(crate) slope: DVector<f64>,
+    /// Negative log-likelihood, nats, but for what all scatters share.
+    pub(crate) cost: f64,
+}
+
+impl Session {
+    /// The session's own most probable deviation from the constants about which it is linearised: `−S M⁻¹ S g`.
+    fn deviation(&self, scatter: &DVector<f64>) -> Option<DVector<f64>> {
+        let s = DMatrix::from_diagonal(scatter);
+        let n = scatter.len();
+        let cholesky = (DMatrix::identity(n, n) + &s * &self.curvature * &s).cholesky()?;
+        Some(-(&s * cholesky.solve(&(&s * &self.slope))))
+    }
+
+    /// Without its deviation, of sigmas `scatter`: with `S = diag(scatter)`, `M = I + S H S`.
+    pub(crate) fn marginal(&self, scatter: &DVector<f64>) -> Option<Marginal> {
+        let s = DMatrix::from_diagonal(scatter);
+        let sh = &s * &self.curvature;
+        let sg = &s * &self.slope;
+        let n = scatter.len();
+        let cholesky = (DMatrix::identity(n, n) + &sh * &s).cholesky()?;
+        let half_log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        let (of_curvature, of_slope) = (cholesky.solve(&sh), cholesky.solve(&sg));
+        Some(Marginal {
+            curvature: &self.curvature - sh.transpose() * of_curvature,
+            slope: &self.slope - sh.transpose() * &of_slope,
+            cost: self.cost - 0.5 * sg.dot(&of_slope) + half_log_determinant,
+        })
+    }
+}
+
+/// Where a fit stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Point {
+    pub(crate) theta: Vec<f64>,
+    pub(crate) sessions: Vec<Session>,
+}
+
+/// Fitted constants with the equations about them.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    pub(crate) theta: Vec<f64>,
+    pub(crate) sessions: Vec<Session>,
+    /// Sigma of a window's errors, m.
+    pub(crate) scale: f64,
+    /// Factors on the scatter of all constants, and on that of the clocks.
+    pub(crate) factors: [f64; 2],
+}
+
+/// A least-squares problem of the shared solver.
+struct Windowed<'a, 'd> {
+    data: &'a Data<'d>,
+    prior: &'a Prior,
+    information: DMatrix<f64>,
+    scatter: DVector<f64>,
+    scale: f64,
+}
+
+impl Windowed<'_, '_> {
+    fn at(&self, theta: Vec<f64>) -> Point {
+        let sessions = equations(self.data, &theta, self.scale);
+        Point { theta, sessions }
+    }
+
+    fn distance(&self, theta: &[f64]) -> DVector<f64> {
+        DVector::from_column_slice(theta) - &self.prior.mean
+    }
+}
+
+impl Problem for Windowed<'_, '_> {
+    type Point = Point;
+
+    fn cost(&self, at: &Point) -> f64 {
+        let marginal = at.sessions.iter().map(|s| s.marginal(&self.scatter).map_or(f64::INFINITY, |m| m.cost));
+        let d = self.distance(&at.theta);
+        marginal.sum::<f64>() + 0.5 * d.dot(&(&self.information * &d))
+    }
+
+    fn parameters(&self, at: &Point) -> Vec<Parameter> {
+        let of = |(value, constant): (&f64, &crate::Constant)| Parameter {
+            longest: 2.0,
+            ..Parameter::unbounded(*value, constant.usual)
+        };
+        at.theta.iter().zip(self.data.constants).map(of).collect()
+    }
+
+    fn linearise(&self, at: &mut Point, _: usize) -> Option<Normal> {
+        let n = at.theta.len();
+        let mut curvature = self.information.clone();
+        let mut slope = &self.information * self.distance(&at.theta);
+        for session in &at.sessions {
+            let marginal = session.marginal(&self.scatter)?;
+            curvature += marginal.curvature;
+            slope += marginal.slope;
+        }
+        let unit = |i: usize| self.data.constants[i].usual;
+        let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
+        Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
+    }
+
+    fn moved(&self, _: &Point, step: &Step<'_>) -> Option<Point> {
+        Some(self.at(step.values.clone()))
+    }
+}
+
+/// Normal equations of every session at these values, errors in units of `scale`.
+pub(crate) fn equations(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Session> {
+    let n = theta.len();
+    let empty = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let mut out = vec![empty; data.sessions.len()];
+    let rules = SETTINGS.windows;
+    let laws = data.laws(theta);
+    for (index, drive) in data.drives.iter().enumerate() {
+        let columns = columns(data, theta, index);
+        let path = implied(data.robot, drive, &laws);
+        let session = &mut out[data.session[index]];
+        for (w, window) in data.windows[index].iter().enumerate() {
+            if data.dropped[index][w] {
+                continue;
+            }
+            let error = window.error(&path).map(|e| e / scale);
+            let square: f64 = error.iter().map(|e| e * e).sum::<f64>() / rules.outlier.powi(2);
+            let root = (1.0 + square).sqrt();
+            session.cost += rules.outlier.powi(2) * (root - 1.0);
+            let weight = 1.0 / root;
+            for axis in 0..3 {
+                let row = DVector::from_fn(n, |k, _| columns[k][w][axis] / scale);
+                session.curvature.ger(weight, &row, &row, 1.0);
+                session.slope.axpy(weight * error[axis], &row, 1.0);
+            }
+        }
+    }
+    out
+}
+
+/// Change of the errors of a drive's windows with each constant, by central differences.
+pub(crate) fn columns(data: &Data<'_>, theta: &[f64], drive: usize) -> Vec<Vec<[f64; 3]>> {
+    let of = |k: usize| {
+        let step = SETTINGS.windows.difference * data.constants[k].usual;
+        let at = |sign: f64| {
+            let mut moved = theta.to_vec();
+            moved[k] += sign * step;
+            implied(data.robot, data.drives[drive], &data.laws(&moved))
+        };
+        let (below, above) = (at(-1.0), at(1.0));
+        let difference = |w: &crate::windows::Window| {
+            let (a, b) = (w.error(&above), w.error(&below));
+            [0, 1, 2].map(|axis| (a[axis] - b[axis]) / (2.0 * step))
+        };
+        data.windows[drive].iter().map(difference).collect()
+    };
+    (0..theta.len()).map(of).collect()
+}
+
+/// Sigmas of the deviations of sessions.
+///
+/// `factors` are those on the usual scatter: of all constants, and of the clocks.
+pub(crate) fn scatter(data: &Data<'_>, [others, clocks]: [f64; 2]) -> DVector<f64> {
+    let of = |c: &crate::Constant| {
+        let is_clock = matches!(c.quantity, Quantity::ClockOffset | Quantity::ClockRate);
+        c.scatter * if is_clock { clocks } else { others }
+    };
+    DVector::from_iterator(data.constants.len(), data.constants.iter().map(of))
+}
+
+/// Fits the constants from `start`, scale of errors and scatter of sessions included; `None` where a prior is no covariance.
+pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
+    let information = prior.information()?;
+    let settings = Settings { iterations: 20, least_relative_fall: 1e-6, ..Settings::gauss_newton() };
+    let mut theta = start;
+    let mut scale = data.scale(&data.errors(&theta));
+    let mut factors = [1.0; 2];
+    let mut sessions = Vec::new();
+    for _ in 0..SETTINGS.fitting.rounds {
+        let problem =
+            Windowed { data, prior, information: information.clone(), scatter: scatter(data, factors), scale };
+        let outcome = minimise(&problem, problem.at(theta), &settings);
+        (theta, sessions) = (outcome.at.theta, outcome.at.sessions);
+        // What a session has of its own is no noise of its windows.
+        let of_session = |session: &Session| {
+            let deviation = session.deviation(&scatter(data, factors));
+            deviation.map_or_else(|| theta.clone(), |d| theta.iter().zip(d.iter()).map(|(t, d)| t + d).collect())
+        };
+        let thetas: Vec<Vec<f64>> = sessions.iter().map(of_session).collect();
+        let now = data.scale(&data.errors_by_session(&thetas));
+        let best = scatter_factors(data, prior, &theta, &sessions);
+        let at_rest = (now / scale).ln().abs() < SETTINGS.fitting.same_scale && best == factors;
+        (scale, factors) = (now, best);
+        if at_rest {
+            break;
+        }
+    }
+    // The equations belong to the scale that is told.
+    sessions = if sessions.is_empty() { sessions } else { equations(data, &theta, scale) };
+    Some(Fit { theta, sessions, scale, factors })
+}
+
+/// The factors on the scatter of sessions under which they are most probable together.
+fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Session]) -> [f64; 2] {
+    let rules = SETTINGS.scatter;
+    let score = |factors: [f64; 2]| {
+        let scatter = scatter(data, factors);
+        let evidence = crate::weigh::Evidence::new(theta, sessions, &scatter, &prior.mean)
+            .and_then(|e| Some(e.of(&prior.covariance)? - e.base));
+        let [others, clocks] = [factors[0].ln() / rules.width, factors[1].ln() / rules.clock_width];
+        evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (others * others + clocks * clocks)
+    };
+    let pairs = rules.factors.iter().flat_map(|a| rules.clocks.iter().map(move |b| [*a, *b]));
+    let best = pairs.map(|pair| (score(pair), pair)).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or([1.0; 2], |(_, pair)| pair)
+}

@@ -1,0 +1,85 @@
+//! Sessions left out in turn, and forecast from counts alone by every calibration.
+
+use crate::case::Case;
+use crate::diagnose::solve;
+use crate::drive::Drive;
+use crate::error::OdometryError;
+use crate::forecast::{Errors, forecast};
+use crate::motion::Laws;
+use crate::rivals::RIVALS;
+use crate::windows::laws;
+
+/// Errors of forecasts of left-out sessions, by calibration.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    /// Name of a calibration, and its errors over each of [`LENGTHS`](crate::LENGTHS).
+    pub rows: Vec<(String, [Errors; 3])>,
+    /// Sessions that were left out in turn.
+    pub sessions: usize,
+    /// By session: its name, and errors of each row, in the same order.
+    pub by_session: Vec<(String, Vec<[Errors; 3]>)>,
+    /// Labels of the causes that each fold named.
+    pub named: Vec<Vec<String>>,
+}
+
+/// Names of the simulations beside the rivals.
+const OURS: [&str; 4] = ["as stated", "re-tuned", "corrected", "placebo"];
+
+/// Leaves out each session of the recordings in turn, or each drive where there is one session, fits and names anew without
+/// it, and forecasts it.
+///
+/// # Errors
+/// When the robot cannot be, or a fold leaves too few windows.
+pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryError> {
+    case.robot.checked()?;
+    let mut sessions: Vec<&str> = case.recordings.iter().map(|d| d.session.as_str()).collect();
+    sessions.sort_unstable();
+    sessions.dedup();
+    let by_drive = sessions.len() < 2;
+    let key = |d: &Drive| if by_drive { d.name.clone() } else { d.session.clone() };
+    let mut keys: Vec<String> = case.recordings.iter().map(key).collect();
+    keys.dedup();
+    keys.sort();
+    keys.dedup();
+    let mut out = Table { sessions: keys.len(), ..Table::default() };
+    if keys.len() < 2 {
+        return Ok(out);
+    }
+
+    let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
+    names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
+    let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let start = solve(&case.robot, &case.references, &all, None)?.fit.theta;
+    for left in &keys {
+        progress(&format!("forecasting {left}"));
+        let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == *left);
+        let solved = solve(&case.robot, &case.references, &rest, Some(&start))?;
+        let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
+        let of = |theta: &nalgebra::DVector<f64>| Some(laws(&case.robot, &solved.constants, theta.as_slice()));
+        let mut models: Vec<Option<Laws>> = vec![
+            of(&solved.prior.mean),
+            of(&solved.named.retuned.mean),
+            of(&solved.named.posterior.mean),
+            solved.named.placebo.as_ref().and_then(|(_, p)| of(&p.mean)),
+        ];
+        models.extend(RIVALS.iter().map(|(_, rival)| rival(&case.robot, &rest)));
+        let errors: Vec<[Errors; 3]> = models
+            .iter()
+            .map(|model| {
+                let mut sum: [Errors; 3] = Default::default();
+                for (drive, laws) in of_fold.iter().filter_map(|d| Some((d, model.as_ref()?))) {
+                    sum.iter_mut().zip(forecast(&case.robot, drive, laws)).for_each(|(s, e)| s.extend(e));
+                }
+                sum
+            })
+            .collect();
+        for (sum, e) in sums.iter_mut().zip(&errors) {
+            sum.iter_mut().zip(e.clone()).for_each(|(s, e)| s.extend(e));
+        }
+        out.by_session.push((left.clone(), errors));
+        out.named.push(labels);
+    }
+    out.rows = names.into_iter().zip(sums).collect();
+    Ok(out)
+}

@@ -1,0 +1,52 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `wheel`, `kinematics`: a robot as a list of wheels, and from turning wheels to the motion of its body.
+//! * `drive`: turns of the wheels, steering and pose on one grid of rows; counters, units.
+//! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
+//! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
+//! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
+//! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
+//! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
+//! * `file/*`: robot files of this kind, and drives from tables.
+//! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `settings`: every tuned number.
+
+mod answer;
+mod case;
+mod cause;
+mod clock;
+mod constants;
+mod diagnose;
+mod drive;
+mod dropout;
+mod error;
+pub mod file;
+mod fit;
+mod forecast;
+mod kinematics;
+mod left_out;
+mod motion;
+mod name;
+mod rivals;
+mod settings;
+mod weigh;
+mod wheel;
+mod windows;
+
+pub use answer::diagnosis;
+pub use case::Case;
+pub use cause::Cause;
+pub use constants::{Constant, Quantity, constants};
+pub use diagnose::{Answer, Estimate, Findings, NamedCause, diagnose};
+pub use drive::{Drive, WheelData};
+pub use error::OdometryError;
+pub use forecast::{Errors, LENGTHS};
+pub use left_out::{Table, left_out};
+pub use wheel::{Sigmas, Wheel, WheeledRobot};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

@@ -1,0 +1,133 @@
+//! The pose that the wheels' motion implies, with the laws of slip and of the pose's frame.
+//!
+//! With the motion `(x, y, t)` of a row from [`Kinematics`](crate::kinematics), rates `v`, `w` = ω of the body about that
+//! row, and `a = (−v_y ω, v_x ω)` its acceleration in curves:
+//!
+//! * way: `x, y ← (1 − turn_slip |ω|/(|ω| + ω₀) − speed_slip |v|) (x, (1 − roller_slip) y)`, ω₀ a setting: dry friction does
+//!   not grow with the rate;
+//! * sideslip: `(x, y) ← (x, y) − sideslip a dt`;
+//! * turning: `t ← (1 − rate_slip |ω|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
+//! * frame: the pose's x axis points `mounting` from the robot's, its origin stands at `origin`.
+
+use crate::constants::Quantity;
+use crate::drive::Drive;
+use crate::kinematics::{Geometry, Kinematics};
+use crate::settings::SETTINGS;
+use crate::wheel::WheeledRobot;
+
+/// All numbers of which the pose depends.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Laws {
+    pub(crate) geometry: Geometry,
+    pub(crate) mounting: f64,
+    pub(crate) origin: [f64; 2],
+    pub(crate) roller_slip: f64,
+    pub(crate) turn_slip: f64,
+    pub(crate) rate_slip: f64,
+    pub(crate) speed_slip: f64,
+    pub(crate) sideslip: f64,
+    pub(crate) cornering: [f64; 2],
+    pub(crate) clock: [f64; 2],
+}
+
+impl Laws {
+    /// As the robot file has it: no slip, clocks right, the pose that of the origin.
+    pub(crate) fn given(robot: &WheeledRobot) -> Self {
+        Self {
+            geometry: Geometry::given(robot),
+            mounting: 0.0,
+            origin: [0.0; 2],
+            roller_slip: 0.0,
+            turn_slip: 0.0,
+            rate_slip: 0.0,
+            speed_slip: 0.0,
+            sideslip: 0.0,
+            cornering: [0.0; 2],
+            clock: [0.0; 2],
+        }
+    }
+
+    /// The same with these constants at these values.
+    pub(crate) fn with(&self, values: &[(Quantity, f64)]) -> Self {
+        let mut out = self.clone();
+        for &(quantity, value) in values {
+            let geometry = &mut out.geometry;
+            match quantity {
+                Quantity::Radius(k) => geometry.radius[k] = value.exp(),
+                Quantity::Across => geometry.across = value.exp(),
+                Quantity::Along => geometry.along = value.exp(),
+                Quantity::Reach => (geometry.across, geometry.along) = (value.exp(), value.exp()),
+                Quantity::SteeringOffset => geometry.steering_offset = value,
+                Quantity::SteeringGain => geometry.steering_gain = value.exp(),
+                Quantity::Mounting => out.mounting = value,
+                Quantity::OriginX => out.origin[0] = value,
+                Quantity::OriginY => out.origin[1] = value,
+                Quantity::RollerSlip => out.roller_slip = value,
+                Quantity::TurnSlip => out.turn_slip = value,
+                Quantity::RateSlip => out.rate_slip = value,
+                Quantity::SpeedSlip => out.speed_slip = value,
+                Quantity::Sideslip => out.sideslip = value,
+                Quantity::CorneringForward => out.cornering[0] = value,
+                Quantity::CorneringSideways => out.cornering[1] = value,
+                Quantity::ClockOffset => out.clock[0] = value,
+                Quantity::ClockRate => out.clock[1] = value,
+            }
+        }
+        out
+    }
+}
+
+/// The pose that the wheels' motion implies in each row of a drive, from the origin on.
+pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[f64; 3]> {
+    let kinematics = Kinematics::new(robot, &laws.geometry);
+    let rows = drive.time.len();
+    let steering = |row: usize| drive.steering.as_ref().map_or(0.0, |s| s[row]);
+    let rolled: Vec<[f64; 3]> = (0..rows)
+        .map(|row| if row == 0 { [0.0; 3] } else { kinematics.motion(&drive.turns[row], steering(row)) })
+        .collect();
+
+    let mut pose = [0.0; 3];
+    let mut path = Vec::with_capacity(rows);
+    path.push(pose);
+    for row in 1..rows {
+        let step = slipped(laws, rolled[row], drive.rates(&rolled, row), drive.time[row] - drive.time[row - 1]);
+        pose = moved(pose, framed(laws, step));
+        path.push(pose);
+    }
+    if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock) }
+}
+
+/// A row's motion less its slip.
+fn slipped(laws: &Laws, [x, y, t]: [f64; 3], [vx, vy, turning]: [f64; 3], dt: f64) -> [f64; 3] {
+    let rate = turning.abs();
+    let kept = 1.0 - laws.turn_slip * rate / (rate + SETTINGS.slip.turning) - laws.speed_slip * vx.hypot(vy);
+    let curved = turning * dt;
+    let [forward, sideways] = laws.cornering;
+    [
+        kept * x + laws.sideslip * vy * curved,
+        kept * (1.0 - laws.roller_slip) * y - laws.sideslip * vx * curved,
+        (1.0 - laws.rate_slip * rate) * t - (forward * vx + sideways * vy) * curved,
+    ]
+}
+
+/// A row's motion as the frame of the pose sees it.
+fn framed(laws: &Laws, [x, y, t]: [f64; 3]) -> [f64; 3] {
+    let [x, y] = [x - laws.origin[1] * t, y + laws.origin[0] * t];
+    let (sin, cos) = laws.mounting.sin_cos();
+    [cos * x + sin * y, cos * y - sin * x, t]
+}
+
+/// A pose after a motion in its own frame on a circle: `x, y` are lengths along the arc.
+fn moved([px, py, yaw]: [f64; 3], [x, y, t]: [f64; 3]) -> [f64; 3] {
+    let half = 0.5 * t;
+    let chord = if half.abs() < 1e-6 { 1.0 } else { half.sin() / half };
+    let (sin, cos) = (yaw + half).sin_cos();
+    [px + chord * (cos * x - sin * y), py + chord * (sin * x + cos * y), yaw + t]
+}
+
+/// Pose `to` as seen from pose `from`.
+pub(crate) fn relative(from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = from[2].sin_cos();
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    [cos * dx + sin * dy, cos * dy - sin * dx, to[2] - from[2]]
+}

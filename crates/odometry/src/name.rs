@@ -1,0 +1,114 @@
+//! Which causes the sessions ask for.
+
+use nalgebra::DMatrix;
+
+use crate::cause::Cause;
+use crate::settings::SETTINGS;
+use crate::weigh::{Evidence, Posterior};
+use inference::evidence::{is_within_odds, logistic};
+
+/// A cause with what speaks for it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Weighed {
+    /// Index among the causes.
+    pub(crate) cause: usize,
+    /// Probability that it is part of the truth.
+    pub(crate) probability: f64,
+    /// Causes that stand for it within the odds, itself first.
+    pub(crate) class: Vec<usize>,
+}
+
+/// What was named.
+#[derive(Debug, Clone)]
+pub(crate) struct Named {
+    /// Causes that were named, most probable first.
+    pub(crate) chosen: Vec<Weighed>,
+    /// Probability of every cause that was not.
+    pub(crate) others: Vec<(usize, f64)>,
+    /// Constants with these causes, and with none.
+    pub(crate) posterior: Posterior,
+    pub(crate) retuned: Posterior,
+    /// Constants with the best wrong cause in the place of the first.
+    pub(crate) placebo: Option<(usize, Posterior)>,
+}
+
+/// Names causes by evidence: one joins while its log odds pass the threshold, and leaves when it no longer earns its place.
+pub(crate) fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
+    let rules = SETTINGS.naming;
+    let score = |set: &[usize]| evidence.of(&covariance(known, causes, set)).unwrap_or(f64::NEG_INFINITY);
+    let mut set: Vec<usize> = Vec::new();
+    let mut current = score(&set);
+    while set.len() < rules.most {
+        let open = (0..causes.len()).filter(|c| !set.contains(c));
+        let joined = open.map(|c| (score(&with(&set, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((best, cause)) = joined.filter(|(best, _)| best - current + rules.odds > rules.named) else { break };
+        set.push(cause);
+        current = best;
+        // What joined may stand for what was there.
+        while let Some((without, c)) = set
+            .iter()
+            .map(|&c| (score(&less(&set, c)), c))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .filter(|(without, _)| current - without + rules.odds <= rules.named)
+        {
+            set = less(&set, c);
+            current = without;
+        }
+    }
+
+    let mut chosen: Vec<Weighed> = Vec::new();
+    for &cause in &set {
+        let rest = less(&set, cause);
+        let log_odds = current - score(&rest) + rules.odds;
+        let mut rivals: Vec<(f64, usize)> = (0..causes.len())
+            .filter(|c| !set.contains(c))
+            .map(|c| (score(&with(&rest, c)), c))
+            .filter(|(other, _)| is_within_odds(*other, current, rules.alike))
+            .collect();
+        rivals.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let class = std::iter::once(cause).chain(rivals.into_iter().map(|(_, c)| c)).collect();
+        chosen.push(Weighed { cause, probability: logistic(log_odds), class });
+    }
+    // The first is that which the data would miss most.
+    let missed = |w: &Weighed| current - score(&less(&set, w.cause));
+    chosen.sort_by(|a, b| missed(b).total_cmp(&missed(a)));
+    let stands_in = |c: usize| chosen.iter().any(|w| w.class.contains(&c));
+    let others = (0..causes.len())
+        .filter(|c| !stands_in(*c))
+        .map(|c| (c, logistic(score(&with(&set, c)) - current + rules.odds)))
+        .collect();
+    let placebo = chosen.first().and_then(|first| {
+        let rest = less(&set, first.cause);
+        let wrong = (0..causes.len()).filter(|c| !set.contains(c) && !first.class.contains(c));
+        let (_, best) = wrong.map(|c| (score(&with(&rest, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((best, evidence.posterior(&covariance(known, causes, &with(&rest, best)))?))
+    });
+    Some(Named {
+        posterior: evidence.posterior(&covariance(known, causes, &set))?,
+        retuned: evidence.posterior(known)?,
+        chosen,
+        others,
+        placebo,
+    })
+}
+
+fn with(set: &[usize], cause: usize) -> Vec<usize> {
+    set.iter().copied().chain([cause]).collect()
+}
+
+fn less(set: &[usize], cause: usize) -> Vec<usize> {
+    set.iter().copied().filter(|c| *c != cause).collect()
+}
+
+/// What is known of the constants where these causes may be there.
+pub(crate) fn covariance(known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> DMatrix<f64> {
+    let mut out = known.clone();
+    for (direction, usual) in set.iter().flat_map(|&c| &causes[c].directions) {
+        for &(i, a) in direction {
+            for &(j, b) in direction {
+                out[(i, j)] += usual * usual * a * b;
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,225 @@
+//! The tuned numbers of this crate.
+
+::settings::settings! {
+    /// Tuned numbers of the comparison of wheel motion with a measured pose.
+    pub(crate) struct Settings;
+
+    /// Wheels and what they determine.
+    wheels: Wheels {
+        /// Smallest singular value over the largest, below which the wheels do not determine the motion.
+        least_rank: f64 = 1e-4, "1", "guess; rounding of places to millimetres gives more";
+        /// Roller angle from which a robot has no along and across, only a distance from centre to wheel.
+        omni: f64 = 1.2, "rad", "between 45 degrees of a mecanum wheel and 90 degrees of an omni wheel";
+        /// Steering angles at which the rank is looked at beside straight ahead.
+        steering: [f64; 3] = [-0.6, 0.3, 0.9], "rad", "guess; any but right angles";
+    }
+
+    /// Drives that can be compared.
+    drive: DriveRules {
+        /// Rows below which a drive is refused.
+        rows: usize = 40, "1", "guess; two seconds at 20 Hz";
+        /// Way below which nothing is compared.
+        way: f64 = 0.1, "m", "guess; a hundred times the noise of a good pose";
+        /// Share of a counter's range by which it jumps where it wraps around.
+        wrap: f64 = 0.5, "1", "a wheel cannot turn by half the range of its counter between two rows";
+        /// Ranges of counters that are known: 8, 16 and 32 bits.
+        ranges: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0], "1", "widths of integers";
+        /// Rates are those of this stretch about a row: single counts are too coarse.
+        rate: f64 = 0.25, "s", "guess; longer than the period of usual encoders' logs";
+        /// Way of the pose over that of the counts, beyond which the unit is doubted.
+        unit: f64 = 30.0, "1", "guess; no radius is wrong by as much";
+        /// Factor of millimetres to metres.
+        milli: f64 = 1000.0, "1", "SI";
+        /// A factor of units is told when the pose's way is within this factor of it.
+        unit_tolerance: f64 = 3.0, "1", "guess";
+    }
+
+    /// Windows over which the pose and the wheels' motion are compared.
+    windows: Windows {
+        /// Length of a window.
+        length: f64 = 4.0, "s", "2 to 15 s forecast left-out sessions of four open robots equally well";
+        /// Error of heading that weighs as much as one metre: a heading costs its lever in forecasts.
+        lever: f64 = 1.5, "rad/m", "0.8 and 1.5 forecast left-out sessions of four open robots equally well";
+        /// Windows farther off than this many sigmas count less.
+        outlier: f64 = 8.0, "1", "guess; occlusions and lost counts lie farther out";
+        /// Quantile of the errors from which their scale is taken.
+        quantile: f64 = 0.95, "1", "guess; the rest may be outliers";
+        /// Sigmas within which that share of a normal distribution lies.
+        quantile_sigmas: f64 = 1.96, "1", "mathematics: the quantile of the normal distribution";
+        /// Least noise of a pose.
+        floor: f64 = 2e-4, "m", "guess; good motion capture";
+        /// Share of a window's way and turning that no pose measures better than.
+        share: f64 = 1e-3, "1", "guess";
+        /// Windows with less way and turning than this do not tell the noise.
+        moving: f64 = 0.02, "m; rad", "guess";
+        /// Windows below which nothing is fitted.
+        least: usize = 4, "1", "guess";
+        /// Step of finite differences, shares of a cause's usual size.
+        difference: f64 = 1e-3, "1", "guess";
+    }
+
+    /// Fits of all constants.
+    fitting: Fitting {
+        /// Rounds in which scale of errors and scatter of sessions are estimated anew.
+        rounds: usize = 4, "1", "guess; two are enough where nothing is an outlier";
+        /// Logarithm of the change of the scale below which it is at rest.
+        same_scale: f64 = 0.01, "1", "guess; a hundredth";
+    }
+
+    /// Turning and speed at which slip is half of what it becomes.
+    slip: Slip {
+        /// Turning rate at which slip in turns has half its size.
+        turning: f64 = 0.05, "rad/s", "guess; dry friction does not grow with the rate";
+    }
+
+    /// How well constants are known where the robot file does not say so: one sigma.
+    known: Known {
+        /// Radius of a wheel, relative.
+        radius: f64 = 0.01, "1", "a tape measure on small wheels";
+        /// Distances between wheels, relative.
+        distance: f64 = 0.02, "1", "a tape measure; the contact is not the middle of a wheel";
+        /// Zero of the steering.
+        steering: f64 = 0.01, "rad", "guess; half a degree";
+        /// Gain of the steering, relative.
+        steering_gain: f64 = 0.005, "1", "guess";
+        /// Direction of the pose's frame in the robot.
+        mounting: f64 = 0.001, "rad", "guess";
+        /// Place of the pose's origin in the robot.
+        origin: f64 = 0.001, "m", "guess";
+        /// Share of slip that belongs to every drive.
+        slip: f64 = 0.001, "1", "guess";
+        /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.
+        growing: f64 = 2e-4, "s/rad; s/m; s", "guess; a fifth of the share";
+        /// Clock of the counts against that of the pose.
+        offset: f64 = 0.02, "s", "guess; a few periods of usual logs";
+        /// Rate of the clocks.
+        rate: f64 = 1e-4, "1", "quartz, with its temperature";
+    }
+
+    /// Usual sizes of causes: one sigma about none.
+    usual: Usual {
+        /// Radius, relative.
+        radius: f64 = 0.1, "1", "guess";
+        /// Distances between wheels, relative.
+        distance: f64 = 0.2, "1", "guess";
+        /// Zero of the steering.
+        steering: f64 = 0.1, "rad", "guess";
+        /// Gain of the steering, relative.
+        steering_gain: f64 = 0.1, "1", "guess";
+        /// Direction of the pose's frame.
+        mounting: f64 = 0.05, "rad", "guess; three degrees";
+        /// Place of the pose's origin.
+        origin: f64 = 0.05, "m", "guess";
+        /// Share of the way that is lost.
+        slip: f64 = 0.05, "1", "guess";
+        /// Share of turning that is lost, per rad/s.
+        turning: f64 = 0.1, "s/rad", "guess";
+        /// Share of the way that is lost, per m/s.
+        speed: f64 = 0.1, "s/m", "guess";
+        /// Slip velocity per sideways acceleration.
+        cornering: f64 = 0.1, "s; s/m", "guess";
+        /// Offset of the clocks.
+        offset: f64 = 0.2, "s", "guess";
+        /// Rate of the clocks.
+        rate: f64 = 0.02, "1", "sampling by a timer that is a per cent off";
+    }
+
+    /// By how much constants differ from session to session although nothing is changed: one sigma, before the sessions
+    /// themselves are asked.
+    scatter: Scatter {
+        /// Direction of the pose's frame.
+        mounting: f64 = 1e-3, "rad", "guess; motion capture is set up anew";
+        /// Place of the pose's origin.
+        origin: f64 = 1e-3, "m", "guess; motion capture is set up anew";
+        /// Slip in turns and of rollers.
+        slip: f64 = 1e-3, "1", "guess; floors differ";
+        /// Slips that grow with a rate, a speed or an acceleration: less, or they would scatter with slip once more.
+        growing: f64 = 2e-4, "s/rad; s/m; s", "guess; floors differ";
+        /// Radius, relative.
+        radius: f64 = 4e-4, "1", "guess; temperature and wear";
+        /// Distances between wheels, relative.
+        distance: f64 = 1e-3, "1", "guess; contact points move";
+        /// Steering.
+        steering: f64 = 1e-3, "rad; 1", "guess";
+        /// Offset of the clocks, from drive to drive.
+        offset: f64 = 0.02, "s", "guess; started by hand";
+        /// Rate of the clocks.
+        rate: f64 = 1e-5, "1", "quartz";
+        /// Factors on all of these that are tried.
+        factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
+        /// Factors on the scatter of the clocks that are tried: logs that are matched by hand differ in both offset and rate.
+        clocks: [f64; 4] = [1.0, 5.0, 25.0, 125.0], "1", "guess; up to a tenth of a per cent";
+        /// Sigma of the logarithm of the factor of the clocks.
+        clock_width: f64 = 2.0, "1", "guess; by hand or by wire";
+        /// Sigma of the logarithm of that factor.
+        width: f64 = 1.0, "1", "guess; a factor of e";
+    }
+
+    /// When a cause is named.
+    naming: Naming {
+        /// Log odds of a cause before the data are seen.
+        odds: f64 = -3.0, "nat", "guess; one in twenty robots has a given cause";
+        /// Log odds from which a cause is named.
+        named: f64 = 1.5, "nat", "guess; a probability of 0.82";
+        /// Causes at most.
+        most: usize = 7, "1", "guess";
+        /// Causes that fit as well within these odds cannot be told apart.
+        alike: f64 = 3.0, "nat", "a factor of 20";
+        /// Causes below this probability are not listed.
+        listed: f64 = 0.05, "1", "guess";
+        /// A factor on the radius this near to a familiar one is told as that.
+        familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
+        /// Familiar factors: counts on both edges, half turns, gears.
+        factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, std::f64::consts::TAU, 1.0 / std::f64::consts::TAU], "1",
+            "edges of encoders, diameters for radii, turns for radians";
+        /// Remaining error over the way, beyond which what is left asks for a cause.
+        left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
+        /// Share of the re-tuned error that has to be left then.
+        left_of_retuned: f64 = 0.8, "1", "guess";
+        /// Sigmas of the pose's noise beyond which what is left is more than noise.
+        left_noise: f64 = 4.0, "1", "guess";
+    }
+
+    /// Encoders that lose counts.
+    dropout: Dropout {
+        /// Sigmas from which a window is looked at.
+        outlier: f64 = 6.0, "1", "guess";
+        /// Share of such windows' misfit that one wheel has to account for.
+        share: f64 = 0.7, "1", "guess";
+        /// Share of the counts that has to be lost in a window.
+        lost: f64 = 0.1, "1", "guess";
+        /// Windows that show it at least.
+        windows: usize = 2, "1", "guess";
+        /// Share of a drive's windows that show it at most: what shows in all is no dropout.
+        most: f64 = 0.5, "1", "guess";
+    }
+
+    /// Clocks of counts and pose before any fit.
+    clock: Clock {
+        /// Largest rate that is tried, and its step.
+        rate: [f64; 2] = [0.04, 0.0025], "1", "timers are a few per cent off at most";
+        /// Largest offset that is tried, and its step.
+        offset: [f64; 2] = [3.0, 0.1], "s", "guess; logs are started by hand";
+        /// Grid on which rates are compared.
+        step: f64 = 0.2, "s", "guess";
+        /// Clocks are looked at where speeds differ by more than this share of their mean.
+        wrong: f64 = 0.2, "1", "guess; radii and tracks are known better";
+        /// Share to which the misfit has to fall.
+        fall: f64 = 0.6, "1", "guess";
+    }
+
+    /// Forecasts from counts alone.
+    forecast: Forecast {
+        /// Lengths of forecasts.
+        lengths: [f64; 3] = [2.0, 10.0, 30.0], "s", "what users ask: a manoeuvre, a room, a lap";
+        /// Distance of their beginnings.
+        every: f64 = 1.0, "s", "guess";
+        /// Sigma of a turn of 90 degrees that the calibration of squares takes for one.
+        corner: f64 = 0.6, "rad", "guess; a corner is more than half a right angle";
+        /// Return to the start that makes a loop of a drive: share of its way.
+        loop_share: f64 = 0.05, "1", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;

@@ -1,0 +1,71 @@
+//! Evidence of hypotheses that differ in what is known of the constants before the drives.
+//!
+//! About the fit the cost is quadratic, so that the evidence of any Gaussian prior follows from one set of equations. With the
+//! curvature Λ and the slope g₀ of all sessions at the prior's mean μ₀, the evidence over that of μ₀ alone is
+//! `½ g₀ᵀ (P⁻¹ + Λ)⁻¹ g₀ − ½ ln |I + P Λ|`. With `P = L Lᵀ`, `(P⁻¹ + Λ)⁻¹ = L (I + Lᵀ Λ L)⁻¹ Lᵀ`.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::fit::Session;
+
+/// What the sessions say together.
+#[derive(Debug, Clone)]
+pub(crate) struct Evidence {
+    curvature: DMatrix<f64>,
+    /// Slope of the cost at the prior's mean.
+    slope: DVector<f64>,
+    mean: DVector<f64>,
+    /// Cost at the prior's mean, nats.
+    pub(crate) base: f64,
+}
+
+/// Constants as a prior and the sessions have them together.
+#[derive(Debug, Clone)]
+pub(crate) struct Posterior {
+    pub(crate) mean: DVector<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+}
+
+impl Evidence {
+    /// Of sessions linearised at `theta`, seen from the prior's mean.
+    pub(crate) fn new(
+        theta: &[f64],
+        sessions: &[Session],
+        scatter: &DVector<f64>,
+        mean: &DVector<f64>,
+    ) -> Option<Self> {
+        let n = theta.len();
+        let mut out = Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
+        let d = mean - DVector::from_column_slice(theta);
+        for session in sessions {
+            let marginal = session.marginal(scatter)?;
+            let turned = &marginal.curvature * &d;
+            out.base += marginal.cost + marginal.slope.dot(&d) + 0.5 * d.dot(&turned);
+            out.slope += marginal.slope + turned;
+            out.curvature += marginal.curvature;
+        }
+        Some(out)
+    }
+
+    fn factors(&self, covariance: &DMatrix<f64>) -> Option<(DMatrix<f64>, nalgebra::Cholesky<f64, nalgebra::Dyn>)> {
+        let l = covariance.clone().cholesky()?.l();
+        let n = l.nrows();
+        let inner = DMatrix::identity(n, n) + l.transpose() * &self.curvature * &l;
+        Some((l, inner.cholesky()?))
+    }
+
+    /// Evidence of a prior covariance over that of none, nats.
+    pub(crate) fn of(&self, covariance: &DMatrix<f64>) -> Option<f64> {
+        let (l, inner) = self.factors(covariance)?;
+        let pulled = l.transpose() * &self.slope;
+        let half_log_determinant: f64 = inner.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        Some(0.5 * pulled.dot(&inner.solve(&pulled)) - half_log_determinant)
+    }
+
+    /// Constants under a prior covariance.
+    pub(crate) fn posterior(&self, covariance: &DMatrix<f64>) -> Option<Posterior> {
+        let (l, inner) = self.factors(covariance)?;
+        let covariance = &l * inner.solve(&l.transpose());
+        Some(Posterior { mean: &self.mean - &covariance * &self.slope, covariance })
+    }
+}

@@ -1,0 +1,135 @@
+//! Windows of drives: how the pose moved in each, and how the wheels' motion says that it did.
+
+use crate::constants::{Constant, Quantity};
+use crate::drive::Drive;
+use crate::error::OdometryError;
+use crate::motion::{Laws, implied, relative};
+use crate::settings::{SETTINGS, Windows as Rules};
+use crate::wheel::WheeledRobot;
+use inference::robust::{quantile, sorted};
+
+const RULES: Rules = SETTINGS.windows;
+
+/// A window of a drive: its first and last row, and how the pose moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    pub(crate) from: usize,
+    pub(crate) to: usize,
+    pub(crate) moved: [f64; 3],
+}
+
+impl Window {
+    /// Whether anything moved.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.moved[0].hypot(self.moved[1]) + self.moved[2].abs() > RULES.moving
+    }
+
+    /// Error of a path in metres: x, y, and yaw by its lever.
+    pub(crate) fn error(&self, path: &[[f64; 3]]) -> [f64; 3] {
+        let [x, y, yaw] = relative(path[self.from], path[self.to]);
+        [x - self.moved[0], y - self.moved[1], (yaw - self.moved[2]) / RULES.lever]
+    }
+}
+
+/// Windows of `length` that begin every `every` seconds, between rows in which the pose was seen.
+pub(crate) fn windows(drive: &Drive, length: f64, every: f64) -> Vec<Window> {
+    let time = &drive.time;
+    let mut out = Vec::new();
+    let mut begin = time[0];
+    let (mut from, mut to) = (0, 0);
+    let slack = SETTINGS.drive.rate;
+    while begin + length <= time[time.len() - 1] + f64::EPSILON {
+        while from < time.len() && (time[from] < begin || !drive.is_seen(from)) {
+            from += 1;
+        }
+        let Some(start) = time.get(from).copied() else { break };
+        to = to.max(from);
+        while to < time.len() && (time[to] + 1e-9 < start + length || !drive.is_seen(to)) {
+            to += 1;
+        }
+        // A pose that was not seen for a while makes no window of another length.
+        if to < time.len() && time[to] - start <= length + slack && start - begin <= slack {
+            out.push(Window { from, to, moved: relative(drive.pose[from], drive.pose[to]) });
+        }
+        begin += every;
+    }
+    out
+}
+
+/// Drives with their windows, ready for fits.
+pub(crate) struct Data<'a> {
+    pub(crate) robot: &'a WheeledRobot,
+    pub(crate) drives: Vec<&'a Drive>,
+    pub(crate) constants: &'a [Constant],
+    pub(crate) windows: Vec<Vec<Window>>,
+    /// Index of each drive's session.
+    pub(crate) session: Vec<usize>,
+    pub(crate) sessions: Vec<String>,
+    /// Windows that are left out, by drive: those in which counts were lost.
+    pub(crate) dropped: Vec<Vec<bool>>,
+}
+
+impl<'a> Data<'a> {
+    pub(crate) fn new(
+        robot: &'a WheeledRobot,
+        constants: &'a [Constant],
+        drives: Vec<&'a Drive>,
+    ) -> Result<Self, OdometryError> {
+        let windows: Vec<Vec<Window>> = drives.iter().map(|d| windows(d, RULES.length, RULES.length)).collect();
+        let moving = windows.iter().flatten().filter(|w| w.is_moving()).count();
+        if moving < RULES.least {
+            return Err(OdometryError::Short { windows: moving, length: RULES.length, needed: RULES.least });
+        }
+        let mut sessions: Vec<String> = Vec::new();
+        let mut session = Vec::new();
+        for drive in &drives {
+            let index = sessions.iter().position(|s| *s == drive.session).unwrap_or_else(|| {
+                sessions.push(drive.session.clone());
+                sessions.len() - 1
+            });
+            session.push(index);
+        }
+        let dropped = windows.iter().map(|w| vec![false; w.len()]).collect();
+        Ok(Self { robot, drives, constants, windows, session, sessions, dropped })
+    }
+
+    /// The laws at these values of the constants.
+    pub(crate) fn laws(&self, theta: &[f64]) -> Laws {
+        laws(self.robot, self.constants, theta)
+    }
+
+    /// Errors of all windows at these values, by drive.
+    pub(crate) fn errors(&self, theta: &[f64]) -> Vec<Vec<[f64; 3]>> {
+        self.errors_by_session(&vec![theta.to_vec(); self.sessions.len()])
+    }
+
+    /// Errors of all windows at the values of each session, by drive.
+    pub(crate) fn errors_by_session(&self, thetas: &[Vec<f64>]) -> Vec<Vec<[f64; 3]>> {
+        let laws: Vec<Laws> = thetas.iter().map(|theta| self.laws(theta)).collect();
+        let of = |index: usize| {
+            let path = implied(self.robot, self.drives[index], &laws[self.session[index]]);
+            self.windows[index].iter().map(|w| w.error(&path)).collect()
+        };
+        (0..self.drives.len()).map(of).collect()
+    }
+
+    /// Scale of the errors of windows in motion, m: by their upper quantile, for a few may be outliers.
+    pub(crate) fn scale(&self, errors: &[Vec<[f64; 3]>]) -> f64 {
+        let moving = |drive: usize| {
+            let used = self.windows[drive].iter().zip(&self.dropped[drive]).zip(&errors[drive]);
+            used.filter(|((w, dropped), _)| w.is_moving() && !**dropped).map(|(_, e)| *e)
+        };
+        let all: Vec<[f64; 3]> = (0..errors.len()).flat_map(moving).collect();
+        let sizes = sorted(all.iter().flatten().map(|e| e.abs()));
+        let limit = quantile(&sizes, RULES.quantile).unwrap_or(0.0) / RULES.quantile_sigmas;
+        let cut = 2.0 * RULES.quantile_sigmas * limit;
+        let clipped = inference::robust::rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0);
+        clipped.max(RULES.floor)
+    }
+}
+
+/// The laws of a robot at these values of its constants.
+pub(crate) fn laws(robot: &WheeledRobot, constants: &[Constant], theta: &[f64]) -> Laws {
+    let values: Vec<(Quantity, f64)> = constants.iter().map(|c| c.quantity).zip(theta.iter().copied()).collect();
+    Laws::given(robot).with(&values)
+}

@@ -1,0 +1,110 @@
+//! Drawn robots with something hidden, by formulas of their own: what is named, what is not, and how wide intervals are.
+
+mod drawn;
+
+use drawn::{Drawn, Hidden, Kind, drawn};
+use odometry::{Answer, Findings, diagnose};
+
+const KINDS: [Kind; 4] = [Kind::Differential, Kind::Tricycle, Kind::Omni3, Kind::Mecanum4];
+
+fn expected(hidden: Hidden) -> &'static str {
+    match hidden {
+        Hidden::Nothing => "",
+        Hidden::OneRadius => "radius_of_one_wheel",
+        Hidden::AllRadii | Hidden::DoubledCounts => "radius_of_all_wheels",
+        Hidden::Distance => "wheel_distance",
+        Hidden::SteeringZero => "steering_zero",
+        Hidden::Mounting => "pose_mounting",
+        Hidden::Origin => "pose_origin",
+        Hidden::SlipInTurns => "slip_in_turns",
+        Hidden::ClockOffset => "counts_clock_offset",
+        Hidden::ClockRate => "clock_rate",
+        Hidden::LostCounts => "lost_counts",
+    }
+}
+
+fn found(case: &Drawn) -> Findings {
+    diagnose(&case.case, &|_| {}).expect("an answer")
+}
+
+#[test]
+fn what_is_hidden_is_named_first() {
+    let hidden = [
+        Hidden::OneRadius,
+        Hidden::AllRadii,
+        Hidden::DoubledCounts,
+        Hidden::Distance,
+        Hidden::SteeringZero,
+        Hidden::Mounting,
+        Hidden::Origin,
+        Hidden::SlipInTurns,
+        Hidden::ClockOffset,
+        Hidden::ClockRate,
+        Hidden::LostCounts,
+    ];
+    let (mut right, mut all, mut wrong) = (0, 0, Vec::new());
+    for kind in KINDS {
+        for h in hidden {
+            let only_steered = h == Hidden::SteeringZero && kind != Kind::Tricycle;
+            let one_wheel = h == Hidden::OneRadius && kind == Kind::Tricycle;
+            if only_steered || one_wheel {
+                continue;
+            }
+            let seed = 100 * (kind as u64) + h as u64;
+            let findings = found(&drawn(kind, h, 3, 60.0, seed));
+            let first = findings.named.first().map_or("", |c| c.spec.id);
+            let is_right = findings
+                .named
+                .first()
+                .is_some_and(|c| c.spec.id == expected(h) || c.alike.iter().any(|a| a.starts_with(expected(h))));
+            all += 1;
+            right += usize::from(is_right);
+            if !is_right {
+                wrong.push(format!("{kind:?} {h:?}: {first} {:?}", findings.answer));
+            }
+        }
+    }
+    assert!(right * 100 >= all * 90, "{right} of {all}: {wrong:#?}");
+}
+
+#[test]
+fn healthy_robots_are_not_alarmed_and_intervals_hold_the_truth() {
+    let (mut alarms, mut inside, mut constants, mut cases) = (Vec::new(), 0_usize, 0_usize, 0);
+    for kind in KINDS {
+        for seed in 0..40 {
+            let case = drawn(kind, Hidden::Nothing, 3, 32.0, 1000 + 100 * (kind as u64) + seed);
+            let findings = found(&case);
+            cases += 1;
+            if matches!(findings.answer, Answer::Named | Answer::Unknown) {
+                alarms.push(format!(
+                    "{kind:?} {seed}: {:?}",
+                    findings.named.iter().map(|c| &c.label).collect::<Vec<_>>()
+                ));
+            }
+            if std::env::var_os("ODOMETRY_SHOW").is_some() {
+                let z: Vec<String> = case
+                    .truth
+                    .radius
+                    .iter()
+                    .copied()
+                    .chain([case.truth.base])
+                    .zip(&findings.constants)
+                    .map(|(t, e)| format!("{:.2}", (e.value - t) / e.half_width * 1.645))
+                    .collect();
+                eprintln!("{kind:?} noise {:.5} factor {} z {}", findings.noise, findings.scatter, z.join(" "));
+            }
+            let truths = case.truth.radius.iter().copied().chain([case.truth.base]);
+            for (truth, estimate) in truths.zip(&findings.constants) {
+                // Only the sum of track and wheelbase shows of a mecanum robot.
+                if kind == Kind::Mecanum4 && !estimate.name.starts_with("radius") {
+                    continue;
+                }
+                constants += 1;
+                inside += usize::from((estimate.value - truth).abs() <= estimate.half_width);
+            }
+        }
+    }
+    assert!(alarms.len() * 100 <= cases * 5, "{} of {cases}: {alarms:#?}", alarms.len());
+    let share = inside as f64 / constants as f64;
+    assert!((0.87..=0.93).contains(&share), "{share} of {constants} intervals hold the truth");
+}
