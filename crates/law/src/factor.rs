@@ -176,6 +176,18 @@ impl Factor {
         }
     }
 
+    /// Units of the shape numbers, in the order of [`Factor::shapes`].
+    pub fn shape_units(self) -> Vec<Unit> {
+        match self {
+            Self::Excess(v, _) | Self::Clip(v, _) | Self::Bump(v, _) | Self::Above(v, _) => vec![v.unit()],
+            Self::Rise(_) | Self::Lag(..) | Self::Heat(..) => vec![Unit::SECOND],
+            Self::Turn(..) => vec![Unit::RADIAN],
+            Self::Oscillation(..) => vec![Unit::RATE, Unit::RADIAN],
+            Self::Disc(..) => vec![Unit::METRE; 3],
+            Self::Power(..) | Self::EvenPower(..) | Self::Sign(..) => Vec::new(),
+        }
+    }
+
     /// The same with other shape numbers, those of [`Factor::shapes`].
     #[must_use]
     pub fn with(self, shapes: &[f64]) -> Self {

@@ -34,18 +34,24 @@ fn allows(place: Place, v: Variable) -> bool {
     }
 }
 
-/// Factors by which a variable may enter, without those that need a second column.
-fn of_variable(v: Variable, scales: &Scales) -> Vec<Factor> {
+/// The dry law of a variable: its sign, smooth about zero.
+pub fn dry_sign(v: Variable) -> Factor {
     let g = SETTINGS.grammar;
-    let Some(usual) = scales.of(v) else { return Vec::new() };
-    let dry = match v {
+    let width = match v {
         Variable::WheelSpeed => g.dry_wheel,
         Variable::Slip | Variable::Velocity | Variable::LateralVelocity => g.dry_speed,
         Variable::YawRate => g.dry_yaw,
         _ => g.dry_torque,
     };
+    Factor::Sign(v, width)
+}
+
+/// Factors by which a variable may enter, without those that need a second column.
+fn of_variable(v: Variable, scales: &Scales) -> Vec<Factor> {
+    let g = SETTINGS.grammar;
+    let Some(usual) = scales.of(v) else { return Vec::new() };
     let mut out: Vec<Factor> = (1..=3).flat_map(|p| [Factor::Power(v, p), Factor::EvenPower(v, p)]).collect();
-    out.push(Factor::Sign(v, dry));
+    out.push(dry_sign(v));
     for share in g.sizes {
         let a = share * usual;
         out.extend([Factor::Excess(v, a), Factor::Clip(v, a), Factor::Bump(v, a), Factor::Above(v, a)]);

@@ -27,7 +27,7 @@ mod variable;
 
 pub use error::LawError;
 pub use factor::{Factor, Shape};
-pub use grammar::{Scales, candidates};
+pub use grammar::{Scales, candidates, dry_sign};
 pub use memory::Memory;
 pub use motion::{Action, Input, Motion};
 pub use place::Place;

@@ -108,6 +108,20 @@ impl<T: Scalar> Default for Action<T> {
 }
 
 impl<T: Scalar> Action<T> {
+    /// One of its numbers.
+    #[inline(always)]
+    pub fn get(&self, input: Input) -> T {
+        match input {
+            Input::Torque(j) => self.torque[j.min(1)],
+            Input::Force(k) => self.force[k.min(1)],
+            Input::Moment => self.moment,
+            Input::Grip(j) => self.grip[j.min(1)],
+            Input::LateralGrip => self.lateral_grip,
+            Input::Radius(j) => self.radius[j.min(1)],
+            Input::Slope(k) => self.slope[k.min(1)],
+        }
+    }
+
     /// Adds to one of its numbers.
     #[inline(always)]
     pub fn add(&mut self, input: Input, value: T) {

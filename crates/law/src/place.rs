@@ -125,6 +125,11 @@ impl Place {
         own.map_or_else(Vec::new, |family| family.into_iter().filter(|p| *p != self).collect())
     }
 
+    /// Whether a term here adds to an input.
+    pub fn acts_on(self, input: Input) -> bool {
+        self.inputs().iter().any(|(own, _)| *own == input)
+    }
+
     /// What a term adds to here, each with the variables that it sees.
     pub(crate) fn inputs(self) -> &'static [(Input, Of)] {
         match self {
