@@ -32,6 +32,9 @@ pub struct Options {
     pub same_robot: bool,
     /// When a law is looked for that has no name in the catalogue (torque-driven robots).
     pub law: SearchForLaw,
+    /// An effect of the motion that is weighed as little as if the catalogue did not hold it (torque-driven robots): what
+    /// would be said of a cause without a name.
+    pub without: Option<&'static str>,
 }
 
 impl Default for Options {
@@ -45,6 +48,7 @@ impl Default for Options {
             next: None,
             same_robot: false,
             law: SearchForLaw::default(),
+            without: None,
         }
     }
 }

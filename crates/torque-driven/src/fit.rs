@@ -55,6 +55,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) largest_torque: f64,
     /// Whether nobody changed the robot: what needs a hand on it is not weighed.
     pub(crate) same_robot: bool,
+    /// An effect that is weighed as little as if the catalogue did not hold it.
+    pub(crate) without: Option<&'static str>,
     pub(crate) drives: Drives,
 }
 
@@ -101,6 +103,7 @@ impl Problem<'_> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
         let mut all = variants(segments().any(|s| s.shows(Channel::ForwardVelocity)));
+        all.retain(|v| self.without != Some(v.spec().id));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all
     }

@@ -86,6 +86,8 @@
         recordings: usize = 2, "1", "the prototype: what happened once may be an event";
         /// Share of the excess cost that may be left.
         left: f64 = 0.4, "1", "the prototype";
+        /// Share of the excess cost that may be left where a place alone is told.
+        left_of_place: f64 = 0.7, "1", "guess: a law that explains less says little of where the cause acts";
         /// Coefficient of the same law in the references, as a share of that in the recordings, that is refused.
         in_references: f64 = 0.25, "1", "the prototype: without it six of 18 healthy robots were told a law";
         /// Laws within this cannot be told apart.

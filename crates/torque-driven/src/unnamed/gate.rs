@@ -70,6 +70,7 @@ impl Standing {
     /// Whether a place may be named.
     pub(crate) fn names_a_place(&self, law: &Refitted) -> bool {
         law.score > GATES.score
+            && self.left < GATES.left_of_place
             && self.above_name > GATES.above_name
             && self.is_in_recordings()
             && self.in_references.is_some()

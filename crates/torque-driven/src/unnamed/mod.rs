@@ -14,6 +14,8 @@ mod operator;
 mod rank;
 mod refit;
 mod signals;
+#[cfg(test)]
+mod tests;
 mod told;
 
 pub(crate) use acting::{Acting, InRecording};
