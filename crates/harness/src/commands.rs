@@ -14,7 +14,7 @@ pub struct Elsewhere {
 }
 
 /// All of them. The programs themselves say the same sentences; their tests compare.
-pub const ELSEWHERE: [Elsewhere; 6] = [
+pub const ELSEWHERE: [Elsewhere; 7] = [
     proof(
         "blind",
         "Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders",
@@ -22,6 +22,7 @@ pub const ELSEWHERE: [Elsewhere; 6] = [
     proof("evidence", "Diagnose real recordings with the effect concealed, then open the witness"),
     proof("mujoco", "Run exported models in MuJoCo on held-out inputs and compare with the truth"),
     proof("next", "Ask whether it pays to follow the advice on the next drive"),
+    proof("law", "Leave a name of the catalogue out, and ask what law is found in its place"),
     proof("bag", "Measure time and memory of `lacuna check` on a large bag"),
     Elsewhere {
         name: "book",

@@ -8,6 +8,7 @@ use harness::{binary, child, document, exit_code, output};
 mod bag;
 mod blind;
 mod evidence;
+mod law;
 mod mujoco;
 mod next;
 
@@ -31,6 +32,8 @@ enum Command {
     Mujoco(mujoco::Args),
     /// Ask whether it pays to follow the advice on the next drive.
     Next(next::Args),
+    /// Leave a name of the catalogue out, and ask what law is found in its place.
+    Law(law::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -43,6 +46,7 @@ pub fn run() -> ExitCode {
         Command::Evidence(args) => evidence::run(&args),
         Command::Mujoco(args) => mujoco::run(&args),
         Command::Next(args) => next::run(&args),
+        Command::Law(args) => law::run(&args),
         Command::Bag(args) => bag::run(&args),
     })
 }

@@ -147,6 +147,17 @@ pub(crate) struct Args {
     /// is unknown or the best name leaves much of the mismatch, always, or never.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t)]
     law: LawWhen,
+    /// Weigh this effect of the motion as little as if the catalogue did not hold it: shows what would be said of a cause
+    /// without a name.
+    #[arg(long, value_name = "EFFECT", value_parser = effect)]
+    without: Option<&'static str>,
+}
+
+/// An effect by its id.
+fn effect(id: &str) -> Result<&'static str, String> {
+    let all = robot_model::effects::catalogue::<f64>();
+    let found = all.iter().map(|e| e.spec().id).find(|known| *known == id);
+    found.ok_or_else(|| format!("no effect is called '{id}'; `lacuna effects` lists them"))
 }
 
 /// When a law is looked for.
@@ -191,7 +202,13 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
-    let options = Options { next, same_robot: args.input.same_robot, law: args.law.into(), ..Options::default() };
+    let options = Options {
+        next,
+        same_robot: args.input.same_robot,
+        law: args.law.into(),
+        without: args.without,
+        ..Options::default()
+    };
     let (case, mapping) = read(&args.input)?;
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
