@@ -11,6 +11,7 @@ type Room = (&'static str, &'static str, Vec<&'static Setting>);
 fn rooms() -> Vec<Room> {
     vec![
         ("inference", "what all kinds of robots share", inference::settings().collect()),
+        ("law", "laws for what has no name", law::settings().collect()),
         ("torque-driven", "robots whose torques are known", torque_driven::settings().collect()),
         ("speed-driven", "robots whose wheel speeds and currents are known", speed_driven::settings().collect()),
         ("command-driven", "robots of which only commands and motion are known", command_driven::settings().collect()),

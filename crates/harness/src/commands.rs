@@ -23,6 +23,7 @@ pub const ELSEWHERE: [Elsewhere; 7] = [
     proof("mujoco", "Run exported models in MuJoCo on held-out inputs and compare with the truth"),
     proof("next", "Ask whether it pays to follow the advice on the next drive"),
     proof("odometry", "Calibrate open recordings of wheel counts and poses, and forecast sessions left out"),
+    proof("law", "Leave a name of the catalogue out, and ask what law is found in its place"),
     proof("bag", "Measure time and memory of `lacuna check` on a large bag"),
     Elsewhere {
         name: "book",

@@ -35,7 +35,7 @@ pub mod words;
 
 pub use corrected::{Corrected, active, in_catalogue};
 pub use error::DiagnosisError;
-pub use options::Options;
+pub use options::{Options, SearchForLaw};
 
 /// Every tuned number of this crate, for the page of settings; without those of the solver.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

@@ -2,6 +2,18 @@
 
 use crate::settings::{SETTINGS, Usual};
 
+/// When a law is looked for that has no name in the catalogue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SearchForLaw {
+    /// Whatever the answer is.
+    Always,
+    /// Where the cause is unknown, or the best name leaves much of the mismatch.
+    #[default]
+    Unknown,
+    /// Never.
+    Never,
+}
+
 /// Settings of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
@@ -18,11 +30,25 @@ pub struct Options {
     /// Whether nobody changed the robot since it was right: its mass, motors and wheels are what they were, so no such
     /// cause is weighed.
     pub same_robot: bool,
+    /// When a law is looked for that has no name in the catalogue (torque-driven robots).
+    pub law: SearchForLaw,
+    /// An effect of the motion that is weighed as little as if the catalogue did not hold it (torque-driven robots): what
+    /// would be said of a cause without a name.
+    pub without: Option<&'static str>,
 }
 
 impl Default for Options {
     fn default() -> Self {
         let Usual { step, segment, likelihood_power, outlier_scale } = SETTINGS.options;
-        Self { step, segment, likelihood_power, outlier_scale, next: None, same_robot: false }
+        Self {
+            step,
+            segment,
+            likelihood_power,
+            outlier_scale,
+            next: None,
+            same_robot: false,
+            law: SearchForLaw::default(),
+            without: None,
+        }
     }
 }

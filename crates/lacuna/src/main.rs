@@ -14,8 +14,8 @@ mod console;
 mod mcap_out;
 
 use commands::{
-    Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, man, merge, next,
-    predict, rehearse, report, robot, screen, simulate,
+    Outcome, Usage, batch, check, completions, convert, diagnose, effects, explain, export, identify, law, man, merge,
+    next, predict, rehearse, report, robot, screen, simulate,
 };
 
 const EXAMPLES: &str = "\
@@ -71,6 +71,8 @@ enum Command {
     Merge(merge::Args),
     /// Make a page of what `diagnose --json` wrote.
     Report(report::Args),
+    /// Show the law that a diagnosis found for what has no name, and save it.
+    Law(law::Args),
     /// Say which drive would tell the remaining causes apart best.
     Next(next::Args),
     /// Say which effects would be found on a robot's own inputs, and from which size.
@@ -112,6 +114,7 @@ fn run() -> ExitCode {
         Command::Export(args) => export::run(args),
         Command::Next(args) => next::run(args, cli.verbose),
         Command::Rehearse(args) => rehearse::run(args, cli.verbose),
+        Command::Law(args) => law::run(args),
         Command::Report(args) => report::run(args),
         Command::Effects(args) => effects::run(args),
         Command::Explain(args) => explain::run(args),

@@ -8,6 +8,7 @@ use harness::{binary, child, document, exit_code, output};
 mod bag;
 mod blind;
 mod evidence;
+mod law;
 mod mujoco;
 mod next;
 mod odometry;
@@ -34,6 +35,8 @@ enum Command {
     Next(next::Args),
     /// Calibrate open recordings of wheel counts and poses, and forecast sessions left out.
     Odometry(odometry::Args),
+    /// Leave a name of the catalogue out, and ask what law is found in its place.
+    Law(law::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
     Bag(bag::Args),
 }
@@ -47,6 +50,7 @@ pub fn run() -> ExitCode {
         Command::Mujoco(args) => mujoco::run(&args),
         Command::Next(args) => next::run(&args),
         Command::Odometry(args) => odometry::run(&args),
+        Command::Law(args) => law::run(&args),
         Command::Bag(args) => bag::run(&args),
     })
 }

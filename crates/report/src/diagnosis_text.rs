@@ -6,7 +6,7 @@
 )]
 
 use crate::words::{free_runs as title_of_free_runs, is_no_cause, probability, size, where_and_when as place};
-use verdict::{Advice, Cause, Diagnosis};
+use verdict::{Advice, Cause, Claim, Diagnosis};
 
 use crate::sections::{heading, listed};
 use pages::text_table::{TextTable, number};
@@ -27,6 +27,7 @@ pub fn render(d: &Diagnosis, lost: &[String], not_used: &[String], mapping: Opti
     }
     out += &causes(&d.ranked);
     out += &where_and_when::render(d);
+    out += &law(d);
     out += &steady(d);
     out += &response(d);
     out += &free_runs(d);
@@ -63,6 +64,19 @@ fn causes(ranked: &[Cause]) -> String {
         table.row([c.name.clone(), probability(c.probability), size(c).join(" ").trim().to_owned(), place(c)]);
     }
     format!("\n{}{}", heading("Causes"), table.render())
+}
+
+/// A law for what has no name.
+fn law(d: &Diagnosis) -> String {
+    let Some(cause) = &d.law else { return String::new() };
+    let title = match cause.claim {
+        Claim::Law => "Not in the catalogue: a law that fits",
+        Claim::Place => "Not in the catalogue: where it acts",
+        Claim::Nothing => "Not in the catalogue",
+    };
+    let line = |(label, text): (&str, String)| format!("  {label:<20} {text}\n");
+    let lines: String = crate::law::lines(cause).into_iter().map(line).collect();
+    format!("\n{}{lines}", heading(title))
 }
 
 /// Loads of steady driving over the references'.

@@ -11,6 +11,7 @@
 //! * `picture`, `manoeuvre`, `slopes`, `reliability`: a verdict, the next drive, claims beside a
 //!   witness, and how often answers are right, each as SVG; `drawing`: what pictures share.
 //! * `rehearsal_text`, `rehearsal_page`: which effects would be found, as text and as a page.
+//! * `law`: a law for what has no name, line by line.
 //! * `words`: how numbers, causes, places and times are written, on the terminal too; `facts`, `sections`:
 //!   lists and headings.
 
@@ -21,6 +22,7 @@ pub mod diagnosis_text;
 mod drawing;
 mod facts;
 pub mod fleet;
+mod law;
 pub mod manoeuvre;
 pub mod picture;
 pub mod rehearsal_page;

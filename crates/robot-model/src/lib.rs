@@ -19,6 +19,7 @@
 //! * `state`: what moves; `settle`: steady motion of a speed-driven robot.
 //! * `effect/*`: what an effect is: the trait, its specification, how engines get it.
 //! * `effects/*`: the catalogue, one file for each effect; the build script finds them.
+//! * `disturbance`: what acts beside the catalogue's effects.
 //! * `active`: an effect at values; `presence`: from an instant, in a disc, on one side.
 //! * `paper/*`: the robot of the paper, two variants, and its equation as a regressor.
 //! * `scalar`: functions of a number that only plants need; `error`: what can be wrong with a
@@ -28,6 +29,7 @@
 mod active;
 pub mod constants;
 pub mod contact;
+mod disturbance;
 pub mod effect;
 mod error;
 pub mod paper;
@@ -47,6 +49,7 @@ pub mod effects {
 pub use ::scalar::Lanes;
 pub use active::Active;
 pub use constants::Constant;
+pub use disturbance::Disturbance;
 pub use effect::{Coefficients, Effect, EffectSpec, Kind, OperatingPoint, Parameter, Readings, Role};
 pub use error::{ModelError, Must};
 pub use plant::Plant;

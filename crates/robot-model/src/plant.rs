@@ -3,6 +3,7 @@
 
 use crate::active::Active;
 use crate::contact::{Stance, combined};
+use crate::disturbance::Disturbance;
 use crate::effect::{Coefficients, OperatingPoint, Readings};
 use crate::robot::{Drive, Robot};
 use crate::scalar::{Scalar, bell, real, smooth_sign};
@@ -19,6 +20,7 @@ pub struct Plant<'a, T: Scalar> {
     stance: Stance<T>,
     coefficients: Coefficients<T>,
     active: &'a [Active<T>],
+    disturbance: Option<&'a dyn Disturbance<T>>,
     step: T,
     keep: [T; 2],
     inverse_mass: T,
@@ -48,9 +50,16 @@ impl<'a, T: Scalar> Plant<'a, T> {
             inverse_yaw_inertia: T::one() / robot.yaw_inertia,
             robot,
             active,
+            disturbance: None,
             step,
             keep,
         }
+    }
+
+    /// The same plant, on which something without a name acts as well.
+    #[must_use]
+    pub fn disturbed(self, by: Option<&'a dyn Disturbance<T>>) -> Self {
+        Self { disturbance: by, ..self }
     }
 
     /// The same plant that steps by `step` seconds, its drive as it is.
@@ -122,6 +131,9 @@ impl<'a, T: Scalar> Plant<'a, T> {
         for a in self.active {
             a.apply(&at, c);
         }
+        if let Some(d) = self.disturbance {
+            d.act(&at, c);
+        }
     }
 
     #[inline(always)]
@@ -179,7 +191,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     pub fn step_under(&self, s: &mut State<T>, torque: [T; 2]) {
         let (h, half) = (self.step, real::<T>(0.5));
         let mut changed;
-        let c = if self.active.is_empty() {
+        let c = if self.active.is_empty() && self.disturbance.is_none() {
             &self.coefficients
         } else {
             changed = self.coefficients;
@@ -231,7 +243,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
         s.wheel_speed = speed;
         s.front_speed = speed;
         let mut changed;
-        let c = if self.active.is_empty() {
+        let c = if self.active.is_empty() && self.disturbance.is_none() {
             &self.coefficients
         } else {
             changed = self.coefficients;

@@ -264,6 +264,7 @@ impl Judged<'_> {
             steady: None,
             response: None,
             next: None,
+            law: None,
             coverage: BTreeMap::new(),
             predictions,
         };

@@ -137,6 +137,7 @@ pub(crate) fn calibrate_on(
             step: options.step,
             largest_torque,
             same_robot: options.same_robot,
+            without: options.without,
             drives: Drives::default(),
         },
     );
@@ -327,6 +328,7 @@ pub(crate) fn problem<'a>(
         step: options.step,
         largest_torque,
         same_robot: options.same_robot,
+        without: options.without,
         drives: Drives::default(),
     }
 }

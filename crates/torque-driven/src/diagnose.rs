@@ -18,7 +18,7 @@ use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
 
-use crate::next;
+use crate::{next, unnamed};
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
 const PRICES: Prices = decision::SETTINGS.prices;
@@ -140,6 +140,10 @@ impl Calibrated {
             simulator: self.simulator.as_ref(),
         };
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
+        if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
+            progress("looking for a law without a name");
+            out.law = Some(unnamed::tell(&answer, &found.retuned, &out));
+        }
         if let Some(length) = options.next {
             progress("looking for the drive that tells the rivals apart");
             out.next = Some(next::advise(&answer, &found.retuned, length));

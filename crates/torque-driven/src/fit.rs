@@ -17,6 +17,7 @@ pub(crate) use crate::hypothesis::Hypothesis;
 use crate::run_numbers::{RunNumber, RunNumbers, UNKNOWN};
 use crate::settings::fit::{Fit, SETTINGS};
 use crate::simulate::{Body, Response, RunResponse, free_run};
+use crate::unnamed::Acting;
 use crate::windows::Cut;
 use inference::hypothesis::{Dose, Sizes};
 use inference::hypothesis::{Free, Variant, variants};
@@ -54,6 +55,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) largest_torque: f64,
     /// Whether nobody changed the robot: what needs a hand on it is not weighed.
     pub(crate) same_robot: bool,
+    /// An effect that is weighed as little as if the catalogue did not hold it.
+    pub(crate) without: Option<&'static str>,
     pub(crate) drives: Drives,
 }
 
@@ -100,6 +103,7 @@ impl Problem<'_> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
         let mut all = variants(segments().any(|s| s.shows(Channel::ForwardVelocity)));
+        all.retain(|v| self.without != Some(v.spec().id));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all
     }
@@ -127,10 +131,10 @@ impl Problem<'_> {
         let body = |run| {
             let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
             let torque = self.drives.delivered(run, cut, &robot, &doses, Grid::nearest(cut.period, self.step));
-            Body { robot, doses, torque }
+            Body { robot, doses, acting: lane.acting.clone(), torque }
         };
         let bodies: Vec<Body> = runs.clone().map(body).collect();
-        let mut out = free_run(&self.cuts[runs.clone()], &bodies, lane.part, self.step);
+        let mut out = free_run(&self.cuts[runs.clone()], &bodies, runs.start, lane.part, self.step);
         for (y, own) in out.iter_mut().zip(&lane.point.run[runs]) {
             for (number, value) in RunNumber::ALL.into_iter().zip(own) {
                 if let RunNumber::Offset { channel, sigma } = number {
@@ -148,13 +152,15 @@ impl Problem<'_> {
 
     pub(crate) fn response(&self, point: &Point, h: &Hypothesis) -> Response {
         let doses = |run: usize| h.doses(&point.effects, run);
-        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, 0..self.cuts.len())
+        let acting = h.acting_at(&point.effects);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None, acting }, 0..self.cuts.len())
     }
 
     /// Response of one recording.
     pub(crate) fn run_response(&self, run: usize, point: &Point, h: &Hypothesis) -> RunResponse {
         let doses = |run: usize| h.doses(&point.effects, run);
-        self.free(&Lane { point: point.clone(), doses: &doses, part: None }, run..run + 1).remove(0)
+        let acting = h.acting_at(&point.effects);
+        self.free(&Lane { point: point.clone(), doses: &doses, part: None, acting }, run..run + 1).remove(0)
     }
 
     /// Response and columns of θ by finite steps.
@@ -164,7 +170,7 @@ impl Problem<'_> {
             .map(|k| {
                 let mut p = point.clone();
                 p.theta[k] += FIT.constant_step;
-                Lane { point: p, doses: &doses, part: None }
+                Lane { point: p, doses: &doses, part: None, acting: h.acting_at(&point.effects) }
             })
             .collect();
         let out = self.lanes(&lanes);
@@ -187,8 +193,11 @@ impl Problem<'_> {
             })
             .collect();
         let doses: Vec<_> = shifted.iter().map(|(p, _)| move |run: usize| h.doses(&p.effects, run)).collect();
-        let lanes: Vec<Lane<'_>> =
-            shifted.iter().zip(&doses).map(|((p, _), d)| Lane { point: p.clone(), doses: d, part: None }).collect();
+        let lanes: Vec<Lane<'_>> = shifted
+            .iter()
+            .zip(&doses)
+            .map(|((p, _), d)| Lane { point: p.clone(), doses: d, part: None, acting: h.acting_at(&p.effects) })
+            .collect();
         let out = self.lanes(&lanes);
         Columns(out.iter().zip(&shifted).zip(&free).map(|((y, (_, d)), f)| difference(y, base, f.unit / d)).collect())
     }
@@ -269,6 +278,8 @@ pub(crate) struct Lane<'a> {
     pub(crate) point: Point,
     pub(crate) doses: &'a (dyn Fn(usize) -> Vec<Dose> + Sync),
     pub(crate) part: Option<usize>,
+    /// What acts beside the doses.
+    pub(crate) acting: Option<Acting>,
 }
 
 /// Where a fit has come to.

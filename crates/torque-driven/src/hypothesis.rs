@@ -1,5 +1,6 @@
 //! Effects that are missing together, with the onsets of those that begin at an instant.
 
+use crate::unnamed::Acting;
 use inference::hypothesis::{Dose, Free, Onsets, Sizes, Variant};
 
 /// An onset before the beginning: there throughout, s.
@@ -9,11 +10,13 @@ pub(crate) const THROUGHOUT: f64 = -1.0;
 #[derive(Clone, Default)]
 pub(crate) struct Hypothesis {
     pub(crate) parts: Vec<(Variant, Onsets)>,
+    /// What acts beside the catalogue's effects; its numbers come last.
+    pub(crate) acting: Option<Acting>,
 }
 
 impl Hypothesis {
     pub(crate) fn single(variant: Variant, onsets: Onsets) -> Self {
-        Self { parts: vec![(variant, onsets)] }
+        Self { parts: vec![(variant, onsets)], acting: None }
     }
 
     /// Its effects, in order.
@@ -32,7 +35,7 @@ impl Hypothesis {
         let alone = |part: &(Variant, Onsets)| {
             let (own, others) = rest.split_at(part.0.count());
             rest = others;
-            (Self { parts: vec![part.clone()] }, own.to_vec())
+            (Self { parts: vec![part.clone()], acting: None }, own.to_vec())
         };
         if self.parts.len() > 1 { self.parts.iter().map(alone).collect() } else { Vec::new() }
     }
@@ -52,7 +55,8 @@ impl Hypothesis {
     }
 
     pub(crate) fn free(&self, sizes: &Sizes) -> Vec<Free> {
-        self.parts.iter().flat_map(|(v, _)| v.free(sizes)).collect()
+        let acting = self.acting.iter().flat_map(Acting::free);
+        self.parts.iter().flat_map(|(v, _)| v.free(sizes)).chain(acting).collect()
     }
 
     /// The same for a drive that follows: what began at an instant in most recordings is there throughout, what did so in no
@@ -62,7 +66,14 @@ impl Hypothesis {
             let began = onsets.iter().flatten().count();
             onsets.iter().map(|_| (2 * began > onsets.len()).then_some(THROUGHOUT)).collect()
         };
-        Self { parts: self.parts.iter().map(|(variant, onsets)| (*variant, from_now_on(onsets))).collect() }
+        let parts = self.parts.iter().map(|(variant, onsets)| (*variant, from_now_on(onsets))).collect();
+        Self { parts, acting: self.acting.clone() }
+    }
+
+    /// What acts beside the catalogue's effects, at free values `e` of the whole hypothesis.
+    pub(crate) fn acting_at(&self, e: &[f64]) -> Option<Acting> {
+        let before: usize = self.parts.iter().map(|(v, _)| v.count()).sum();
+        self.acting.as_ref().map(|a| a.at(e.get(before..).unwrap_or_default()))
     }
 
     pub(crate) fn doses(&self, e: &[f64], run: usize) -> Vec<Dose> {

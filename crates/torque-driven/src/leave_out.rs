@@ -193,7 +193,7 @@ fn whole_recordings(answer: &Judged<'_>, simulated: &[Simulated]) -> Vec<FreeRun
 }
 
 /// What is compared in segments.
-const QUANTITIES: [&str; 2] = ["wheel speed, rad/s", "yaw rate, rad/s"];
+pub(crate) const QUANTITIES: [&str; 2] = ["wheel speed, rad/s", "yaw rate, rad/s"];
 /// What is compared over whole recordings.
 const WHOLE: [&str; 2] = ["wheel speed over the whole recording, rad/s", "yaw rate over the whole recording, rad/s"];
 

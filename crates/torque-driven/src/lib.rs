@@ -23,6 +23,7 @@
 //! * `forward`, `predict`: any drive simulated, and held-out drives forecast.
 //! * `next/*`: which drive would tell the rivals apart.
 //! * `output_error/*`: constants of a robot from recordings in free run.
+//! * `unnamed/*`: a law for what has no name in the catalogue.
 //! * `settings/*`: every tuned number, stage by stage.
 
 mod answer;
@@ -65,6 +66,7 @@ mod stand_in;
 #[cfg(test)]
 mod testing;
 mod trial;
+mod unnamed;
 mod visits;
 mod windows;
 mod words;

@@ -82,7 +82,7 @@ pub(crate) fn disc(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) -
 }
 
 /// Points of the driven paths as far from each other as can be, greedily.
-fn farthest_points(problem: &Problem<'_>, most: usize) -> Vec<[f64; 2]> {
+pub(crate) fn farthest_points(problem: &Problem<'_>, most: usize) -> Vec<[f64; 2]> {
     let path: Vec<[f64; 2]> = problem.cuts.iter().flat_map(|c| c.path.iter().map(|p| [p[0], p[1]])).collect();
     let Some(&first) = path.first() else { return Vec::new() };
     let mut out = vec![first];

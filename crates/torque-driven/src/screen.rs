@@ -97,7 +97,12 @@ pub(crate) fn screen(
     let lanes: Vec<Lane<'_>> = doses
         .iter()
         .zip(&makers)
-        .map(|((_, part), m)| Lane { point: base.point.clone(), doses: m, part: *part })
+        .map(|((_, part), m)| Lane {
+            point: base.point.clone(),
+            doses: m,
+            part: *part,
+            acting: beside.acting_at(&base.point.effects),
+        })
         .collect();
     let raw: Vec<Response> = problem.lanes(&lanes).iter().map(|y| difference(y, &base.response, 1.0)).collect();
 

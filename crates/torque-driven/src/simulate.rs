@@ -6,21 +6,24 @@ use std::convert::Infallible;
 use inference::hypothesis::Dose;
 use rayon::prelude::*;
 use robot_model::presence::Presence;
-use robot_model::{Active, Lanes, Plant, Robot, Scalar, State};
+use robot_model::{Active, Disturbance, Lanes, Plant, Robot, Scalar, State};
 use sim::rollout::{Delivered, Grid, Rollout, Visitor, lanes};
 
 use crate::channel::{Channel, Channels};
 use crate::drives::Torques;
+use crate::unnamed::{Acting, InRecording};
 use crate::windows::{Cut, PARTS, Segment};
 
 /// Segments that are simulated side by side.
-const WIDTH: usize = 8;
-type Wide = Lanes<WIDTH>;
+pub(crate) const WIDTH: usize = 8;
+pub(crate) type Wide = Lanes<WIDTH>;
 
 /// A recording's robot with what it lacks.
 pub(crate) struct Body {
     pub(crate) robot: Robot<f64>,
     pub(crate) doses: Vec<Dose>,
+    /// What acts beside the catalogue's effects, if anything does.
+    pub(crate) acting: Option<Acting>,
     /// What its drives deliver.
     pub(crate) torque: Torques,
 }
@@ -35,12 +38,14 @@ pub(crate) type RunResponse = Vec<Vec<Channels<f64>>>;
 ///
 /// Motor lag, delay and torque history run on across restarts. With `part` given, the last dose is present only
 /// during that part of each segment. `step` is the integration step, s.
-pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step: f64) -> Response {
+///
+/// `first` is the place of the first of these recordings among all.
+pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], first: usize, part: Option<usize>, step: f64) -> Response {
     let grids: Vec<Grid> = cuts.iter().map(|c| Grid::nearest(c.period, step)).collect();
     let stretches: Vec<Stretch<'_>> = (0..cuts.len())
         .flat_map(|r| {
             let (cut, body, torque, grid) = (&cuts[r], &bodies[r], &bodies[r].torque, grids[r]);
-            cut.segments.iter().map(move |segment| Stretch { cut, body, segment, torque, grid })
+            cut.segments.iter().map(move |segment| Stretch { run: first + r, cut, body, segment, torque, grid })
         })
         .collect();
     let groups: Vec<&[Stretch<'_>]> =
@@ -53,6 +58,7 @@ pub(crate) fn free_run(cuts: &[Cut], bodies: &[Body], part: Option<usize>, step:
 /// One segment to be run freely.
 #[derive(Clone, Copy)]
 struct Stretch<'a> {
+    run: usize,
     cut: &'a Cut,
     body: &'a Body,
     segment: &'a Segment,
@@ -64,6 +70,11 @@ impl Stretch<'_> {
     /// What segments that run side by side have in common: grid, rows of a window, windows.
     fn shape(&self) -> (Grid, usize, usize) {
         (self.grid, self.cut.rows_per_window, self.segment.windows)
+    }
+
+    /// Which recording it is of, and where its time begins.
+    fn at(self) -> InRecording {
+        InRecording { run: self.run, from: self.cut.from, window: self.cut.period * self.cut.rows_per_window as f64 }
     }
 
     fn start_time(&self) -> f64 {
@@ -94,7 +105,9 @@ fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> RunResponse {
     let active: Vec<Active<Wide>> =
         (0..count).filter_map(|d| wide_dose(&stretches, d, part.filter(|_| d + 1 == count))).collect();
     let robot = lanes::robots(stretches.map(|s| &s.body.robot));
-    let plant = Plant::new(&robot, &active, Lanes::real(grid.step()));
+    let acting = stretches[0].body.acting.as_ref().map(|a| a.side_by_side(&stretches.map(Stretch::at), &robot));
+    let plant = Plant::new(&robot, &active, Lanes::real(grid.step()))
+        .disturbed(acting.as_ref().map(|a| a as &dyn Disturbance<Wide>));
 
     let steps = rows_per_window * grid.substeps;
     let torque = stretches.map(|s| &s.torque[s.segment.row * grid.substeps..]);
@@ -171,8 +184,8 @@ mod tests {
         let robot = robot();
         let cut = cut(&driven(&robot, &[], 20.0), &cutting());
         let torque = Drives::default().delivered(0, &cut, &robot, &[], Grid::nearest(cut.period, 1e-3));
-        let bodies = [Body { robot, doses: Vec::new(), torque }];
-        let free = free_run(std::slice::from_ref(&cut), &bodies, None, 1e-3).remove(0);
+        let bodies = [Body { robot, doses: Vec::new(), acting: None, torque }];
+        let free = free_run(std::slice::from_ref(&cut), &bodies, 0, None, 1e-3).remove(0);
         let (mut sum, mut size, mut n) = (Channels::all(0.0), Channels::all(0.0), 0.0);
         for (segment, free) in cut.segments.iter().zip(&free) {
             for ((o, p), valid) in segment.observed.iter().zip(free).zip(&segment.valid) {

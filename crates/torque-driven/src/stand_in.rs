@@ -119,7 +119,7 @@ mod tests {
         let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
         let problem = problem(&robot, &cuts);
         let of = |id: &str| problem.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
-        let h = Hypothesis { parts: ["grade", "payload"].map(|id| (of(id), Vec::new())).to_vec() };
+        let h = Hypothesis { parts: ["grade", "payload"].map(|id| (of(id), Vec::new())).to_vec(), acting: None };
         let point = Point { effects: vec![0.01, 0.02, 0.5], ..problem.origin() };
         let fitted = problem.begin(&h, point, None);
         let found = instead(&problem, &Trial { hypothesis: h, fitted });

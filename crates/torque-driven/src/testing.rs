@@ -142,6 +142,7 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         step: options.step,
         largest_torque: 5.0,
         same_robot: false,
+        without: None,
         drives: Drives::default(),
     }
 }

@@ -49,7 +49,7 @@ mod tests {
         let of = |id: &str| p.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
         let trial = |parts: &[&str], cost: f64| {
             let parts = parts.iter().map(|id| (of(id), Vec::new())).collect();
-            Trial { hypothesis: Hypothesis { parts }, fitted: Fitted { cost, ..retuned.clone() } }
+            Trial { hypothesis: Hypothesis { parts, acting: None }, fitted: Fitted { cost, ..retuned.clone() } }
         };
         let mut found = SearchResult {
             retuned: retuned.clone(),
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!([&*alone[0].1, &*alone[1].1], [&[2.0][..], &[0.1]]);
         assert!(found.singles[0].hypothesis.each_alone(&[2.0]).is_empty());
         assert_eq!(pair.values_of(&alone[1].0, &[2.0, 0.1]), Some(vec![0.1]));
-        let swapped = Hypothesis { parts: pair.parts.iter().rev().cloned().collect() };
+        let swapped = Hypothesis { parts: pair.parts.iter().rev().cloned().collect(), acting: None };
         assert_eq!(pair.values_of(&swapped, &[2.0, 0.1]), Some(vec![0.1, 2.0]));
         assert_eq!(alone[0].0.values_of(&swapped, &[2.0]), None);
     }

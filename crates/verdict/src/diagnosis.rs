@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Retuned,
-    SimulatorConstants, Trace, Trial,
+    SimulatorConstants, Trace, Trial, UnnamedCause,
 };
 
 /// Version of the JSON of a diagnosis.
@@ -80,6 +80,9 @@ pub struct Diagnosis {
     /// Which drive would tell the rivals apart, if that was asked.
     #[serde(default)]
     pub next: Option<Advice>,
+    /// What was found of a cause without a name, if it was looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<UnnamedCause>,
     /// Of long recordings and references, the stretches that this rests on, by the part that they play.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub coverage: BTreeMap<String, Coverage>,
@@ -115,6 +118,7 @@ impl Diagnosis {
             steady: None,
             response: None,
             next: None,
+            law: None,
             coverage: BTreeMap::new(),
             predictions: Vec::new(),
         }

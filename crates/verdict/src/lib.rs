@@ -8,6 +8,7 @@
 //! * `located`: where, when and how much; `trace`: recordings beside the simulation.
 //! * `free_run`: errors on recordings left out of a fit; `trial`: hypotheses that were fitted.
 //! * `correction`: the simulation as it should be; `prediction`: the response of a held-out drive.
+//! * `law`: a law for what has no name.
 //! * `loads`: steady loads of speed-driven robots.
 //! * `response`, `response_constants`: the response of command-driven robots and its constants.
 //! * `advice`, `course`: which drive to record next, and a drive as wanted speeds.
@@ -21,6 +22,7 @@ mod course;
 mod coverage;
 mod diagnosis;
 mod free_run;
+mod law;
 mod loads;
 mod located;
 mod prediction;
@@ -44,6 +46,7 @@ pub use course::{Course, WIDENING, wheel_speeds};
 pub use coverage::{Chosen, ComparedWith, Coverage, Why};
 pub use diagnosis::{Diagnosis, FORMAT, Verdict};
 pub use free_run::FreeRun;
+pub use law::{Claim, CommonLaw, FoundLaw, LawFreeRun, LawNumber, UnnamedCause};
 pub use loads::{
     Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, Quantity, Ratio, Standstill, Turning,
     TurningChange, Way, Withheld,

@@ -12,7 +12,7 @@ use case_files::long::Budget;
 use case_files::odometry::OdometryCase;
 use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
-use inference::Options;
+use inference::{Options, SearchForLaw};
 use recordings::Mapping;
 use verdict::Verdict;
 
@@ -61,6 +61,7 @@ const STAGES: Stages = &[
     ("fitting the finalists", 0.32),
     ("looking for a second effect", 0.47),
     ("comparing on data that was not fitted", 0.85),
+    ("looking for a law without a name", 0.95),
 ];
 
 /// Length of the drives that are advised, s.
@@ -146,6 +147,43 @@ pub(crate) struct Args {
     /// Advise on the next drive too, in the JSON and as a sentence: a few seconds more (`lacuna next` shows all of it).
     #[arg(long)]
     next: bool,
+    /// When to look for a law that has no name in the catalogue (torque-driven robots; a few seconds more): where the cause
+    /// is unknown or the best name leaves much of the mismatch, always, or never.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t)]
+    law: LawWhen,
+    /// Weigh this effect of the motion as little as if the catalogue did not hold it: shows what would be said of a cause
+    /// without a name.
+    #[arg(long, value_name = "EFFECT", value_parser = effect)]
+    without: Option<&'static str>,
+}
+
+/// An effect by its id.
+fn effect(id: &str) -> Result<&'static str, String> {
+    let all = robot_model::effects::catalogue::<f64>();
+    let found = all.iter().map(|e| e.spec().id).find(|known| *known == id);
+    found.ok_or_else(|| format!("no effect is called '{id}'; `lacuna effects` lists them"))
+}
+
+/// When a law is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum LawWhen {
+    /// Whatever the answer is.
+    Always,
+    /// Where the cause is unknown, or the best name leaves much of the mismatch.
+    #[default]
+    Unknown,
+    /// Never.
+    Never,
+}
+
+impl From<LawWhen> for SearchForLaw {
+    fn from(when: LawWhen) -> Self {
+        match when {
+            LawWhen::Always => Self::Always,
+            LawWhen::Unknown => Self::Unknown,
+            LawWhen::Never => Self::Never,
+        }
+    }
 }
 
 /// What shall count as a failure of the simulation.
@@ -171,7 +209,13 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         return odometry_verdict(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
-    let options = Options { next, same_robot: args.input.same_robot, ..Options::default() };
+    let options = Options {
+        next,
+        same_robot: args.input.same_robot,
+        law: args.law.into(),
+        without: args.without,
+        ..Options::default()
+    };
     let (case, mapping) = read(&args.input)?;
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);

@@ -20,6 +20,7 @@ pub(crate) mod effects;
 pub(crate) mod explain;
 pub(crate) mod export;
 pub(crate) mod identify;
+pub(crate) mod law;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod next;

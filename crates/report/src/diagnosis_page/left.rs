@@ -8,6 +8,7 @@ use crate::words::number;
 /// Adds both sections.
 pub(super) fn add(page: &mut Page, d: &Diagnosis, lost: &[String]) {
     unexplained(page, d);
+    law(page, d);
     page.section("Limits", "What limits this answer");
     if d.limits.is_empty() && lost.is_empty() {
         page.paragraph("Nothing was lost in reading, and the diagnosis names no limit.");
@@ -30,6 +31,14 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis, lost: &[String]) {
             |page| page.list(&withheld),
         );
     }
+}
+
+/// A law for what has no name.
+fn law(page: &mut Page, d: &Diagnosis) {
+    let Some(cause) = &d.law else { return };
+    page.section("Law", "What has no name in the catalogue");
+    let row = |(label, text): (&str, String)| -> Vec<Cell> { vec![label.into(), text.as_str().into()] };
+    page.table(&["", "what was found"], &crate::law::lines(cause).into_iter().map(row).collect::<Vec<_>>());
 }
 
 fn unexplained(page: &mut Page, d: &Diagnosis) {

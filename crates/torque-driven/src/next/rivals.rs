@@ -51,7 +51,7 @@ impl Rival {
             effects: ids(hypothesis),
             name: if names.is_empty() { "nothing is missing".to_owned() } else { names.join(" with ") },
             probability,
-            hypothesis: Hypothesis { parts: parts.collect() },
+            hypothesis: Hypothesis { parts: parts.collect(), acting: None },
             point: Point { run: vec![UNKNOWN], ..fitted.point.clone() },
             free,
             further,
@@ -64,6 +64,7 @@ impl Rival {
         let begins = self.hypothesis.parts.iter().any(|(v, _)| v.place == Place::Onset);
         let of = |onset: Option<f64>| Hypothesis {
             parts: self.hypothesis.parts.iter().map(|(v, _)| (*v, vec![onset])).collect(),
+            acting: None,
         };
         if begins {
             vec![of(Some(THROUGHOUT)), of(Some(0.5 * length)), of(None)]

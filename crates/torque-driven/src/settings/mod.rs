@@ -4,6 +4,7 @@ use ::settings::Setting;
 
 pub(crate) mod decision;
 pub(crate) mod fit;
+pub(crate) mod law;
 pub(crate) mod locate;
 pub(crate) mod next;
 pub(crate) mod output_error;
@@ -12,12 +13,13 @@ pub(crate) mod redundancy;
 pub(crate) mod search;
 
 /// Stage by stage, in the order in which a diagnosis meets them.
-const STAGES: [&[Setting]; 8] = [
+const STAGES: [&[Setting]; 9] = [
     preparation::Settings::ALL,
     redundancy::Settings::ALL,
     fit::Settings::ALL,
     search::Settings::ALL,
     decision::Settings::ALL,
+    law::Settings::ALL,
     locate::Settings::ALL,
     next::Settings::ALL,
     output_error::Settings::ALL,

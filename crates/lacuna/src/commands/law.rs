@@ -1,0 +1,74 @@
+//! `lacuna law`: the law that a diagnosis found, as a file of one's own.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use case_files::envelope::Envelope;
+use clap::Args as ClapArgs;
+use law::{Law, Variable};
+use serde::Serialize;
+use verdict::{FoundLaw, LawNumber};
+
+use super::Outcome;
+use crate::console::emit;
+
+const EXAMPLES: &str = "\
+Examples:
+  lacuna diagnose case/ --json verdict.json
+  lacuna law verdict.json
+  lacuna law verdict.json --save my-law.toml
+
+Exit codes: 0 done, 1 failed, 2 wrong usage.";
+
+/// Arguments of `lacuna law`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// What `lacuna diagnose ... --json VERDICT.json` wrote.
+    #[arg(value_name = "VERDICT.json")]
+    verdict: PathBuf,
+    /// Write the law to a file: formula, numbers with intervals, range seen.
+    #[arg(long, value_name = "FILE.toml")]
+    save: Option<PathBuf>,
+}
+
+/// A law as a file.
+#[derive(Serialize)]
+struct Card<'a> {
+    /// Where it acts.
+    place: &'a str,
+    /// Share of the excess cost that it leaves.
+    left: f64,
+    /// The verdict that it is of.
+    verdict: String,
+    /// Formula and range seen, as the crate `law` reads them.
+    law: Law,
+    /// Numbers with half widths of their 90 % intervals.
+    numbers: &'a [LawNumber],
+}
+
+/// Prints the law, and saves it where that was asked for.
+pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    let file = args.verdict.display();
+    let envelope = Envelope::open(&args.verdict)?;
+    let Some(found) = envelope.diagnosis.law.as_ref().and_then(|cause| cause.law.as_ref()) else {
+        bail!("'{file}' holds no law; one is looked for where the cause is unknown, or with `diagnose --law always`");
+    };
+    let law = checked(found).with_context(|| format!("the law in '{file}' cannot be used"))?;
+    emit(&format!("{law}\n"))?;
+    if let Some(target) = &args.save {
+        let verdict = args.verdict.to_string_lossy().into_owned();
+        let card = Card { place: &found.place, left: found.left, verdict, law, numbers: &found.numbers };
+        std::fs::write(target, toml::to_string(&card)?)
+            .with_context(|| format!("cannot write '{}'", target.display()))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The law with the ranges in which it was seen.
+fn checked(found: &FoundLaw) -> Result<Law> {
+    let law: Law = found.formula.parse()?;
+    let seen: Vec<(Variable, [f64; 2])> =
+        law.variables().into_iter().filter_map(|v| found.seen.get(v.symbol()).map(|range| (v, *range))).collect();
+    Ok(law.seen_within(&seen))
+}

@@ -1,0 +1,84 @@
+//! What a law is worth beside the truth.
+
+use examiner::Truth;
+use serde::Serialize;
+use verdict::{Claim, Diagnosis, LawFreeRun};
+
+/// Effects that are laws: id, symbols of right places, names of right factors (any of them).
+///
+/// A slope is a force as well, and rolling resistance of all wheels a torque or a force.
+const LAWS: [(&str, &[&str], &[&str]); 14] = [
+    ("viscous_friction", &["T_both", "F_x", "F_xy"], &["pow(omega", "pow(v,", "sgn", "clip", "excess"]),
+    ("coulomb_friction", &["T_both", "F_x", "F_xy"], &["sgn", "clip"]),
+    ("coulomb_side", &["T_left", "T_right"], &["sgn", "clip"]),
+    ("stiction", &["T_both"], &["sgn", "bump", "clip"]),
+    ("rolling_resistance", &["T_both", "F_x", "F_xy"], &["sgn", "clip"]),
+    ("quadratic_drag", &["F_x", "F_xy", "T_both"], &["pow(v, 2", "pow(omega, 2", "pow(v, 3", "excess", "abs"]),
+    ("constant_pull", &["F_x", "slope"], &["F_x = "]),
+    ("grade", &["slope", "F_x", "F_y"], &["slope", "heading"]),
+    ("thermal_drift", &["T_both", "F_x", "F_xy"], &["rise", "above(t", "sgn"]),
+    ("torque_constant", &["T_both"], &["pow(T, 1", "clip(T"]),
+    ("drivetrain_ripple", &["T_left", "T_right"], &["cos(phi"]),
+    ("adhesion_patch", &["grip"], &["disc"]),
+    ("slip_stiffness", &["grip"], &["grip"]),
+    ("turning_resistance", &["M_z", "T_both", "grip_lateral"], &["yaw_rate"]),
+];
+
+/// Whether an effect is a law.
+pub(super) fn is_law(id: &str) -> bool {
+    LAWS.iter().any(|(known, ..)| *known == id)
+}
+
+/// A case with its judgement.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Judged {
+    /// The hidden effect; `None` where nothing was.
+    pub(super) hidden: Option<String>,
+    pub(super) claim: Option<Claim>,
+    pub(super) formula: String,
+    pub(super) place_right: bool,
+    pub(super) kind_right: bool,
+    /// Share of the gap to the truth that is closed, wheel speed and yaw rate: by the law, the best other name, re-tuning.
+    pub(super) closed: Option<[[f64; 2]; 3]>,
+}
+
+/// Judges a diagnosis.
+pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
+    let hidden = truth.effects.first();
+    let law = d.law.as_ref().and_then(|l| l.law.as_ref());
+    let formula = law.map_or_else(String::new, |l| l.formula.clone());
+    let known = hidden.and_then(|e| LAWS.iter().find(|(id, ..)| *id == e.id));
+    let place_right = known.is_some_and(|(_, places, _)| {
+        let place = places.iter().any(|p| formula.starts_with(p));
+        let side = hidden.and_then(|e| e.side.as_deref());
+        let own = |side: &str| !formula.starts_with("T_") || formula.starts_with(&format!("T_{side}"));
+        place && side.is_none_or(own)
+    });
+    Judged {
+        hidden: hidden.map(|e| e.id.clone()),
+        claim: d.law.as_ref().map(|l| l.claim),
+        kind_right: place_right && known.is_some_and(|(.., factors)| factors.iter().any(|f| formula.contains(f))),
+        place_right,
+        closed: law.and_then(|l| closed(truth, &l.free_runs)),
+        formula,
+    }
+}
+
+/// Share of the gap from the model as it is to the truth, over all recordings.
+fn closed(truth: &Truth, rows: &[LawFreeRun]) -> Option<[[f64; 2]; 3]> {
+    let quantity = |q: usize| {
+        let name = ["wheel speed", "yaw rate"][q];
+        let own: Vec<&LawFreeRun> = rows.iter().filter(|r| r.quantity.starts_with(name)).collect();
+        let rms = |of: &dyn Fn(&LawFreeRun) -> Option<f64>| -> Option<f64> {
+            let all: Option<Vec<f64>> = own.iter().map(|r| of(r).map(|e| e * e)).collect();
+            all.filter(|all| !all.is_empty()).map(|all| (all.iter().sum::<f64>() / all.len() as f64).sqrt())
+        };
+        let floor = rms(&|r| truth.recordings.get(&r.recording).map(|t| t.freerun_with_effect[q]))?;
+        let nominal = rms(&|r| Some(r.nominal))?;
+        let gap = (nominal - floor).max(f64::MIN_POSITIVE);
+        let share = |of: &dyn Fn(&LawFreeRun) -> Option<f64>| rms(of).map(|e| (nominal - e) / gap);
+        Some([share(&|r| Some(r.law))?, share(&|r| r.named.or(Some(r.retuned)))?, share(&|r| Some(r.retuned))?])
+    };
+    let (wheel, yaw) = (quantity(0)?, quantity(1)?);
+    Some([0, 1, 2].map(|model| [wheel[model], yaw[model]]))
+}

@@ -1,0 +1,102 @@
+//! `cargo xtask law`: a law for what has no name, with one name of the catalogue left out.
+//!
+//! ```text
+//! drawn robot with a hidden effect --> diagnosis whose catalogue does not hold it --> law, place, or nothing
+//! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
+//! ```
+
+use anyhow::{Context, Result, ensure};
+use case_files::case_folder::{self, CaseFolder};
+use clap::Args as ClapArgs;
+use examiner::{Mix, Plan, Settings};
+use inference::{Options, SearchForLaw};
+use rayon::prelude::*;
+use recordings::ReadOptions;
+
+use crate::document::to_text;
+use crate::output;
+
+mod judge;
+mod tables;
+
+use judge::{Judged, judged};
+
+/// Arguments of `cargo xtask law`.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Args {
+    /// Number of robots with one hidden effect, all effects in turn; those whose effect is no law are left out.
+    #[arg(long, default_value_t = 74)]
+    count: usize,
+    /// Number of robots that lack nothing.
+    #[arg(long, default_value_t = 20)]
+    fault_free: usize,
+    /// Seed of the draws.
+    #[arg(long, default_value_t = 4107)]
+    seed: u64,
+    /// Only robots with these hidden effects.
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<String>,
+}
+
+/// Runs the command; true if all that is asked is met.
+pub(crate) fn run(args: &Args) -> Result<bool> {
+    let folder = output::folder("law")?;
+    let single = Mix { null: 0.0, single: 1.0, pair: 0.0, outsider: 0.0, triple: 0.0 };
+    let null = Mix { null: 1.0, single: 0.0, ..single };
+    let settings = Settings::default();
+    let mut plans = examiner::set(args.seed, args.count, single, &settings);
+    plans.extend(examiner::set(args.seed + 1, args.fault_free, null, &settings));
+    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count or --fault-free");
+
+    let bar = output::progress(plans.len() as u64, "robots")?;
+    let one = |(i, plan): (usize, &Plan)| {
+        let out = case(plan, &folder.join(format!("{i:03}")), &args.only).with_context(|| format!("case {i}"));
+        bar.inc(1);
+        out
+    };
+    let tried: Vec<Result<Option<Judged>>> = plans.par_iter().enumerate().map(one).collect();
+    bar.finish_and_clear();
+    let mut failed = 0;
+    let mut kept = Vec::new();
+    for outcome in tried {
+        match outcome {
+            Ok(found) => kept.extend(found),
+            Err(error) => {
+                failed += 1;
+                eprintln!("{error:#}");
+            }
+        }
+    }
+
+    let figures = tables::figures(&kept);
+    output::write(&folder, "summary.json", &serde_json::to_string_pretty(&figures)?)?;
+    output::write(&folder, "cases.json", &serde_json::to_string_pretty(&kept)?)?;
+    println!("{}", to_text(&tables::all(&kept, &figures)));
+    Ok(failed == 0 && figures.iter().all(|f| f.pass != Some(false)))
+}
+
+/// Draws and diagnoses a case; `None` where its effect is no law, or is not asked for.
+fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option<Judged>> {
+    let drawn = plan.draw()?;
+    let hidden = drawn.truth.effects.first().cloned();
+    let id = hidden.as_ref().map(|e| e.id.as_str());
+    let is_asked = match id {
+        Some(id) => judge::is_law(id) && (only.is_empty() || only.iter().any(|o| o == id)),
+        None => true,
+    };
+    if !is_asked {
+        return Ok(None);
+    }
+    if folder.exists() {
+        std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
+    }
+    drawn.write(folder)?;
+    let mapping = case_folder::mapping("skid-steer-columns")?;
+    let case = CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
+    let all = robot_model::effects::catalogue::<f64>();
+    let without = id.and_then(|id| all.iter().map(|e| e.spec().id).find(|known| *known == id));
+    let options = Options { without, law: SearchForLaw::Always, ..Options::default() };
+    let diagnosis = torque_driven::diagnose(&case, &options, &|_| ())?;
+    std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
+    Ok(Some(judged(&drawn.truth, &diagnosis)))
+}

@@ -1,0 +1,87 @@
+//! What came out, as figures and tables.
+
+use inference::robust::median;
+use verdict::Claim;
+
+use super::judge::Judged;
+use crate::blind::Rate;
+use crate::document::Section;
+use crate::output::{Asked, Figure};
+
+/// Figures that the command asks for.
+const KIND: f64 = 0.75;
+const PLACE: f64 = 0.85;
+const CLOSED: [f64; 2] = [0.90, 0.88];
+const FALSE_LAWS: f64 = 0.01;
+
+fn hidden(all: &[Judged]) -> impl Iterator<Item = &Judged> {
+    all.iter().filter(|j| j.hidden.is_some())
+}
+
+fn told(all: &[Judged]) -> impl Iterator<Item = &Judged> {
+    hidden(all).filter(|j| j.claim == Some(Claim::Law))
+}
+
+fn share(rate: Rate) -> f64 {
+    rate.share().unwrap_or(0.0)
+}
+
+/// Flat list of what was measured.
+pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
+    let of = |name: &str, rate: Rate| Figure::free(name, share(rate), "");
+    let is_told = |j: &Judged| matches!(j.claim, Some(Claim::Law));
+    let claimed = |j: &&Judged| matches!(j.claim, Some(Claim::Law | Claim::Place));
+    let healthy = || all.iter().filter(|j| j.hidden.is_none());
+    let mut out = vec![
+        Figure::free("robots with a name left out", hidden(all).count() as f64, ""),
+        of("a law is told", hidden(all).map(is_told).collect()),
+        of("kind right, of laws told", told(all).map(|j| j.kind_right).collect()).asked(Asked::AtLeast(KIND)),
+        of(
+            "place or side right, of laws and places told",
+            hidden(all).filter(claimed).map(|j| j.place_right).collect(),
+        )
+        .asked(Asked::AtLeast(PLACE)),
+    ];
+    for (q, quantity) in ["wheel speed", "yaw rate"].into_iter().enumerate() {
+        for (m, model) in ["the law", "the best other name", "re-tuning"].into_iter().enumerate() {
+            let middle = median(told(all).filter_map(|j| j.closed.map(|c| c[m][q]))).unwrap_or(0.0);
+            let figure = Figure::free(format!("median gap closed by {model}, {quantity}"), middle, "");
+            out.push(if m == 0 { figure.asked(Asked::AtLeast(CLOSED[q])) } else { figure });
+        }
+    }
+    out.push(Figure::free("robots that lack nothing", healthy().count() as f64, ""));
+    out.push(of("told a law that lack nothing", healthy().map(is_told).collect()).asked(Asked::AtMost(FALSE_LAWS)));
+    out
+}
+
+/// Tables for people.
+pub(super) fn all(all: &[Judged], figures: &[Figure]) -> Vec<Section> {
+    let mut summary =
+        Section::new("A law for what has no name", "One name of the catalogue left out.", &["what", "value"]);
+    for f in figures {
+        summary.rows.push(vec![f.name.as_str().into(), format!("{:.2}", f.value).into()]);
+    }
+    let header = ["hidden", "claim", "formula", "place", "kind", "gap closed: law", "name", "re-tuned"];
+    let mut cases = Section::new("Cases", "Gap closed: wheel speed, yaw rate.", &header);
+    for j in all {
+        let closed = |m: usize| j.closed.map_or(String::new(), |c| format!("{:.2} {:.2}", c[m][0], c[m][1]));
+        let mark = |right: bool| if right { "right" } else { "wrong" };
+        cases.rows.push(vec![
+            j.hidden.as_deref().unwrap_or("nothing").into(),
+            j.claim
+                .map_or("not asked", |c| match c {
+                    Claim::Law => "law",
+                    Claim::Place => "place",
+                    Claim::Nothing => "nothing",
+                })
+                .into(),
+            j.formula.as_str().into(),
+            mark(j.place_right).into(),
+            mark(j.kind_right).into(),
+            closed(0).into(),
+            closed(1).into(),
+            closed(2).into(),
+        ]);
+    }
+    vec![summary, cases]
+}

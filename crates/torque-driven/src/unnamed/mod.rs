@@ -1,0 +1,22 @@
+//! A law for what has no name in the catalogue.
+//!
+//! * `acting`: a law, or given inputs, as a disturbance of the plant in free run.
+//! * `signals`: what the recordings say that a law may depend on.
+//! * `operator`: the response to an input at any place and instant, and columns by superposition.
+//! * `rank`: every candidate of the grammar by its evidence.
+//! * `refit`: finalists in free run, moves, prices.
+//! * `gate`: what must hold before a law is told.
+//! * `told`: the law as plain data of the verdict.
+
+mod acting;
+mod gate;
+mod operator;
+mod rank;
+mod refit;
+mod signals;
+#[cfg(test)]
+mod tests;
+mod told;
+
+pub(crate) use acting::{Acting, InRecording};
+pub(crate) use told::{Asked, tell};

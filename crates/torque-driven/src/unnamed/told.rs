@@ -1,0 +1,241 @@
+//! A law as plain data of the verdict.
+
+use std::sync::Arc;
+
+use faer::Mat;
+use inference::SearchForLaw;
+use inference::algebra::solve_spd;
+use inference::hypothesis::Variant;
+use law::Law;
+use rayon::prelude::*;
+use robot_model::tunable::COUNT as NUISANCES;
+use verdict::{Claim, CommonLaw, Diagnosis, FoundLaw, FreeRun, LawFreeRun, LawNumber, UnnamedCause, Verdict};
+
+use super::acting::{Acting, Inputs};
+use super::gate::{References, Standing};
+use super::rank::Ranking;
+use super::refit::{Refitted, Starts, hypothesis, numbers};
+use crate::calibrate::problem;
+use crate::decide::fault_free_cost;
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::judged::Judged;
+use crate::rms::rms;
+use crate::settings::decision;
+use crate::settings::fit;
+use crate::settings::law::{Proof, SETTINGS};
+use crate::windows::Cut;
+
+const PROOF: Proof = SETTINGS.proof;
+
+/// Whether a law is to be looked for.
+pub(crate) struct Asked;
+
+impl Asked {
+    /// Where the cause is unknown, or the best name leaves much of the mismatch.
+    pub(crate) fn of(judged: &Judged<'_>, retuned: &Fitted, verdict: Verdict) -> bool {
+        match (judged.options.law, verdict) {
+            (SearchForLaw::Always, _) | (SearchForLaw::Unknown, Verdict::Unknown) => true,
+            (SearchForLaw::Unknown, Verdict::Explained) => {
+                let fault_free = fault_free_cost(judged.problem, &judged.calibration.regimes.scatter);
+                let best = judged.decision.scored.iter().map(|s| s.trial.fitted.cost).fold(retuned.cost, f64::min);
+                let excess = (retuned.cost - fault_free).max(decision::SETTINGS.unknown.least_mismatch);
+                (best - fault_free) / excess > SETTINGS.asked.left
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Looks for a law and says what may be said of it. `out` is the diagnosis so far.
+pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> UnnamedCause {
+    let p = judged.problem;
+    let none = Hypothesis::default();
+    let origin = p.begin(&none, p.origin(), None);
+    let ranking = Ranking::new(p, &origin);
+    let starts = Starts { origin: &origin, retuned };
+    let found = starts.search(&ranking, &ranking.all());
+
+    let references = References::new(judged);
+    let stand = |law: &Refitted| Standing::new(judged, retuned, law, references.as_ref());
+    let standings: Vec<Standing> = found.par_iter().map(stand).collect();
+    let all = || found.iter().zip(&standings);
+    let common = all().find(|(law, s)| law.gain > SETTINGS.gates.score && s.is_in_every_drive());
+    let in_every_drive = common.and_then(|(law, s)| {
+        let place = law.law.terms().first()?.place().name().to_owned();
+        Some(CommonLaw { place, formula: law.law.to_string(), in_references: s.in_references?[0] })
+    });
+
+    // Of those that healthy drives do not have, the best.
+    let best = all().find(|(_, s)| !s.is_in_references());
+    let claim = best.map_or(Claim::Nothing, |(law, s)| {
+        if s.tells_a_law(law) {
+            Claim::Law
+        } else if s.names_a_place(law) {
+            Claim::Place
+        } else {
+            Claim::Nothing
+        }
+    });
+    let law = best.filter(|_| claim != Claim::Nothing);
+    let law = law.map(|(law, standing)| {
+        let last = last_fit(p, law);
+        let rivals: Vec<&Refitted> = all().filter(|(_, s)| !s.is_in_references()).map(|(law, _)| law).collect();
+        Telling { judged, ranking: &ranking, law: &last, standing, rivals: &rivals }.told(&out.free_runs)
+    });
+    UnnamedCause { claim, law, in_every_drive }
+}
+
+/// The winner with its numbers from a fit that saturates less.
+fn last_fit(p: &Problem<'_>, law: &Refitted) -> Refitted {
+    let wide = Problem { outlier_scale: SETTINGS.refit.outlier_scale, ..p.clone() };
+    let h = hypothesis(&law.law, &law.units);
+    let start = wide.begin(&h, law.fitted.point.clone(), Some(law.fitted.columns.clone()));
+    let fitted = wide.refine(&h, start, SETTINGS.refit.steps, None);
+    let last = law.law.with(&fitted.point.effects);
+    // Cost and gain stay those that the law was chosen by.
+    Refitted { law: last, fitted, ..law.clone() }
+}
+
+/// All that is said of one law.
+struct Telling<'a> {
+    judged: &'a Judged<'a>,
+    ranking: &'a Ranking<'a>,
+    law: &'a Refitted,
+    standing: &'a Standing,
+    rivals: &'a [&'a Refitted],
+}
+
+impl Telling<'_> {
+    fn told(&self, rows: &[FreeRun]) -> FoundLaw {
+        let (p, law) = (self.judged.problem, &self.law.law);
+        let seen = self.ranking.signals.seen(law);
+        let place = |l: &Law| l.terms().first().map_or("", |t| t.place().name());
+        let own = place(law);
+        let close = |r: &&&Refitted| self.law.score - r.score < SETTINGS.gates.class;
+        let others = || self.rivals.iter().filter(|r| r.law.to_string() != law.to_string());
+        let mut places_alike: Vec<String> =
+            others().filter(close).map(|r| place(&r.law)).filter(|n| *n != own).map(str::to_owned).collect();
+        places_alike.sort_unstable();
+        places_alike.dedup();
+        // The first of the rivals is the law itself before its last fit.
+        let alike = self.rivals.iter().skip(1).filter(close).map(|r| r.law.to_string()).collect();
+        let next = others().find(|r| place(&r.law) != own);
+        let nearest =
+            self.judged.decision.scored.iter().max_by(|a, b| b.trial.fitted.cost.total_cmp(&a.trial.fitted.cost));
+        let retuned = self.law.gain + self.rivals.first().map_or(0.0, |r| r.fitted.cost);
+        FoundLaw {
+            place: own.to_owned(),
+            places_alike,
+            formula: law.to_string(),
+            factors: law.terms().iter().flat_map(|t| t.factors()).map(ToString::to_string).collect(),
+            numbers: self.numbers(),
+            seen: seen.iter().map(|(v, range)| (v.symbol().to_owned(), *range)).collect(),
+            alike,
+            next_place: next.map(|r| (place(&r.law).to_owned(), self.law.score - r.score)),
+            nearest_name: nearest.map(|s| {
+                let names: Vec<String> = s.trial.hypothesis.variants().map(Variant::label).collect();
+                (names.join(" with "), ((retuned - s.trial.fitted.cost) / self.law.gain.max(1.0)).max(0.0))
+            }),
+            gain: self.law.gain,
+            score: self.law.score,
+            gains: p.cuts.iter().map(|c| c.name.clone()).zip(self.standing.gains.iter().copied()).collect(),
+            left: self.standing.left,
+            in_references: self.standing.in_references.map(|[share, _]| share),
+            free_runs: self.free_runs(rows),
+        }
+    }
+
+    /// Constants and shapes with their 90 % intervals.
+    fn numbers(&self) -> Vec<LawNumber> {
+        let sigmas = self.sigmas();
+        let mut at = 0;
+        let mut out = Vec::new();
+        for term in self.law.law.terms() {
+            let mut push = |of: String, value: f64, unit: String| {
+                let half = sigmas
+                    .as_ref()
+                    .and_then(|s| s.get(at))
+                    .map(|sigma| PROOF.interval * (PROOF.curvature * sigma).hypot(PROOF.model_error * value));
+                out.push(LawNumber { of, value, half: half.filter(|h| h.is_finite()), unit });
+                at += 1;
+            };
+            push("constant".to_owned(), term.constant(), term.unit().to_string());
+            for factor in term.factors() {
+                for (shape, unit) in factor.shapes().iter().zip(factor.shape_units()) {
+                    push(factor.to_string(), shape.value, unit.to_string());
+                }
+            }
+        }
+        out
+    }
+
+    fn sigmas(&self) -> Option<Vec<f64>> {
+        let (p, fitted) = (self.judged.problem, &self.law.fitted);
+        let h = hypothesis(&self.law.law, &self.law.units);
+        let columns = p.effect_columns(&fitted.point, &h, &fitted.response);
+        let mut normal = p.normal(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
+        p.with_prior(&fitted.point, &mut normal);
+        let n = normal.matrix.nrows();
+        for i in NUISANCES..n {
+            normal.matrix[(i, i)] += fit::SETTINGS.fit.whiff_of_sigmas;
+        }
+        let (inverse, _) = solve_spd(&normal.matrix, &Mat::identity(n, n))?;
+        let sigma = |i: usize| inverse[(NUISANCES + i, NUISANCES + i)].max(0.0).sqrt();
+        Some(h.free(&p.sizes()).iter().enumerate().map(|(i, f)| sigma(i) * f.unit).collect())
+    }
+
+    /// Each recording by fits to the others: with the law, and with the same law shifted in time.
+    fn free_runs(&self, rows: &[FreeRun]) -> Vec<LawFreeRun> {
+        let p = self.judged.problem;
+        if p.cuts.len() < 2 {
+            return Vec::new();
+        }
+        let inputs = shifted(self.ranking.signals.inputs(&self.law.law));
+        let forecast = |run: usize| -> [[f64; 2]; 2] {
+            let kept: Vec<usize> = (0..p.cuts.len()).filter(|&r| r != run).collect();
+            let cuts: Vec<Cut> = kept.iter().map(|&r| p.cuts[r].clone()).collect();
+            let j = self.judged;
+            let others = problem(p.robot, j.case, &cuts, j.calibration, p.largest_torque, j.options);
+            let theirs: Inputs =
+                inputs.iter().map(|(input, runs)| (*input, kept.iter().map(|&r| runs[r].clone()).collect())).collect();
+            let given = |inputs: Inputs| Hypothesis {
+                acting: Some(Acting::Given { inputs: Arc::new(inputs), times: 1.0, unit: 1.0 }),
+                ..Hypothesis::default()
+            };
+            let law = hypothesis(&self.law.law, &self.law.units);
+            let pairs = [(law.clone(), law, numbers(&self.law.law)), (given(theirs), given(inputs.clone()), vec![1.0])];
+            pairs.map(|(fit, forecast, start)| {
+                let point = Point { effects: start, ..others.origin() };
+                let fitted = others.refine(&fit, others.begin(&fit, point, None), PROOF.steps, None);
+                // What a recording has to itself is not known beforehand.
+                let elsewhere = Point { theta: fitted.point.theta, effects: fitted.point.effects, ..p.origin() };
+                rms(p, &[(run, p.run_response(run, &elsewhere, &forecast))])
+            })
+        };
+        let errors: Vec<[[f64; 2]; 2]> = (0..p.cuts.len()).into_par_iter().map(forecast).collect();
+        let named = self.judged.winner().is_some();
+        let row = |r: &FreeRun| {
+            let run = p.cuts.iter().position(|c| c.name == r.recording)?;
+            let quantity = crate::leave_out::QUANTITIES.iter().position(|q| *q == r.quantity)?;
+            Some(LawFreeRun {
+                recording: r.recording.clone(),
+                quantity: r.quantity.clone(),
+                nominal: r.nominal,
+                retuned: r.retuned,
+                named: named.then_some(r.corrected),
+                law: errors[run][0][quantity],
+                shifted: errors[run][1][quantity],
+            })
+        };
+        rows.iter().filter_map(row).collect()
+    }
+}
+
+/// Inputs of every recording, shifted in time; what leaves at its end comes in at its beginning.
+fn shifted(mut inputs: Inputs) -> Inputs {
+    for run in inputs.iter_mut().flat_map(|(_, runs)| runs) {
+        let by = (PROOF.shift * run.len() as f64) as usize;
+        run.rotate_right(by);
+    }
+    inputs
+}

@@ -1,0 +1,118 @@
+//! A law for what has no name in the catalogue.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// How much of a law may be claimed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// A law that fits: place and formula.
+    Law,
+    /// Where it acts; no law in the measured signals predicts enough of it.
+    Place,
+    /// Neither.
+    Nothing,
+}
+
+/// What was found of a cause that has no name in the catalogue.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnnamedCause {
+    /// How much may be claimed.
+    pub claim: Claim,
+    /// The best law; of a place alone, what the place was told by.
+    pub law: Option<FoundLaw>,
+    /// A law that references and recordings have alike: the simulation lacks it in every drive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_every_drive: Option<CommonLaw>,
+}
+
+/// A law with its proof.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundLaw {
+    /// Where it acts, for people.
+    pub place: String,
+    /// Places that cannot be told from it.
+    pub places_alike: Vec<String>,
+    /// The formula with its units, as `law::Law` reads it.
+    pub formula: String,
+    /// Its factors, one by one.
+    pub factors: Vec<String>,
+    /// Constants and shape numbers.
+    pub numbers: Vec<LawNumber>,
+    /// Range in which each variable was seen, by its symbol in the formula.
+    pub seen: BTreeMap<String, [f64; 2]>,
+    /// Other laws that these recordings cannot tell from it.
+    pub alike: Vec<String>,
+    /// The best law at another place, and by how much it is worse, nats.
+    pub next_place: Option<(String, f64)>,
+    /// The nearest name and its gain as a share of the law's.
+    pub nearest_name: Option<(String, f64)>,
+    /// Fall of the cost below "re-tune only", nats.
+    pub gain: f64,
+    /// Gain less the price of what it is made of, nats.
+    pub score: f64,
+    /// Gain in each recording, nats.
+    pub gains: BTreeMap<String, f64>,
+    /// Share of the excess cost that it leaves.
+    pub left: f64,
+    /// The same law's coefficient in the references, as a share of that in the recordings; `None` without references.
+    pub in_references: Option<f64>,
+    /// Free runs on recordings left out of its fit.
+    pub free_runs: Vec<LawFreeRun>,
+}
+
+/// A number of a law.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawNumber {
+    /// The constant, or the factor whose shape it is.
+    pub of: String,
+    /// Its value.
+    pub value: f64,
+    /// Half width of its 90 % interval; `None` where the recordings do not determine it.
+    pub half: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// A law that references and recordings have alike.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CommonLaw {
+    /// Where it acts, for people.
+    pub place: String,
+    /// The formula with its units.
+    pub formula: String,
+    /// Its coefficient in the references, as a share of that in the recordings.
+    pub in_references: f64,
+}
+
+/// Free-run errors of a recording that was not used for the fit, rms.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawFreeRun {
+    /// Name of the recording that was left out.
+    pub recording: String,
+    /// What is compared, with its unit.
+    pub quantity: String,
+    /// The calibrated model as it is.
+    pub nominal: f64,
+    /// Re-tuned without any effect.
+    pub retuned: f64,
+    /// Corrected by the best name; `None` where no name is likely at all.
+    pub named: Option<f64>,
+    /// Corrected by the law.
+    pub law: f64,
+    /// Corrected by the same law shifted in time: the placebo.
+    pub shifted: f64,
+}
+
+impl FoundLaw {
+    /// Error of a quantity with the law over that with re-tuned constants, over all recordings that were left out; `None`
+    /// where none was.
+    pub fn error_over_retuned(&self, quantity: &str) -> Option<f64> {
+        let rows = || self.free_runs.iter().filter(|r| r.quantity == quantity);
+        let of = |read: fn(&LawFreeRun) -> f64| rows().map(|r| read(r).powi(2)).sum::<f64>();
+        let retuned = of(|r| r.retuned);
+        (retuned > 0.0).then(|| (of(|r| r.law) / retuned).sqrt())
+    }
+}
