@@ -46,7 +46,8 @@ pub(super) fn page() -> String {
     for cause in speed_driven::ALL {
         without_law(&mut out, cause, &effects);
     }
-    out += "\n## Odometry\n\nWheel motion goes in, a measured pose comes out: what lies between a count and the pose.\n";
+    out +=
+        "\n## Odometry\n\nWheel motion goes in, a measured pose comes out: what lies between a count and the pose.\n";
     for cause in odometry::ALL {
         without_law(&mut out, cause, &effects);
     }

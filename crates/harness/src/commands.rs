@@ -14,7 +14,7 @@ pub struct Elsewhere {
 }
 
 /// All of them. The programs themselves say the same sentences; their tests compare.
-pub const ELSEWHERE: [Elsewhere; 7] = [
+pub const ELSEWHERE: [Elsewhere; 8] = [
     proof(
         "blind",
         "Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders",

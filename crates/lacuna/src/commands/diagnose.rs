@@ -263,7 +263,12 @@ fn odometry_verdict(args: &Args, case: &OdometryCase, progress: Progress) -> Res
     let diagnosis = case.diagnose(&|what| progress.stage(what))?;
     drop(progress);
 
-    odometry::warn_of_unused(args.report.is_some(), args.mcap.is_some(), args.predictions.is_some(), args.next);
+    odometry::warn_of_unused(&[
+        (args.report.is_some(), "--report"),
+        (args.mcap.is_some(), "--mcap"),
+        (args.predictions.is_some(), "--predictions"),
+        (args.next, "--next"),
+    ]);
     if let Some(file) = &args.picture {
         let svg = ::report::picture::svg(&diagnosis)?;
         std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;

@@ -23,9 +23,8 @@ pub(crate) fn case(input: &Input) -> Result<Option<OdometryCase>> {
 }
 
 /// Says what was asked for that such a diagnosis does not write yet.
-pub(crate) fn warn_of_unused(report: bool, mcap: bool, predictions: bool, next: bool) {
-    let asked = [(report, "--report"), (mcap, "--mcap"), (predictions, "--predictions"), (next, "--next")];
-    for (_, option) in asked.into_iter().filter(|(is, _)| *is) {
+pub(crate) fn warn_of_unused(asked: &[(bool, &str)]) {
+    for (_, option) in asked.iter().filter(|(is, _)| *is) {
         warning(&format!("a diagnosis of kind odometry does not write what {option} asks for; use --json"));
     }
 }

@@ -127,7 +127,7 @@ impl Telling<'_> {
             place: own.to_owned(),
             places_alike,
             formula: law.to_string(),
-            factors: law.terms().iter().flat_map(|t| t.factors()).map(ToString::to_string).collect(),
+            factors: law.terms().iter().flat_map(law::Term::factors).map(ToString::to_string).collect(),
             numbers: self.numbers(),
             seen: seen.iter().map(|(v, range)| (v.symbol().to_owned(), *range)).collect(),
             alike,
