@@ -190,7 +190,7 @@ pub(crate) fn steady_seconds(loads: &Loads) -> [f64; 2] {
             Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => !straight,
             Quantity::EffectiveTrack | Quantity::Asymmetry => false,
         });
-        own.map(|r| r.seconds).sum()
+        own.map(|r| r.seconds).fold(0.0, |sum, seconds| sum + seconds)
     };
     [of(true), of(false)]
 }

@@ -79,7 +79,7 @@ fn too_little(loads: &Loads) -> String {
     let asked = if missing > 0.0 { format!("{missing:.0} s more") } else { "more".to_owned() };
     format!(
         "These recordings permit no answer: too little steady driving. {straight:.0} s of straight driving and {turning:.0} s of \
-         turning at constant speed can be compared with the references, {:.0} s in all are needed. Record at least {asked}, \
+         turning at constant speed can be compared, {:.0} s in all are needed. Record at least {asked}, \
          {what}.",
         ANSWER.needed
     )
