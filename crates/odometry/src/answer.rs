@@ -126,7 +126,7 @@ fn free_runs(table: &Table) -> Vec<FreeRun> {
 /// "0.0842 ± 0.0003 m", with two digits of the interval.
 fn number(e: &Estimate) -> String {
     let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
-    let digits = (1.0 - e.half_width.abs().max(1e-6).log10().floor()).clamp(0.0, 6.0) as usize;
+    let digits = (1 - e.half_width.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
     format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
 }
 
