@@ -6,7 +6,7 @@ use verdict::{Element, FreeRun, Scaling};
 
 use crate::controller::Law;
 use crate::drive::DrivePart;
-use crate::ground::{GroundPart, Poses, misses};
+use crate::ground::{GroundPart, Poses, TurnSlip, misses};
 use crate::identified::Identified;
 use crate::identify::Base;
 use crate::run::WINDOW;
@@ -30,14 +30,14 @@ pub(crate) type Errors = [Vec<f64>; QUANTITIES.len()];
 pub(crate) struct Simulation {
     drive: Trial<Law>,
     powers: usize,
-    ground: Trial<()>,
+    ground: Trial<TurnSlip>,
 }
 
 /// Both parts at fitted constants.
 pub(crate) struct Model {
     drive: Timed<Law>,
     powers: usize,
-    ground: Timed<()>,
+    ground: Timed<TurnSlip>,
 }
 
 /// What a simulation says: wheel speeds by piece, poses by window.
@@ -102,17 +102,17 @@ impl<'a> Rivals<'a> {
         let part = DrivePart::new(windows, 0);
         let measured = GroundPart::measured(windows, nominal);
         let as_told = attempt(&part, &base.drive, base.drive.law, &[], None);
-        let plain = attempt(&measured, &base.ground, (), &[], None);
+        let plain = attempt(&measured, &base.ground, base.ground.law, &[], None);
 
         let has_position = windows.pieces.iter().any(|p| p.position.is_some());
         let tunables: &[Element] = if has_position { &[Element::Radius, Element::Track] } else { &[Element::Track] };
         let as_commanded = GroundPart::new(windows, part.wheels(base.drive.law, &base.drive.x), nominal);
-        let retuned = attempt(&as_commanded, &base.ground, (), tunables, None);
+        let retuned = attempt(&as_commanded, &base.ground, base.ground.law, tunables, None);
 
         let placebo = placebo(windows, base, found, nominal);
-        let count = |d: &Trial<Law>, g: &Trial<()>| d.constants() + g.constants();
+        let count = |d: &Trial<Law>, g: &Trial<TurnSlip>| d.constants() + g.constants();
         let constants = [count(&found.drive, &found.ground), count(&placebo.drive, &placebo.ground)];
-        let simulation = |drive: &Trial<Law>, ground: &Trial<()>| Simulation {
+        let simulation = |drive: &Trial<Law>, ground: &Trial<TurnSlip>| Simulation {
             drive: drive.clone(),
             powers: 0,
             ground: ground.clone(),
@@ -231,7 +231,7 @@ fn placebo(windows: &Windows, base: &Base, found: &Identified, nominal: [f64; 2]
         WRONG_GROUND.into_iter().filter(|e| !chosen.contains(e)).take(chosen.len()).collect()
     };
     let wheels = part.wheels(drive.model.law, &drive.model.x);
-    let ground = attempt(&GroundPart::new(windows, wheels, nominal), &base.ground, (), &wrong, None);
+    let ground = attempt(&GroundPart::new(windows, wheels, nominal), &base.ground, base.ground.law, &wrong, None);
     Simulation { drive, powers, ground }
 }
 

@@ -13,8 +13,9 @@ use crate::run::{Piece, STEP, WINDOW};
 use crate::settings::SETTINGS;
 
 /// Integration steps per row.
-const SUBSTEPS: usize = SETTINGS.integration.substeps;
-const H: f64 = STEP / SUBSTEPS as f64;
+pub(crate) const SUBSTEPS: usize = SETTINGS.integration.substeps;
+/// Length of one, s.
+pub(crate) const H: f64 = STEP / SUBSTEPS as f64;
 
 /// What has no size: the order and kind of the controller's parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,12 +100,14 @@ fn set_points(law: Law, x: &[f64], largest: f64, piece: &Piece, rows: usize) -> 
     let mut set = body(piece.wheel[0]);
     let mut out = Vec::with_capacity(rows * SUBSTEPS + 1);
     out.push(set);
-    for command in &piece.command[..rows] {
-        let mut target = demand(x, *command, largest);
-        if !law.after_ramp {
-            target = law.scaling.hold(target, x[WHEEL_LIMIT]);
-        }
-        for _ in 0..SUBSTEPS {
+    for (row, command) in piece.command[..rows].iter().enumerate() {
+        let aim = |command: [f64; 2]| {
+            let target = demand(x, command, largest);
+            if law.after_ramp { target } else { law.scaling.hold(target, x[WHEEL_LIMIT]) }
+        };
+        let all_along = aim(*command);
+        for k in row * SUBSTEPS..(row + 1) * SUBSTEPS {
+            let target = piece.within.as_ref().map_or(all_along, |means| aim(means[k]));
             set = ramp(law, x, set, target);
             out.push(if law.after_ramp { law.scaling.hold(set, x[WHEEL_LIMIT]) } else { set });
         }

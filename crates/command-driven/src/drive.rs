@@ -5,7 +5,7 @@ use crate::controller::{
     WHEEL_LIMIT, body, simulate,
 };
 use crate::run::{STEP, WINDOW};
-use crate::search::{Part, Timed};
+use crate::search::{Model, Part, Timed};
 use crate::settings::{DriveStarts, SETTINGS};
 use crate::windows::Windows;
 use inference::robust::select_quantile;
@@ -101,6 +101,11 @@ impl Part for DrivePart<'_> {
             Element::SideGain => vec![SIDE_GAIN],
             _ => vec![],
         }
+    }
+
+    /// Wheels that answer at once show between which rows they do, and no more.
+    fn flat_over(&self, model: &Model<Law>, constant: usize) -> Option<f64> {
+        (constant == DEAD_TIME && !model.law.second_order && model.x[LAG] < STEP).then_some(STEP)
     }
 
     /// A law with the parts of `base` where an element is not fitted.

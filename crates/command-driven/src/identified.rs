@@ -3,6 +3,7 @@
 use verdict::Alternative;
 
 use crate::controller::Law;
+use crate::ground::TurnSlip;
 use crate::identify::{Base, OfDrive, OfGround};
 use crate::onset;
 use crate::search::{Trial, Weighed};
@@ -12,7 +13,7 @@ use crate::windows::Windows;
 #[derive(Debug, Clone)]
 pub(crate) struct Identified {
     pub(crate) drive: Trial<Law>,
-    pub(crate) ground: Trial<()>,
+    pub(crate) ground: Trial<TurnSlip>,
     /// Evidence for every element that was tried.
     pub(crate) evidence: Weighed,
     pub(crate) alternatives: Vec<Alternative>,

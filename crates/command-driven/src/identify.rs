@@ -5,7 +5,7 @@ use verdict::{Alternative, Element, Scaling};
 
 use crate::controller::Law;
 use crate::drive::DrivePart;
-use crate::ground::{self, GroundPart};
+use crate::ground::{self, GroundPart, TurnSlip};
 use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
 use crate::windows::Windows;
 
@@ -13,14 +13,14 @@ use crate::windows::Windows;
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
     pub(crate) drive: Model<Law>,
-    pub(crate) ground: Model<()>,
+    pub(crate) ground: Model<TurnSlip>,
 }
 
 /// "The wheels do what is commanded, the body rolls without slip on the nominal track."
 pub(crate) fn neutral(windows: &Windows) -> Base {
     Base {
         drive: Model { law: Law::default(), x: DrivePart::new(windows, 0).neutral() },
-        ground: Model { law: (), x: ground::neutral() },
+        ground: Model { law: TurnSlip::default(), x: ground::neutral() },
     }
 }
 
@@ -71,7 +71,7 @@ pub(crate) struct OfGround {
 }
 
 impl Identify for OfGround {
-    type Law = ();
+    type Law = TurnSlip;
     type Of<'a> = GroundPart<'a>;
 
     fn part<'a>(&self, windows: &'a Windows) -> GroundPart<'a> {
@@ -84,7 +84,7 @@ impl Identify for OfGround {
         if has_position { &[Radius, Track, TurnSlip, SideRadius] } else { &[Track, SideRadius] }
     }
 
-    fn identify(&self, windows: &Windows, base: &Model<()>) -> Found<()> {
+    fn identify(&self, windows: &Windows, base: &Model<TurnSlip>) -> Found<TurnSlip> {
         motion(&self.part(windows), base)
     }
 }
@@ -156,25 +156,27 @@ fn limit_words(law: Law) -> String {
     )
 }
 
-fn motion(part: &GroundPart<'_>, base: &Model<()>) -> Found<()> {
-    use Element::{BodyLag, Offset, Radius, SideRadius, Track, TurnSlip};
+fn motion(part: &GroundPart<'_>, base: &Model<TurnSlip>) -> Found<TurnSlip> {
+    use Element::{BodyLag, Offset, Radius, SideRadius, Track};
     let windows = part.windows();
     let has_position = windows.pieces.iter().any(|p| p.position.is_some());
     // Without positions only turning is known.
     let (first, extras): (&[Element], &[Element]) = if has_position {
-        (&[Radius, Track], &[Offset, TurnSlip, BodyLag, SideRadius])
+        (&[Radius, Track], &[Offset, Element::TurnSlip, BodyLag, SideRadius])
     } else {
         (&[Track], &[BodyLag, SideRadius])
     };
-    let mut best = attempt(part, base, (), first, None);
+    let mut best = attempt(part, base, base.law, first, None);
     let mut rejected: Weighed;
     loop {
-        let mut tried: Vec<(Element, Evidence, Trial<()>)> = extras
+        let mut tried: Vec<(Element, Evidence, Trial<TurnSlip>)> = extras
             .iter()
             .filter(|e| !best.has(**e))
             .map(|&e| {
                 let more: Vec<Element> = best.elements.iter().copied().chain([e]).collect();
-                let t = attempt(part, base, (), &more, Some(&best));
+                let laws: &[TurnSlip] = if e == Element::TurnSlip { &TurnSlip::ALL } else { &[best.model.law] };
+                let trials = laws.iter().map(|law| attempt(part, base, *law, &more, Some(&best)));
+                let t = trials.min_by(|a, b| a.level().total_cmp(&b.level())).unwrap_or_else(|| best.clone());
                 (e, evidence(windows, &best.loss, &t.loss), t)
             })
             .collect();
@@ -187,7 +189,14 @@ fn motion(part: &GroundPart<'_>, base: &Model<()>) -> Found<()> {
             }
         }
     }
-    let (kept, each) = prune(part, base, best);
+    let (mut kept, each) = prune(part, base, best);
     rejected.extend(each);
+    // A robot file knows neither radius nor track for sure: held where it is, one would put its error into the other.
+    let is_half = first.len() > 1 && first.iter().filter(|e| kept.has(**e)).count() == 1;
+    if is_half {
+        let mut both = kept.elements.clone();
+        both.extend(first.iter().filter(|e| !kept.has(**e)));
+        kept = attempt(part, base, kept.model.law, &both, Some(&kept));
+    }
     Found { trial: kept, evidence: rejected, alternatives: Vec::new(), scaling_is_told: true }
 }

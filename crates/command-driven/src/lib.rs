@@ -46,8 +46,9 @@ mod words;
 use inference::robust::mean_with_error;
 use robot_model::Robot;
 
+use catalogue::answer::{NONE, UNKNOWN};
 use inference::{DiagnosisError, Options};
-use verdict::{Diagnosis, Element, Parameter, Response, Verdict};
+use verdict::{Cause, Diagnosis, Element, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
@@ -149,15 +150,14 @@ pub fn diagnose_response(
     // References have measured radius and track; without any they are as sure as the robot file is.
     let moved = if case.references.is_empty() { moved(case, nominal, &response.parameters) } else { Vec::new() };
     out.ranked = name::ranked(&found, &response.parameters, &moved, (off, nominal[1]), &remains, &case.recordings);
-    let is_moved = |p: &&Parameter| moved.iter().any(|m| m.element == p.element && m.is_likely());
-    let all_moved = response.parameters.iter().all(|p| is_moved(&p));
+    let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
     out.retuned = moved.iter().filter(|m| m.is_likely()).map(|m| m.retuned.clone()).collect();
     out.verdict = if remains.mostly > SETTINGS.left.likely {
         Verdict::Unknown
-    } else if all_moved {
-        Verdict::NoMismatch
-    } else {
+    } else if out.ranked.iter().any(is_named) {
         Verdict::Explained
+    } else {
+        Verdict::NoMismatch
     };
     out.free_runs = runs;
     if out.verdict != Verdict::NoMismatch {

@@ -7,9 +7,9 @@ use verdict::{DRIVE_CONSTANTS, GROUND_CONSTANTS, ResponseConstant, ResponseModel
 use crate::compare::{Motion, QUANTITIES, errors, summary};
 use crate::controller::{Law, free_run};
 use crate::drive::DrivePart;
-use crate::ground::{GroundPart, driven};
+use crate::ground::{GroundPart, TurnSlip, driven};
 use crate::identify::Base;
-use crate::run::{Piece, ResponseRun, STEP, commands};
+use crate::run::{Commands, Piece, ResponseRun, STEP, commands};
 use crate::search::Model;
 use crate::windows::Windows;
 use inference::DiagnosisError;
@@ -43,7 +43,8 @@ fn simulated(model: &ResponseModel) -> Result<Base, DiagnosisError> {
         second_order: model.second_order,
     };
     let drive = Model { law, x: DRIVE_CONSTANTS.iter().map(value).collect() };
-    Ok(Base { drive, ground: Model { law: (), x: GROUND_CONSTANTS.iter().map(value).collect() } })
+    let of_ground: Vec<f64> = GROUND_CONSTANTS.iter().map(value).collect();
+    Ok(Base { drive, ground: Model { law: TurnSlip::of(&of_ground), x: of_ground } })
 }
 
 /// Simulates a command-driven robot on the commanded wheel speeds of a recording, from the wheel speeds of its first row
@@ -57,13 +58,14 @@ pub fn simulate_response(
     inputs: &Recording,
 ) -> Result<Recording, DiagnosisError> {
     let s = simulated(model)?;
-    let (first, command) = commands(inputs)?;
+    let Commands { first, command, within } = commands(inputs)?;
     let start = [Signal::WheelSpeedLeft, Signal::WheelSpeedRight]
         .map(|w| inputs.get(w).and_then(|c| c.values().first().copied()).unwrap_or_default());
     let piece = Piece {
         start: 0.0,
         wheel: vec![start; command.len()],
         command,
+        within,
         heading: None,
         integrated: false,
         position: None,

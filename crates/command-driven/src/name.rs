@@ -8,13 +8,13 @@ use crate::identify::{Base, Identify};
 use crate::left::Remains;
 use crate::moved::Moved;
 use crate::run::ResponseRun;
-use crate::search::{Evidence, Part, Trial, sigmas};
+use crate::search::{Evidence, Part, Trial, open_range, sigmas};
 use crate::settings::{Answer, SETTINGS};
 use crate::windows::Windows;
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::{CauseSpec, command_driven as cause};
 use inference::evidence::{logistic, none_of};
-use inference::robust::NINETY;
+use inference::robust::{NINETY, normal_cdf};
 
 pub(crate) fn earned((element, e): &(Element, Evidence)) -> Earned {
     Earned { element: *element, rise: e.rise, standard_error: e.standard_error, probability: probability(e) }
@@ -32,18 +32,32 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
     with_sigma
         .filter_map(|(&k, sigma)| {
             let c: &ResponseConstant = &part.constants()[k];
-            let value = t.model.x[k];
+            let (value, half) = told(part, t, k, sigma.map(|s| NINETY * s));
             Some(Parameter {
                 element: belongs(k)?,
                 id: c.id.into(),
                 unit: c.unit.into(),
                 value,
-                half_width: sigma.map(|s| NINETY * s),
+                half_width: half,
                 simulated: Some(simulated[k]).filter(|s| s.is_finite()),
                 at_bound: value <= c.bounds[0] || value >= c.bounds[1],
             })
         })
         .collect()
+}
+
+/// Value and half of the 90 % interval of a constant. What rows leave open is told by its middle, with the range over which
+/// the cost is as low: derivatives say nothing there, or say that nothing is known at all.
+fn told<P: Part>(part: &P, t: &Trial<P::Law>, k: usize, half: Option<f64>) -> (f64, Option<f64>) {
+    let Some(([from, until], reach)) = open_range(part, t, k).zip(part.flat_over(&t.model, k)) else {
+        return (t.model.x[k], half);
+    };
+    // The range is looked up at points.
+    let open = (0.5 * (until - from)).max(reach / SETTINGS.fit.profile as f64);
+    (
+        0.5 * (from + until),
+        Some(half.filter(|h| *h < reach).map_or(open, |h| if until > from { h.max(open) } else { h })),
+    )
 }
 
 /// Fitted constants of a part, those from before it began included where they did not change.
@@ -100,6 +114,8 @@ enum Size {
     Lag,
     /// What the wheels do otherwise than commanded.
     WheelError,
+    /// Of a loss c the share that is lost at a yaw rate of 1 rad/s, 1 − exp(−c).
+    LostInTurns,
 }
 
 /// A cause, its elements and its size, in causal order.
@@ -120,7 +136,7 @@ const CAUSES: [(&CauseSpec, &[Element], Size); 9] = [
     (&cause::LAG, &[Element::Lag], Size::Lag),
     (&cause::EFFECTIVE_TRACK, &[Element::Track], Size::TimesTrack),
     (&cause::ROLLING_RADIUS, &[Element::Radius], Size::First),
-    (&cause::TURN_SLIP, &[Element::TurnSlip], Size::First),
+    (&cause::TURN_SLIP, &[Element::TurnSlip], Size::LostInTurns),
     (&cause::TURN_CENTRE_OFFSET, &[Element::Offset], Size::First),
     (&cause::BODY_LAG, &[Element::BodyLag], Size::First),
     (&cause::SIDE_RADIUS, &[Element::SideRadius], Size::First),
@@ -151,8 +167,8 @@ pub(crate) fn ranked(
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let of_file = moved.iter().find(|m| elements.contains(&m.element)).map_or(0.0, |m| m.probability);
         let p = (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
-        present.push(p);
         if p < ANSWER.listed {
+            present.push(p);
             continue;
         }
 
@@ -163,6 +179,10 @@ pub(crate) fn ranked(
         match (size, of.as_slice()) {
             (_, []) => {}
             (Size::WheelError, _) => (cause.magnitude, cause.sigma) = (Some(off[0]), Some(off[1])),
+            (Size::LostInTurns, [c, ..]) => {
+                cause.magnitude = Some(1.0 - (-c.value).exp());
+                cause.sigma = c.half_width.map(|h| (-c.value).exp() * h / NINETY);
+            }
             (Size::Lag, [w, z]) => {
                 // A second-order lag is late by 2 ζ / ω.
                 let lag = 2.0 * z.value / w.value;
@@ -175,6 +195,13 @@ pub(crate) fn ranked(
                 cause.magnitude = Some(factor * q.value);
                 cause.sigma = q.half_width.map(|h| factor * h / NINETY);
             }
+        }
+        if spec.unit == "s" {
+            cause.probability *= cause.magnitude.zip(cause.sigma).map_or(1.0, |(size, sigma)| matters(size, sigma));
+        }
+        present.push(cause.probability);
+        if cause.probability < ANSWER.listed {
+            continue;
         }
         if cause.magnitude.is_some() {
             cause.unit = spec.unit.into();
@@ -190,6 +217,11 @@ pub(crate) fn ranked(
     let sureness = |c: &Cause| c.probability.min(ANSWER.sure);
     out.sort_by(|a, b| leads(b).cmp(&leads(a)).then(sureness(b).total_cmp(&sureness(a))));
     out
+}
+
+/// Probability that a delay of so many seconds, known to one sigma, is one that matters.
+fn matters(size: f64, sigma: f64) -> f64 {
+    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.max(f64::MIN_POSITIVE))
 }
 
 fn estimate(p: &Parameter) -> Estimate {
@@ -232,7 +264,6 @@ mod tests {
                 "rolling_radius" => "radius_factor",
                 "transport_delay" => "dead_time",
                 "turn_centre_offset" => "centre_offset",
-                "turning_slip" => "turn_slip",
                 "wheel_radius_mismatch" => "side_radius",
                 own => own,
             };

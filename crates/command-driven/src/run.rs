@@ -4,6 +4,7 @@ use recordings::{Channel, Recording, Signal};
 
 use inference::DiagnosisError;
 
+use crate::controller::{H, SUBSTEPS};
 use crate::settings::SETTINGS;
 
 /// Grid on which commands, wheels and pose are compared, s.
@@ -32,6 +33,8 @@ pub(crate) struct Piece {
     pub(crate) start: f64,
     /// Commanded wheel speed, rad/s.
     pub(crate) command: Vec<[f64; 2]>,
+    /// Mean command of each integration step, rad/s, where commands change between rows.
+    pub(crate) within: Option<Vec<[f64; 2]>>,
     /// Measured wheel speed, rad/s.
     pub(crate) wheel: Vec<[f64; 2]>,
     /// Heading, unwrapped, rad.
@@ -90,6 +93,7 @@ impl ResponseRun {
             let piece = Piece {
                 start: from - first,
                 command: pair(command, held),
+                within: between_rows(command, from, rows),
                 wheel: pair(wheel, linear),
                 heading: Some((0..rows).map(|i| linear(turning, &headings, time(i))).collect()),
                 integrated: yaw.is_none(),
@@ -121,8 +125,8 @@ impl ResponseRun {
     }
 }
 
-/// Time of the first command, ns, and the commanded wheel speeds from then on, every [`STEP`].
-pub(crate) fn commands(recording: &Recording) -> Result<(i64, Vec<[f64; 2]>), DiagnosisError> {
+/// Commanded wheel speeds from the first command on.
+pub(crate) fn commands(recording: &Recording) -> Result<Commands, DiagnosisError> {
     let both = recording.get(Signal::CommandSpeedLeft).zip(recording.get(Signal::CommandSpeedRight));
     let missing = || DiagnosisError::MissingSignal {
         recording: recording.name().to_owned(),
@@ -134,7 +138,18 @@ pub(crate) fn commands(recording: &Recording) -> Result<(i64, Vec<[f64; 2]>), Di
     let from = first as f64 * NS;
     let rows = ((last - from + STAMP) / STEP).floor().max(0.0) as usize + 1;
     let at = |c: &Channel, i: usize| held(c, c.values(), from + i as f64 * STEP);
-    Ok((first, (0..rows).map(|i| [at(l, i), at(r, i)]).collect()))
+    let command = (0..rows).map(|i| [at(l, i), at(r, i)]).collect();
+    Ok(Commands { first, command, within: between_rows([l, r], from, rows) })
+}
+
+/// What is commanded, without what was measured.
+pub(crate) struct Commands {
+    /// Time of the first command, ns.
+    pub(crate) first: i64,
+    /// Commanded wheel speeds every [`STEP`], rad/s.
+    pub(crate) command: Vec<[f64; 2]>,
+    /// As in a [`Piece`].
+    pub(crate) within: Option<Vec<[f64; 2]>>,
 }
 
 impl Piece {
@@ -179,6 +194,36 @@ fn before(c: &Channel, t: f64) -> usize {
 /// A command holds until the next one.
 fn held(c: &Channel, values: &[f64], t: f64) -> f64 {
     values[before(c, t)]
+}
+
+/// Mean of a command over the time from `t` to `t + length`.
+fn mean_held(c: &Channel, t: f64, length: f64) -> f64 {
+    let values = c.values();
+    let mut k = before(c, t);
+    let (mut from, mut sum) = (t, 0.0);
+    while k + 1 < values.len() {
+        // A stamp beside a row counts as of that row, as in `before`.
+        let next = c.t_ns()[k + 1] as f64 * NS;
+        if next >= t + length - STAMP {
+            break;
+        }
+        sum += values[k] * (next - from).max(0.0);
+        from = next.max(t);
+        k += 1;
+    }
+    // Where nothing changes it is the command itself, without rounding.
+    if from > t { (sum + values[k] * (t + length - from)) / length } else { values[k] }
+}
+
+/// Mean commands of each integration step; `None` where every command comes with a row.
+fn between_rows(command: [&Channel; 2], from: f64, rows: usize) -> Option<Vec<[f64; 2]>> {
+    let at = |k: usize| from + k as f64 * H;
+    let means: Vec<[f64; 2]> = (0..rows * SUBSTEPS).map(|k| command.map(|c| mean_held(c, at(k), H))).collect();
+    let differs = |(k, m): (usize, &[f64; 2])| {
+        let row = command.map(|c| held(c, c.values(), at(k - k % SUBSTEPS)));
+        (0..2).any(|s| m[s] != row[s])
+    };
+    means.iter().enumerate().any(differs).then_some(means)
 }
 
 fn linear(c: &Channel, values: &[f64], t: f64) -> f64 {
@@ -281,6 +326,20 @@ mod tests {
         }
         let error = ResponseRun::new(&recording(&t[..30], None)).expect_err("refused");
         assert!(matches!(error, DiagnosisError::TooShort { rows: 30, needed: WINDOW, .. }));
+    }
+
+    #[test]
+    fn commands_between_rows_act_when_they_come() {
+        // Rows every 50 ms, commands from 0.110 s on every 50 ms: 10 ms behind a row.
+        let t: Vec<f64> = (0..100).map(|i| f64::from(i) * 0.05).collect();
+        let late: Vec<f64> = t.iter().map(|t| t + 0.01).collect();
+        let channel_at = |t: &[f64]| channel(Signal::CommandSpeedLeft, t, &(0..100).map(f64::from).collect::<Vec<_>>());
+        let (on_rows, between) = (channel_at(&t), channel_at(&late));
+        assert_eq!(between_rows([&on_rows, &on_rows], 0.0, 90), None);
+        let means = between_rows([&between, &between], 0.05, 90).expect("between rows");
+        // From 50 to 60 ms the first command still holds, from 60 to 75 ms and beyond the second.
+        approx::assert_relative_eq!(means[0][0], 1.0 * 0.6, epsilon = 1e-9);
+        approx::assert_relative_eq!(means[1][0], 1.0, epsilon = 1e-9);
     }
 
     #[test]

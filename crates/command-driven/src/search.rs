@@ -3,7 +3,7 @@
 use faer::Mat;
 use inference::algebra::inverse_spd;
 use inference::least_squares::{Constant as FreeConstant, Loss, Residuals, Settings};
-use inference::robust::mean_with_error;
+use inference::robust::{NINETY_FALL, mean_with_error};
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
@@ -26,6 +26,10 @@ pub(crate) trait Part: Sync {
     fn restrict(&self, law: Self::Law, base: Self::Law, elements: &[Element]) -> Self::Law;
     /// Where a fit starts.
     fn guess(&self, constant: usize) -> f64;
+    /// Distance over which rows may not tell a constant at all: its cost is then flat, and derivatives say nothing.
+    fn flat_over(&self, _model: &Model<Self::Law>, _constant: usize) -> Option<f64> {
+        None
+    }
     /// A constant in which the cost has several valleys, and where to start in it.
     fn starts(&self) -> (usize, &'static [f64]);
 }
@@ -300,6 +304,29 @@ pub(crate) fn prune<P: Part>(part: &P, base: &Model<P::Law>, full: Trial<P::Law>
             }
         }
     }
+}
+
+/// Range of a constant in which the cost stays as low as its 90 % profile interval asks, the others fitted anew: how far
+/// rows leave it open where its derivative does not say so. A window counts as one number.
+pub(crate) fn open_range<P: Part>(part: &P, t: &Trial<P::Law>, k: usize) -> Option<[f64; 2]> {
+    let reach = part.flat_over(&t.model, k)?;
+    let others: Vec<usize> = t.free.iter().copied().filter(|o| *o != k).collect();
+    let everything = vec![true; part.windows().list.len()];
+    let cost = |value: f64| {
+        let mut model = t.model.clone();
+        model.x[k] = value;
+        let fitted =
+            if others.is_empty() { model } else { fit(part, &model, &others, &everything, FIT.iterations_beside).0 };
+        losses(part, &fitted).iter().sum::<f64>()
+    };
+    let least = cost(t.model.x[k]);
+    let allowed = least * (1.0 + 2.0 * NINETY_FALL / part.windows().list.len().max(1) as f64);
+    let [lowest, largest] = part.constants()[k].bounds;
+    let end = |sign: f64| {
+        let at = |i: usize| (t.model.x[k] + sign * reach * i as f64 / FIT.profile as f64).clamp(lowest, largest);
+        (1..=FIT.profile).map(at).take_while(|v| cost(*v) <= allowed).last().unwrap_or(t.model.x[k])
+    };
+    Some([end(-1.0), end(1.0)])
 }
 
 /// One sigma of every free constant; `None` where the recordings do not determine them.

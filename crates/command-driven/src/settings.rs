@@ -97,6 +97,8 @@
         first_damping: f64 = 1e-2, "1", "guess";
         /// Longest step, share of a constant (of its scale where that is more).
         longest: f64 = 0.7, "1", "guess";
+        /// Points on each side at which the cost of a constant is looked up that rows may not tell.
+        profile: usize = 10, "1", "guess; 5 ms of a dead time";
         /// Step of finite differences, share of a constant (of its scale where that is more).
         difference: f64 = 1e-3, "1", "guess";
     }
@@ -119,6 +121,9 @@
         cause: f64 = 3.0, "nats", "guess: one in twenty, as for an element";
         /// Radius and track change by about so much where tyres or ground are others, one sigma.
         change: f64 = 0.3, "1", "guess: tyres by a tenth, effective tracks by a half";
+        /// A dead time or lag below this is no finding.
+        least_delay: f64 = 0.03, "s",
+            "rows of 0.05 s tell no better than to half of that when a wheel changed; chosen after a look at 60 drawn cases";
         /// Causes below this probability are not listed.
         listed: f64 = 0.1, "1", "above the 0.05 that what left-out windows say nothing about keeps of its prior";
         /// Beyond this probability the way from command to ground orders causes.

@@ -93,6 +93,7 @@ impl Truth {
         let mut piece = Piece {
             start: 0.0,
             command: command.to_vec(),
+            within: None,
             wheel: command.to_vec(),
             heading: None,
             integrated: false,

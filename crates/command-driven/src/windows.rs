@@ -106,8 +106,15 @@ mod tests {
     #[test]
     fn windows_of_one_command_share_a_block_and_a_fold() {
         let command: Vec<[f64; 2]> = (0..400).map(|i| [f64::from(i / 120); 2]).collect();
-        let piece =
-            Piece { start: 0.0, wheel: command.clone(), command, heading: None, integrated: false, position: None };
+        let piece = Piece {
+            start: 0.0,
+            wheel: command.clone(),
+            command,
+            within: None,
+            heading: None,
+            integrated: false,
+            position: None,
+        };
         let run = ResponseRun { name: "r".to_owned(), pieces: vec![piece.clone(), piece], hold: 0.0 };
         let w = Windows::new(&[run]);
         let blocks: Vec<usize> = w.list.iter().map(|w| w.block).collect();

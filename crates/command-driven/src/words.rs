@@ -219,6 +219,7 @@ fn on_ground(r: &Response, track: f64) -> String {
             ("radius_factor", "rolling radius times"),
             ("centre_offset", "pose sensor ahead of the centre of rotation by"),
             ("turn_slip", "forward speed times exp(−c ψ̇²) in turns with c"),
+            ("turn_slip_linear", "forward speed times exp(−c |ψ̇|) in turns with c"),
             ("body_lag", "body or pose late by"),
             ("side_radius", "left radius larger and right smaller by"),
         ],

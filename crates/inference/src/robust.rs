@@ -86,6 +86,11 @@ pub fn effective_number(weights: impl IntoIterator<Item = f64>) -> f64 {
     if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
+/// Distribution function of the standard normal distribution: `Φ(z)`.
+pub fn normal_cdf(z: f64) -> f64 {
+    Normal::standard().cdf(z)
+}
+
 /// Quantile of the standard normal distribution: `Φ⁻¹(p)`, infinite at 0 and 1.
 pub fn normal_quantile(p: f64) -> f64 {
     Normal::standard().inverse_cdf(p)

@@ -47,13 +47,14 @@ pub const DRIVE_CONSTANTS: [ResponseConstant; 13] = [
     constant("side_gain", "-", 0.0, [-0.5, 0.5], 0.05),
 ];
 /// Constants between wheel and body.
-pub const GROUND_CONSTANTS: [ResponseConstant; 6] = [
+pub const GROUND_CONSTANTS: [ResponseConstant; 7] = [
     ResponseConstant { id: "radius_factor", unit: "-", neutral: 1.0, bounds: [0.2, 3.0], scale: 0.2 },
     ResponseConstant { id: "track_factor", unit: "-", neutral: 1.0, bounds: [0.2, 20.0], scale: 0.2 },
     ResponseConstant { id: "centre_offset", unit: "m", neutral: 0.0, bounds: [-1.0, 1.0], scale: 0.05 },
     ResponseConstant { id: "turn_slip", unit: "s^2/rad^2", neutral: 0.0, bounds: [0.0, 20.0], scale: 0.2 },
     ResponseConstant { id: "body_lag", unit: "s", neutral: 0.0, bounds: [0.0, 2.0], scale: 0.1 },
     ResponseConstant { id: "side_radius", unit: "-", neutral: 0.0, bounds: [-0.3, 0.3], scale: 0.02 },
+    ResponseConstant { id: "turn_slip_linear", unit: "s/rad", neutral: 0.0, bounds: [0.0, 20.0], scale: 0.2 },
 ];
 
 /// A response that cannot be.

@@ -101,7 +101,15 @@ impl<'a> Forecaster<'a> {
         let command: Vec<[f64; 2]> =
             (0..rows).map(|i| menu::wheels(course.at(i as f64 * STEP), self.nominal)).collect();
         let at_rest = vec![[0.0; 2]; rows];
-        let mut piece = Piece { start: 0.0, command, wheel: at_rest, heading: None, integrated: false, position: None };
+        let mut piece = Piece {
+            start: 0.0,
+            command,
+            within: None,
+            wheel: at_rest,
+            heading: None,
+            integrated: false,
+            position: None,
+        };
         piece.wheel = free_run(rival.drive.model.law, &rival.drive.model.x, &piece);
         let poses = driven(&rival.ground.model.x, self.nominal, &piece.wheel);
         piece.heading = Some(poses.iter().map(|p| p[2]).collect());

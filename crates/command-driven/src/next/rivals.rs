@@ -4,6 +4,7 @@ use verdict::{Contender, Element, Scaling};
 
 use crate::controller::Law;
 use crate::element_words::element;
+use crate::ground::TurnSlip;
 use crate::identified::Identified;
 use crate::identify::{Base, Identify, OfDrive, OfGround};
 use crate::name::causes_of;
@@ -17,7 +18,7 @@ const RIVALS: Settings = SETTINGS.rivals;
 pub(super) struct Rival {
     pub(super) contender: Contender,
     pub(super) drive: Trial<Law>,
-    pub(super) ground: Trial<()>,
+    pub(super) ground: Trial<TurnSlip>,
 }
 
 /// What was found in a part, as it is now, with what it was fitted to.
@@ -87,7 +88,7 @@ pub(super) fn rivals(windows: &Windows, base: &Base, found: &Identified, nominal
     out.sort_by(|a, b| b.0.total_cmp(&a.0));
     out.truncate(RIVALS.most);
     let sum: f64 = out.iter().map(|(log_odds, ..)| log_odds.exp()).sum();
-    let rival = |(log_odds, name, drive, ground): (f64, String, Trial<Law>, Trial<()>)| {
+    let rival = |(log_odds, name, drive, ground): (f64, String, Trial<Law>, Trial<TurnSlip>)| {
         let effects = causes_of(&[&drive.elements[..], &ground.elements].concat()).map(str::to_owned).collect();
         Rival { contender: Contender { effects, name, probability: log_odds.exp() / sum }, drive, ground }
     };
