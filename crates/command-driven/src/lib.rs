@@ -151,7 +151,7 @@ pub fn diagnose_response(
     let moved = if case.references.is_empty() { moved(case, nominal, &response.parameters) } else { Vec::new() };
     out.ranked = name::ranked(&found, &response.parameters, &moved, (off, nominal[1]), &remains, &case.recordings);
     let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
-    out.retuned = moved.iter().filter(|m| m.is_likely()).map(|m| m.retuned.clone()).collect();
+    out.retuned = moved.iter().filter(|m| m.is_retuned()).map(|m| m.retuned.clone()).collect();
     out.verdict = if remains.mostly > SETTINGS.left.likely {
         Verdict::Unknown
     } else if out.ranked.iter().any(is_named) {

@@ -17,9 +17,10 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// Whether it is re-tuned rather than named as a cause.
-    pub(crate) fn is_likely(&self) -> bool {
-        self.probability > 0.5
+    /// Whether it is re-tuned rather than named as a cause; the file may as well be right about what its interval holds.
+    pub(crate) fn is_retuned(&self) -> bool {
+        let off = (self.retuned.to - self.retuned.from).abs();
+        self.probability > 0.5 && off > self.retuned.half_width
     }
 }
 
