@@ -30,12 +30,7 @@ pub struct Posterior {
 
 impl Evidence {
     /// Of sessions linearised at `theta`, seen from the prior's mean.
-    pub fn new(
-        theta: &[f64],
-        sessions: &[Session],
-        scatter: &DVector<f64>,
-        mean: &DVector<f64>,
-    ) -> Option<Self> {
+    pub fn new(theta: &[f64], sessions: &[Session], scatter: &DVector<f64>, mean: &DVector<f64>) -> Option<Self> {
         let n = theta.len();
         let mut out = Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
         let d = mean - DVector::from_column_slice(theta);

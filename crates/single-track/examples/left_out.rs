@@ -1,7 +1,7 @@
 //! Left-out drives forecast from throttle and steering: `left_out ROBOT CSV...`.
 
 use single_track::file::RobotFile;
-use single_track::{Case, LENGTHS, diagnose, left_out};
+use single_track::{Case, LENGTHS, examine};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut args = std::env::args().skip(1);
@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         recordings.push(file.drive(&name, &std::fs::read_to_string(&path)?)?);
     }
     let case = Case { car: file.car, references: Vec::new(), recordings };
-    let findings = diagnose(&case, &|stage| eprintln!("{stage}"))?;
+    let (findings, table) = examine(&case, &|stage| eprintln!("{stage}"))?;
     println!(
         "{:?} noise {:.4?} scatter {:.2} shares {:.3?} counts {:?}",
         findings.answer, findings.noise, findings.scatter, findings.shares, findings.counts
@@ -27,7 +27,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             e.name, e.given, e.value, e.half_width, e.unit, e.sigmas
         );
     }
-    let table = left_out(&case, &|stage| eprintln!("{stage}"))?;
     for (name, errors) in &table.rows {
         print!("{name:52}");
         for errors in errors {

@@ -8,6 +8,7 @@ use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
 use crate::fit::{Data, Prior};
+use crate::left_out::{Table, left_out_of};
 use crate::rows::Kind;
 use crate::settings::SETTINGS;
 use crate::solve::{Solved, solve};
@@ -50,9 +51,23 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, CarErr
     }
     progress("fitting the car to its drives");
     let all: Vec<&Drive> = case.recordings.iter().collect();
-    let solved = solve(&case.car, &case.references, &all, None)?;
+    let solved = solve(&case.car, &case.references, &all)?;
     progress("naming what would make them agree");
     Ok(findings(case, &solved))
+}
+
+/// The same with the forecasts of drives that are left out in turn, from one fit.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), CarError> {
+    if case.recordings.is_empty() {
+        return Err(CarError::Empty);
+    }
+    progress("fitting the car to its drives");
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.car, &case.references, &all)?;
+    Ok((findings(case, &solved), left_out_of(&solved, progress)))
 }
 
 /// Root mean square error of the rows in motion, each over the size of what it measures.

@@ -54,11 +54,6 @@ impl Command {
         Self { sums, ends: [values[0], values[values.len() - 1]] }
     }
 
-    /// Its first value.
-    pub(crate) fn first(&self) -> f64 {
-        self.ends[0]
-    }
-
     fn sum(&self, time: f64) -> f64 {
         let last = self.sums.len() - 1;
         let place = time / STEP;

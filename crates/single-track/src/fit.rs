@@ -19,7 +19,7 @@ use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minim
 use inference::robust::{quantile, rms, sorted};
 
 /// Drives of a car with its constants.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Data<'a> {
     pub(crate) constants: Vec<Constant>,
     pub(crate) shown: Vec<Shown<'a>>,
@@ -56,11 +56,6 @@ impl<'a> Data<'a> {
             return Err(CarError::Short { windows, length, needed });
         }
         Ok(Self { constants: constants(car), shown })
-    }
-
-    /// A drive beside those of a fit.
-    pub(crate) fn shown(car: &Car, drive: &'a Drive) -> Shown<'a> {
-        Shown::new(drive, car.encoder_window)
     }
 
     pub(crate) fn errors(&self, thetas: &[Vec<f64>]) -> Vec<Vec<f64>> {
@@ -215,6 +210,25 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     }
     out.sessions = sessions(data, &out.theta, out.scales);
     Some(out)
+}
+
+/// Fits the constants anew from where a fit ended, with its scales and scatter.
+pub(crate) fn refit(data: &Data<'_>, prior: &Prior, from: Fit) -> Option<Fit> {
+    let rules = SETTINGS.fitting;
+    let information = prior.covariance.clone().cholesky()?.inverse();
+    let settings =
+        Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let problem = Driven { data, prior, information, scatter: data.scatter(from.factor), scales: from.scales };
+    let at = minimise(&problem, problem.at(from.theta), &settings).at;
+    Some(Fit { theta: at.theta, sessions: at.sessions, ..from })
+}
+
+/// A fit without one of its drives: equations and scales of the others, about where it ended.
+pub(crate) fn without(data: &Data<'_>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
+    let mut out = fit.clone();
+    out.sessions.remove(left);
+    out.factor = scatter_factor(data, prior, &out);
+    out
 }
 
 /// The factor on the scatter of drives under which they are most probable together.

@@ -4,11 +4,11 @@
 //! servo from the commands before it, and constants from the fit on other drives, moved by what the past of this drive says of
 //! its own deviation (battery, floor, trims). What it said fades.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use odometry::weighing::Session;
 
 use crate::constants::Constant;
-use crate::fit::{Data, Scales, equations};
+use crate::fit::{Scales, equations};
 use crate::model::{Inputs, Laws, STEP, State};
 use crate::rows::{Shown, end};
 use crate::settings::{Forecast, SETTINGS};
@@ -139,31 +139,43 @@ impl<'s, 'a> Said<'s, 'a> {
         Self { shown, errors, columns: shown.columns(constants, theta) }
     }
 
-    /// The drive's own deviation as its past up to an instant has it.
-    fn deviation(&self, time: f64, fading: f64, scatter: &DVector<f64>, scales: Scales) -> Option<DVector<f64>> {
+    /// What the rows known between two instants say.
+    fn between(&self, from: f64, until: f64, scales: Scales) -> Session {
         let weight = |row: usize| {
-            let age = time - self.shown.rows[row].time;
-            if age < 0.0 { 0.0 } else { (-age / fading).exp() }
+            let time = self.shown.rows[row].time;
+            f64::from(u8::from(time > from && time <= until))
         };
-        let session: Session = equations(self.shown, (&self.errors, &self.columns), scales, weight);
-        session.deviation(scatter)
+        equations(self.shown, (&self.errors, &self.columns), scales, weight)
     }
 }
 
 /// Forecasts of fitted constants that follow the drive's own past.
 pub(crate) fn following(
-    data: &Data<'_>,
+    constants: &[Constant],
+    scatter: &DVector<f64>,
     said: &Said<'_, '_>,
-    (theta, scales, factor): (&[f64], Scales, f64),
+    (theta, scales): (&[f64], Scales),
     habit: Habit,
 ) -> Vec<[[f64; 2]; 3]> {
-    let Some(fading) = habit.fading else { return of_laws(said.shown, &Laws::at(&data.constants, theta), habit.past) };
-    let scatter = data.scatter(factor * habit.freedom);
+    let Some(fading) = habit.fading else { return of_laws(said.shown, &Laws::at(constants, theta), habit.past) };
+    let scatter = scatter * habit.freedom;
+    let n = theta.len();
+    let mut so_far = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let mut last = f64::NEG_INFINITY;
+    let warm = (RULES.warm / STEP) as usize;
+    let ahead = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
     let of = |from: usize| {
-        let deviation = said.deviation(STEP * from as f64, fading, &scatter, scales)?;
+        let now = STEP * from as f64;
+        let kept = ((last - now) / fading).exp();
+        let new = said.between(last, now, scales);
+        so_far.curvature = &so_far.curvature * kept + new.curvature;
+        so_far.slope = &so_far.slope * kept + new.slope;
+        last = now;
+        let deviation = so_far.deviation(&scatter)?;
         let moved: Vec<f64> = theta.iter().zip(deviation.iter()).map(|(t, d)| t + d).collect();
-        let laws = Laws::at(&data.constants, &moved);
-        one(said.shown, &laws, &laws.inputs(said.shown.drive), from, habit.past)
+        let laws = Laws::at(constants, &moved);
+        let inputs = laws.inputs_between(said.shown.drive, from.saturating_sub(warm), from + ahead + 1);
+        one(said.shown, &laws, &inputs, from, habit.past)
     };
     beginnings(said.shown).into_iter().filter_map(of).collect()
 }

@@ -2,15 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::case::Case;
-use crate::drive::Drive;
-use crate::error::CarError;
-use crate::fit::Data;
 use crate::forecast::{ByLength, Habit, LENGTHS, Said, collected, following, of_laws, of_twist};
 use crate::model::Laws;
 use crate::rivals::RIVALS;
 use crate::settings::{Forecast, SETTINGS};
-use crate::solve::{Solved, solve};
+use crate::solve::Solved;
 use inference::robust::median;
 
 const RULES: Forecast = SETTINGS.forecast;
@@ -39,83 +35,94 @@ pub const FOLLOWING: usize = 4;
 const TWIST: &str = "constant twist";
 
 /// Leaves out each drive with a pose in turn, fits and names anew without it, and forecasts it.
-///
-/// # Errors
-/// When a fold leaves too few windows.
-pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, CarError> {
-    let with_pose: Vec<&Drive> = case.recordings.iter().filter(|d| d.has_pose()).collect();
+pub(crate) fn left_out_of(solved: &Solved<'_>, progress: &dyn Fn(&str)) -> Table {
+    let left: Vec<usize> = (0..solved.data.shown.len()).filter(|&k| solved.data.shown[k].drive.has_pose()).collect();
     let mut out = Table::default();
-    if with_pose.len() < 2 {
-        return Ok(out);
+    if left.len() < 2 {
+        return out;
     }
-    let all: Vec<&Drive> = case.recordings.iter().collect();
-    let start = solve(&case.car, &case.references, &all, None)?.fit.theta;
+    let fold = |&k: &usize| fold(solved, k);
+    progress("forecasting drives that were left out");
+    let folds: Vec<Fold> = left.par_iter().filter_map(fold).collect();
+
     let rivals = RIVALS.iter().map(|r| r.name).chain([TWIST]);
     let names: Vec<String> = OURS.into_iter().chain(rivals).map(str::to_owned).collect();
     let mut sums = vec![ByLength::default(); names.len()];
-    for left in &with_pose {
-        progress(&format!("forecasting {}", left.name));
-        let rest: Vec<&Drive> = all.iter().copied().filter(|d| d.name != left.name).collect();
-        let (errors, labels) = fold(case, left, &rest, &start)?;
+    for (k, fold) in folds.iter().enumerate() {
+        let others = folds.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, f)| f);
+        let errors = fold.errors(chosen(&others.collect::<Vec<_>>()));
         for (sum, e) in sums.iter_mut().zip(&errors) {
             sum.iter_mut().zip(e.clone()).for_each(|(s, e)| s.extend(e));
         }
-        out.by_drive.push((left.name.clone(), errors));
-        out.named.push(labels);
-        out.drives += 1;
+        out.by_drive.push((fold.name.clone(), errors));
+        out.named.push(fold.named.clone());
     }
+    out.drives = folds.len();
     out.rows = names.into_iter().zip(sums).collect();
-    Ok(out)
+    out
 }
 
-fn fold(case: &Case, left: &Drive, rest: &[&Drive], start: &[f64]) -> Result<(Vec<ByLength>, Vec<String>), CarError> {
-    let solved = solve(&case.car, &case.references, rest, Some(start))?;
-    let own = Data::shown(&case.car, left);
-    let constants = &solved.data.constants;
-    let best = solved.named.posterior.mean.as_slice();
-    let habit = habit(&solved, best);
-    let past = habit.past;
-    let forecast = |theta: &[f64]| collected(of_laws(&own, &Laws::at(constants, theta), past));
-    let mut errors = vec![
-        forecast(solved.prior.mean.as_slice()),
-        forecast(solved.named.retuned.mean.as_slice()),
-        forecast(best),
-        solved.named.placebo.as_ref().map(|(_, p)| forecast(p.mean.as_slice())).unwrap_or_default(),
-    ];
-    let said = Said::new(constants, &own, best);
-    let law = (best, solved.fit.scales, solved.fit.factor);
-    errors.push(collected(following(&solved.data, &said, law, habit)));
-    for rival in &RIVALS {
-        let laws = rival.fitted(&solved.data, &solved.fit);
-        errors.push(laws.map(|laws| collected(of_laws(&own, &laws, past))).unwrap_or_default());
+/// A drive that was left out: its forecasts under everything that is chosen on other drives.
+struct Fold {
+    name: String,
+    named: Vec<String>,
+    /// For each past of the start: models but the one that follows.
+    plain: Vec<Vec<ByLength>>,
+    /// For each past: of each habit, the model that follows.
+    following: Vec<Vec<ByLength>>,
+}
+
+impl Fold {
+    fn errors(&self, [past, habit]: [usize; 2]) -> Vec<ByLength> {
+        let mut out = self.plain[past].clone();
+        out.insert(FOLLOWING, self.following[past][habit].clone());
+        out
     }
-    errors.push(collected(of_twist(&own, past)));
-    let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
-    Ok((errors, labels))
 }
 
-/// The habit that forecasts the drives of a fit best: mean of the medians of drives, position at the longest length.
-fn habit(solved: &Solved<'_>, theta: &[f64]) -> Habit {
-    let said: Vec<Said<'_, '_>> = solved
-        .data
-        .shown
-        .par_iter()
-        .filter(|s| s.drive.has_pose())
-        .map(|s| Said::new(&solved.data.constants, s, theta))
-        .collect();
-    let law = (theta, solved.fit.scales, solved.fit.factor);
-    let score = |habit: Habit| {
-        let of = |said: &Said<'_, '_>| following(&solved.data, said, law, habit);
-        let each: Vec<f64> = said.par_iter().flat_map_iter(of).map(|e| e[LENGTHS.len() - 1][0]).collect();
+/// Habits of following at one past of the start.
+fn habits(past: f64) -> Vec<Habit> {
+    let follow = RULES
+        .fading
+        .into_iter()
+        .flat_map(|fading| RULES.freedom.into_iter().map(move |freedom| Habit { past, fading: Some(fading), freedom }));
+    follow.collect()
+}
+
+/// The past and the habit that forecast other drives best: median error of position at the longest length.
+fn chosen(others: &[&Fold]) -> [usize; 2] {
+    let pairs = (0..RULES.past.len()).flat_map(|p| (0..habits(RULES.past[p]).len()).map(move |h| [p, h]));
+    let score = |[p, h]: [usize; 2]| {
+        let each = others.iter().flat_map(|f| f.following[p][h][LENGTHS.len() - 1].position.iter().copied());
         median(each).unwrap_or(f64::INFINITY)
     };
-    let best = |tried: &mut dyn Iterator<Item = Habit>| {
-        tried.map(|h| (score(h), h)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, h)| h)
+    pairs.map(|pair| (score(pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0, 0], |(_, pair)| pair)
+}
+
+fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
+    let own = &all.data.shown[left];
+    let solved = all.without(left)?;
+    let constants = &solved.data.constants;
+    let best = solved.named.posterior.mean.as_slice();
+    let laws = |theta: &[f64]| Some(Laws::at(constants, theta));
+    let mut models = vec![
+        laws(solved.prior.mean.as_slice()),
+        laws(solved.named.retuned.mean.as_slice()),
+        laws(best),
+        solved.named.placebo.as_ref().and_then(|(_, p)| laws(p.mean.as_slice())),
+    ];
+    models.extend(RIVALS.iter().map(|rival| rival.fitted(&solved.data, &solved.fit)));
+    let plain = |past: f64| -> Vec<ByLength> {
+        let of = |laws: &Option<Laws>| laws.map(|l| collected(of_laws(own, &l, past))).unwrap_or_default();
+        models.iter().map(of).chain([collected(of_twist(own, past))]).collect()
     };
-    let none = Habit { past: RULES.past[0], fading: None, freedom: 1.0 };
-    let start = best(&mut RULES.past.into_iter().map(|past| Habit { past, ..none })).unwrap_or(none);
-    let follow = RULES.fading.into_iter().flat_map(|fading| {
-        RULES.freedom.into_iter().map(move |freedom| Habit { fading: Some(fading), freedom, ..start })
-    });
-    best(&mut follow.chain([start])).unwrap_or(start)
+    let said = Said::new(constants, own, best);
+    let scatter = solved.data.scatter(solved.fit.factor);
+    let follow = |habit: Habit| collected(following(constants, &scatter, &said, (best, solved.fit.scales), habit));
+    Some(Fold {
+        name: own.drive.name.clone(),
+        named: solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect(),
+        plain: RULES.past.into_iter().map(plain).collect(),
+        following: RULES.past.into_iter().map(|past| habits(past).into_iter().map(follow).collect()).collect(),
+    })
 }

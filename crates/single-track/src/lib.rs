@@ -34,11 +34,11 @@ pub use answer::diagnosis;
 pub use car::{Car, Stated};
 pub use case::Case;
 pub use constants::{Constant, Quantity, constants};
-pub use diagnose::{Findings, diagnose};
+pub use diagnose::{Findings, diagnose, examine};
 pub use drive::{Drive, Table as Columns};
 pub use error::CarError;
 pub use forecast::{ByLength, Errors, LENGTHS};
-pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table, left_out};
+pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
 pub use odometry::{Answer, Estimate, NamedCause};
 
 /// Every tuned number of this crate, for the page of settings.

@@ -42,7 +42,8 @@ pub(crate) struct Laws {
     pub(crate) gyration: f64,
     pub(crate) front_compliance: f64,
     pub(crate) rear_compliance: f64,
-    pub(crate) inverse_grip: f64,
+    pub(crate) front_inverse_grip: f64,
+    pub(crate) rear_inverse_grip: f64,
     pub(crate) gain: f64,
     pub(crate) dead_zone: f64,
     pub(crate) back_emf: f64,
@@ -84,32 +85,45 @@ impl Laws {
 
     /// What steering and drive do with the commands of a drive: they depend on nothing else.
     pub(crate) fn inputs(&self, drive: &Drive) -> Inputs {
-        let steps = drive.steps();
-        let share = |lag: f64| 1.0 - (-STEP / lag.abs().max(RULES.least_lag)).exp();
+        self.inputs_between(drive, 0, drive.steps())
+    }
+
+    /// The same of some steps; those before are none.
+    pub(crate) fn inputs_between(&self, drive: &Drive, first: usize, last: usize) -> Inputs {
+        let steps = last.min(drive.steps());
+        // Implicit steps: exact in the delay of slow commands, however short the lag.
+        let share = |lag: f64| STEP / (STEP + lag.abs());
         let (of_lag, of_drive) = (share(self.lag), share(self.drive_lag));
-        let most = STEP / self.slowness.max(RULES.tiny);
+        let most = STEP / self.slowness.abs().max(RULES.tiny);
         let mut out = Inputs { steering: Vec::with_capacity(steps), throttle: Vec::with_capacity(steps) };
-        let mut angle = self.map(drive.steering.first());
-        let (mut held, mut effort) = (angle, 0.0);
-        for k in 0..steps {
+        out.steering.resize(first, 0.0);
+        out.throttle.resize(first, 0.0);
+        let mut settled = self.map(drive.steering.mean(STEP * first as f64 + self.clock - self.delay));
+        let (mut turned, mut held, mut effort) = (settled, settled, 0.0);
+        // What is below none leads instead of lagging, so that differences about none have one slope.
+        let signed = |size: f64, before: f64, after: f64| if size < 0.0 { 2.0 * before - after } else { after };
+        for k in first..steps {
             let time = STEP * k as f64 + self.clock;
             let wanted = self.map(drive.steering.mean(time - self.delay));
-            angle += ((wanted - angle) * of_lag).clamp(-most, most);
+            settled += (wanted - settled) * of_lag;
+            let asked = signed(self.lag, wanted, settled);
+            turned += (asked - turned).clamp(-most, most);
+            let angle = signed(self.slowness, asked, turned);
             held = held.clamp(angle - self.play.abs(), angle + self.play.abs());
-            // A play below none leads instead of lagging, so that differences about none have one slope.
-            out.steering.push(if self.play < 0.0 { 2.0 * angle - held } else { held });
+            out.steering.push(signed(self.play, angle, held));
 
             let u = drive.throttle.mean(time);
-            effort += ((u.abs() - self.dead_zone).max(0.0) * u.signum() - effort) * of_drive;
-            out.throttle.push(effort);
+            let pushed = (u.abs() - self.dead_zone).max(0.0) * u.signum();
+            effort += (pushed - effort) * of_drive;
+            out.throttle.push(signed(self.drive_lag, pushed, effort));
         }
         out
     }
 
     /// Secant of a tyre: side acceleration over slip angle.
-    fn secant(&self, slip: f64, compliance: f64) -> f64 {
+    fn secant(&self, slip: f64, compliance: f64, inverse_grip: f64) -> f64 {
         let k = compliance.max(RULES.least_compliance);
-        let q = self.inverse_grip.max(0.0);
+        let q = inverse_grip.max(0.0);
         if self.lateral == Lateral::Pacejka && q > RULES.tiny {
             let c = RULES.pacejka_shape;
             let x = (q / (k * c) * slip).abs().max(RULES.tiny);
@@ -121,7 +135,9 @@ impl Laws {
     /// One step.
     pub(crate) fn step(&self, s: &mut State, steering: f64, effort: f64) {
         let tan = steering.tan();
-        let (front, length) = (self.wheelbase - self.rear, self.wheelbase);
+        let length = self.wheelbase;
+        // Between the axles, or the car would not stand.
+        let front = (length - self.rear).max(RULES.tiny);
         let before = *s;
         let mut side_drag = 0.0;
         if self.lateral == Lateral::Kinematic {
@@ -131,8 +147,8 @@ impl Laws {
             let slow = s.speed.abs().max(RULES.slow);
             let slip_front = (s.speed * tan - s.side - front * s.rate) / slow;
             let slip_rear = (self.rear * s.rate - s.side) / slow;
-            let a = self.secant(slip_front, self.front_compliance);
-            let b = self.secant(slip_rear, self.rear_compliance);
+            let a = self.secant(slip_front, self.front_compliance, self.front_inverse_grip);
+            let b = self.secant(slip_rear, self.rear_compliance, self.rear_inverse_grip);
             let (share, h) = (self.rear / length, STEP);
             let turn = front * self.rear / (self.gyration * length);
             // f_front = a (v tan − side − front rate)/slow, f_rear = b (rear rate − side)/slow.

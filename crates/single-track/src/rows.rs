@@ -221,7 +221,9 @@ impl<'a> Shown<'a> {
                 }
             }
         }
-        out.iter_mut().filter(|e| !e.is_finite()).for_each(|e| *e = 0.0);
+        // A law that runs away is as wrong as can be, and still a number.
+        let ceiling = RULES.ceiling;
+        out.iter_mut().for_each(|e| *e = if e.is_nan() { ceiling } else { e.clamp(-ceiling, ceiling) });
         out
     }
 

@@ -26,8 +26,6 @@
         least_compliance: f64 = 1e-4, "rad s²/m", "a hundredth of usual tyres'";
         /// Shape factor C of the Pacejka tyre of the rival.
         pacejka_shape: f64 = 1.4, "1", "Pacejka, Tyre and Vehicle Dynamics: 1.3 to 1.65 for side force";
-        /// Least time constants, shares of a step, that act as at once.
-        least_lag: f64 = 1e-6, "s", "far below a step";
         /// Least distances and rates that count as above none.
         tiny: f64 = 1e-9, "1", "far above rounding, far below anything measured";
     }
@@ -42,6 +40,8 @@
         lever: f64 = 1.0, "m/rad", "guess; the way in a second at 1 m/s";
         /// Errors farther off than this many sigmas count less.
         outlier: f64 = 4.0, "1", "guess";
+        /// Largest error of a row, in the unit of its kind.
+        ceiling: f64 = 30.0, "m; rad/s; m/s", "guess; far above what small cars do in a second";
         /// Quantile of the errors from which their scale is taken.
         quantile: f64 = 0.9, "1", "guess; the rest may be outliers";
         /// Sigmas within which that share of a normal distribution lies.
@@ -58,8 +58,10 @@
 
     /// Fits of all constants.
     fitting: Fitting {
+        /// Time of the steering for a radian from which fits start: at none its effect has no slope.
+        slowness: f64 = 0.1, "s/rad", "servos of small cars";
         /// Rounds in which scales of errors and scatter of drives are estimated anew.
-        rounds: usize = 3, "1", "guess";
+        rounds: usize = 2, "1", "guess";
         /// Linearisations of a round at most.
         iterations: usize = 15, "1", "guess";
         /// Relative fall of the cost below which a round is at rest.
@@ -134,12 +136,14 @@
         play: f64 = 0.05, "rad", "guess";
         /// Distances.
         distance: f64 = 0.15, "share", "guess";
+        /// Place of the centre of mass.
+        centre_of_mass: f64 = 0.01, "share", "guess; axle loads tell it, drives hardly do";
         /// Tyre compliance.
         compliance: f64 = 0.02, "rad s²/m", "tyres of small cars: 0.2 rad at 1 g";
         /// Inverse of the largest sideways acceleration.
         inverse_grip: f64 = 0.15, "s²/m", "a friction coefficient of 0.7";
         /// Yaw inertia.
-        inertia: f64 = 0.5, "share", "guess";
+        inertia: f64 = 0.3, "share", "guess; a rectangle for a car";
         /// Acceleration at full throttle.
         drive_gain: f64 = 0.5, "share", "guess; a battery that is empty, another gear";
         /// Dead zone of the throttle.
@@ -208,9 +212,11 @@
         /// Past over which velocities at the start are taken, of which one is chosen on the other drives.
         past: [f64; 3] = [0.14, 0.2, 0.3], "s", "guess; noise against delay";
         /// Times after which what a drive said of itself has faded to 1/e, of which one is chosen on the other drives.
-        fading: [f64; 4] = [2.0, 5.0, 15.0, 60.0], "s", "guess; manoeuvres, batteries";
+        fading: [f64; 4] = [1.0, 2.0, 5.0, 20.0], "s", "guess; manoeuvres, batteries";
+        /// Commands before the start from which the state of steering and drive comes.
+        warm: f64 = 2.0, "s", "guess; ten lags of a slow servo";
         /// Factors on the scatter of drives within a drive, of which one is chosen on the other drives.
-        freedom: [f64; 2] = [1.0, 3.0], "1", "guess; constants of a manoeuvre differ more than those of a drive";
+        freedom: [f64; 3] = [1.0, 3.0, 10.0], "1", "guess; constants of a manoeuvre differ more than those of a drive";
     }
 
     /// When something is left that no cause accounts for.

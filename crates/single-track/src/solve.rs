@@ -6,9 +6,10 @@ use odometry::weighing::{Evidence, Named, covariance, name};
 
 use crate::car::Car;
 use crate::cause::causes;
+use crate::constants::Quantity;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::{Data, Fit, Prior, fit, sessions};
+use crate::fit::{Data, Fit, Prior, fit, refit, sessions, without};
 use crate::settings::SETTINGS;
 
 /// Drives with the constants fitted to them, and what was named.
@@ -21,14 +22,7 @@ pub(crate) struct Solved<'a> {
 }
 
 /// Fits drives and names causes.
-///
-/// `start` is where another fit of nearly the same drives ended.
-pub(crate) fn solve<'a>(
-    car: &Car,
-    references: &[Drive],
-    drives: &[&'a Drive],
-    start: Option<&[f64]>,
-) -> Result<Solved<'a>, CarError> {
+pub(crate) fn solve<'a>(car: &Car, references: &[Drive], drives: &[&'a Drive]) -> Result<Solved<'a>, CarError> {
     let data = Data::new(car, drives)?;
     let causes = causes(&data.constants);
     let short = || CarError::Short { windows: 0, length: SETTINGS.windows.length, needed: SETTINGS.windows.least };
@@ -40,23 +34,44 @@ pub(crate) fn solve<'a>(
         let between = DMatrix::from_diagonal(&scatter.component_mul(&scatter));
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
     }
-    let start = start.map_or_else(|| prior.mean.as_slice().to_vec(), <[f64]>::to_vec);
+    let mut start = prior.mean.as_slice().to_vec();
+    if let Some(k) = data.constants.iter().position(|c| c.quantity == Quantity::Slowness) {
+        start[k] += SETTINGS.fitting.slowness;
+    }
     let (fit, named) = weigh(&data, &prior, &causes, start).ok_or_else(short)?;
     Ok(Solved { data, causes, prior, fit, named })
+}
+
+impl<'a> Solved<'a> {
+    /// The same without one of its drives: constants and causes follow from the equations of the others, set up once more
+    /// where those lead.
+    pub(crate) fn without(&self, left: usize) -> Option<Self> {
+        let mut data = self.data.clone();
+        data.shown.remove(left);
+        let mut fit = without(&data, &self.prior, &self.fit, left);
+        let first = named_about(&data, &self.prior, &self.causes, &fit)?;
+        fit.theta = first.posterior.mean.as_slice().to_vec();
+        fit.sessions = sessions(&data, &fit.theta, fit.scales);
+        let named = named_about(&data, &self.prior, &self.causes, &fit)?;
+        Some(Self { data, causes: self.causes.clone(), prior: self.prior.clone(), fit, named })
+    }
 }
 
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
     let every: Vec<usize> = (0..causes.len()).collect();
     let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
-    let mut fit = fit(data, &wide, start)?;
-    let weighed = |fit: &Fit| {
-        let evidence = Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)?;
-        name(&evidence, &prior.covariance, causes)
-    };
-    let first = weighed(&fit)?;
-    fit.theta = first.posterior.mean.iter().copied().collect();
-    fit.sessions = sessions(data, &fit.theta, fit.scales);
-    let named = weighed(&fit)?;
+    let fit = fit(data, &wide, start)?;
+    let first = named_about(data, prior, causes, &fit)?;
+    // The equations of the wide fit hold about it only: the answer is fitted anew with what it names.
+    let set: Vec<usize> = first.chosen.iter().map(|w| w.cause).collect();
+    let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+    let fit = refit(data, &narrow, fit)?;
+    let named = named_about(data, prior, causes, &fit)?;
     Some((fit, named))
+}
+
+fn named_about(data: &Data<'_>, prior: &Prior, causes: &[Cause], fit: &Fit) -> Option<Named> {
+    let evidence = Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)?;
+    name(&evidence, &prior.covariance, causes)
 }
