@@ -66,6 +66,32 @@ pub struct Constant {
 }
 
 impl Constant {
+    /// Least and largest deviation.
+    pub(crate) fn bounds(&self) -> [f64; 2] {
+        let far = SETTINGS.fitting.farthest * (self.usual + self.sigma);
+        [if self.is_size() { -self.given } else { -far }, far]
+    }
+
+    /// Whether there is none below 0.
+    fn is_size(&self) -> bool {
+        use Quantity as Q;
+        matches!(
+            self.quantity,
+            Q::SteeringLag
+                | Q::Slowness
+                | Q::Play
+                | Q::FrontCompliance
+                | Q::RearCompliance
+                | Q::FrontInverseGrip
+                | Q::RearInverseGrip
+                | Q::DeadZone
+                | Q::BackEmf
+                | Q::Friction
+                | Q::Viscous
+                | Q::DriveLag
+        )
+    }
+
     /// The value at a deviation.
     pub fn value(&self, deviation: f64) -> f64 {
         if self.is_factor { self.given * deviation.exp() } else { self.given + deviation }

@@ -161,6 +161,7 @@ impl Problem for Driven<'_, '_> {
     fn parameters(&self, at: &Point) -> Vec<Parameter> {
         let of = |(value, c): (&f64, &Constant)| Parameter {
             longest: SETTINGS.fitting.longest,
+            bounds: c.bounds(),
             ..Parameter::unbounded(*value, c.usual)
         };
         at.theta.iter().zip(&self.data.constants).map(of).collect()

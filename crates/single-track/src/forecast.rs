@@ -172,7 +172,11 @@ pub(crate) fn following(
         so_far.slope = &so_far.slope * kept + new.slope;
         last = now;
         let deviation = so_far.deviation(&scatter)?;
-        let moved: Vec<f64> = theta.iter().zip(deviation.iter()).map(|(t, d)| t + d).collect();
+        let own = |((t, d), c): ((&f64, &f64), &Constant)| {
+            let [least, most] = c.bounds();
+            (t + d).clamp(least, most)
+        };
+        let moved: Vec<f64> = theta.iter().zip(deviation.iter()).zip(constants).map(own).collect();
         let laws = Laws::at(constants, &moved);
         let inputs = laws.inputs_between(said.shown.drive, from.saturating_sub(warm), from + ahead + 1);
         one(said.shown, &laws, &inputs, from, habit.past)

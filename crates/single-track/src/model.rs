@@ -137,7 +137,7 @@ impl Laws {
         let tan = steering.tan();
         let length = self.wheelbase;
         // Between the axles, or the car would not stand.
-        let front = (length - self.rear).max(RULES.tiny);
+        let front = (length - self.rear).max(RULES.least_share * length);
         let before = *s;
         let mut side_drag = 0.0;
         if self.lateral == Lateral::Kinematic {

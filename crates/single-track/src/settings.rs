@@ -24,6 +24,8 @@
         slow: f64 = 0.1, "m/s", "guess; slip angles are not defined at rest";
         /// Least compliance of a tyre: below it the step gives the kinematic car.
         least_compliance: f64 = 1e-4, "rad s²/m", "a hundredth of usual tyres'";
+        /// Least distance of the centre of mass from the front axle, share of the wheelbase.
+        least_share: f64 = 0.1, "1", "guess; no car stands on its front wheels alone";
         /// Shape factor C of the Pacejka tyre of the rival.
         pacejka_shape: f64 = 1.4, "1", "Pacejka, Tyre and Vehicle Dynamics: 1.3 to 1.65 for side force";
         /// Least distances and rates that count as above none.
@@ -70,6 +72,8 @@
         factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
         /// Sigma of the logarithm of that factor.
         width: f64 = 1.0, "1", "guess; a factor of e";
+        /// Farthest a constant may move, usual sizes and sigmas together.
+        farthest: f64 = 3.0, "1", "guess; normal priors leave a thousandth beyond";
         /// Longest step of a constant, usual sizes.
         longest: f64 = 1.0, "1", "guess";
     }
@@ -135,7 +139,7 @@
         /// Play of the steering.
         play: f64 = 0.05, "rad", "guess";
         /// Distances.
-        distance: f64 = 0.15, "share", "guess";
+        distance: f64 = 0.05, "share", "guess; a tape measure read at the wrong end";
         /// Place of the centre of mass.
         centre_of_mass: f64 = 0.01, "share", "guess; axle loads tell it, drives hardly do";
         /// Tyre compliance.

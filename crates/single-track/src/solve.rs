@@ -1,6 +1,6 @@
 //! From a car and its drives to fitted constants and named causes.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use odometry::Cause;
 use odometry::weighing::{Evidence, Named, covariance, name};
 
@@ -49,10 +49,12 @@ impl<'a> Solved<'a> {
         let mut data = self.data.clone();
         data.shown.remove(left);
         let mut fit = without(&data, &self.prior, &self.fit, left);
-        let first = named_about(&data, &self.prior, &self.causes, &fit)?;
+        let mut first = named_about(&data, &self.prior, &self.causes, &fit)?;
+        within(&data, &mut first);
         fit.theta = first.posterior.mean.as_slice().to_vec();
         fit.sessions = sessions(&data, &fit.theta, fit.scales);
-        let named = named_about(&data, &self.prior, &self.causes, &fit)?;
+        let mut named = named_about(&data, &self.prior, &self.causes, &fit)?;
+        within(&data, &mut named);
         Some(Self { data, causes: self.causes.clone(), prior: self.prior.clone(), fit, named })
     }
 }
@@ -67,8 +69,21 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
     let set: Vec<usize> = first.chosen.iter().map(|w| w.cause).collect();
     let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
     let fit = refit(data, &narrow, fit)?;
-    let named = named_about(data, prior, causes, &fit)?;
+    let mut named = named_about(data, prior, causes, &fit)?;
+    named.posterior.mean = DVector::from_column_slice(&fit.theta);
+    within(data, &mut named);
     Some((fit, named))
+}
+
+/// Keeps constants within what they can be.
+fn within(data: &Data<'_>, named: &mut Named) {
+    let Named { posterior, retuned, placebo, .. } = named;
+    for posterior in [Some(posterior), Some(retuned), placebo.as_mut().map(|(_, p)| p)].into_iter().flatten() {
+        for (k, c) in data.constants.iter().enumerate() {
+            let [least, most] = c.bounds();
+            posterior.mean[k] = posterior.mean[k].clamp(least, most);
+        }
+    }
 }
 
 fn named_about(data: &Data<'_>, prior: &Prior, causes: &[Cause], fit: &Fit) -> Option<Named> {
