@@ -60,8 +60,6 @@
 
     /// Fits of all constants.
     fitting: Fitting {
-        /// Time of the steering for a radian from which fits start: at none its effect has no slope.
-        slowness: f64 = 0.1, "s/rad", "servos of small cars";
         /// Rounds in which scales of errors and scatter of drives are estimated anew.
         rounds: usize = 2, "1", "guess";
         /// Linearisations of a round at most.

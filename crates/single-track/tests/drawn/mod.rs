@@ -4,18 +4,17 @@ use single_track::{Car, Case, Columns, Drive, Stated};
 
 /// What the recorded car has beside what its owner states.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Hidden {
-    pub centre: f64,
-    pub gain: f64,
-    pub encoder: f64,
-    pub gyro_scale: f64,
-    pub gyro_bias: f64,
-    pub lag: f64,
-    pub late: f64,
+pub(crate) struct Hidden {
+    pub(crate) centre: f64,
+    pub(crate) gain: f64,
+    pub(crate) encoder: f64,
+    pub(crate) gyro_scale: f64,
+    pub(crate) gyro_bias: f64,
+    pub(crate) lag: f64,
 }
 
 /// The car as its owner states it.
-pub fn car() -> Car {
+pub(crate) fn car() -> Car {
     let mut car = Car::new("drawn", 0.25);
     car.wheelbase = Stated::of(0.25, 0.001);
     car.full_steering = Stated::of(0.4, 0.008);
@@ -48,7 +47,6 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
         let sweep = if level as i64 % 2 == 0 { 0.0 } else { 0.3 * (2.0 * t).sin() };
         (throttle, (0.6 * (2.1 * level + phase).cos() + sweep).clamp(-1.0, 1.0))
     };
-    let mut reports: Vec<[f64; 2]> = Vec::new();
     for k in 0..40_000_u32 {
         let t = 1e-3 * f64::from(k);
         let (throttle, steering) = command(t);
@@ -60,12 +58,7 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
         x += 1e-3 * v * yaw.cos();
         y += 1e-3 * v * yaw.sin();
         yaw += 1e-3 * rate;
-        reports.push([rate, v]);
         if k % 20 == 0 {
-            // The car's channels of a row are those of a time ago.
-            let ago = (t - hidden.late).max(0.0);
-            let [rate, v] = reports[((ago * 1e3).round() as usize).min(reports.len() - 1)];
-            let (throttle, steering) = command(ago);
             out.time.push(t);
             let place = [x + 0.1 * yaw.cos(), y + 0.1 * yaw.sin(), yaw];
             out.pose.push([
@@ -83,7 +76,7 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
 }
 
 /// Three drives of a car.
-pub fn case(hidden: Hidden, seed: u64) -> Case {
+pub(crate) fn case(hidden: Hidden, seed: u64) -> Case {
     let drives = (0..3).map(|k| drive(&format!("run-{k}"), hidden, seed + k)).collect();
     Case { car: car(), references: Vec::new(), recordings: drives }
 }
