@@ -28,7 +28,7 @@ pub const STEERING_CENTRE: CauseSpec = CauseSpec {
     unit: "rad",
     recognised: "Straight commands give a curve, and left and right circles differ",
     revealed_by: "straight drives, and circles to both sides",
-    resembles: "gyro_bias where only a gyro shows the turning",
+    resembles: "car_gyro_bias where only a gyro shows the turning",
 };
 
 /// Steering angle out of proportion to the command.
@@ -272,7 +272,7 @@ pub const CAR_CLOCK_DELAY: CauseSpec = CauseSpec {
 
 /// Scale of the gyro.
 pub const GYRO_SCALE: CauseSpec = CauseSpec {
-    id: "gyro_scale",
+    id: "car_gyro_scale",
     name: "scale of the gyro",
     robots: ROBOTS,
     meaning: "The gyro shows turning by a factor: its range, unit or mounting.",
@@ -285,7 +285,7 @@ pub const GYRO_SCALE: CauseSpec = CauseSpec {
 
 /// Bias of the gyro.
 pub const GYRO_BIAS: CauseSpec = CauseSpec {
-    id: "gyro_bias",
+    id: "car_gyro_bias",
     name: "bias of the gyro",
     robots: ROBOTS,
     meaning: "The gyro shows turning of a car at rest.",
@@ -312,7 +312,7 @@ pub const GYRO_DELAY: CauseSpec = CauseSpec {
 
 /// Speed by the encoder: wheel radius, gear or counts.
 pub const ENCODER_SCALE: CauseSpec = CauseSpec {
-    id: "encoder_scale",
+    id: "car_encoder_scale",
     name: "speed by the encoder: wheel radius, gear or counts",
     robots: ROBOTS,
     meaning: "The encoder's speed is that of the ground by a factor: radius of the wheels, gear, or \

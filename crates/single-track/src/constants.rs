@@ -99,6 +99,7 @@ impl Constant {
 }
 
 /// All constants of a car.
+#[expect(clippy::too_many_lines, reason = "a table")]
 pub fn constants(car: &Car) -> Vec<Constant> {
     use Quantity as Q;
     let (known, usual, scatter) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter);

@@ -126,7 +126,7 @@ impl Drive {
             )));
         }
         for (what, column) in [("throttle", &table.throttle), ("steering command", &table.steering)] {
-            if let Some(row) = column.iter().position(|u| !(u.abs() <= 1.0 + RULES.command)) {
+            if let Some(row) = column.iter().position(|u| u.is_nan() || u.abs() > 1.0 + RULES.command) {
                 return Err(wrong(format!(
                     "row {}: {what} is {}, beyond ±1; state its range in [columns], or cut the drive there",
                     row + 1,

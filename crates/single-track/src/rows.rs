@@ -223,7 +223,9 @@ impl<'a> Shown<'a> {
         }
         // A law that runs away is as wrong as can be, and still a number.
         let ceiling = RULES.ceiling;
-        out.iter_mut().for_each(|e| *e = if e.is_nan() { ceiling } else { e.clamp(-ceiling, ceiling) });
+        for e in &mut out {
+            *e = if e.is_nan() { ceiling } else { e.clamp(-ceiling, ceiling) };
+        }
         out
     }
 

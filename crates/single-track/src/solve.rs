@@ -39,7 +39,7 @@ pub(crate) fn solve<'a>(car: &Car, references: &[Drive], drives: &[&'a Drive]) -
     Ok(Solved { data, causes, prior, fit, named })
 }
 
-impl<'a> Solved<'a> {
+impl Solved<'_> {
     /// The same without one of its drives: constants and causes follow from the equations of the others, set up once more
     /// where those lead.
     pub(crate) fn without(&self, left: usize) -> Option<Self> {

@@ -1,5 +1,7 @@
 //! Robot files and tables: what is read, and what is refused in which words.
 
+use std::fmt::Write as _;
+
 use single_track::Drive;
 use single_track::file::RobotFile;
 
@@ -10,7 +12,7 @@ fn table() -> String {
     for k in 0..300_u32 {
         let t = 0.01 * f64::from(k);
         let (clock, command) = if k < 25 { (0.0, 0.0) } else { (50.0 + 0.1 * f64::from(k / 10), 0.2) };
-        out += &format!("{t:.2},{t},0.0,0.0,{command},0.1,1,{clock},0.0,{command}\n");
+        _ = writeln!(out, "{t:.2},{t},0.0,0.0,{command},0.1,1,{clock},0.0,{command}");
     }
     out
 }

@@ -122,6 +122,7 @@ impl RobotFile {
     ///
     /// # Errors
     /// Syntax, unknown keys, and numbers that are missing or cannot be, with what to do.
+    #[expect(clippy::too_many_lines, reason = "one check after the other")]
     pub fn parse(file: &str, text: &str) -> Result<Self, CarError> {
         let wrong = |what: String| CarError::Robot { robot: file.to_owned(), what };
         let read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
