@@ -8,8 +8,17 @@ use syn::buffer::{Cursor, TokenBuffer};
 use syn::visit::{self, Visit};
 
 /// Crates whose numbers decide what a verdict says.
-const CRATES: [&str; 8] =
-    ["inference", "torque-driven", "speed-driven", "command-driven", "odometry", "diagnosis", "weak-form", "rehearsal"];
+const CRATES: [&str; 9] = [
+    "inference",
+    "torque-driven",
+    "speed-driven",
+    "command-driven",
+    "odometry",
+    "single-track",
+    "diagnosis",
+    "weak-form",
+    "rehearsal",
+];
 
 /// Numbers of formulas, and of units: s in a minute, degrees in half a turn, %, kilo, nano.
 const FORMULAS: [f64; 12] = [0.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 60.0, 180.0, 100.0, 1e3, 1e9];

@@ -5,6 +5,7 @@
 //! ```
 
 pub mod answers;
+pub mod car;
 pub mod case_folder;
 pub mod check;
 pub mod envelope;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use odometry::file::RobotFile;
-use odometry::{Case, Drive, diagnosis, left_out};
+use odometry::{Case, diagnosis, left_out};
 use serde_json::{Value, json};
 use verdict::Diagnosis;
 
@@ -64,6 +64,25 @@ pub fn read(
     let Some(file) = robot(&name)? else { return Ok(None) };
 
     let mut ignored = Vec::new();
+    let (drives, files) =
+        drives(folder, [reference, recordings], &mut ignored, |name, text| Ok(file.drive(name, text)?))?;
+    let [references, recordings] = drives;
+    if recordings.is_empty() {
+        bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
+    }
+    Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, robot: name, files, ignored }))
+}
+
+/// Drives and names of files: of the references, then of the recordings.
+type Parts<D> = ([Vec<D>; 2], [Vec<String>; 2]);
+
+/// Drives of references and recordings, of a case folder or of paths, read by `drive` from name and text.
+pub(crate) fn drives<D>(
+    folder: Option<&Path>,
+    [reference, recordings]: [&[PathBuf]; 2],
+    ignored: &mut Vec<String>,
+    drive: impl Fn(&str, &str) -> Result<D>,
+) -> Result<Parts<D>> {
     let parts: [Vec<PathBuf>; 2] = match folder {
         Some(folder) => {
             let [reference, recordings, _] = folders(folder);
@@ -71,21 +90,17 @@ pub fn read(
         }
         None => [reference.to_vec(), recordings.to_vec()],
     };
-    let mut drives: [Vec<Drive>; 2] = Default::default();
+    let mut drives = [Vec::new(), Vec::new()];
     let mut files: [Vec<String>; 2] = Default::default();
     for (part, paths) in parts.iter().enumerate() {
-        for path in tables(paths, &mut ignored)? {
+        for path in tables(paths, ignored)? {
             let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
             let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-            drives[part].push(file.drive(&stem, &text)?);
+            drives[part].push(drive(&stem, &text)?);
             files[part].push(path.display().to_string());
         }
     }
-    let [references, recordings] = drives;
-    if recordings.is_empty() {
-        bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
-    }
-    Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, robot: name, files, ignored }))
+    Ok((drives, files))
 }
 
 /// Tables below paths, sorted within each folder.

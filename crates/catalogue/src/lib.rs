@@ -2,8 +2,8 @@
 //!
 //! Two kinds of data meet here: the effects of the plants, each with its law in a file of `robot-model`, and causes that
 //! have no law in a plant: those of command-driven robots ([`command_driven`]), of which neither torques nor currents are
-//! known, of speed-driven robots ([`speed_driven`]), of robots whose wheel motion is compared with a pose ([`odometry`]), and
-//! the answers that name no cause ([`answer`]). A name may be both: the lag of a motor is an effect of the
+//! known, of speed-driven robots ([`speed_driven`]), of robots whose wheel motion is compared with a pose ([`odometry`]), of
+//! cars ([`car`]), and the answers that name no cause ([`answer`]). A name may be both: the lag of a motor is an effect of the
 //! torque-driven plant, and of a command-driven robot it is seen between command and wheel speed.
 
 use robot_model::Effect;
@@ -11,6 +11,7 @@ use robot_model::effect::{EffectSpec, LoadTerm};
 use robot_model::effects::catalogue;
 
 pub mod answer;
+pub mod car;
 mod cause;
 pub mod command_driven;
 pub mod odometry;
@@ -34,10 +35,10 @@ pub fn effects() -> impl Iterator<Item = &'static EffectSpec> {
     catalogue::<f64>().into_iter().map(Effect::spec)
 }
 
-/// The causes that have no law in a plant: of command-driven robots in causal order, of speed-driven ones, of odometry, then
-/// the answers that name none.
+/// The causes that have no law in a plant: of command-driven robots in causal order, of speed-driven ones, of odometry, of
+/// cars, then the answers that name none.
 pub fn causes() -> impl Iterator<Item = &'static CauseSpec> {
-    command_driven::ALL.into_iter().chain(speed_driven::ALL).chain(odometry::ALL).chain(answer::ALL)
+    command_driven::ALL.into_iter().chain(speed_driven::ALL).chain(odometry::ALL).chain(car::ALL).chain(answer::ALL)
 }
 
 /// Every name once: effects first.

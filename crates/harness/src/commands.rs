@@ -14,7 +14,7 @@ pub struct Elsewhere {
 }
 
 /// All of them. The programs themselves say the same sentences; their tests compare.
-pub const ELSEWHERE: [Elsewhere; 8] = [
+pub const ELSEWHERE: [Elsewhere; 9] = [
     proof(
         "blind",
         "Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders",
@@ -23,6 +23,7 @@ pub const ELSEWHERE: [Elsewhere; 8] = [
     proof("mujoco", "Run exported models in MuJoCo on held-out inputs and compare with the truth"),
     proof("next", "Ask whether it pays to follow the advice on the next drive"),
     proof("odometry", "Calibrate open recordings of wheel counts and poses, and forecast sessions left out"),
+    proof("car", "Forecast left-out drives of an open 1:10 car from throttle and steering, beside classical models"),
     proof("law", "Leave a name of the catalogue out, and ask what law is found in its place"),
     proof("bag", "Measure time and memory of `lacuna check` on a large bag"),
     Elsewhere {

@@ -13,7 +13,7 @@ pub struct Cause {
     /// The wheel that it is about, or which distance.
     pub of: Option<String>,
     /// Directions in which it moves the constants: weights by constant; each with its usual size, one sigma.
-    pub(crate) directions: Vec<(Vec<(usize, f64)>, f64)>,
+    pub directions: Vec<(Vec<(usize, f64)>, f64)>,
 }
 
 impl Cause {
@@ -23,7 +23,7 @@ impl Cause {
     }
 
     /// Indices of the constants that it moves, each once.
-    pub(crate) fn moves(&self) -> Vec<usize> {
+    pub fn moves(&self) -> Vec<usize> {
         let mut out: Vec<usize> = self.directions.iter().flat_map(|(d, _)| d.iter().map(|(k, _)| *k)).collect();
         out.sort_unstable();
         out.dedup();

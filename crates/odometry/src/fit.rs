@@ -29,23 +29,28 @@ impl Prior {
 
 /// Normal equations of a session: curvature, slope and cost of its own windows.
 #[derive(Debug, Clone)]
-pub(crate) struct Session {
-    pub(crate) curvature: DMatrix<f64>,
-    pub(crate) slope: DVector<f64>,
-    pub(crate) cost: f64,
+pub struct Session {
+    /// Second derivatives of the cost by the constants, nats per unit².
+    pub curvature: DMatrix<f64>,
+    /// First derivatives, nats per unit.
+    pub slope: DVector<f64>,
+    /// Cost, nats.
+    pub cost: f64,
 }
 
 /// A session whose deviation is eliminated.
-pub(crate) struct Marginal {
-    pub(crate) curvature: DMatrix<f64>,
-    pub(crate) slope: DVector<f64>,
+pub struct Marginal {
+    /// Second derivatives of its cost by the constants, nats per unit².
+    pub curvature: DMatrix<f64>,
+    /// First derivatives, nats per unit.
+    pub slope: DVector<f64>,
     /// Negative log-likelihood, nats, but for what all scatters share.
-    pub(crate) cost: f64,
+    pub cost: f64,
 }
 
 impl Session {
     /// The session's own most probable deviation from the constants about which it is linearised: `−S M⁻¹ S g`.
-    fn deviation(&self, scatter: &DVector<f64>) -> Option<DVector<f64>> {
+    pub fn deviation(&self, scatter: &DVector<f64>) -> Option<DVector<f64>> {
         let s = DMatrix::from_diagonal(scatter);
         let n = scatter.len();
         let cholesky = (DMatrix::identity(n, n) + &s * &self.curvature * &s).cholesky()?;
@@ -53,7 +58,7 @@ impl Session {
     }
 
     /// Without its deviation, of sigmas `scatter`: with `S = diag(scatter)`, `M = I + S H S`.
-    pub(crate) fn marginal(&self, scatter: &DVector<f64>) -> Option<Marginal> {
+    pub fn marginal(&self, scatter: &DVector<f64>) -> Option<Marginal> {
         let s = DMatrix::from_diagonal(scatter);
         let sh = &s * &self.curvature;
         let sg = &s * &self.slope;

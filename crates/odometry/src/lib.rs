@@ -35,6 +35,14 @@ mod weigh;
 mod wheel;
 mod windows;
 
+/// Sessions with deviations of their own, evidence of causes as wider priors, and their naming: for every comparison whose
+/// sessions give normal equations.
+pub mod weighing {
+    pub use crate::fit::{Marginal, Session};
+    pub use crate::name::{Named, Weighed, covariance, name};
+    pub use crate::weigh::{Evidence, Posterior};
+}
+
 pub use answer::diagnosis;
 pub use case::Case;
 pub use cause::Cause;

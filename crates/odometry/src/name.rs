@@ -9,31 +9,32 @@ use inference::evidence::{is_within_odds, logistic};
 
 /// A cause with what speaks for it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Weighed {
+pub struct Weighed {
     /// Index among the causes.
-    pub(crate) cause: usize,
+    pub cause: usize,
     /// Probability that it is part of the truth.
-    pub(crate) probability: f64,
+    pub probability: f64,
     /// Causes that stand for it within the odds, itself first.
-    pub(crate) class: Vec<usize>,
+    pub class: Vec<usize>,
 }
 
 /// What was named.
 #[derive(Debug, Clone)]
-pub(crate) struct Named {
+pub struct Named {
     /// Causes that were named, most probable first.
-    pub(crate) chosen: Vec<Weighed>,
+    pub chosen: Vec<Weighed>,
     /// Probability of every cause that was not.
-    pub(crate) others: Vec<(usize, f64)>,
-    /// Constants with these causes, and with none.
-    pub(crate) posterior: Posterior,
-    pub(crate) retuned: Posterior,
+    pub others: Vec<(usize, f64)>,
+    /// Constants with these causes.
+    pub posterior: Posterior,
+    /// Constants with none.
+    pub retuned: Posterior,
     /// Constants with the best wrong cause in the place of the first.
-    pub(crate) placebo: Option<(usize, Posterior)>,
+    pub placebo: Option<(usize, Posterior)>,
 }
 
 /// Names causes by evidence: one joins while its log odds pass the threshold, and leaves when it no longer earns its place.
-pub(crate) fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
+pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
     let rules = SETTINGS.naming;
     let score = |set: &[usize]| evidence.of(&covariance(known, causes, set)).unwrap_or(f64::NEG_INFINITY);
     let mut set: Vec<usize> = Vec::new();
@@ -101,7 +102,7 @@ fn less(set: &[usize], cause: usize) -> Vec<usize> {
 }
 
 /// What is known of the constants where these causes may be there.
-pub(crate) fn covariance(known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> DMatrix<f64> {
+pub fn covariance(known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> DMatrix<f64> {
     let mut out = known.clone();
     for (direction, usual) in set.iter().flat_map(|&c| &causes[c].directions) {
         for &(i, a) in direction {

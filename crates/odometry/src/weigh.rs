@@ -10,30 +10,27 @@ use crate::fit::Session;
 
 /// What the sessions say together.
 #[derive(Debug, Clone)]
-pub(crate) struct Evidence {
+pub struct Evidence {
     curvature: DMatrix<f64>,
     /// Slope of the cost at the prior's mean.
     slope: DVector<f64>,
     mean: DVector<f64>,
     /// Cost at the prior's mean, nats.
-    pub(crate) base: f64,
+    pub base: f64,
 }
 
 /// Constants as a prior and the sessions have them together.
 #[derive(Debug, Clone)]
-pub(crate) struct Posterior {
-    pub(crate) mean: DVector<f64>,
-    pub(crate) covariance: DMatrix<f64>,
+pub struct Posterior {
+    /// Most probable values.
+    pub mean: DVector<f64>,
+    /// Covariance about them.
+    pub covariance: DMatrix<f64>,
 }
 
 impl Evidence {
     /// Of sessions linearised at `theta`, seen from the prior's mean.
-    pub(crate) fn new(
-        theta: &[f64],
-        sessions: &[Session],
-        scatter: &DVector<f64>,
-        mean: &DVector<f64>,
-    ) -> Option<Self> {
+    pub fn new(theta: &[f64], sessions: &[Session], scatter: &DVector<f64>, mean: &DVector<f64>) -> Option<Self> {
         let n = theta.len();
         let mut out = Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
         let d = mean - DVector::from_column_slice(theta);
@@ -55,7 +52,7 @@ impl Evidence {
     }
 
     /// Evidence of a prior covariance over that of none, nats.
-    pub(crate) fn of(&self, covariance: &DMatrix<f64>) -> Option<f64> {
+    pub fn of(&self, covariance: &DMatrix<f64>) -> Option<f64> {
         let (l, inner) = self.factors(covariance)?;
         let pulled = l.transpose() * &self.slope;
         let half_log_determinant: f64 = inner.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
@@ -63,7 +60,7 @@ impl Evidence {
     }
 
     /// Constants under a prior covariance.
-    pub(crate) fn posterior(&self, covariance: &DMatrix<f64>) -> Option<Posterior> {
+    pub fn posterior(&self, covariance: &DMatrix<f64>) -> Option<Posterior> {
         let (l, inner) = self.factors(covariance)?;
         let covariance = &l * inner.solve(&l.transpose());
         Some(Posterior { mean: &self.mean - &covariance * &self.slope, covariance })

@@ -7,6 +7,7 @@ use harness::{binary, child, document, exit_code, output};
 
 mod bag;
 mod blind;
+mod car;
 mod evidence;
 mod law;
 mod mujoco;
@@ -35,6 +36,8 @@ enum Command {
     Next(next::Args),
     /// Calibrate open recordings of wheel counts and poses, and forecast sessions left out.
     Odometry(odometry::Args),
+    /// Forecast left-out drives of an open 1:10 car from throttle and steering, beside classical models.
+    Car(car::Args),
     /// Leave a name of the catalogue out, and ask what law is found in its place.
     Law(law::Args),
     /// Measure time and memory of `lacuna check` on a large bag.
@@ -50,6 +53,7 @@ pub fn run() -> ExitCode {
         Command::Mujoco(args) => mujoco::run(&args),
         Command::Next(args) => next::run(&args),
         Command::Odometry(args) => odometry::run(&args),
+        Command::Car(args) => car::run(&args),
         Command::Law(args) => law::run(&args),
         Command::Bag(args) => bag::run(&args),
     })

@@ -154,7 +154,7 @@ fn sections(examined: &[Examined]) -> Vec<Section> {
     out
 }
 
-fn word(answer: Answer) -> &'static str {
+pub(crate) fn word(answer: Answer) -> &'static str {
     match answer {
         Answer::Nothing => "nothing is missing",
         Answer::Retune => "re-tune",

@@ -9,7 +9,6 @@ use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
-use case_files::odometry::OdometryCase;
 use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::{Options, SearchForLaw};
@@ -32,6 +31,8 @@ Examples:
   lacuna diagnose --robot husky-drive --recordings drives/ --heldout unseen/
   lacuna diagnose --robot my-differential.toml --recordings drives/
         wheel counts and a pose, with a robot file of kind = \"odometry\"
+  lacuna diagnose --robot my-car.toml --recordings drives/
+        throttle, steering, pose or gyro and encoder, with one of kind = \"car\"
 
 A case folder:
   robot.toml    or robot.json; or name a robot with --robot
@@ -206,7 +207,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
     if let Some(case) = odometry::case(&args.input)? {
-        return odometry_verdict(args, &case, progress);
+        return verdict_of_columns(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
     let options = Options {
@@ -258,17 +259,18 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     Ok(outcome(diagnosis.verdict, args.fail_on, &case.lost_of_recordings()))
 }
 
-/// Diagnoses a case of which wheel motion and pose are compared.
-fn odometry_verdict(args: &Args, case: &OdometryCase, progress: Progress) -> Result<Outcome> {
+/// Diagnoses a case whose robot file names its columns.
+fn verdict_of_columns(args: &Args, case: &odometry::Case, progress: Progress) -> Result<Outcome> {
     let diagnosis = case.diagnose(&|what| progress.stage(what))?;
     drop(progress);
 
-    odometry::warn_of_unused(&[
+    let asked = [
         (args.report.is_some(), "--report"),
         (args.mcap.is_some(), "--mcap"),
         (args.predictions.is_some(), "--predictions"),
         (args.next, "--next"),
-    ]);
+    ];
+    odometry::warn_of_unused(case.kind(), &asked);
     if let Some(file) = &args.picture {
         let svg = ::report::picture::svg(&diagnosis)?;
         std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
@@ -277,7 +279,7 @@ fn odometry_verdict(args: &Args, case: &OdometryCase, progress: Progress) -> Res
         emit_json(target, &case.envelope(&diagnosis)?)?;
     }
     if args.json.as_deref() != Some("-") {
-        emit(&diagnosis_text::render(&diagnosis, &[], &case.ignored, None))?;
+        emit(&diagnosis_text::render(&diagnosis, &[], case.ignored(), None))?;
     }
     Ok(outcome(diagnosis.verdict, args.fail_on, &[]))
 }

@@ -1,30 +1,89 @@
-//! Cases of which wheel motion and a pose are compared, as `lacuna diagnose` takes them.
+//! Cases of robots whose files name their columns themselves, as `lacuna diagnose` takes them: wheel motion beside a pose, and
+//! cars.
 
 use anyhow::{Result, bail};
+use case_files::car::{self, CarCase};
 use case_files::odometry::{self, OdometryCase};
+use serde_json::Value;
+use verdict::Diagnosis;
 
 use super::diagnose::Input;
 use crate::console::warning;
 
-/// The case that the arguments name, if its robot is of this kind.
-pub(crate) fn case(input: &Input) -> Result<Option<OdometryCase>> {
+/// A case of one of these kinds.
+pub(crate) enum Case {
+    /// Of kind odometry.
+    Odometry(OdometryCase),
+    /// Of kind car.
+    Car(Box<CarCase>),
+}
+
+impl Case {
+    /// Its kind, as robot files write it.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Odometry(_) => "odometry",
+            Self::Car(_) => "car",
+        }
+    }
+
+    fn robot(&self) -> &str {
+        match self {
+            Self::Odometry(case) => &case.robot,
+            Self::Car(case) => &case.robot,
+        }
+    }
+
+    /// Other things in the folders, which were not read.
+    pub(crate) fn ignored(&self) -> &[String] {
+        match self {
+            Self::Odometry(case) => &case.ignored,
+            Self::Car(case) => &case.ignored,
+        }
+    }
+
+    /// Diagnoses the case.
+    pub(crate) fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        match self {
+            Self::Odometry(case) => case.diagnose(progress),
+            Self::Car(case) => case.diagnose(progress),
+        }
+    }
+
+    /// A diagnosis with what it was made from, as JSON.
+    pub(crate) fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
+        match self {
+            Self::Odometry(case) => case.envelope(diagnosis),
+            Self::Car(case) => case.envelope(diagnosis),
+        }
+    }
+}
+
+/// The case that the arguments name, if its robot is of one of these kinds.
+pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
     let parts = [input.reference.as_slice(), input.recordings.as_slice()];
-    let case = odometry::read(input.case.as_deref(), input.robot.as_deref(), parts)?;
-    if let (Some(case), Some(mapping)) = (&case, &input.mapping) {
+    let (folder, robot) = (input.case.as_deref(), input.robot.as_deref());
+    let case = match car::read(folder, robot, parts)? {
+        Some(case) => Some(Case::Car(Box::new(case))),
+        None => odometry::read(folder, robot, parts)?.map(Case::Odometry),
+    };
+    let Some(case) = case else { return Ok(None) };
+    let kind = case.kind();
+    if let Some(mapping) = &input.mapping {
         bail!(
-            "robot '{}' is of kind odometry and names its columns itself, under [columns]; leave out --mapping {mapping}",
-            case.robot
+            "robot '{}' is of kind {kind} and names its columns itself, under [columns]; leave out --mapping {mapping}",
+            case.robot()
         );
     }
-    if case.is_some() && (!input.simulation.is_empty() || !input.heldout.is_empty()) {
-        bail!("robots of kind odometry take --reference and --recordings only; leave out --simulation and --heldout");
+    if !input.simulation.is_empty() || !input.heldout.is_empty() {
+        bail!("robots of kind {kind} take --reference and --recordings only; leave out --simulation and --heldout");
     }
-    Ok(case)
+    Ok(Some(case))
 }
 
 /// Says what was asked for that such a diagnosis does not write yet.
-pub(crate) fn warn_of_unused(asked: &[(bool, &str)]) {
+pub(crate) fn warn_of_unused(kind: &str, asked: &[(bool, &str)]) {
     for (_, option) in asked.iter().filter(|(is, _)| *is) {
-        warning(&format!("a diagnosis of kind odometry does not write what {option} asks for; use --json"));
+        warning(&format!("a diagnosis of kind {kind} does not write what {option} asks for; use --json"));
     }
 }

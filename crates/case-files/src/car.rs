@@ -1,0 +1,87 @@
+//! Cases of cars: robot files of `kind = "car"`, tables of their drives.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use serde_json::{Value, json};
+use single_track::file::RobotFile;
+use single_track::{Case, diagnosis, examine};
+use verdict::Diagnosis;
+
+use crate::case_folder::robot_of;
+use crate::envelope::Program;
+use crate::odometry::drives;
+
+/// Version of the JSON of such a case.
+const FORMAT: u32 = 1;
+
+/// A case with what was read for it.
+#[derive(Debug)]
+pub struct CarCase {
+    /// The car and its drives.
+    pub case: Case,
+    /// The robot file.
+    pub robot: String,
+    /// Files of the references, then of the recordings.
+    pub files: [Vec<String>; 2],
+    /// Other things in the folders, which were not read.
+    pub ignored: Vec<String>,
+}
+
+/// The case of a folder, or of a robot with files, if its robot is a car.
+///
+/// # Errors
+/// A robot file or tables that cannot be read, or hold what no car can have.
+pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 2]) -> Result<Option<CarCase>> {
+    let name = match (robot, folder) {
+        (Some(name), _) => name.to_owned(),
+        // What is wrong with a folder without a robot is said where other kinds are read.
+        (None, Some(folder)) => match robot_of(folder) {
+            Ok(path) => path.display().to_string(),
+            Err(_) => return Ok(None),
+        },
+        (None, None) => return Ok(None),
+    };
+    if !Path::new(&name).is_file() {
+        return Ok(None);
+    }
+    let text = std::fs::read_to_string(&name).with_context(|| format!("cannot read robot file '{name}'"))?;
+    if !RobotFile::is_one(&text) {
+        return Ok(None);
+    }
+    let file = RobotFile::parse(&name, &text)?;
+    let mut ignored = Vec::new();
+    let (drives, files) = drives(folder, parts, &mut ignored, |name, text| Ok(file.drive(name, text)?))?;
+    let [references, recordings] = drives;
+    if recordings.is_empty() {
+        bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files with --recordings");
+    }
+    Ok(Some(CarCase { case: Case { car: file.car, references, recordings }, robot: name, files, ignored }))
+}
+
+impl CarCase {
+    /// Diagnoses the case, and forecasts what is left out of the fit in turn.
+    ///
+    /// # Errors
+    /// Drives that do not determine an answer.
+    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        let (findings, table) = examine(&self.case, progress)?;
+        Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
+    }
+
+    /// A diagnosis with what it was made from, as JSON.
+    ///
+    /// # Errors
+    /// A number that JSON cannot hold.
+    pub fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
+        Ok(json!({
+            "format": FORMAT,
+            "kind": "car",
+            "program": Program::default(),
+            "robot": self.robot,
+            "sources": { "reference": self.files[0], "recordings": self.files[1] },
+            "ignored_files": self.ignored,
+            "diagnosis": diagnosis,
+        }))
+    }
+}

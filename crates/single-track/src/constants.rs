@@ -1,0 +1,485 @@
+//! The constants of a car on which its motion and its reports depend, and how well they are known.
+
+use catalogue::{CauseSpec, car as spec};
+
+use crate::car::{Car, Stated};
+use crate::model::{Lateral, Laws};
+use crate::settings::SETTINGS;
+
+/// What a constant is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "their names and units stand in the table of constants")]
+pub enum Quantity {
+    FullSteering,
+    Centre,
+    Curve,
+    Asymmetry,
+    SteeringDelay,
+    SteeringLag,
+    Slowness,
+    Play,
+    Wheelbase,
+    CentreOfMass,
+    Gyration,
+    FrontCompliance,
+    RearCompliance,
+    FrontInverseGrip,
+    RearInverseGrip,
+    DriveGain,
+    DeadZone,
+    BackEmf,
+    Friction,
+    Viscous,
+    DriveLag,
+    PointX,
+    PointY,
+    Direction,
+    Clock,
+    GyroScale,
+    GyroBias,
+    GyroDelay,
+    EncoderScale,
+    EncoderDelay,
+}
+
+/// A constant: a deviation `θ` from what is given, as a factor `e^θ` or as a sum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constant {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its name.
+    pub name: &'static str,
+    /// Unit of its value.
+    pub unit: &'static str,
+    /// Its value as stated, or as usual.
+    pub given: f64,
+    /// Whether the deviation is the logarithm of a factor.
+    pub is_factor: bool,
+    /// One sigma of what is known of the deviation.
+    pub sigma: f64,
+    /// One sigma of the deviation that it has as a cause.
+    pub usual: f64,
+    /// One sigma by which drives differ.
+    pub scatter: f64,
+    /// The cause that it stands for.
+    pub cause: &'static CauseSpec,
+}
+
+impl Constant {
+    /// Least and largest deviation.
+    pub(crate) fn bounds(&self) -> [f64; 2] {
+        let far = SETTINGS.fitting.farthest * (self.usual + self.sigma);
+        [if self.is_size() { -self.given } else { -far }, far]
+    }
+
+    /// Whether there is none below 0.
+    fn is_size(&self) -> bool {
+        use Quantity as Q;
+        matches!(
+            self.quantity,
+            Q::SteeringLag
+                | Q::Slowness
+                | Q::Play
+                | Q::FrontCompliance
+                | Q::RearCompliance
+                | Q::FrontInverseGrip
+                | Q::RearInverseGrip
+                | Q::DeadZone
+                | Q::BackEmf
+                | Q::Friction
+                | Q::Viscous
+                | Q::DriveLag
+        )
+    }
+
+    /// The value at a deviation.
+    pub fn value(&self, deviation: f64) -> f64 {
+        if self.is_factor { self.given * deviation.exp() } else { self.given + deviation }
+    }
+}
+
+/// All constants of a car.
+#[expect(clippy::too_many_lines, reason = "a table")]
+pub fn constants(car: &Car) -> Vec<Constant> {
+    use Quantity as Q;
+    let (known, usual, scatter) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter);
+    let mut out = Vec::new();
+    let mut add = |quantity, name, unit, is_factor: bool, stated: Stated, usual, scatter, cause| {
+        let sigma = if is_factor { stated.share() } else { stated.sigma };
+        out.push(Constant { quantity, name, unit, given: stated.value, is_factor, sigma, usual, scatter, cause });
+    };
+    let none = |sigma: f64| Stated::usual(0.0, sigma);
+    let usually = |[value, share]: [f64; 2]| Stated::usual(value, value * share);
+    let flat = |[value, sigma]: [f64; 2]| Stated::usual(value, sigma);
+
+    add(
+        Q::FullSteering,
+        "steering angle at full command",
+        "rad",
+        true,
+        car.full_steering,
+        usual.gain,
+        scatter.gain,
+        &spec::STEERING_COMMAND_GAIN,
+    );
+    add(
+        Q::Centre,
+        "steering angle at no command",
+        "rad",
+        false,
+        car.centre,
+        usual.centre,
+        scatter.centre,
+        &spec::STEERING_CENTRE,
+    );
+    add(
+        Q::Curve,
+        "bend of the steering map, odd",
+        "rad",
+        false,
+        none(known.curve),
+        usual.curve,
+        scatter.curve,
+        &spec::STEERING_MAP,
+    );
+    add(
+        Q::Asymmetry,
+        "bend of the steering map, even",
+        "rad",
+        false,
+        none(known.curve),
+        usual.curve,
+        scatter.curve,
+        &spec::STEERING_MAP,
+    );
+    add(
+        Q::SteeringDelay,
+        "dead time of the steering",
+        "s",
+        false,
+        car.steering_delay,
+        usual.delay,
+        scatter.delay,
+        &spec::STEERING_DELAY,
+    );
+    add(
+        Q::SteeringLag,
+        "time constant of the steering",
+        "s",
+        false,
+        car.steering_lag,
+        usual.delay,
+        scatter.delay,
+        &spec::STEERING_LAG,
+    );
+    add(
+        Q::Slowness,
+        "time of the steering for a radian",
+        "s/rad",
+        false,
+        none(known.slowness),
+        usual.slowness,
+        scatter.delay,
+        &spec::STEERING_RATE,
+    );
+    add(
+        Q::Play,
+        "play of the steering",
+        "rad",
+        false,
+        none(known.play),
+        usual.play,
+        scatter.curve,
+        &spec::STEERING_PLAY,
+    );
+    add(Q::Wheelbase, "wheelbase", "m", true, car.wheelbase, usual.distance, scatter.geometry, &spec::WHEELBASE);
+    add(
+        Q::CentreOfMass,
+        "centre of mass ahead of the rear axle",
+        "m",
+        true,
+        car.centre_of_mass,
+        usual.centre_of_mass,
+        scatter.geometry,
+        &spec::CENTRE_OF_MASS,
+    );
+    add(
+        Q::Gyration,
+        "yaw inertia over mass",
+        "m²",
+        true,
+        car.gyration,
+        usual.inertia,
+        scatter.geometry,
+        &spec::YAW_INERTIA,
+    );
+    add(
+        Q::FrontCompliance,
+        "compliance of the front tyres",
+        "rad s²/m",
+        false,
+        none(known.compliance),
+        usual.compliance,
+        scatter.compliance,
+        &spec::TYRE_SLIP,
+    );
+    add(
+        Q::RearCompliance,
+        "compliance of the rear tyres",
+        "rad s²/m",
+        false,
+        none(known.compliance),
+        usual.compliance,
+        scatter.compliance,
+        &spec::TYRE_SLIP,
+    );
+    add(
+        Q::FrontInverseGrip,
+        "inverse of the grip of the front",
+        "s²/m",
+        false,
+        none(known.inverse_grip),
+        usual.inverse_grip,
+        scatter.inverse_grip,
+        &spec::GRIP_LIMIT,
+    );
+    add(
+        Q::RearInverseGrip,
+        "inverse of the grip of the rear",
+        "s²/m",
+        false,
+        none(known.inverse_grip),
+        usual.inverse_grip,
+        scatter.inverse_grip,
+        &spec::GRIP_LIMIT,
+    );
+    add(
+        Q::DriveGain,
+        "acceleration at full throttle",
+        "m/s²",
+        true,
+        car.drive_gain,
+        usual.drive_gain,
+        scatter.drive_gain,
+        &spec::DRIVE_GAIN,
+    );
+    add(
+        Q::DeadZone,
+        "dead zone of the throttle",
+        "1",
+        false,
+        car.dead_zone,
+        usual.dead_zone,
+        scatter.dead_zone,
+        &spec::THROTTLE_DEAD_ZONE,
+    );
+    add(
+        Q::BackEmf,
+        "acceleration lost per speed and throttle",
+        "1/s",
+        false,
+        flat(known.back_emf),
+        usual.back_emf,
+        scatter.viscous,
+        &spec::TOP_SPEED,
+    );
+    add(
+        Q::Friction,
+        "dry friction of the drive",
+        "m/s²",
+        false,
+        flat(known.friction),
+        usual.friction,
+        scatter.friction,
+        &spec::DRIVE_FRICTION,
+    );
+    add(
+        Q::Viscous,
+        "viscous friction of the drive",
+        "1/s",
+        false,
+        flat(known.viscous),
+        usual.viscous,
+        scatter.viscous,
+        &spec::DRIVE_FRICTION,
+    );
+    add(
+        Q::DriveLag,
+        "time constant of the drive",
+        "s",
+        false,
+        flat(known.drive_lag),
+        usual.delay,
+        scatter.delay,
+        &spec::DRIVE_LAG,
+    );
+    add(
+        Q::PointX,
+        "place of the tracked point, forward",
+        "m",
+        false,
+        car.point_x,
+        usual.point,
+        scatter.point,
+        &spec::TRACKED_POINT,
+    );
+    add(
+        Q::PointY,
+        "place of the tracked point, left",
+        "m",
+        false,
+        car.point_y,
+        usual.point,
+        scatter.point,
+        &spec::TRACKED_POINT,
+    );
+    add(
+        Q::Direction,
+        "direction of the tracked axes",
+        "rad",
+        false,
+        car.direction,
+        usual.direction,
+        scatter.direction,
+        &spec::TRACKED_AXES,
+    );
+    add(
+        Q::Clock,
+        "the car's channels come late by",
+        "s",
+        false,
+        none(known.delay),
+        usual.delay,
+        scatter.delay,
+        &spec::CAR_CLOCK_DELAY,
+    );
+    add(
+        Q::GyroScale,
+        "scale of the gyro",
+        "1",
+        true,
+        usually([1.0, known.gyro_scale]),
+        usual.gyro_scale,
+        scatter.scale,
+        &spec::GYRO_SCALE,
+    );
+    add(
+        Q::GyroBias,
+        "bias of the gyro",
+        "rad/s",
+        false,
+        none(known.gyro_bias),
+        usual.gyro_bias,
+        scatter.bias,
+        &spec::GYRO_BIAS,
+    );
+    add(
+        Q::GyroDelay,
+        "delay of the gyro",
+        "s",
+        false,
+        none(known.delay),
+        usual.delay,
+        scatter.delay,
+        &spec::GYRO_DELAY,
+    );
+    add(
+        Q::EncoderScale,
+        "encoder speed over ground speed",
+        "1",
+        true,
+        Stated::usual(1.0, car.radius.share()),
+        usual.encoder,
+        scatter.scale,
+        &spec::ENCODER_SCALE,
+    );
+    add(
+        Q::EncoderDelay,
+        "delay of the encoder",
+        "s",
+        false,
+        none(known.delay),
+        usual.delay,
+        scatter.delay,
+        &spec::ENCODER_DELAY,
+    );
+    out
+}
+
+impl Laws {
+    /// Laws at deviations of the constants.
+    pub(crate) fn at(constants: &[Constant], theta: &[f64]) -> Self {
+        let mut out = Self {
+            lateral: Lateral::Dynamic,
+            full: 0.0,
+            centre: 0.0,
+            curve: 0.0,
+            asymmetry: 0.0,
+            delay: 0.0,
+            lag: 0.0,
+            slowness: 0.0,
+            play: 0.0,
+            wheelbase: 1.0,
+            rear: 0.0,
+            gyration: 1.0,
+            front_compliance: 0.0,
+            rear_compliance: 0.0,
+            front_inverse_grip: 0.0,
+            rear_inverse_grip: 0.0,
+            gain: 0.0,
+            dead_zone: 0.0,
+            back_emf: 0.0,
+            friction: 0.0,
+            viscous: 0.0,
+            drive_lag: 0.0,
+            point: [0.0; 2],
+            direction: 0.0,
+            clock: 0.0,
+            gyro_scale: 1.0,
+            gyro_bias: 0.0,
+            gyro_delay: 0.0,
+            encoder_scale: 1.0,
+            encoder_delay: 0.0,
+        };
+        for (constant, deviation) in constants.iter().zip(theta) {
+            *out.of(constant.quantity) = constant.value(*deviation);
+        }
+        out
+    }
+
+    fn of(&mut self, quantity: Quantity) -> &mut f64 {
+        use Quantity as Q;
+        match quantity {
+            Q::FullSteering => &mut self.full,
+            Q::Centre => &mut self.centre,
+            Q::Curve => &mut self.curve,
+            Q::Asymmetry => &mut self.asymmetry,
+            Q::SteeringDelay => &mut self.delay,
+            Q::SteeringLag => &mut self.lag,
+            Q::Slowness => &mut self.slowness,
+            Q::Play => &mut self.play,
+            Q::Wheelbase => &mut self.wheelbase,
+            Q::CentreOfMass => &mut self.rear,
+            Q::Gyration => &mut self.gyration,
+            Q::FrontCompliance => &mut self.front_compliance,
+            Q::RearCompliance => &mut self.rear_compliance,
+            Q::FrontInverseGrip => &mut self.front_inverse_grip,
+            Q::RearInverseGrip => &mut self.rear_inverse_grip,
+            Q::DriveGain => &mut self.gain,
+            Q::DeadZone => &mut self.dead_zone,
+            Q::BackEmf => &mut self.back_emf,
+            Q::Friction => &mut self.friction,
+            Q::Viscous => &mut self.viscous,
+            Q::DriveLag => &mut self.drive_lag,
+            Q::PointX => &mut self.point[0],
+            Q::PointY => &mut self.point[1],
+            Q::Direction => &mut self.direction,
+            Q::Clock => &mut self.clock,
+            Q::GyroScale => &mut self.gyro_scale,
+            Q::GyroBias => &mut self.gyro_bias,
+            Q::GyroDelay => &mut self.gyro_delay,
+            Q::EncoderScale => &mut self.encoder_scale,
+            Q::EncoderDelay => &mut self.encoder_delay,
+        }
+    }
+}

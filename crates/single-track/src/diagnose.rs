@@ -1,0 +1,151 @@
+//! From a case to what was found.
+
+use odometry::weighing::{Posterior, Weighed};
+use odometry::{Answer, Estimate, NamedCause};
+
+use crate::case::Case;
+use crate::constants::Constant;
+use crate::drive::Drive;
+use crate::error::CarError;
+use crate::fit::{Data, Prior};
+use crate::left_out::{Table, left_out_of};
+use crate::rows::Kind;
+use crate::settings::SETTINGS;
+use crate::solve::{Solved, solve};
+use inference::robust::{NINETY, rms};
+
+/// What the drives of a case say.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// Kind of answer.
+    pub answer: Answer,
+    /// Causes that were named, the one that the data would miss most first.
+    pub named: Vec<NamedCause>,
+    /// Causes that were not, with their probabilities.
+    pub others: Vec<(String, f64)>,
+    /// All constants with the named causes.
+    pub constants: Vec<Estimate>,
+    /// Constants re-tuned within what is known, with no cause.
+    pub retuned: Vec<Estimate>,
+    /// Names of constants of which the owner states nothing, so that nothing can be wrong with them.
+    pub unstated: Vec<&'static str>,
+    /// Sigmas of the errors: windows of the pose, m; gyro, rad/s; encoder, m/s.
+    pub noise: [f64; 3],
+    /// Factor on the usual scatter of constants between drives.
+    pub scatter: f64,
+    /// Root mean square error of windows over that of a car that keeps still: as given, re-tuned, with the named causes.
+    pub shares: [f64; 3],
+    /// Drives, those with a pose, windows.
+    pub counts: [usize; 3],
+    /// What was done to the recordings, for people.
+    pub told: Vec<String>,
+}
+
+/// Compares a car's drives with what throttle and steering imply, and names what would make them agree.
+///
+/// # Errors
+/// When there are too few drives.
+pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, CarError> {
+    if case.recordings.is_empty() {
+        return Err(CarError::Empty);
+    }
+    progress("fitting the car to its drives");
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.car, &case.references, &all)?;
+    progress("naming what would make them agree");
+    Ok(findings(case, &solved))
+}
+
+/// The same with the forecasts of drives that are left out in turn, from one fit.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), CarError> {
+    if case.recordings.is_empty() {
+        return Err(CarError::Empty);
+    }
+    progress("fitting the car to its drives");
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.car, &case.references, &all)?;
+    Ok((findings(case, &solved), left_out_of(&solved, progress)))
+}
+
+/// Root mean square error of the rows in motion, each over the size of what it measures.
+fn share(data: &Data<'_>, theta: &[f64]) -> f64 {
+    let errors = data.errors(&vec![theta.to_vec(); data.shown.len()]);
+    let (mut ways, mut sizes) = (Vec::new(), Vec::new());
+    for (shown, errors) in data.shown.iter().zip(&errors) {
+        let kind = if shown.drive.has_pose() { Kind::Pose } else { Kind::Encoder };
+        let moving = shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
+        ways.extend(moving.map(|(_, e)| *e));
+        sizes.extend(shown.sizes());
+    }
+    rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
+}
+
+fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
+    let Solved { data, causes, prior, fit, named } = solved;
+    let estimates = |posterior: &Posterior| -> Vec<Estimate> {
+        data.constants.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
+    };
+    let (all, retuned) = (estimates(&named.posterior), estimates(&named.retuned));
+    let shares = [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|theta| share(data, theta.as_slice()));
+    let of_cause = |weighed: &Weighed| {
+        let cause = &causes[weighed.cause];
+        NamedCause {
+            spec: cause.spec,
+            label: cause.label(),
+            probability: weighed.probability,
+            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
+            estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
+            intervals: Vec::new(),
+        }
+    };
+    let named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
+
+    let rules = SETTINGS.naming;
+    let is_left = shares[2] > rules.left_share && shares[2] > rules.left_of_retuned * shares[1];
+    let is_stated = |e: &&Estimate| data.constants.iter().any(|c| c.name == e.name && c.sigma < c.usual);
+    let answer = if is_left {
+        Answer::Unknown
+    } else if !named_causes.is_empty() {
+        Answer::Named
+    } else if retuned.iter().filter(is_stated).any(Estimate::is_moved) {
+        Answer::Retune
+    } else {
+        Answer::Nothing
+    };
+    let mut told: Vec<String> =
+        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
+    told.dedup();
+    Findings {
+        answer,
+        named: named_causes,
+        others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
+        unstated: data.constants.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
+        constants: all,
+        retuned,
+        noise: fit.scales,
+        scatter: fit.factor,
+        shares,
+        counts: [
+            data.shown.len(),
+            data.shown.iter().filter(|s| s.drive.has_pose()).count(),
+            data.shown.iter().map(|s| s.windows.len()).sum(),
+        ],
+        told,
+    }
+}
+
+fn estimate(constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
+    let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
+    let value = constant.value(posterior.mean[k]);
+    Estimate {
+        name: constant.name.to_owned(),
+        unit: constant.unit,
+        given: constant.value(prior.mean[k]),
+        value,
+        half_width: NINETY * sd * if constant.is_factor { value.abs() } else { 1.0 },
+        sigmas: (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt(),
+    }
+}

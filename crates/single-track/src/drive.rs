@@ -1,0 +1,244 @@
+//! A drive: commands, pose and what the car reports, brought to one grid of steps.
+
+use crate::error::CarError;
+use crate::model::STEP;
+use crate::settings::{Grid, SETTINGS};
+use inference::robust::{median, quantile, sorted};
+
+const RULES: Grid = SETTINGS.grid;
+
+/// Columns of a recording; channels that are not there are empty.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Table {
+    /// Time of each row, s.
+    pub time: Vec<f64>,
+    /// Measured x, y, m, and yaw, rad; NaN where it was not seen.
+    pub pose: Vec<[f64; 3]>,
+    /// Throttle, −1 to 1.
+    pub throttle: Vec<f64>,
+    /// Steering command, −1 to 1, positive to the left.
+    pub steering: Vec<f64>,
+    /// Whether the throttle is passed on, 0 or 1.
+    pub enabled: Vec<f64>,
+    /// Clock of the car's channels where they are held between its messages, s; 0 before the first.
+    pub car_time: Vec<f64>,
+    /// Yaw rate, rad/s.
+    pub gyro: Vec<f64>,
+    /// Speed by the encoder, m/s.
+    pub encoder: Vec<f64>,
+}
+
+/// A command held between messages, as its integral on the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Command {
+    sums: Vec<f64>,
+    ends: [f64; 2],
+}
+
+impl Command {
+    /// From values that hold from their times on.
+    fn new(times: &[f64], values: &[f64], steps: usize) -> Self {
+        let mut sums = Vec::with_capacity(steps + 1);
+        let (mut k, mut sum, mut at) = (0, 0.0, 0.0);
+        for step in 0..=steps {
+            let until = STEP * step as f64;
+            while k + 1 < times.len() && times[k + 1] <= until {
+                sum += values[k] * (times[k + 1] - at).max(0.0);
+                at = at.max(times[k + 1]);
+                k += 1;
+            }
+            sum += values[k] * (until - at).max(0.0);
+            at = until;
+            sums.push(sum);
+        }
+        Self { sums, ends: [values[0], values[values.len() - 1]] }
+    }
+
+    fn sum(&self, time: f64) -> f64 {
+        let last = self.sums.len() - 1;
+        let place = time / STEP;
+        if place <= 0.0 {
+            return self.ends[0] * time;
+        }
+        if place >= last as f64 {
+            return self.sums[last] + self.ends[1] * (time - STEP * last as f64);
+        }
+        let k = place as usize;
+        self.sums[k] + (place - k as f64) * (self.sums[k + 1] - self.sums[k])
+    }
+
+    /// Mean over the step that begins at a time, s from the start of the drive.
+    pub(crate) fn mean(&self, time: f64) -> f64 {
+        (self.sum(time + STEP) - self.sum(time)) / STEP
+    }
+}
+
+/// What the car reported at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Message {
+    /// s from the start of the drive.
+    pub(crate) time: f64,
+    pub(crate) gyro: Option<f64>,
+    pub(crate) encoder: Option<f64>,
+}
+
+/// A drive of a car on the grid of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    /// Its name in messages.
+    pub name: String,
+    pub(crate) steering: Command,
+    pub(crate) throttle: Command,
+    /// Pose at the beginning of each step; NaN where it was not seen. Empty of a drive without pose.
+    pub(crate) pose: Vec<[f64; 3]>,
+    pub(crate) messages: Vec<Message>,
+    steps: usize,
+    /// What was done to it before the comparison, for people.
+    pub told: Vec<String>,
+}
+
+impl Drive {
+    /// A drive from its columns.
+    ///
+    /// # Errors
+    /// Columns that are missing or of unlike length, time that does not rise, commands out of range, a drive that has neither
+    /// pose nor both gyro and encoder.
+    pub fn new(name: &str, table: &Table) -> Result<Self, CarError> {
+        let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
+        let rows = table.time.len();
+        if rows < RULES.rows {
+            return Err(wrong(format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)));
+        }
+        let given = [&table.throttle, &table.steering, &table.enabled, &table.car_time, &table.gyro, &table.encoder];
+        let lengths = given.iter().map(|c| c.len()).chain([table.pose.len()]);
+        if let Some(other) = { lengths }.find(|n| *n != rows && *n != 0) {
+            return Err(wrong(format!("a column of {other} rows beside {rows} rows of time")));
+        }
+        if table.throttle.is_empty() || table.steering.is_empty() {
+            return Err(wrong("throttle or steering command is missing; map both under [columns]".to_owned()));
+        }
+        if let Some(row) =
+            (1..rows).find(|&k| table.time[k].partial_cmp(&table.time[k - 1]) != Some(std::cmp::Ordering::Greater))
+        {
+            return Err(wrong(format!(
+                "time does not rise in row {}; sort the rows, or remove repeated ones",
+                row + 1
+            )));
+        }
+        for (what, column) in [("throttle", &table.throttle), ("steering command", &table.steering)] {
+            if let Some(row) = column.iter().position(|u| u.is_nan() || u.abs() > 1.0 + RULES.command) {
+                return Err(wrong(format!(
+                    "row {}: {what} is {}, beyond ±1; state its range in [columns], or cut the drive there",
+                    row + 1,
+                    column[row]
+                )));
+            }
+        }
+        let has_pose = table.pose.iter().any(|p| p.iter().all(|x| x.is_finite()));
+        if !has_pose && (table.gyro.is_empty() || table.encoder.is_empty()) {
+            return Err(wrong(
+                "there is neither a pose nor both a gyro and an encoder speed; map one of them".to_owned(),
+            ));
+        }
+
+        let start = table.time[0];
+        let steps = ((table.time[rows - 1] - start) / STEP) as usize;
+        let mut told = Vec::new();
+        let reported = messages(table, start, &mut told, name);
+        let Some(first) = reported.first() else {
+            return Err(wrong("the car's clock is zero throughout; the car sent nothing".to_owned()));
+        };
+        if first.1 > 0 {
+            told.push(format!(
+                "recording '{name}': the car's first message is in row {}; before it, its channels are taken as not there",
+                first.1 + 1
+            ));
+        }
+        let times: Vec<f64> = reported.iter().map(|m| m.0).collect();
+        let command = |column: &[f64], enabled: &[f64]| {
+            let value = |&(_, row): &(f64, usize)| {
+                column[row] * enabled.get(row).map_or(1.0, |e| f64::from(u8::from(*e > 0.5)))
+            };
+            Command::new(&times, &reported.iter().map(value).collect::<Vec<f64>>(), steps)
+        };
+        let cell = |column: &[f64], row: usize| column.get(row).copied().filter(|x| x.is_finite());
+        let messages = reported
+            .iter()
+            .map(|&(time, row)| Message { time, gyro: cell(&table.gyro, row), encoder: cell(&table.encoder, row) })
+            .collect();
+        Ok(Self {
+            name: name.to_owned(),
+            steering: command(&table.steering, &[]),
+            throttle: command(&table.throttle, &table.enabled),
+            pose: if has_pose { on_grid(table, start, steps) } else { Vec::new() },
+            messages,
+            steps,
+            told,
+        })
+    }
+
+    /// Steps of the grid.
+    pub(crate) fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Whether its pose was measured.
+    pub fn has_pose(&self) -> bool {
+        !self.pose.is_empty()
+    }
+}
+
+/// Instants of the car's messages, s from the start, with the row in which each arrived.
+fn messages(table: &Table, start: f64, told: &mut Vec<String>, name: &str) -> Vec<(f64, usize)> {
+    let rows = table.time.len();
+    if table.car_time.is_empty() {
+        return (0..rows).map(|row| (table.time[row] - start, row)).collect();
+    }
+    let fresh = |row: usize| table.car_time[row] > 0.0 && (row == 0 || table.car_time[row] != table.car_time[row - 1]);
+    let arrived: Vec<usize> = (0..rows).filter(|&row| fresh(row)).collect();
+    let behind = sorted(arrived.iter().map(|&row| table.time[row] - table.car_time[row]));
+    let Some(offset) = quantile(&behind, 0.5) else { return Vec::new() };
+    let between = median(arrived.windows(2).map(|w| table.time[w[1]] - table.time[w[0]])).unwrap_or(0.0);
+    let row_every = (table.time[rows - 1] - start) / (rows - 1) as f64;
+    if between > 2.0 * row_every {
+        told.push(format!(
+            "recording '{name}': the car reports every {between:.3} s in a table of a row every {row_every:.3} s; values are \
+             taken at the instants of its own clock"
+        ));
+    }
+    // The car's own clock is free of the jitter of transport, unless it jumps.
+    let instant = |row: usize| {
+        let own = table.car_time[row] + offset;
+        if (own - table.time[row]).abs() <= between { own } else { table.time[row] }
+    };
+    arrived.into_iter().map(|row| (instant(row) - start, row)).collect()
+}
+
+/// Pose at the beginning of each step, between rows by lines; yaw without jumps.
+fn on_grid(table: &Table, start: f64, steps: usize) -> Vec<[f64; 3]> {
+    let mut seen: Vec<(f64, [f64; 3])> = Vec::new();
+    for (time, pose) in table.time.iter().zip(&table.pose) {
+        if pose.iter().all(|x| x.is_finite()) {
+            let mut pose = *pose;
+            if let Some((_, last)) = seen.last() {
+                pose[2] -= ((pose[2] - last[2]) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+            }
+            seen.push((time - start, pose));
+        }
+    }
+    let mut k = 0;
+    (0..steps)
+        .map(|step| {
+            let time = STEP * step as f64;
+            while k + 2 < seen.len() && seen[k + 1].0 <= time {
+                k += 1;
+            }
+            let (Some((t0, a)), Some((t1, b))) = (seen.get(k), seen.get(k + 1)) else { return [f64::NAN; 3] };
+            if t1 - t0 > RULES.gap || time < *t0 || time > *t1 {
+                return [f64::NAN; 3];
+            }
+            let share = (time - t0) / (t1 - t0);
+            [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]))
+        })
+        .collect()
+}

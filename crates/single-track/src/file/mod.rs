@@ -1,0 +1,6 @@
+//! Cars as files, and drives as tables: text in, a car and its drives out.
+
+mod robot;
+mod table;
+
+pub use robot::{Columns, RobotFile};

@@ -1,0 +1,245 @@
+//! Fits of the constants to many drives, each with a deviation of its own.
+//!
+//! As of [`odometry::weighing`]: errors in sigmas count by a loss without a corner, the deviation `δ ~ N(0, T)` of every drive
+//! is eliminated, so that drives weigh by what they say of the car and intervals are as wide as drives scatter.
+
+use faer::Mat;
+use nalgebra::{DMatrix, DVector};
+use odometry::weighing::{Evidence, Session};
+use rayon::prelude::*;
+
+use crate::car::Car;
+use crate::constants::{Constant, constants};
+use crate::drive::Drive;
+use crate::error::CarError;
+use crate::model::Laws;
+use crate::rows::{Kind, Shown};
+use crate::settings::SETTINGS;
+use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
+use inference::robust::{quantile, rms, sorted};
+
+/// Drives of a car with its constants.
+#[derive(Debug, Clone)]
+pub(crate) struct Data<'a> {
+    pub(crate) constants: Vec<Constant>,
+    pub(crate) shown: Vec<Shown<'a>>,
+}
+
+/// Sigmas of the errors of each kind of row.
+pub(crate) type Scales = [f64; 3];
+
+/// What is known of the constants before the drives.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Prior {
+    pub(crate) mean: DVector<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+}
+
+/// Fitted constants with the equations about them.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    pub(crate) theta: Vec<f64>,
+    pub(crate) sessions: Vec<Session>,
+    pub(crate) scales: Scales,
+    /// Factor on the scatter of all constants.
+    pub(crate) factor: f64,
+}
+
+impl<'a> Data<'a> {
+    pub(crate) fn new(car: &Car, drives: &[&'a Drive]) -> Result<Self, CarError> {
+        let shown: Vec<Shown<'a>> = drives.iter().map(|d| Shown::new(d, car.encoder_window)).collect();
+        let moving = |s: &Shown<'_>| s.rows.iter().filter(|r| r.is_moving && r.kind == Kind::Pose).count() / 6;
+        let blind = |s: &Shown<'_>| if s.drive.has_pose() { 0 } else { s.windows.len() };
+        let windows: usize = shown.iter().map(|s| moving(s) + blind(s)).sum();
+        let (length, needed) = (SETTINGS.windows.length, SETTINGS.windows.least);
+        if windows < needed {
+            return Err(CarError::Short { windows, length, needed });
+        }
+        Ok(Self { constants: constants(car), shown })
+    }
+
+    pub(crate) fn errors(&self, thetas: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |(s, theta): (&Shown<'_>, &Vec<f64>)| s.errors(&Laws::at(&self.constants, theta));
+        self.shown.par_iter().zip(thetas).map(of).collect()
+    }
+
+    /// Sigmas of the errors of rows in motion, by their upper quantile.
+    pub(crate) fn scales(&self, errors: &[Vec<f64>]) -> Scales {
+        let rules = SETTINGS.windows;
+        [Kind::Pose, Kind::Gyro, Kind::Encoder].map(|kind| {
+            let of = |(s, e): (&Shown<'_>, &Vec<f64>)| {
+                let rows = s.rows.iter().zip(e).filter(|(r, e)| r.kind == kind && r.is_moving && **e != 0.0);
+                rows.map(|(_, e)| e.abs()).collect::<Vec<f64>>()
+            };
+            let sizes = sorted(self.shown.iter().zip(errors).flat_map(of));
+            let limit = quantile(&sizes, rules.quantile).unwrap_or(0.0) / rules.quantile_sigmas;
+            let cut = 2.0 * rules.quantile_sigmas * limit;
+            rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0).max(rules.floor[kind as usize])
+        })
+    }
+
+    /// One sigma by which drives differ.
+    pub(crate) fn scatter(&self, factor: f64) -> DVector<f64> {
+        DVector::from_iterator(self.constants.len(), self.constants.iter().map(|c| factor * c.scatter))
+    }
+
+    /// What the robot file knows.
+    pub(crate) fn prior(&self) -> Prior {
+        let n = self.constants.len();
+        let variances = DVector::from_iterator(n, self.constants.iter().map(|c| c.sigma.powi(2)));
+        Prior { mean: DVector::zeros(n), covariance: DMatrix::from_diagonal(&variances) }
+    }
+}
+
+/// Normal equations of rows whose errors and columns are known, each with a weight of its own beside that of the loss.
+pub(crate) fn equations(
+    shown: &Shown<'_>,
+    (errors, columns): (&[f64], &[Vec<f64>]),
+    scales: Scales,
+    own: impl Fn(usize) -> f64,
+) -> Session {
+    let n = columns.len();
+    let mut out = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let outlier = SETTINGS.windows.outlier;
+    let mut row = DVector::zeros(n);
+    for (i, r) in shown.rows.iter().enumerate() {
+        let own = r.weight * own(i);
+        if own == 0.0 {
+            continue;
+        }
+        let scale = scales[r.kind as usize];
+        let error = errors[i] / scale;
+        let root = (1.0 + (error / outlier).powi(2)).sqrt();
+        out.cost += own * outlier.powi(2) * (root - 1.0);
+        for k in 0..n {
+            row[k] = columns[k][i] / scale;
+        }
+        out.curvature.ger(own / root, &row, &row, 1.0);
+        out.slope.axpy(own / root * error, &row, 1.0);
+    }
+    out
+}
+
+/// Normal equations of every drive.
+pub(crate) fn sessions(data: &Data<'_>, theta: &[f64], scales: Scales) -> Vec<Session> {
+    let of = |s: &Shown<'_>| {
+        let errors = s.errors(&Laws::at(&data.constants, theta));
+        equations(s, (&errors, &s.columns(&data.constants, theta)), scales, |_| 1.0)
+    };
+    data.shown.par_iter().map(of).collect()
+}
+
+struct Driven<'a, 'd> {
+    data: &'a Data<'d>,
+    prior: &'a Prior,
+    information: DMatrix<f64>,
+    scatter: DVector<f64>,
+    scales: Scales,
+}
+
+struct Point {
+    theta: Vec<f64>,
+    sessions: Vec<Session>,
+}
+
+impl Driven<'_, '_> {
+    fn at(&self, theta: Vec<f64>) -> Point {
+        let sessions = sessions(self.data, &theta, self.scales);
+        Point { theta, sessions }
+    }
+}
+
+impl Problem for Driven<'_, '_> {
+    type Point = Point;
+
+    fn cost(&self, at: &Point) -> f64 {
+        let marginal = at.sessions.iter().map(|s| s.marginal(&self.scatter).map_or(f64::INFINITY, |m| m.cost));
+        let d = DVector::from_column_slice(&at.theta) - &self.prior.mean;
+        marginal.sum::<f64>() + 0.5 * d.dot(&(&self.information * &d))
+    }
+
+    fn parameters(&self, at: &Point) -> Vec<Parameter> {
+        let of = |(value, c): (&f64, &Constant)| Parameter {
+            longest: SETTINGS.fitting.longest,
+            bounds: c.bounds(),
+            ..Parameter::unbounded(*value, c.usual)
+        };
+        at.theta.iter().zip(&self.data.constants).map(of).collect()
+    }
+
+    fn linearise(&self, at: &mut Point, _: usize) -> Option<Normal> {
+        let n = at.theta.len();
+        let mut curvature = self.information.clone();
+        let mut slope = &self.information * (DVector::from_column_slice(&at.theta) - &self.prior.mean);
+        for session in &at.sessions {
+            let marginal = session.marginal(&self.scatter)?;
+            curvature += marginal.curvature;
+            slope += marginal.slope;
+        }
+        let unit = |i: usize| self.data.constants[i].usual;
+        let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
+        Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
+    }
+
+    fn moved(&self, _: &Point, step: &Step<'_>) -> Option<Point> {
+        Some(self.at(step.values.clone()))
+    }
+}
+
+/// Fits the constants from `start`, scales of errors and scatter of drives included; `None` where a prior is no covariance.
+pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
+    let rules = SETTINGS.fitting;
+    let information = prior.covariance.clone().cholesky()?.inverse();
+    let settings =
+        Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let mut out = Fit { theta: start, sessions: Vec::new(), scales: [0.0; 3], factor: 1.0 };
+    out.scales = data.scales(&data.errors(&vec![out.theta.clone(); data.shown.len()]));
+    for _ in 0..rules.rounds {
+        let scatter = data.scatter(out.factor);
+        let problem =
+            Driven { data, prior, information: information.clone(), scatter: scatter.clone(), scales: out.scales };
+        let at = minimise(&problem, problem.at(out.theta), &settings).at;
+        (out.theta, out.sessions) = (at.theta, at.sessions);
+        // What a drive has of its own is no noise of its rows.
+        let own = |s: &Session| match s.deviation(&scatter) {
+            Some(d) => out.theta.iter().zip(d.iter()).map(|(t, d)| t + d).collect(),
+            None => out.theta.clone(),
+        };
+        let thetas: Vec<Vec<f64>> = out.sessions.iter().map(own).collect();
+        out.scales = data.scales(&data.errors(&thetas));
+        out.factor = scatter_factor(data, prior, &out);
+    }
+    out.sessions = sessions(data, &out.theta, out.scales);
+    Some(out)
+}
+
+/// Fits the constants anew from where a fit ended, with its scales and scatter.
+pub(crate) fn refit(data: &Data<'_>, prior: &Prior, from: Fit) -> Option<Fit> {
+    let rules = SETTINGS.fitting;
+    let information = prior.covariance.clone().cholesky()?.inverse();
+    let settings =
+        Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let problem = Driven { data, prior, information, scatter: data.scatter(from.factor), scales: from.scales };
+    let at = minimise(&problem, problem.at(from.theta), &settings).at;
+    Some(Fit { theta: at.theta, sessions: at.sessions, ..from })
+}
+
+/// A fit without one of its drives: equations and scales of the others, about where it ended.
+pub(crate) fn without(data: &Data<'_>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
+    let mut out = fit.clone();
+    out.sessions.remove(left);
+    out.factor = scatter_factor(data, prior, &out);
+    out
+}
+
+/// The factor on the scatter of drives under which they are most probable together.
+fn scatter_factor(data: &Data<'_>, prior: &Prior, fit: &Fit) -> f64 {
+    let rules = SETTINGS.fitting;
+    let score = |factor: f64| {
+        let evidence = Evidence::new(&fit.theta, &fit.sessions, &data.scatter(factor), &prior.mean)
+            .and_then(|e| Some(e.of(&prior.covariance)? - e.base));
+        evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (factor.ln() / rules.width).powi(2)
+    };
+    let best = rules.factors.into_iter().map(|f| (score(f), f)).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(1.0, |(_, factor)| factor)
+}

@@ -1,0 +1,47 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `car`, `constants`: a car as its owner states it, and the constants on which its motion depends.
+//! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
+//! * `model`: steering, drive, tyres and motion of the single-track car.
+//! * `rows`: windows of the pose and reports of the car against the model.
+//! * `fit`, `cause`, `solve`: constants with a deviation of each drive, and the causes that the drives ask for.
+//! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
+//! * `file/*`: robot files of this kind, and drives from tables.
+//! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `settings`: every tuned number.
+
+mod answer;
+mod car;
+mod case;
+mod cause;
+mod constants;
+mod diagnose;
+mod drive;
+mod error;
+pub mod file;
+mod fit;
+mod forecast;
+mod left_out;
+mod model;
+mod rivals;
+mod rows;
+mod settings;
+mod solve;
+
+pub use answer::diagnosis;
+pub use car::{Car, Stated};
+pub use case::Case;
+pub use constants::{Constant, Quantity, constants};
+pub use diagnose::{Findings, diagnose, examine};
+pub use drive::{Drive, Table as Columns};
+pub use error::CarError;
+pub use forecast::{ByLength, Errors, LENGTHS};
+pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
+pub use odometry::{Answer, Estimate, NamedCause};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

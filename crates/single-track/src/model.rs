@@ -1,0 +1,211 @@
+//! The single-track car: steering servo, drive, tyres, and its motion over a grid of steps.
+//!
+//! Steering: command `u` to angle `δ = A u + A₂ |u| u³/|u|… ` by [`Laws::map`], then dead time, lag, a largest rate and play.
+//! Drive: `v̇ = g e − (c₁ + c₂ |e|) v − f sgn v + v_y r − λ_f f_f δ` with the throttle `e` beyond the dead zone, after its lag.
+//! Tyres: side acceleration of an axle `f = α/√(k² + (α q)²)` at a slip angle `α`: compliance `k` (rad s²/m), largest `1/q`.
+//! Lateral velocity and yaw rate take implicit steps, stable at every speed; for `k → 0` they are those of the kinematic car
+//! (Kiencke & Nielsen, Automotive Control Systems; CommonRoad vehicle models).
+
+use crate::drive::Drive;
+use crate::settings::{Model, SETTINGS};
+
+const RULES: Model = SETTINGS.model;
+/// Step of the grid, s.
+pub(crate) const STEP: f64 = SETTINGS.grid.step;
+
+/// How the tyres act.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Lateral {
+    /// Compliance and grip of both axles, lateral velocity and yaw rate as states.
+    Dynamic,
+    /// The same with the Pacejka formula `D sin(C atan(B α))`.
+    Pacejka,
+    /// Yaw rate at once: `r = v tan δ / (L + K v²)`, the compliance of the front standing for K.
+    Kinematic,
+}
+
+/// Laws of a car.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Laws {
+    pub(crate) lateral: Lateral,
+    pub(crate) full: f64,
+    pub(crate) centre: f64,
+    pub(crate) curve: f64,
+    pub(crate) asymmetry: f64,
+    pub(crate) delay: f64,
+    pub(crate) lag: f64,
+    pub(crate) slowness: f64,
+    pub(crate) play: f64,
+    pub(crate) wheelbase: f64,
+    /// Centre of mass ahead of the rear axle.
+    pub(crate) rear: f64,
+    pub(crate) gyration: f64,
+    pub(crate) front_compliance: f64,
+    pub(crate) rear_compliance: f64,
+    pub(crate) front_inverse_grip: f64,
+    pub(crate) rear_inverse_grip: f64,
+    pub(crate) gain: f64,
+    pub(crate) dead_zone: f64,
+    pub(crate) back_emf: f64,
+    pub(crate) friction: f64,
+    pub(crate) viscous: f64,
+    pub(crate) drive_lag: f64,
+    pub(crate) point: [f64; 2],
+    pub(crate) direction: f64,
+    pub(crate) clock: f64,
+    pub(crate) gyro_scale: f64,
+    pub(crate) gyro_bias: f64,
+    pub(crate) gyro_delay: f64,
+    pub(crate) encoder_scale: f64,
+    pub(crate) encoder_delay: f64,
+}
+
+/// Place of the rear axle, heading, speed forward, lateral velocity of the centre of mass, yaw rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct State {
+    pub(crate) place: [f64; 2],
+    pub(crate) yaw: f64,
+    pub(crate) speed: f64,
+    pub(crate) side: f64,
+    pub(crate) rate: f64,
+}
+
+/// Steering angle and throttle beyond the dead zone of every step of a drive.
+#[derive(Debug, Clone)]
+pub(crate) struct Inputs {
+    pub(crate) steering: Vec<f64>,
+    pub(crate) throttle: Vec<f64>,
+}
+
+impl Laws {
+    /// Steering angle that a command asks for.
+    pub(crate) fn map(&self, u: f64) -> f64 {
+        self.centre + self.full * u + self.curve * (u * u * u - u) + self.asymmetry * u * u
+    }
+
+    /// What steering and drive do with the commands of a drive: they depend on nothing else.
+    pub(crate) fn inputs(&self, drive: &Drive) -> Inputs {
+        self.inputs_between(drive, 0, drive.steps())
+    }
+
+    /// The same of some steps; those before are none.
+    pub(crate) fn inputs_between(&self, drive: &Drive, first: usize, last: usize) -> Inputs {
+        let steps = last.min(drive.steps());
+        // Implicit steps: exact in the delay of slow commands, however short the lag.
+        let share = |lag: f64| STEP / (STEP + lag.abs());
+        let (of_lag, of_drive) = (share(self.lag), share(self.drive_lag));
+        let most = STEP / self.slowness.abs().max(RULES.tiny);
+        let mut out = Inputs { steering: Vec::with_capacity(steps), throttle: Vec::with_capacity(steps) };
+        out.steering.resize(first, 0.0);
+        out.throttle.resize(first, 0.0);
+        let mut settled = self.map(drive.steering.mean(STEP * first as f64 + self.clock - self.delay));
+        let (mut turned, mut held, mut effort) = (settled, settled, 0.0);
+        // What is below none leads instead of lagging, so that differences about none have one slope.
+        let signed = |size: f64, before: f64, after: f64| if size < 0.0 { 2.0 * before - after } else { after };
+        for k in first..steps {
+            let time = STEP * k as f64 + self.clock;
+            let wanted = self.map(drive.steering.mean(time - self.delay));
+            settled += (wanted - settled) * of_lag;
+            let asked = signed(self.lag, wanted, settled);
+            turned += (asked - turned).clamp(-most, most);
+            let angle = signed(self.slowness, asked, turned);
+            held = held.clamp(angle - self.play.abs(), angle + self.play.abs());
+            out.steering.push(signed(self.play, angle, held));
+
+            let u = drive.throttle.mean(time);
+            let pushed = (u.abs() - self.dead_zone).max(0.0) * u.signum();
+            effort += (pushed - effort) * of_drive;
+            out.throttle.push(signed(self.drive_lag, pushed, effort));
+        }
+        out
+    }
+
+    /// Secant of a tyre: side acceleration over slip angle.
+    fn secant(&self, slip: f64, compliance: f64, inverse_grip: f64) -> f64 {
+        let k = compliance.max(RULES.least_compliance);
+        let q = inverse_grip.max(0.0);
+        if self.lateral == Lateral::Pacejka && q > RULES.tiny {
+            let c = RULES.pacejka_shape;
+            let x = (q / (k * c) * slip).abs().max(RULES.tiny);
+            return (c * x.atan()).sin() / x / (k * c);
+        }
+        1.0 / (k * k + (slip * q).powi(2)).sqrt()
+    }
+
+    /// One step.
+    pub(crate) fn step(&self, s: &mut State, steering: f64, effort: f64) {
+        let tan = steering.tan();
+        let length = self.wheelbase;
+        // Between the axles, or the car would not stand.
+        let front = (length - self.rear).max(RULES.least_share * length);
+        let before = *s;
+        let mut side_drag = 0.0;
+        if self.lateral == Lateral::Kinematic {
+            s.rate = s.speed * tan / (length + self.front_compliance * s.speed * s.speed);
+            s.side = self.rear * s.rate;
+        } else {
+            let slow = s.speed.abs().max(RULES.slow);
+            let slip_front = (s.speed * tan - s.side - front * s.rate) / slow;
+            let slip_rear = (self.rear * s.rate - s.side) / slow;
+            let a = self.secant(slip_front, self.front_compliance, self.front_inverse_grip);
+            let b = self.secant(slip_rear, self.rear_compliance, self.rear_inverse_grip);
+            let (share, h) = (self.rear / length, STEP);
+            let turn = front * self.rear / (self.gyration * length);
+            // f_front = a (v tan − side − front rate)/slow, f_rear = b (rear rate − side)/slow.
+            let [p, q] = [h * a / slow, h * b / slow];
+            let m = [
+                [1.0 + share * p + (1.0 - share) * q, share * p * front - (1.0 - share) * q * self.rear + h * s.speed],
+                [turn * (p - q), 1.0 + turn * (p * front + q * self.rear)],
+            ];
+            let w = [s.side + share * p * s.speed * tan, s.rate + turn * p * s.speed * tan];
+            let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+            s.side = (w[0] * m[1][1] - w[1] * m[0][1]) / det;
+            s.rate = (w[1] * m[0][0] - w[0] * m[1][0]) / det;
+            let force = a * (before.speed * tan - s.side - front * s.rate) / slow;
+            side_drag = share * force * steering.sin() - s.side * s.rate;
+        }
+        let driven = s.speed + STEP * (self.gain * effort - side_drag);
+        let damped = driven / (1.0 + STEP * (self.viscous + self.back_emf * effort.abs()).max(0.0));
+        s.speed = damped.signum() * (damped.abs() - STEP * self.friction).max(0.0);
+
+        // The middle of the step.
+        let yaw = s.yaw + 0.5 * STEP * s.rate;
+        let ahead = 0.5 * (before.speed + s.speed);
+        let across = s.side - self.rear * s.rate;
+        s.place[0] += STEP * (ahead * yaw.cos() - across * yaw.sin());
+        s.place[1] += STEP * (ahead * yaw.sin() + across * yaw.cos());
+        s.yaw += STEP * s.rate;
+    }
+
+    /// Runs from a state, and gives it after every step.
+    pub(crate) fn run(&self, mut state: State, inputs: &Inputs, from: usize, steps: usize) -> Vec<State> {
+        let step = |k: usize| {
+            self.step(&mut state, inputs.steering[k], inputs.throttle[k]);
+            state
+        };
+        (from..(from + steps).min(inputs.steering.len())).map(step).collect()
+    }
+
+    /// The pose that is measured of a state.
+    pub(crate) fn tracked(&self, s: &State) -> [f64; 3] {
+        let (sin, cos) = s.yaw.sin_cos();
+        let [px, py] = self.point;
+        [s.place[0] + cos * px - sin * py, s.place[1] + sin * px + cos * py, s.yaw + self.direction]
+    }
+
+    /// The state of a measured pose and its rates, m/s, rad/s.
+    pub(crate) fn state(&self, pose: [f64; 3], rates: [f64; 3]) -> State {
+        let yaw = pose[2] - self.direction;
+        let (sin, cos) = yaw.sin_cos();
+        let [px, py] = self.point;
+        let ahead = rates[0] * cos + rates[1] * sin;
+        let across = rates[1] * cos - rates[0] * sin;
+        State {
+            place: [pose[0] - cos * px + sin * py, pose[1] - sin * px - cos * py],
+            yaw,
+            speed: ahead + rates[2] * py,
+            side: across - rates[2] * (px - self.rear),
+            rate: rates[2],
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! What a drive shows, row by row: windows of its pose against the model, and the car's reports against pose or model.
+
+use crate::constants::Constant;
+use crate::drive::{Drive, Message};
+use crate::model::{Laws, STEP, State};
+use crate::settings::{SETTINGS, Windows};
+
+const RULES: Windows = SETTINGS.windows;
+
+/// What a row is about; its errors share a scale with those of its kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Place and heading at the end and in the middle of a window, m.
+    Pose = 0,
+    /// Yaw rate, rad/s.
+    Gyro = 1,
+    /// Speed, m/s.
+    Encoder = 2,
+}
+
+/// A row of a drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Row {
+    pub(crate) kind: Kind,
+    /// From when it is known, s from the start.
+    pub(crate) time: f64,
+    /// Whether the car moves in it.
+    pub(crate) is_moving: bool,
+    /// How much it counts beside rows that overlap with it.
+    pub(crate) weight: f64,
+}
+
+/// A stretch that the model is run over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    pub(crate) from: usize,
+    pub(crate) steps: usize,
+}
+
+/// A drive with its windows.
+#[derive(Debug, Clone)]
+pub(crate) struct Shown<'a> {
+    pub(crate) drive: &'a Drive,
+    pub(crate) windows: Vec<Window>,
+    /// World velocities and yaw rate of the tracked point at each step, from poses about it.
+    pub(crate) rates: Vec<[f64; 3]>,
+    pub(crate) rows: Vec<Row>,
+    encoder_window: f64,
+}
+
+/// Rates at a step by a parabola through the poses of the steps from `first` to `last`: slope at the step.
+pub(crate) fn slope(pose: &[[f64; 3]], first: usize, last: usize, at: usize) -> Option<[f64; 3]> {
+    let n = (last + 1).checked_sub(first)? as f64;
+    let middle = 0.5 * (first + last) as f64;
+    let x = |k: usize| k as f64 - middle;
+    let (mut s2, mut s4) = (0.0, 0.0);
+    for k in first..=last {
+        s2 += x(k).powi(2);
+        s4 += x(k).powi(4);
+    }
+    let bend = s4 - s2 * s2 / n;
+    let mut out = [0.0; 3];
+    for (axis, rate) in out.iter_mut().enumerate() {
+        let (mut sum, mut sx, mut sxx) = (0.0, 0.0, 0.0);
+        for k in first..=last {
+            let y = pose.get(k)?[axis] - pose[at][axis];
+            sum += y;
+            sx += x(k) * y;
+            sxx += x(k).powi(2) * y;
+        }
+        let second = if n > 3.0 { (sxx - s2 * sum / n) / bend } else { 0.0 };
+        *rate = (sx / s2 + 2.0 * second * x(at)) / STEP;
+    }
+    out.iter().all(|r| r.is_finite()).then_some(out)
+}
+
+/// Smoothed pose and rates at the end of the steps from `first` to `last`.
+pub(crate) fn end(pose: &[[f64; 3]], last: usize, past: f64) -> Option<([f64; 3], [f64; 3])> {
+    let first = last.checked_sub((past / STEP).round() as usize)?;
+    Some((pose[last], slope(pose, first, last, last)?))
+}
+
+impl<'a> Shown<'a> {
+    pub(crate) fn new(drive: &'a Drive, encoder_window: f64) -> Self {
+        let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
+        let steps = drive.steps();
+        let rate = |k: usize| {
+            let inside = k >= half && k + half < steps;
+            inside.then(|| slope(&drive.pose, k - half, k + half, k)).flatten().unwrap_or([f64::NAN; 3])
+        };
+        let rates: Vec<[f64; 3]> = if drive.has_pose() { (0..steps).map(rate).collect() } else { Vec::new() };
+        let mut out = Self { drive, windows: Vec::new(), rates, rows: Vec::new(), encoder_window };
+        let (length, every) = ((RULES.length / STEP).round() as usize, (RULES.every / STEP).round() as usize);
+        let mut from = half;
+        while from + length + half < steps {
+            let window = Window { from, steps: length };
+            if out.is_usable(window) {
+                out.windows.push(window);
+                out.add_rows(window);
+            }
+            from += every;
+        }
+        if drive.has_pose() {
+            for message in &drive.messages {
+                for (kind, there) in [(Kind::Gyro, message.gyro), (Kind::Encoder, message.encoder)] {
+                    if there.is_some() {
+                        let moving = out.rate_at(message.time).is_some_and(|r| r[0].hypot(r[1]) > RULES.moving);
+                        out.rows.push(Row { kind, time: message.time, is_moving: moving, weight: 1.0 });
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    fn is_usable(&self, window: Window) -> bool {
+        if self.drive.has_pose() {
+            let Window { from, steps } = window;
+            let seen = |k: usize| self.drive.pose[k].iter().all(|x| x.is_finite());
+            return self.rates[from][0].is_finite() && seen(from) && seen(from + steps / 2) && seen(from + steps);
+        }
+        self.report_at(STEP * window.from as f64).is_some() && self.reports(window).next().is_some()
+    }
+
+    fn reports(&self, window: Window) -> impl Iterator<Item = &'a Message> + use<'a> {
+        let (from, until) = (STEP * window.from as f64, STEP * (window.from + window.steps) as f64);
+        self.drive.messages.iter().filter(move |m| m.time > from && m.time <= until)
+    }
+
+    fn add_rows(&mut self, window: Window) {
+        let time = STEP * (window.from + window.steps) as f64;
+        let weight = RULES.every / RULES.length;
+        if self.drive.has_pose() {
+            let (a, b) = (self.drive.pose[window.from], self.drive.pose[window.from + window.steps]);
+            let is_moving = (b[0] - a[0]).hypot(b[1] - a[1]) > RULES.moving;
+            self.rows.extend([Row { kind: Kind::Pose, time, is_moving, weight }; 6]);
+            return;
+        }
+        let reports: Vec<&Message> = self.reports(window).collect();
+        for message in reports {
+            for (kind, there) in [(Kind::Gyro, message.gyro), (Kind::Encoder, message.encoder)] {
+                let is_moving = message.encoder.is_some_and(|e| e.abs() > RULES.moving);
+                if there.is_some() {
+                    self.rows.push(Row { kind, time, is_moving, weight });
+                }
+            }
+        }
+    }
+
+    /// Rates of the tracked point at an instant.
+    fn rate_at(&self, time: f64) -> Option<[f64; 3]> {
+        let place = time / STEP;
+        if place < 0.0 || place as usize + 1 >= self.rates.len() {
+            return None;
+        }
+        let k = place as usize;
+        let share = place - k as f64;
+        let out = [0, 1, 2].map(|axis| self.rates[k][axis] + share * (self.rates[k + 1][axis] - self.rates[k][axis]));
+        out[0].is_finite().then_some(out)
+    }
+
+    /// Encoder speed and yaw rate as reported about an instant: means of the messages next to it.
+    fn report_at(&self, time: f64) -> Option<[f64; 2]> {
+        let after = self.drive.messages.partition_point(|m| m.time < time);
+        let near = self.drive.messages.get(after.saturating_sub(1)..(after + 1).min(self.drive.messages.len()))?;
+        let count = near.len() as f64;
+        let encoder: Option<f64> = near.iter().map(|m| m.encoder).sum();
+        let gyro: Option<f64> = near.iter().map(|m| m.gyro).sum();
+        Some([encoder? / count, gyro? / count]).filter(|_| count > 0.0)
+    }
+
+    /// The state at the beginning of a window.
+    fn start(&self, laws: &Laws, from: usize) -> State {
+        if self.drive.has_pose() {
+            return laws.state(self.drive.pose[from], self.rates[from]);
+        }
+        let [encoder, gyro] = self.report_at(STEP * from as f64 + laws.clock).unwrap_or_default();
+        let rate = (gyro - laws.gyro_bias) / laws.gyro_scale;
+        State { place: [0.0; 2], yaw: 0.0, speed: encoder / laws.encoder_scale, side: laws.rear * rate, rate }
+    }
+
+    /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
+    pub(crate) fn errors(&self, laws: &Laws) -> Vec<f64> {
+        let inputs = laws.inputs(self.drive);
+        let mut out = Vec::with_capacity(self.rows.len());
+        for &window in &self.windows {
+            let states = laws.run(self.start(laws, window.from), &inputs, window.from, window.steps);
+            if self.drive.has_pose() {
+                for steps in [window.steps / 2, window.steps] {
+                    out.extend(pose_error(laws.tracked(&states[steps - 1]), self.drive.pose[window.from + steps]));
+                }
+            } else {
+                for message in self.reports(window) {
+                    let at = |delay: f64| {
+                        let place = (message.time - laws.clock - delay) / STEP - window.from as f64 - 1.0;
+                        between(&states, place)
+                    };
+                    if let Some(gyro) = message.gyro {
+                        out.push(laws.gyro_scale * at(laws.gyro_delay)[1] + laws.gyro_bias - gyro);
+                    }
+                    if let Some(encoder) = message.encoder {
+                        let delay = laws.encoder_delay + 0.5 * self.encoder_window;
+                        out.push(laws.encoder_scale * at(delay)[0] - encoder);
+                    }
+                }
+            }
+        }
+        if self.drive.has_pose() {
+            for message in &self.drive.messages {
+                let at = |delay: f64| self.rate_at(message.time - laws.clock - delay);
+                if let Some(gyro) = message.gyro {
+                    out.push(at(laws.gyro_delay).map_or(0.0, |r| laws.gyro_scale * r[2] + laws.gyro_bias - gyro));
+                }
+                if let Some(encoder) = message.encoder {
+                    let delay = laws.encoder_delay + 0.5 * self.encoder_window;
+                    let speed = |r: [f64; 3]| {
+                        let k = (((message.time - laws.clock - delay) / STEP) as usize).min(self.drive.pose.len() - 1);
+                        laws.encoder_scale * laws.state(self.drive.pose[k], r).speed - encoder
+                    };
+                    out.push(at(delay).map_or(0.0, speed));
+                }
+            }
+        }
+        // A law that runs away is as wrong as can be, and still a number.
+        let ceiling = RULES.ceiling;
+        for e in &mut out {
+            *e = if e.is_nan() { ceiling } else { e.clamp(-ceiling, ceiling) };
+        }
+        out
+    }
+
+    /// Changes of the errors with each constant, by central differences.
+    pub(crate) fn columns(&self, constants: &[Constant], theta: &[f64]) -> Vec<Vec<f64>> {
+        let of = |k: usize| {
+            let step = RULES.difference * constants[k].usual;
+            let at = |sign: f64| {
+                let mut moved = theta.to_vec();
+                moved[k] += sign * step;
+                self.errors(&Laws::at(constants, &moved))
+            };
+            let (below, above) = (at(-1.0), at(1.0));
+            above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+        };
+        (0..theta.len()).map(of).collect()
+    }
+}
+
+/// Error of a pose in m: ahead and to the side of the measured one, and heading by its lever.
+fn pose_error(model: [f64; 3], measured: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = measured[2].sin_cos();
+    let d = [model[0] - measured[0], model[1] - measured[1]];
+    [d[0] * cos + d[1] * sin, d[1] * cos - d[0] * sin, RULES.lever * (model[2] - measured[2])]
+}
+
+/// Speed and yaw rate between states of steps.
+fn between(states: &[State], place: f64) -> [f64; 2] {
+    let place = place.clamp(0.0, (states.len() - 1) as f64);
+    let k = (place as usize).min(states.len().saturating_sub(2));
+    let share = place - k as f64;
+    let (a, b) = (&states[k], &states[(k + 1).min(states.len() - 1)]);
+    [a.speed + share * (b.speed - a.speed), a.rate + share * (b.rate - a.rate)]
+}
+
+impl Shown<'_> {
+    /// What a car that keeps still would err by: ways of windows of the pose, or speeds.
+    pub(crate) fn sizes(&self) -> Vec<f64> {
+        let pose = &self.drive.pose;
+        let of = |w: &Window| {
+            if !self.drive.has_pose() {
+                return self.reports(*w).filter_map(|m| m.encoder).filter(|e| e.abs() > RULES.moving).collect();
+            }
+            let way = |steps: usize| {
+                let (a, b) = (pose[w.from], pose[w.from + steps]);
+                [b[0] - a[0], b[1] - a[1], RULES.lever * (b[2] - a[2])]
+            };
+            let moved = way(w.steps);
+            if moved[0].hypot(moved[1]) > RULES.moving { [way(w.steps / 2), moved].concat() } else { Vec::new() }
+        };
+        self.windows.iter().flat_map(of).collect()
+    }
+}

@@ -1,0 +1,242 @@
+//! The tuned numbers of this crate.
+
+::settings::settings! {
+    /// Tuned numbers of the comparison of cars with the single-track model.
+    pub(crate) struct Settings;
+
+    /// Rows of a recording and the grid of the model.
+    grid: Grid {
+        /// Step of the model.
+        step: f64 = 0.02, "s", "a tenth of the fastest lateral time constant of small cars' tyres that still shows";
+        /// Gaps of the pose that are bridged.
+        gap: f64 = 0.1, "s", "guess; motion hardly changes within it";
+        /// Half length over which velocities are taken from the pose for fits.
+        smoothing: f64 = 0.1, "s", "guess; averages a good pose's noise to millimetres per second";
+        /// Rows below which a drive is refused.
+        rows: usize = 20, "1", "guess; two seconds of a car that reports at 10 Hz";
+        /// Largest share of the commands' range that a throttle or steering command may exceed.
+        command: f64 = 0.05, "1", "guess; rounding and trims";
+    }
+
+    /// Steps of the model.
+    model: Model {
+        /// Speed below which slip angles are taken as if at this speed.
+        slow: f64 = 0.1, "m/s", "guess; slip angles are not defined at rest";
+        /// Least compliance of a tyre: below it the step gives the kinematic car.
+        least_compliance: f64 = 1e-4, "rad s²/m", "a hundredth of usual tyres'";
+        /// Least distance of the centre of mass from the front axle, share of the wheelbase.
+        least_share: f64 = 0.1, "1", "guess; no car stands on its front wheels alone";
+        /// Shape factor C of the Pacejka tyre of the rival.
+        pacejka_shape: f64 = 1.4, "1", "Pacejka, Tyre and Vehicle Dynamics: 1.3 to 1.65 for side force";
+        /// Least distances and rates that count as above none.
+        tiny: f64 = 1e-9, "1", "far above rounding, far below anything measured";
+    }
+
+    /// Windows over which motion and model are compared.
+    windows: Windows {
+        /// Length of a window.
+        length: f64 = 1.0, "s", "guess; half of the forecasts, several lags of usual servos";
+        /// Distance of their beginnings.
+        every: f64 = 0.5, "s", "guess; half a window";
+        /// Metres that a heading error of one radian costs.
+        lever: f64 = 1.0, "m/rad", "guess; the way in a second at 1 m/s";
+        /// Errors farther off than this many sigmas count less.
+        outlier: f64 = 4.0, "1", "guess";
+        /// Largest error of a row, in the unit of its kind.
+        ceiling: f64 = 30.0, "m; rad/s; m/s", "guess; far above what small cars do in a second";
+        /// Quantile of the errors from which their scale is taken.
+        quantile: f64 = 0.9, "1", "guess; the rest may be outliers";
+        /// Sigmas within which that share of a normal distribution lies.
+        quantile_sigmas: f64 = 1.645, "1", "mathematics: the quantile of the normal distribution";
+        /// Least sigmas of position and heading, gyro, encoder.
+        floor: [f64; 3] = [1e-3, 5e-3, 5e-3], "m; rad/s; m/s", "guess; good motion capture, noise of small sensors";
+        /// Way in a window, or speed, below which the car stands.
+        moving: f64 = 0.05, "m; m/s", "guess";
+        /// Windows in motion below which nothing is fitted.
+        least: usize = 8, "1", "guess";
+        /// Step of finite differences, shares of a cause's usual size.
+        difference: f64 = 0.01, "1", "guess; the dead zone's corner is crossed by few rows";
+    }
+
+    /// Fits of all constants.
+    fitting: Fitting {
+        /// Rounds in which scales of errors and scatter of drives are estimated anew.
+        rounds: usize = 2, "1", "guess";
+        /// Linearisations of a round at most.
+        iterations: usize = 15, "1", "guess";
+        /// Relative fall of the cost below which a round is at rest.
+        fall: f64 = 1e-4, "1", "guess";
+        /// Factors on the usual scatter of drives that are tried.
+        factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
+        /// Sigma of the logarithm of that factor.
+        width: f64 = 1.0, "1", "guess; a factor of e";
+        /// Farthest a constant may move, usual sizes and sigmas together.
+        farthest: f64 = 3.0, "1", "guess; normal priors leave a thousandth beyond";
+        /// Longest step of a constant, usual sizes.
+        longest: f64 = 1.0, "1", "guess";
+    }
+
+    /// Values that cars have where the robot file does not say, and how well they are known: one sigma.
+    known: Known {
+        /// Steering angle at full command.
+        full: [f64; 2] = [0.45, 0.15], "rad; share", "usual linkages of small and large cars";
+        /// Centre of the steering.
+        centre: f64 = 0.03, "rad", "guess; trim of a hobby servo";
+        /// Steering angle that is not in proportion to the command.
+        curve: f64 = 0.02, "rad", "guess; linkages";
+        /// Delays, lags.
+        delay: f64 = 0.02, "s", "guess; a few periods of usual logs";
+        /// Time that the steering takes for a radian.
+        slowness: f64 = 0.02, "s/rad", "guess; a fast servo takes 0.1 s for 60 degrees";
+        /// Play of the steering.
+        play: f64 = 0.005, "rad", "guess";
+        /// Distances.
+        distance: f64 = 0.01, "share", "a tape measure";
+        /// Tyre compliance: slip angle for a sideways acceleration.
+        compliance: f64 = 1e-3, "rad s²/m", "guess; a tenth of usual tyres'";
+        /// Inverse of the largest sideways acceleration.
+        inverse_grip: f64 = 0.01, "s²/m", "guess; a tenth of usual tyres'";
+        /// Yaw inertia.
+        inertia: f64 = 0.3, "share", "guess; a rectangle for a car";
+        /// Acceleration at full throttle.
+        gain: [f64; 2] = [10.0, 1.5], "m/s²; share", "small electric cars; nothing is known of a motor not stated";
+        /// Throttle at which the motor begins to turn.
+        dead_zone: [f64; 2] = [0.05, 0.15], "1", "usual drivers; nothing is known of a motor not stated";
+        /// Loss of acceleration with speed and throttle: back-EMF.
+        back_emf: [f64; 2] = [1.0, 3.0], "1/s", "a top speed of 10 m/s; nothing is known of a motor not stated";
+        /// Dry friction of the drive.
+        friction: [f64; 2] = [0.5, 1.5], "m/s²", "small gears; nothing is known of a drive not stated";
+        /// Viscous friction of the drive.
+        viscous: [f64; 2] = [0.3, 1.0], "1/s", "nothing is known of a drive not stated";
+        /// Lag of the motor.
+        drive_lag: [f64; 2] = [0.05, 0.1], "s", "nothing is known of a motor not stated";
+        /// Place of the tracked point.
+        point: f64 = 0.005, "m", "a tape measure";
+        /// Direction of the tracked axes.
+        direction: f64 = 0.035, "rad", "two degrees: by eye";
+        /// Scale of the gyro.
+        gyro_scale: f64 = 0.02, "share", "data sheets of small gyros";
+        /// Bias of the gyro.
+        gyro_bias: f64 = 0.01, "rad/s", "data sheets of small gyros, after a start at rest";
+        /// Radius of the wheels that the encoder's speed is computed with.
+        radius: f64 = 0.02, "share", "guess; rubber under load";
+    }
+
+    /// Usual sizes of causes: one sigma about none.
+    usual: Usual {
+        /// Steering gain.
+        gain: f64 = 0.4, "share", "guess";
+        /// Steering centre.
+        centre: f64 = 0.1, "rad", "guess";
+        /// Steering angle out of proportion.
+        curve: f64 = 0.1, "rad", "guess";
+        /// Delays and lags.
+        delay: f64 = 0.15, "s", "guess";
+        /// Time that the steering takes for a radian.
+        slowness: f64 = 0.5, "s/rad", "guess; slow servos";
+        /// Play of the steering.
+        play: f64 = 0.05, "rad", "guess";
+        /// Distances.
+        distance: f64 = 0.05, "share", "guess; a tape measure read at the wrong end";
+        /// Place of the centre of mass.
+        centre_of_mass: f64 = 0.01, "share", "guess; axle loads tell it, drives hardly do";
+        /// Tyre compliance.
+        compliance: f64 = 0.02, "rad s²/m", "tyres of small cars: 0.2 rad at 1 g";
+        /// Inverse of the largest sideways acceleration.
+        inverse_grip: f64 = 0.15, "s²/m", "a friction coefficient of 0.7";
+        /// Yaw inertia.
+        inertia: f64 = 0.3, "share", "guess; a rectangle for a car";
+        /// Acceleration at full throttle.
+        drive_gain: f64 = 0.5, "share", "guess; a battery that is empty, another gear";
+        /// Dead zone of the throttle.
+        dead_zone: f64 = 0.1, "1", "guess";
+        /// Back-EMF.
+        back_emf: f64 = 2.0, "1/s", "guess";
+        /// Dry friction.
+        friction: f64 = 1.0, "m/s²", "guess";
+        /// Viscous friction.
+        viscous: f64 = 0.5, "1/s", "guess";
+        /// Place of the tracked point.
+        point: f64 = 0.05, "m", "guess";
+        /// Direction of the tracked axes.
+        direction: f64 = 0.1, "rad", "guess";
+        /// Scale of the gyro.
+        gyro_scale: f64 = 0.1, "share", "guess";
+        /// Bias of the gyro.
+        gyro_bias: f64 = 0.05, "rad/s", "guess";
+        /// Scale of the encoder.
+        encoder: f64 = 0.3, "share", "guess; gears and counted edges";
+    }
+
+    /// By how much constants differ from drive to drive although nothing is changed: one sigma, before the drives themselves
+    /// are asked.
+    scatter: Scatter {
+        /// Steering gain.
+        gain: f64 = 0.01, "share", "guess; a servo's voltage";
+        /// Steering centre.
+        centre: f64 = 0.004, "rad", "guess; play and trims";
+        /// Steering angle out of proportion, play.
+        curve: f64 = 1e-3, "rad", "guess";
+        /// Delays and lags.
+        delay: f64 = 0.005, "s", "guess; clocks are set up anew";
+        /// Tyre compliance.
+        compliance: f64 = 1e-3, "rad s²/m", "guess; floor and temperature";
+        /// Inverse of the largest sideways acceleration.
+        inverse_grip: f64 = 0.005, "s²/m", "guess; floor and temperature";
+        /// Acceleration at full throttle.
+        drive_gain: f64 = 0.05, "share", "guess; state of the battery";
+        /// Dead zone of the throttle.
+        dead_zone: f64 = 0.005, "1", "guess";
+        /// Friction, dry.
+        friction: f64 = 0.05, "m/s²", "guess; temperature of gears";
+        /// Friction, viscous, and back-EMF.
+        viscous: f64 = 0.03, "1/s", "guess; temperature of gears";
+        /// Place of the tracked point.
+        point: f64 = 1e-3, "m", "guess; motion capture is set up anew";
+        /// Direction of the tracked axes.
+        direction: f64 = 2e-3, "rad", "guess; motion capture is set up anew";
+        /// Scales of gyro and encoder.
+        scale: f64 = 2e-3, "share", "guess; temperature";
+        /// Bias of the gyro.
+        bias: f64 = 3e-3, "rad/s", "guess; temperature";
+        /// Geometry.
+        geometry: f64 = 1e-4, "share", "nothing moves";
+    }
+
+    /// Forecasts from throttle and steering alone.
+    forecast: Forecast {
+        /// Lengths of forecasts.
+        lengths: [f64; 3] = [0.5, 1.0, 2.0], "s", "horizons of predictive controllers of small cars";
+        /// Distance of their beginnings.
+        every: f64 = 0.5, "s", "guess";
+        /// Way below which a forecast is of a car that stands, and does not count.
+        way: f64 = 0.1, "m", "guess; a hundred times the noise of a good pose";
+        /// Past over which velocities at the start are taken, of which one is chosen on the other drives.
+        past: [f64; 3] = [0.14, 0.2, 0.3], "s", "guess; noise against delay";
+        /// Times after which what a drive said of itself has faded to 1/e, of which one is chosen on the other drives.
+        fading: [f64; 4] = [1.0, 2.0, 5.0, 20.0], "s", "guess; manoeuvres, batteries";
+        /// Commands before the start from which the state of steering and drive comes.
+        warm: f64 = 2.0, "s", "guess; ten lags of a slow servo";
+        /// Factors on the scatter of drives within a drive, of which one is chosen on the other drives.
+        freedom: [f64; 3] = [1.0, 3.0, 10.0], "1", "guess; constants of a manoeuvre differ more than those of a drive";
+    }
+
+    /// When something is left that no cause accounts for.
+    naming: Naming {
+        /// Causes below this probability are not listed.
+        listed: f64 = 0.05, "1", "guess";
+        /// A factor on the encoder this near to a familiar one is told as that.
+        familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
+        /// Familiar factors: counts on both edges, diameters for radii, gears.
+        factors: [f64; 4] = [2.0, 0.5, 4.0, 0.25], "1", "edges of encoders, diameters for radii";
+        /// Remaining error of windows over their way, beyond which what is left asks for a cause.
+        left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
+        /// Share of the re-tuned error that has to be left then.
+        left_of_retuned: f64 = 0.8, "1", "guess";
+        /// Sigmas by which a constant has to move to be told as re-tuned.
+        moved: f64 = 0.5, "1", "guess";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;

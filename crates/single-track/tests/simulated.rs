@@ -1,0 +1,58 @@
+//! Simulated cars with something hidden: what is named, with which interval, and that cars as stated are not accused.
+
+mod drawn;
+
+use drawn::{Hidden, case};
+use single_track::{Answer, CORRECTED, FOLLOWING, Findings, LENGTHS, diagnose, examine};
+
+fn found(hidden: Hidden, seed: u64) -> Findings {
+    diagnose(&case(hidden, seed), &|_| {}).expect("an answer")
+}
+
+fn value(findings: &Findings, name: &str) -> (f64, f64) {
+    let e = findings.constants.iter().find(|e| e.name == name).unwrap_or_else(|| panic!("no {name}"));
+    (e.value, e.half_width)
+}
+
+#[test]
+fn what_is_hidden_is_named_with_its_size() {
+    let none = Hidden::default();
+    let cases = [
+        ("steering_centre", Hidden { centre: 0.05, ..none }, "steering angle at no command", 0.05, 0.006),
+        ("steering_command_gain", Hidden { gain: -0.2, ..none }, "steering angle at full command", 0.32, 0.02),
+        ("steering_lag", Hidden { lag: 0.15, ..none }, "time constant of the steering", 0.15, 0.03),
+        ("car_encoder_scale", Hidden { encoder: 1.0, ..none }, "encoder speed over ground speed", 2.0, 0.02),
+        ("car_gyro_scale", Hidden { gyro_scale: 0.15, ..none }, "scale of the gyro", 1.15, 0.02),
+        ("car_gyro_bias", Hidden { gyro_bias: 0.1, ..none }, "bias of the gyro", 0.1, 0.01),
+    ];
+    let mut wrong = Vec::new();
+    for (seed, (cause, hidden, constant, truth, tolerance)) in cases.into_iter().enumerate() {
+        let findings = found(hidden, 10 * seed as u64 + 1);
+        let is_named = |c: &single_track::NamedCause| c.spec.id == cause || c.alike.iter().any(|a| a == cause);
+        let (value, half_width) = value(&findings, constant);
+        let names: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+        if !findings.named.iter().any(is_named) || (value - truth).abs() > f64::max(tolerance, half_width) {
+            wrong.push(format!("{cause}: {names:?}, {constant} {value} ± {half_width} where {truth} is true"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn a_car_as_stated_is_not_accused() {
+    let accused: Vec<Vec<&str>> = (0..5)
+        .map(|seed| found(Hidden::default(), 100 + 10 * seed))
+        .filter(|f| matches!(f.answer, Answer::Named | Answer::Unknown))
+        .map(|f| f.named.iter().map(|c| c.spec.id).collect())
+        .collect();
+    assert!(accused.is_empty(), "{accused:?}");
+}
+
+#[test]
+fn left_out_drives_are_forecast_better_with_the_cause_than_as_stated() {
+    let (_, table) = examine(&case(Hidden { centre: 0.05, ..Hidden::default() }, 5), &|_| {}).expect("a table");
+    let error = |row: usize| table.rows[row].1[LENGTHS.len() - 1].medians().expect("forecasts")[0];
+    assert_eq!(table.drives, 3);
+    assert!(error(CORRECTED) < 0.5 * error(0), "{} beside {}", error(CORRECTED), error(0));
+    assert!(error(FOLLOWING) < 0.5 * error(0), "{} beside {}", error(FOLLOWING), error(0));
+}
