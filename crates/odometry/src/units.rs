@@ -9,7 +9,7 @@ use crate::settings::{DriveRules, SETTINGS};
 use crate::wheel::{Wheel, WheeledRobot};
 
 const RULES: DriveRules = SETTINGS.drive;
-const DEGREES_OF_A_TURN: f64 = 360.0;
+const DEGREES_OF_A_TURN: f64 = TAU.to_degrees();
 
 /// A column of a wheel without its jumps where it wraps around.
 pub(crate) fn unwrapped(column: &[f64], data: WheelData, wheel: &Wheel, told: &mut Vec<String>) -> Vec<f64> {
