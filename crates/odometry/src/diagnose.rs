@@ -17,6 +17,7 @@ use crate::wheel::WheeledRobot;
 use crate::windows::Data;
 use catalogue::CauseSpec;
 use catalogue::odometry::LOST_COUNTS;
+use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
 
 /// Kind of answer.
@@ -313,9 +314,12 @@ fn pose_noise(data: &Data<'_>) -> f64 {
 fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
     let measured = case.robot.measured();
     let mut out: Vec<NamedCause> = Vec::new();
+    let odds = dropout::log_odds(lost);
+    let label_of = |wheel: usize| format!("{} ({})", LOST_COUNTS.id, case.robot.wheels[measured[wheel]].name);
     for found in lost {
         let wheel = &case.robot.wheels[measured[found.wheel]].name;
-        let label = format!("{} ({wheel})", LOST_COUNTS.id);
+        let label = label_of(found.wheel);
+        let own = odds.iter().find(|(w, _)| *w == found.wheel).map_or(f64::NEG_INFINITY, |(_, odds)| *odds);
         let time = |w: usize| {
             let window = data.windows[found.drive][w];
             [data.drives[found.drive].time[window.from], data.drives[found.drive].time[window.to]]
@@ -328,8 +332,8 @@ fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
             None => out.push(NamedCause {
                 spec: &LOST_COUNTS,
                 label,
-                probability: 1.0 - SETTINGS.naming.listed,
-                alike: Vec::new(),
+                probability: logistic(own),
+                alike: dropout::alike(lost, found.wheel).into_iter().map(label_of).collect(),
                 estimates: vec![Estimate {
                     name: format!("share of the counts of {wheel} that is lost"),
                     unit: "1",

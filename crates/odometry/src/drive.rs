@@ -2,6 +2,7 @@
 
 use crate::error::OdometryError;
 use crate::settings::{DriveRules, SETTINGS};
+use crate::units;
 use crate::wheel::WheeledRobot;
 
 const RULES: DriveRules = SETTINGS.drive;
@@ -41,8 +42,8 @@ pub enum WheelData {
 impl Drive {
     /// A drive from columns: one of each measured wheel, in the order of the robot's wheels.
     ///
-    /// Counters that wrap around are unwrapped, and a pose that can only be in millimetres or degrees is taken as such; both
-    /// are told in [`Drive::told`].
+    /// Counters and angles that wrap around are unwrapped, and columns that can only be in millimetres, degrees, turns or turns
+    /// per minute are taken as such; all of it is told in [`Drive::told`].
     ///
     /// # Errors
     /// When columns are missing, of unlike length or not finite, when counts lack `counts_per_turn`, or when the unit of the
@@ -101,8 +102,7 @@ impl Drive {
                     std::f64::consts::TAU / wheel.counts_per_turn.ok_or_else(lacks)?
                 }
             };
-            let column =
-                if data == WheelData::Counter { unwrapped(column, &wheel.name, &mut told) } else { column.clone() };
+            let column = units::unwrapped(column, data, wheel, &mut told);
             for row in 1..rows {
                 turns[row][k] = unit
                     * match data {
@@ -113,8 +113,7 @@ impl Drive {
             }
         }
         let mut out = Self { name: name.to_owned(), session: name.to_owned(), time, turns, steering, pose, told };
-        out.unwrap_yaw();
-        out.guess_units(robot)?;
+        units::guess(&mut out, robot, data)?;
         Ok(out)
     }
 
@@ -162,79 +161,6 @@ impl Drive {
         };
         self.time.iter().copied().map(at).collect()
     }
-
-    fn unwrap_yaw(&mut self) {
-        let mut last: Option<f64> = None;
-        for pose in &mut self.pose {
-            if pose[2].is_finite() {
-                if let Some(before) = last {
-                    let turns = ((pose[2] - before) / std::f64::consts::TAU).round();
-                    pose[2] -= turns * std::f64::consts::TAU;
-                }
-                last = Some(pose[2]);
-            }
-        }
-    }
-
-    /// Tells a pose in millimetres by its way against that of the wheels.
-    fn guess_units(&mut self, robot: &WheeledRobot) -> Result<(), OdometryError> {
-        let seen: Vec<[f64; 3]> = (0..self.pose.len()).filter(|&k| self.is_seen(k)).map(|k| self.pose[k]).collect();
-        let Some(start) = seen.first() else {
-            let what = "the pose is never seen; map pose_x, pose_y and pose_yaw".to_owned();
-            return Err(OdometryError::Drive { drive: self.name.clone(), what });
-        };
-        let measured = robot.measured();
-        let way = |row: &Vec<f64>| {
-            row.iter().zip(&measured).map(|(t, &w)| (t * robot.wheels[w].radius).abs()).fold(0.0, f64::max)
-        };
-        let rolled: f64 = self.turns.iter().map(way).sum();
-        let reach = seen.iter().map(|p| (p[0] - start[0]).hypot(p[1] - start[1])).fold(0.0, f64::max);
-        let wheels_reach = rolled.max(RULES.way);
-        if reach < RULES.unit * wheels_reach {
-            return Ok(());
-        }
-        let factor = reach / wheels_reach;
-        // A reach is at most the way: a pose in millimetres has up to a thousand times the way in metres.
-        if factor <= RULES.unit_tolerance * RULES.milli && RULES.milli <= RULES.unit_tolerance * RULES.unit * factor {
-            for pose in &mut self.pose {
-                pose[0] /= RULES.milli;
-                pose[1] /= RULES.milli;
-            }
-            self.told.push(format!(
-                "recording '{}': the pose moves by {reach:.0} where the wheels roll {rolled:.2} m: it is taken to be in \
-                 millimetres; state the unit in the mapping",
-                self.name
-            ));
-            return Ok(());
-        }
-        let what = format!(
-            "the pose moves by {reach:.0} where the wheels roll {rolled:.2} m; state its unit in the mapping, or correct \
-             the radius or counts_per_turn"
-        );
-        Err(OdometryError::Drive { drive: self.name.clone(), what })
-    }
-}
-
-/// A counter without its jumps where it wraps around.
-fn unwrapped(column: &[f64], wheel: &str, told: &mut Vec<String>) -> Vec<f64> {
-    let largest = column.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
-    let fits = |range: &&f64| largest > RULES.wrap * **range && column.iter().all(|c| c.abs() <= **range);
-    let Some(&range) = RULES.ranges.iter().rev().find(fits) else { return column.to_vec() };
-    let mut added = 0.0;
-    let mut wraps = 0;
-    let mut out = Vec::with_capacity(column.len());
-    for (k, &count) in column.iter().enumerate() {
-        if k > 0 {
-            let jump = count - column[k - 1];
-            if jump.abs() > RULES.wrap * range {
-                added -= range * jump.signum();
-                wraps += 1;
-            }
-        }
-        out.push(count + added);
-    }
-    told.push(format!("the counter of wheel '{wheel}' wraps around at {range:.0} {wraps} times: it was unwrapped"));
-    out
 }
 
 #[cfg(test)]

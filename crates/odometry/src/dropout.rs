@@ -1,4 +1,8 @@
 //! Counts that an encoder lost in some windows.
+//!
+//! A window far off is an outlier, or a wheel lost a share of its counts in it. An outlier costs at most what the fit lets it
+//! cost, `c²/2` with c the sigmas of an outlier; a share of one wheel takes `z²` of the window's misfit away and costs the width
+//! that it might have had, `ln(|column| / (σ √2π))`. All wheels and none compete for the same windows.
 
 use crate::constants::Quantity;
 use crate::fit::columns;
@@ -15,6 +19,25 @@ pub(crate) struct Lost {
     pub(crate) drive: usize,
     /// Windows, with the share of counts that each lost.
     pub(crate) windows: Vec<(usize, f64)>,
+    /// Evidence of each wheel that it lost counts here, over that of outliers, nats.
+    pub(crate) evidence: Vec<(usize, f64)>,
+}
+
+/// Log odds of each wheel over all others and none together.
+pub(crate) fn log_odds(lost: &[Lost]) -> Vec<(usize, f64)> {
+    let mut sums: Vec<(usize, f64)> = Vec::new();
+    for &(wheel, nats) in lost.iter().flat_map(|found| &found.evidence) {
+        match sums.iter_mut().find(|(w, _)| *w == wheel) {
+            Some((_, sum)) => *sum += nats,
+            None => sums.push((wheel, SETTINGS.naming.odds + nats)),
+        }
+    }
+    let rivals = |wheel: usize| {
+        let others = sums.iter().filter(|(w, _)| *w != wheel).map(|(_, s)| *s).chain([0.0]);
+        let largest = others.clone().fold(f64::MIN, f64::max);
+        largest + others.map(|s| (s - largest).exp()).sum::<f64>().ln()
+    };
+    sums.iter().map(|&(wheel, sum)| (wheel, sum - rivals(wheel))).collect()
 }
 
 /// Finds windows far off that one wheel's missing counts account for.
@@ -37,7 +60,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
         let columns = columns(data, theta, drive);
         let total: f64 = far.iter().map(|&w| size(&errors[drive][w])).sum();
         let of_wheel = |&(k, wheel): &(usize, usize)| {
-            let mut explained = 0.0;
+            let (mut explained, mut nats) = (0.0, 0.0);
             let mut windows = Vec::new();
             for &w in &far {
                 let (column, error) = (columns[k][w], errors[drive][w]);
@@ -45,21 +68,58 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
                 // Missing counts shorten what the wheels imply: the error is the column times minus the share.
                 let share = -dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
                 if share > RULES.lost && share < 1.0 + RULES.lost {
-                    explained += (dot(column, error).powi(2) / dot(column, column)) / (scale * scale);
+                    let taken = (dot(column, error).powi(2) / dot(column, column)) / (scale * scale);
+                    explained += taken;
+                    let left = size(&error) - taken;
+                    let width = (dot(column, column).sqrt() / (scale * std::f64::consts::TAU.sqrt())).max(1.0);
+                    let outlier = SETTINGS.windows.outlier.powi(2);
+                    nats += 0.5 * (size(&error).min(outlier) - left.min(outlier)) - width.ln();
                     windows.push((w, share));
                 }
             }
-            (explained, Lost { wheel, drive, windows })
+            (explained, nats, Lost { wheel, drive, windows, evidence: Vec::new() })
         };
-        let best = wheels.iter().map(of_wheel).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((explained, found)) = best
+        let weighed: Vec<(f64, f64, Lost)> = wheels.iter().map(of_wheel).collect();
+        let evidence: Vec<(usize, f64)> = weighed.iter().map(|(_, nats, found)| (found.wheel, *nats)).collect();
+        let best = weighed.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((explained, _, found)) = best
             && explained > RULES.share * total
             && found.windows.len() >= RULES.windows
         {
-            out.push(found);
+            out.push(Lost { evidence, ..found });
         }
     }
     // Several encoders do not fail at once: then the body slid.
     let one = out.iter().all(|found| found.wheel == out[0].wheel);
-    if one { out } else { Vec::new() }
+    // Whether counts were lost at all is asked first; which wheel lost them may stay open.
+    let over_none = out.iter().flat_map(|found| found.evidence.iter().filter(|(w, _)| *w == found.wheel));
+    let over_none = SETTINGS.naming.odds + over_none.map(|(_, nats)| nats).sum::<f64>();
+    if one && over_none > SETTINGS.naming.named { out } else { Vec::new() }
+}
+
+/// Wheels that account for the same windows within the odds.
+pub(crate) fn alike(lost: &[Lost], wheel: usize) -> Vec<usize> {
+    let odds = log_odds(lost);
+    let Some((_, own)) = odds.iter().find(|(w, _)| *w == wheel).copied() else { return Vec::new() };
+    odds.iter().filter(|(w, o)| *w != wheel && own - o < SETTINGS.naming.alike).map(|(w, _)| *w).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(evidence: &[(usize, f64)]) -> Lost {
+        Lost { wheel: 0, drive: 0, windows: Vec::new(), evidence: evidence.to_vec() }
+    }
+
+    #[test]
+    fn wheels_and_none_share_one_probability() {
+        let lost = [found(&[(0, 6.0), (1, -40.0)]), found(&[(0, 2.0), (1, -1.0)])];
+        let odds = log_odds(&lost);
+        approx::assert_relative_eq!(odds[0].1, 8.0 + SETTINGS.naming.odds, epsilon = 1e-9);
+        let same = log_odds(&[found(&[(0, 30.0), (1, 30.0)])]);
+        approx::assert_relative_eq!(same[0].1, 0.0, epsilon = 1e-6);
+        assert_eq!(alike(&[found(&[(0, 30.0), (1, 30.0)])], 0), [1]);
+        assert!(alike(&lost, 0).is_empty());
+    }
 }

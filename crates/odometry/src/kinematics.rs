@@ -299,5 +299,13 @@ mod tests {
         assert!(none.checked().unwrap_err().to_string().contains("wheel 'right': radius -0.1 m"));
         none.wheels.iter_mut().for_each(|w| w.measured = false);
         assert!(none.checked().unwrap_err().to_string().contains("no wheel's turning is recorded"));
+
+        let one_way = WheeledRobot::mecanum_4(0.05, 0.3, 0.3)
+            .with_wheels(|_, w| Wheel { roller: std::f64::consts::FRAC_PI_4, ..w });
+        let refusal = one_way.checked().unwrap_err().to_string();
+        assert!(refusal.contains("the axles of all rollers point one way") && refusal.contains("-45"), "{refusal}");
+        let mut many = WheeledRobot::differential(0.1, 0.5);
+        many.wheels = (0..9).map(|k| Wheel::new(&format!("wheel {k}"), [0.1 * f64::from(k), 0.2], 0.1)).collect();
+        assert!(many.checked().unwrap_err().to_string().contains("9 wheels, but 8 are the most"));
     }
 }

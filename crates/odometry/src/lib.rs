@@ -3,7 +3,7 @@
 //! # Files
 //!
 //! * `wheel`, `kinematics`: a robot as a list of wheels, and from turning wheels to the motion of its body.
-//! * `drive`: turns of the wheels, steering and pose on one grid of rows; counters, units.
+//! * `drive`, `units`: turns of the wheels, steering and pose on one grid of rows; counters, units.
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
@@ -31,6 +31,7 @@ mod motion;
 mod name;
 mod rivals;
 mod settings;
+mod units;
 mod weigh;
 mod wheel;
 mod windows;

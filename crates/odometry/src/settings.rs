@@ -6,6 +6,8 @@
 
     /// Wheels and what they determine.
     wheels: Wheels {
+        /// Wheels at most.
+        most: usize = 8, "1", "no robot of the open data has more";
         /// Smallest singular value over the largest, below which the wheels do not determine the motion.
         least_rank: f64 = 1e-4, "1", "guess; rounding of places to millimetres gives more";
         /// Roller angle from which a robot has no along and across, only a distance from centre to wheel.
@@ -32,6 +34,14 @@
         milli: f64 = 1000.0, "1", "SI";
         /// A factor of units is told when the pose's way is within this factor of it.
         unit_tolerance: f64 = 3.0, "1", "guess";
+        /// Stretches over which motions of wheels and pose are added up to tell units.
+        stretch: f64 = 1.0, "s", "guess; noise of a pose is little beside a second's motion";
+        /// Turning of the wheels' motion below which the unit of yaw is not guessed.
+        turned: f64 = 0.5, "rad", "guess; a turn into a side road";
+        /// Columns are taken to be in degrees when they are within this factor of 57.3 times what they should be.
+        degrees_tolerance: f64 = 2.0, "1", "guess; no radius, track or gear is wrong by as much";
+        /// Columns are taken to be in turns when they are within this factor of what turns would be.
+        turns_tolerance: f64 = 1.15, "1", "guess; gears of 5 and 8 are not taken for 2 pi";
     }
 
     /// Windows over which the pose and the wheels' motion are compared.

@@ -182,9 +182,23 @@ impl WheeledRobot {
             wheel: wheel.name.clone(),
             what,
         };
+        let whole = |what: String| OdometryError::Robot { robot: self.name.clone(), what };
         if self.measured().is_empty() {
-            let what = "no wheel's turning is recorded; give one [[wheel]] per wheel with an encoder".to_owned();
-            return Err(OdometryError::Robot { robot: self.name.clone(), what });
+            return Err(whole(
+                "no wheel's turning is recorded; give one [[wheel]] per wheel with an encoder".to_owned(),
+            ));
+        }
+        let most = SETTINGS.wheels.most;
+        if self.wheels.len() > most {
+            return Err(whole(format!(
+                "{} wheels, but {most} are the most that are compared; give the wheels of a side that turn together as one",
+                self.wheels.len()
+            )));
+        }
+        for (k, wheel) in self.wheels.iter().enumerate() {
+            if self.wheels[..k].iter().any(|w| w.name == wheel.name) {
+                return Err(wrong(wheel, "two wheels have this name; answers go by it: give each its own".to_owned()));
+            }
         }
         for wheel in &self.wheels {
             if !(wheel.radius > 0.0 && wheel.radius.is_finite()) {
@@ -203,6 +217,16 @@ impl WheeledRobot {
             if numbers.iter().any(|x| !x.is_finite()) {
                 return Err(wrong(wheel, "place, direction and roller angle have to be finite numbers".to_owned()));
             }
+        }
+        let axle = |wheel: &Wheel| wheel.direction + wheel.roller;
+        let is_of_first =
+            |wheel: &Wheel| (axle(wheel) - axle(&self.wheels[0])).sin().abs() < SETTINGS.wheels.least_rank;
+        if self.wheels.iter().all(|w| w.roller != 0.0) && self.wheels.iter().all(is_of_first) {
+            return Err(whole(
+                "the axles of all rollers point one way, so no wheel can drive the robot across them; correct roller_deg or \
+                 direction_deg: neighbours of a mecanum robot have 45 and -45, omni wheels point in different directions"
+                    .to_owned(),
+            ));
         }
         Kinematics::determines(self)?;
         Ok(self)

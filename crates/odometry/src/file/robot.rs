@@ -75,6 +75,9 @@ struct WheelRow {
     column: Option<String>,
     #[serde(default)]
     steered: bool,
+    /// Swivels freely: determines nothing, and is left out.
+    #[serde(default)]
+    caster: bool,
     /// Where its numbers come from; read by people.
     #[serde(rename = "source")]
     _source: Option<String>,
@@ -127,7 +130,7 @@ impl RobotFile {
     /// Syntax, unknown keys, units and numbers that cannot be, with what to do.
     pub fn parse(file: &str, text: &str) -> Result<Self, OdometryError> {
         let wrong = |what: String| OdometryError::Robot { robot: file.to_owned(), what };
-        let read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
+        let mut read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
         if read.kind != "odometry" {
             return Err(wrong(format!("kind = \"{}\"; wheels and columns belong to kind = \"odometry\"", read.kind)));
         }
@@ -135,6 +138,27 @@ impl RobotFile {
             return Err(wrong("no [columns]; say which columns hold time, wheels and pose".to_owned()));
         };
 
+        if let Some(caster) = read.wheel.iter().find(|w| w.caster && (w.column.is_some() || w.steered)) {
+            return Err(wrong(format!(
+                "wheel '{}' is a caster and yet has a column or is steered; a caster follows and its counts tell no motion: \
+                 leave out column and steered, or caster",
+                caster.name
+            )));
+        }
+        read.wheel.retain(|w| !w.caster);
+        let steered = read.wheel.iter().find(|w| w.steered);
+        if let (Some(wheel), None) = (steered, &names.steering) {
+            return Err(wrong(format!(
+                "wheel '{}' is steered, but [columns] has no steering; name the column of its angle",
+                wheel.name
+            )));
+        }
+        if let (None, Some(column)) = (steered, &names.steering) {
+            return Err(wrong(format!(
+                "[columns] steering = \"{column}\", but no wheel is steered; write steered = true at the wheel, or leave \
+                 the column out"
+            )));
+        }
         let measured: Vec<&WheelRow> = read.wheel.iter().filter(|w| w.column.is_some()).collect();
         let relative = |row: &&WheelRow| row.radius_sigma.map(|s| s / row.radius);
         let sigmas: Vec<f64> = measured.iter().filter_map(relative).collect();
@@ -246,5 +270,27 @@ mod tests {
         assert!(refused("kind = \"odometry\"", "kind = \"car\"").contains("belong to kind"));
         assert!(refused("wheels = \"counts\"", "wheels = \"tacho\"").contains("counts, counter, angle or speed"));
         assert!(refused("time = ", "tim = ").contains("tim"));
+        assert!(refused("time = ", "steering = \"a\"\ntime = ").contains("no wheel is steered; write steered = true"));
+        assert!(
+            refused(
+                "[known]",
+                "[[wheel]]\nname = \"back\"\nplace = [-0.1, 0.0]\nradius = 0.02\ncaster = true\n\
+             column = \"c\"\n[known]"
+            )
+            .contains("wheel 'back' is a caster and yet has a column")
+        );
+        assert!(refused("name = \"right\"", "name = \"left\"").contains("wheel 'left': two wheels have this name"));
+        let (_, tricycle) = BUILT_IN[1];
+        let unsteered = tricycle.replace("steering = \"steer_rad\"\n", "");
+        let refusal = RobotFile::parse("robot.toml", &unsteered).unwrap_err().to_string();
+        assert!(refusal.contains("wheel 'front' is steered, but [columns] has no steering"), "{refusal}");
+    }
+
+    #[test]
+    fn a_caster_is_left_out_of_the_wheels() {
+        let (_, text) = BUILT_IN[0];
+        let caster = "[[wheel]]\nname = \"back\"\nplace = [-0.1, 0.0]\nradius = 0.02\ncaster = true\n[known]";
+        let with = RobotFile::parse("robot.toml", &text.replace("[known]", caster)).expect("a robot");
+        assert_eq!(with.robot, RobotFile::parse("robot.toml", text).expect("a robot").robot);
     }
 }
