@@ -49,10 +49,17 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
 
 fn ranked(findings: &Findings) -> Vec<Cause> {
     let mut out: Vec<Cause> = findings.named.iter().map(cause).collect();
+    if findings.answer == Answer::Unknown {
+        // Candidates that do not account for the drives share what "unknown" leaves.
+        for c in &mut out {
+            c.probability *= SETTINGS.naming.listed;
+        }
+    }
     for (label, probability) in &findings.others {
-        if *probability >= SETTINGS.naming.listed {
+        let probability = probability * if findings.answer == Answer::Unknown { SETTINGS.naming.listed } else { 1.0 };
+        if probability >= SETTINGS.naming.listed {
             let id = label.split(' ').next().unwrap_or(label);
-            out.push(Cause { name: label.clone(), ..Cause::plain(id, label, *probability) });
+            out.push(Cause { name: label.clone(), ..Cause::plain(id, label, probability) });
         }
     }
     let none = match findings.answer {
@@ -113,9 +120,7 @@ fn free_runs(table: &Table) -> Vec<FreeRun> {
                 let [Some(nominal), Some(retuned), Some(corrected)] = [of(0), of(1), of(2)] else { continue };
                 out.push(FreeRun {
                     recording: drive.clone(),
-                    quantity: format!(
-                        "{quantity} after {length:.0} s from throttle and steering alone, median, {unit}"
-                    ),
+                    quantity: format!("{quantity} after {length} s from throttle and steering alone, median, {unit}"),
                     nominal,
                     retuned,
                     corrected,
@@ -130,7 +135,7 @@ fn free_runs(table: &Table) -> Vec<FreeRun> {
 /// "0.0842 ± 0.0003 m", with two digits of the interval.
 fn number(e: &Estimate) -> String {
     let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
-    let digits = (1.0 - e.half_width.abs().max(1e-6).log10().floor()).clamp(0.0, 6.0) as usize;
+    let digits = (1 - e.half_width.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
     format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
 }
 
@@ -158,6 +163,12 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
                 labels.join("; ")
             ));
         }
+        Answer::Unknown if findings.is_scattered => text.push(format!(
+            "Unknown: the drives of this car differ from each other by {:.0} times what is usual or more, so that no cause that all \
+             of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best answer). \
+             Diagnose drives of one day, floor and battery by themselves; candidates follow.",
+            findings.scatter
+        )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer."
@@ -176,7 +187,6 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
         let familiar = familiar(named);
         text.push(format!("{}: {}{familiar}{alike}.", named.label, values.collect::<Vec<_>>().join("; ")));
     }
-    text.extend(findings.told.iter().map(|t| format!("{t}.")));
     text
 }
 
@@ -220,6 +230,7 @@ fn limits(findings: &Findings, table: &Table, has_references: bool) -> Vec<Strin
             findings.counts[0], findings.counts[1], findings.counts[2], findings.scatter
         ),
     ];
+    out.extend(findings.told.iter().cloned());
     let unstated: Vec<&str> = findings.unstated.clone();
     if !unstated.is_empty() {
         out.push(format!(

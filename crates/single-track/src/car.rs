@@ -77,7 +77,7 @@ impl Car {
             name: name.to_owned(),
             wheelbase: Stated::usual(wheelbase, share * wheelbase),
             centre_of_mass: Stated::usual(0.5 * wheelbase, share * wheelbase),
-            gyration: usual([wheelbase * wheelbase * 1.25 / 12.0, DEFAULTS.inertia]),
+            gyration: usual([DEFAULTS.gyration * wheelbase * wheelbase, DEFAULTS.inertia]),
             full_steering: usual(DEFAULTS.full),
             centre: Stated::usual(0.0, DEFAULTS.centre),
             steering_delay: Stated::usual(0.0, DEFAULTS.delay),

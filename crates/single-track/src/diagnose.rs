@@ -33,6 +33,8 @@ pub struct Findings {
     pub noise: [f64; 3],
     /// Factor on the usual scatter of constants between drives.
     pub scatter: f64,
+    /// Whether that is as much as was tried: what is named with all drives is then not trusted.
+    pub is_scattered: bool,
     /// Root mean square error of windows over that of a car that keeps still: as given, re-tuned, with the named causes.
     pub shares: [f64; 3],
     /// Drives, those with a pose, windows.
@@ -106,7 +108,10 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
     let rules = SETTINGS.naming;
     let is_left = shares[2] > rules.left_share && shares[2] > rules.left_of_retuned * shares[1];
     let is_stated = |e: &&Estimate| data.constants.iter().any(|c| c.name == e.name && c.sigma < c.usual);
-    let answer = if is_left {
+    // Deviations of single drives explain everything where they are as free as was tried.
+    let widest = SETTINGS.fitting.factors.into_iter().fold(0.0, f64::max);
+    let is_scattered = data.shown.len() > 1 && fit.factor >= widest;
+    let answer = if is_left || (is_scattered && !named_causes.is_empty()) {
         Answer::Unknown
     } else if !named_causes.is_empty() {
         Answer::Named
@@ -127,6 +132,7 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
         retuned,
         noise: fit.scales,
         scatter: fit.factor,
+        is_scattered,
         shares,
         counts: [
             data.shown.len(),

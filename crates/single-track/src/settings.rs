@@ -96,6 +96,8 @@
         compliance: f64 = 1e-3, "rad s²/m", "guess; a tenth of usual tyres'";
         /// Inverse of the largest sideways acceleration.
         inverse_grip: f64 = 0.01, "s²/m", "guess; a tenth of usual tyres'";
+        /// Yaw inertia over mass times the square of the wheelbase.
+        gyration: f64 = 0.104, "1", "a uniform rectangle half as wide as long: 1.25 / 12";
         /// Yaw inertia.
         inertia: f64 = 0.3, "share", "guess; a rectangle for a car";
         /// Acceleration at full throttle.

@@ -13,7 +13,7 @@ use crate::console::warning;
 /// A case of one of these kinds.
 pub(crate) enum Case {
     /// Of kind odometry.
-    Odometry(OdometryCase),
+    Odometry(Box<OdometryCase>),
     /// Of kind car.
     Car(Box<CarCase>),
 }
@@ -65,7 +65,7 @@ pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
     let (folder, robot) = (input.case.as_deref(), input.robot.as_deref());
     let case = match car::read(folder, robot, parts)? {
         Some(case) => Some(Case::Car(Box::new(case))),
-        None => odometry::read(folder, robot, parts)?.map(Case::Odometry),
+        None => odometry::read(folder, robot, parts)?.map(|case| Case::Odometry(Box::new(case))),
     };
     let Some(case) = case else { return Ok(None) };
     let kind = case.kind();
