@@ -7,7 +7,25 @@ use crate::output;
 /// The sentence that a page carries: by which command, that of this process, and at which commit it was printed.
 pub fn printed() -> String {
     let command: Vec<String> = std::env::args().skip(1).collect();
-    format!("Printed by `cargo xtask {}` {}.", command.join(" "), at(hash().as_deref(), has_changes()))
+    format!("Printed by `cargo xtask {}` {}.", recipe(&command).join(" "), at(hash().as_deref(), has_changes()))
+}
+
+/// Options that name a folder of this machine, which is nothing that a page's figures depend on.
+const FOLDERS: [&str; 2] = ["--out", "--data"];
+
+/// The arguments without those folders.
+fn recipe(arguments: &[String]) -> Vec<&str> {
+    let is_folder = |argument: &str| FOLDERS.contains(&argument.split('=').next().unwrap_or(argument));
+    let mut out = Vec::new();
+    let mut rest = arguments.iter().map(String::as_str);
+    while let Some(argument) = rest.next() {
+        if !is_folder(argument) {
+            out.push(argument);
+        } else if !argument.contains('=') {
+            rest.next();
+        }
+    }
+    out
 }
 
 /// The commit in words.
@@ -41,7 +59,14 @@ fn git(args: &[&str]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::at;
+    use super::{at, recipe};
+
+    #[test]
+    fn a_page_names_no_folder_of_the_machine_that_printed_it() {
+        let of = |line: &str| recipe(&line.split(' ').map(str::to_owned).collect::<Vec<_>>()).join(" ");
+        assert_eq!(of("blind --wide --out /somewhere/w4 --seed 4 --docs"), "blind --wide --seed 4 --docs");
+        assert_eq!(of("odometry --data=/somewhere --docs"), "odometry --docs");
+    }
 
     #[test]
     fn a_page_tells_its_commit_and_whether_more_was_changed() {

@@ -12,6 +12,16 @@ pub enum LawError {
     /// A number is not finite.
     #[error("a number of '{0}' is not finite; give numbers such as 0.66")]
     NotFinite(String),
+    /// A range begins above its end, or is not finite.
+    #[error("the range of '{variable}' is {low} to {high}; write the least value first, then the largest")]
+    Range {
+        /// The variable.
+        variable: String,
+        /// As written.
+        low: String,
+        /// As written.
+        high: String,
+    },
     /// A variable cannot enter a factor.
     #[error("'{variable}' cannot enter '{factor}'; see the table of factors in docs/law.md")]
     Variable {

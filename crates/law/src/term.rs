@@ -92,7 +92,8 @@ impl TryFrom<Written> for Law {
         let seen = written.seen.into_iter().map(|(name, range)| {
             let finite = range.iter().all(|x| x.is_finite()) && range[0] <= range[1];
             let variable = crate::text::variable(&name)?;
-            if finite { Ok((variable, range)) } else { Err(LawError::NotFinite(name)) }
+            let [low, high] = range.map(|x| x.to_string());
+            if finite { Ok((variable, range)) } else { Err(LawError::Range { variable: name, low, high }) }
         });
         let seen = seen.collect::<Result<Vec<_>, _>>()?;
         Ok(law.seen_within(&seen))

@@ -80,12 +80,10 @@ impl FromStr for Term {
         }
         let factors = factors.map(str::parse).collect::<Result<Vec<Factor>, _>>()?;
         let term = Self::new(place(at.trim())?, constant, &factors)?;
-        let needed = term.unit().to_string();
-        if unit.trim() == needed {
-            Ok(term)
-        } else {
-            Err(LawError::Unit { term: term.to_string(), given: unit.trim().to_owned(), needed })
-        }
+        let needed = term.unit();
+        let wrong =
+            || LawError::Unit { term: term.to_string(), given: unit.trim().to_owned(), needed: needed.to_string() };
+        if crate::unit::read(unit) == Some(needed) { Ok(term) } else { Err(wrong()) }
     }
 }
 

@@ -74,9 +74,51 @@ impl fmt::Display for Unit {
     }
 }
 
+/// The unit of a text: factors in any order, `N`, `kg`, `m`, `s`, `rad` or `1`, each with a power, as `m N`,
+/// `N s^2/m^2` or `1/(N m)`; `None` where it is no unit.
+pub(crate) fn read(text: &str) -> Option<Unit> {
+    let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+    let below = below.trim();
+    let below = below.strip_prefix('(').and_then(|b| b.strip_suffix(')')).unwrap_or(below);
+    Some(product(above)? / product(below)?)
+}
+
+/// A product of named units.
+fn product(text: &str) -> Option<Unit> {
+    let mut out = None;
+    for factor in text.split_whitespace() {
+        let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
+        let of = match name {
+            "1" => Unit::ONE,
+            "m" => Unit::METRE,
+            "kg" => Unit { kg: 1, ..Unit::ONE },
+            "s" => Unit::SECOND,
+            "rad" => Unit::RADIAN,
+            "N" => Unit::FORCE,
+            _ => return None,
+        };
+        let power: u8 = power.parse().ok().filter(|p| (1..=9).contains(p))?;
+        out = Some(out.unwrap_or(Unit::ONE) * of.power(power));
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_unit_reads_back_in_any_order_of_its_factors() {
+        for unit in [Unit::TORQUE, Unit::TORQUE / Unit::RATE, Unit::FORCE / Unit::SPEED.power(2), Unit::ONE / Unit::TORQUE]
+        {
+            assert_eq!(read(&unit.to_string()), Some(unit), "{unit}");
+        }
+        assert_eq!(read("m N"), Some(Unit::TORQUE));
+        assert_eq!(read("kg m^2/s^2"), Some(Unit::TORQUE));
+        for wrong in ["", "Nm", "N/", "m^", "m^-1", "N m)", "m/s/s"] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
+    }
 
     #[test]
     fn units_are_written_as_people_write_them() {

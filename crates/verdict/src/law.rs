@@ -102,7 +102,7 @@ pub struct LawFreeRun {
     pub named: Option<f64>,
     /// Corrected by the law.
     pub law: f64,
-    /// Corrected by the same law shifted in time: the placebo.
+    /// Corrected by the same law shifted in time, the best of several such copies: the placebo.
     pub shifted: f64,
 }
 

@@ -110,8 +110,12 @@
         curvature: f64 = 2.0, "1", "as of named effects";
         /// Quantiles of a variable between which a law was seen.
         seen: [f64; 2] = [0.01, 0.99], "1", "guess";
-        /// Part of a recording by which the placebo is shifted.
-        shift: f64 = 0.37, "1", "guess: no simple share of a repeated drive";
+        /// Parts of a recording by which the placebo is shifted.
+        shifts: [f64; 4] = [0.17, 0.37, 0.59, 0.83], "1", "guess: no simple shares of a repeated drive";
+        /// By how much its error must be below that of re-tuning, over all quantities, as a share of it.
+        below_retuned: f64 = 0.02, "1", "guess: less is not worth a law";
+        /// By how much a shifted copy may do better: a law that hardly changes in time is its own copy.
+        above_shifted: f64 = 0.01, "1", "guess";
     }
 }
 

@@ -1,6 +1,7 @@
 //! What must hold before a law is told.
 
 use law::Law;
+use verdict::LawFreeRun;
 
 use super::refit::{Refitted, hypothesis, numbers};
 use crate::calibrate::problem;
@@ -28,6 +29,19 @@ pub(crate) struct Standing {
     pub(crate) in_references: Option<[f64; 2]>,
     /// Score less that of the best name.
     pub(crate) above_name: f64,
+    /// How many times what a fault-free drive costs: by so much a difference of scores says less.
+    pub(crate) misfit: f64,
+}
+
+/// Whether a law does better than re-tuning on recordings that its fit did not use, and no copy of it shifted in time
+/// does better still; over all quantities, each by the logarithm of its error.
+pub(crate) fn holds_elsewhere(rows: &[LawFreeRun]) -> bool {
+    let ratio = |other: fn(&LawFreeRun) -> f64| {
+        let all = rows.iter().map(|r| (r.law / other(r)).ln()).filter(|x| x.is_finite());
+        all.clone().sum::<f64>() / all.count().max(1) as f64
+    };
+    let [retuned, shifted] = [ratio(|r| r.retuned), ratio(|r| r.shifted)];
+    retuned < (1.0 - SETTINGS.proof.below_retuned).ln() && shifted < SETTINGS.proof.above_shifted.ln_1p()
 }
 
 impl Standing {
@@ -47,6 +61,7 @@ impl Standing {
             left: (law.fitted.cost - fault_free) / (retuned.cost - fault_free).max(1.0),
             in_references: references.and_then(|r| r.coefficient(&law.law, &law.units)),
             above_name: law.score - name.max(0.0),
+            misfit: (law.fitted.cost / fault_free.max(1.0)).max(1.0),
         }
     }
 

@@ -12,7 +12,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Claim, CommonLaw, Diagnosis, FoundLaw, FreeRun, LawFreeRun, LawNumber, UnnamedCause, Verdict};
 
 use super::acting::{Acting, Inputs};
-use super::gate::{References, Standing};
+use super::gate::{References, Standing, holds_elsewhere};
 use super::rank::Ranking;
 use super::refit::{Refitted, Starts, hypothesis, numbers};
 use crate::calibrate::problem;
@@ -82,6 +82,9 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
         let rivals: Vec<&Refitted> = all().filter(|(_, s)| !s.is_in_references()).map(|(law, _)| law).collect();
         Telling { judged, ranking: &ranking, law: &last, standing, rivals: &rivals }.told(&out.free_runs)
     });
+    // What does not hold on recordings that its fit did not use is no law of this robot, and its place is none.
+    let law = law.filter(|law| holds_elsewhere(&law.free_runs));
+    let claim = if law.is_some() { claim } else { Claim::Nothing };
     UnnamedCause { claim, law, in_every_drive }
 }
 
@@ -111,7 +114,8 @@ impl Telling<'_> {
         let seen = self.ranking.signals.seen(law);
         let place = |l: &Law| l.terms().first().map_or("", |t| t.place().name());
         let own = place(law);
-        let close = |r: &&&Refitted| self.law.score - r.score < SETTINGS.gates.class;
+        let class = SETTINGS.gates.class * self.standing.misfit;
+        let close = |r: &&&Refitted| self.law.score - r.score < class;
         let others = || self.rivals.iter().filter(|r| r.law.to_string() != law.to_string());
         let mut places_alike: Vec<String> =
             others().filter(close).map(|r| place(&r.law)).filter(|n| *n != own).map(str::to_owned).collect();
@@ -184,35 +188,41 @@ impl Telling<'_> {
         Some(h.free(&p.sizes()).iter().enumerate().map(|(i, f)| sigma(i) * f.unit).collect())
     }
 
-    /// Each recording by fits to the others: with the law, and with the same law shifted in time.
+    /// Each recording by fits to the others: with the law, and with that of its copies shifted in time that does best.
     fn free_runs(&self, rows: &[FreeRun]) -> Vec<LawFreeRun> {
         let p = self.judged.problem;
         if p.cuts.len() < 2 {
             return Vec::new();
         }
-        let inputs = shifted(self.ranking.signals.inputs(&self.law.law));
-        let forecast = |run: usize| -> [[f64; 2]; 2] {
+        let inputs = self.ranking.signals.inputs(&self.law.law);
+        let copies: Vec<Inputs> = PROOF.shifts.iter().map(|by| shifted(inputs.clone(), *by)).collect();
+        let forecast = |run: usize| -> Vec<[f64; 2]> {
             let kept: Vec<usize> = (0..p.cuts.len()).filter(|&r| r != run).collect();
             let cuts: Vec<Cut> = kept.iter().map(|&r| p.cuts[r].clone()).collect();
             let j = self.judged;
             let others = problem(p.robot, j.case, &cuts, j.calibration, p.largest_torque, j.options);
-            let theirs: Inputs =
-                inputs.iter().map(|(input, runs)| (*input, kept.iter().map(|&r| runs[r].clone()).collect())).collect();
+            let theirs = |copy: &Inputs| -> Inputs {
+                copy.iter().map(|(input, runs)| (*input, kept.iter().map(|&r| runs[r].clone()).collect())).collect()
+            };
             let given = |inputs: Inputs| Hypothesis {
                 acting: Some(Acting::Given { inputs: Arc::new(inputs), times: 1.0, unit: 1.0 }),
                 ..Hypothesis::default()
             };
             let law = hypothesis(&self.law.law, &self.law.units);
-            let pairs = [(law.clone(), law, numbers(&self.law.law)), (given(theirs), given(inputs.clone()), vec![1.0])];
-            pairs.map(|(fit, forecast, start)| {
+            let of_copy = |copy: &Inputs| (given(theirs(copy)), given(copy.clone()), vec![1.0]);
+            let all = std::iter::once((law.clone(), law, numbers(&self.law.law))).chain(copies.iter().map(of_copy));
+            let error = |(fit, forecast, start): (Hypothesis, Hypothesis, Vec<f64>)| {
                 let point = Point { effects: start, ..others.origin() };
                 let fitted = others.refine(&fit, others.begin(&fit, point, None), PROOF.steps, None);
                 // What a recording has to itself is not known beforehand.
                 let elsewhere = Point { theta: fitted.point.theta, effects: fitted.point.effects, ..p.origin() };
                 rms(p, &[(run, p.run_response(run, &elsewhere, &forecast))])
-            })
+            };
+            all.map(error).collect()
         };
-        let errors: Vec<[[f64; 2]; 2]> = (0..p.cuts.len()).into_par_iter().map(forecast).collect();
+        let errors: Vec<Vec<[f64; 2]>> = (0..p.cuts.len()).into_par_iter().map(forecast).collect();
+        let total = |copy: &usize| errors.iter().flat_map(|e| e[*copy]).map(f64::ln).sum::<f64>();
+        let best = (1..=copies.len()).min_by(|a, b| total(a).total_cmp(&total(b))).unwrap_or(0);
         let named = self.judged.winner().is_some();
         let row = |r: &FreeRun| {
             let run = p.cuts.iter().position(|c| c.name == r.recording)?;
@@ -224,17 +234,17 @@ impl Telling<'_> {
                 retuned: r.retuned,
                 named: named.then_some(r.corrected),
                 law: errors[run][0][quantity],
-                shifted: errors[run][1][quantity],
+                shifted: errors[run][best][quantity],
             })
         };
         rows.iter().filter_map(row).collect()
     }
 }
 
-/// Inputs of every recording, shifted in time; what leaves at its end comes in at its beginning.
-fn shifted(mut inputs: Inputs) -> Inputs {
+/// Inputs of every recording, shifted in time by a share of it; what leaves at its end comes in at its beginning.
+fn shifted(mut inputs: Inputs, share: f64) -> Inputs {
     for run in inputs.iter_mut().flat_map(|(_, runs)| runs) {
-        let by = (PROOF.shift * run.len() as f64) as usize;
+        let by = (share * run.len() as f64) as usize;
         run.rotate_right(by);
     }
     inputs
