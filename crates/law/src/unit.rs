@@ -109,7 +109,8 @@ mod tests {
 
     #[test]
     fn a_unit_reads_back_in_any_order_of_its_factors() {
-        for unit in [Unit::TORQUE, Unit::TORQUE / Unit::RATE, Unit::FORCE / Unit::SPEED.power(2), Unit::ONE / Unit::TORQUE]
+        for unit in
+            [Unit::TORQUE, Unit::TORQUE / Unit::RATE, Unit::FORCE / Unit::SPEED.power(2), Unit::ONE / Unit::TORQUE]
         {
             assert_eq!(read(&unit.to_string()), Some(unit), "{unit}");
         }

@@ -51,9 +51,9 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Whether it moved by half of what is known of it and more, to where its interval leaves the given value out.
+    /// Whether it moved by a good part of what is known of it, to where its interval leaves the given value out.
     pub fn is_moved(&self) -> bool {
-        (self.value - self.given).abs() > self.half_width && self.sigmas.abs() > 0.5
+        (self.value - self.given).abs() > self.half_width && self.sigmas.abs() > SETTINGS.naming.moved
     }
 }
 

@@ -6,7 +6,8 @@
 //! the middle of their contacts: what differs there is skidded away. The motion is the least-squares solution of all rows
 //! (Muir & Neuman 1987, eq. 39 on; Campion, Bastin & D'Andréa-Novel 1996, section II).
 
-use nalgebra::{DMatrix, Matrix3, Vector3};
+use faer::Mat;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::error::OdometryError;
 use crate::settings::SETTINGS;
@@ -174,17 +175,18 @@ impl<'a> Kinematics<'a> {
         }
         for angle in angles {
             let rules = kinematics.rules(angle, |_| true);
-            let rows = DMatrix::from_fn(rules.len().max(3), 3, |i, j| {
+            let rows = Mat::from_fn(rules.len().max(3), 3, |i, j| {
                 // Turning counts by the way that it moves the outermost wheel.
                 rules.get(i).map_or(0.0, |rule| rule.row[j] / if j == 2 { size } else { 1.0 })
             });
-            let svd = rows.svd(false, true);
-            let (least, value) = svd.singular_values.argmin();
-            if value > SETTINGS.wheels.least_rank * svd.singular_values.max() {
+            let Ok(svd) = rows.thin_svd() else { continue };
+            let values = svd.S().column_vector();
+            if values[2] > SETTINGS.wheels.least_rank * values[0] {
                 continue;
             }
-            let motion = svd.v_t.as_ref().map(|v| [v[(least, 0)], v[(least, 1)], v[(least, 2)]]);
-            return Err(open(robot, name_of(motion.unwrap_or([0.0; 3]))));
+            // What no wheel resists: the direction of the least singular value.
+            let motion = [0, 1, 2].map(|i| svd.V()[(i, 2)]);
+            return Err(open(robot, name_of(motion)));
         }
         Ok(())
     }

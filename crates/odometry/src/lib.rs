@@ -10,7 +10,7 @@
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables.
-//! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `diagnose`, `left_out`, `telling`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `settings`: every tuned number.
 
 mod answer;
@@ -31,6 +31,7 @@ mod motion;
 mod name;
 mod rivals;
 mod settings;
+pub mod telling;
 mod units;
 mod weigh;
 mod wheel;

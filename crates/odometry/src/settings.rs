@@ -182,6 +182,8 @@
         /// Familiar factors: counts on both edges, half turns, gears.
         factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, std::f64::consts::TAU, 1.0 / std::f64::consts::TAU], "1",
             "edges of encoders, diameters for radii, turns for radians";
+        /// Sigmas by which a constant has to move to be told as re-tuned.
+        moved: f64 = 0.5, "1", "guess";
         /// Remaining error over the way, beyond which what is left asks for a cause.
         left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
         /// Share of the re-tuned error that has to be left then.

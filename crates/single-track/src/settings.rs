@@ -225,18 +225,10 @@
 
     /// When something is left that no cause accounts for.
     naming: Naming {
-        /// Causes below this probability are not listed.
-        listed: f64 = 0.05, "1", "guess";
-        /// A factor on the encoder this near to a familiar one is told as that.
-        familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
-        /// Familiar factors: counts on both edges, diameters for radii, gears.
-        factors: [f64; 4] = [2.0, 0.5, 4.0, 0.25], "1", "edges of encoders, diameters for radii";
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
         left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
         /// Share of the re-tuned error that has to be left then.
         left_of_retuned: f64 = 0.8, "1", "guess";
-        /// Sigmas by which a constant has to move to be told as re-tuned.
-        moved: f64 = 0.5, "1", "guess";
     }
 }
 

@@ -1,4 +1,4 @@
-//! Simulated cars with something hidden: what is named, with which interval, and that cars as stated are not accused.
+//! Simulated cars with something hidden: what is named, with which interval, and that nothing is named of cars as stated.
 
 mod drawn;
 
@@ -39,13 +39,13 @@ fn what_is_hidden_is_named_with_its_size() {
 }
 
 #[test]
-fn a_car_as_stated_is_not_accused() {
-    let accused: Vec<Vec<&str>> = (0..5)
+fn nothing_is_named_of_a_car_as_stated() {
+    let named: Vec<Vec<&str>> = (0..5)
         .map(|seed| found(Hidden::default(), 100 + 10 * seed))
         .filter(|f| matches!(f.answer, Answer::Named | Answer::Unknown))
         .map(|f| f.named.iter().map(|c| c.spec.id).collect())
         .collect();
-    assert!(accused.is_empty(), "{accused:?}");
+    assert!(named.is_empty(), "{named:?}");
 }
 
 #[test]

@@ -75,6 +75,8 @@ impl Judged<'_> {
         let spec = variant.spec();
         let strengths = variant.strengths().len();
         let moved = stand_in::sigma_of_size(self.problem, variant, e[0]);
+        let [curvature, model_error] = self.margins();
+        let curvature = curvature * self.misfit(&trial.fitted).sqrt();
         let mut place = None;
         let mut of_disc = ["x", "y", "radius"].into_iter();
         let parameters = free
@@ -83,9 +85,9 @@ impl Judged<'_> {
             .enumerate()
             .filter_map(|(i, (f, &value))| {
                 let name = f.parameter.map_or_else(|| of_disc.next(), |i| Some(spec.parameters[i].name))?;
-                let model = if f.parameter.is_some() { ANSWER.model_error * value } else { 0.0 };
+                let model = if f.parameter.is_some() { model_error * value } else { 0.0 };
                 let model = if i == 0 { model.hypot(moved) } else { model };
-                let sigma = sigmas.as_ref().map(|s| (ANSWER.curvature * s[before + i]).hypot(model));
+                let sigma = sigmas.as_ref().map(|s| (curvature * s[before + i]).hypot(model));
                 let at_bound = value <= f.bounds[0] || value >= f.bounds[1];
                 Some((name.to_owned(), Estimate { value, sigma, at_bound }))
             })
@@ -102,9 +104,9 @@ impl Judged<'_> {
         let side = if let Place::Side(s) = variant.place { Some(s) } else { None };
         let sigma = sigmas.as_ref().map(|s| {
             let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
-            let curvature: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();
-            let model = ANSWER.model_error * variant.magnitude(e);
-            (ANSWER.curvature.powi(2) * curvature + model.powi(2) + moved.powi(2)).sqrt()
+            let of_fit: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();
+            let model = model_error * variant.magnitude(e);
+            (curvature.powi(2) * of_fit + model.powi(2) + moved.powi(2)).sqrt()
         });
         Cause {
             effect: spec.id.to_owned(),
@@ -118,6 +120,22 @@ impl Judged<'_> {
             place,
             intervals,
         }
+    }
+
+    /// One sigma of a size in sigmas of the curvature, and the share of a size that the model gets wrong.
+    fn margins(&self) -> [f64; 2] {
+        if self.problem.has_references {
+            [ANSWER.curvature, ANSWER.model_error]
+        } else {
+            [ANSWER.curvature_without, ANSWER.model_error_without]
+        }
+    }
+
+    /// How many times what a fault-free drive costs a fit costs, at least one: by so much the residuals are larger than the
+    /// noise that its curvature knows of (Birge's ratio, squared; Birge 1932).
+    fn misfit(&self, fitted: &Fitted) -> f64 {
+        let fault_free = fault_free_cost(self.problem, &self.calibration.regimes.scatter);
+        (self.problem.misfit(&fitted.response) / fault_free.max(1.0)).max(1.0)
     }
 
     /// One sigma of every free value of a fit, from the curvature of its cost.

@@ -1,0 +1,179 @@
+//! Findings as plain data of the verdict: what every comparison whose sessions give normal equations tells alike.
+
+use std::collections::BTreeMap;
+
+use crate::diagnose::{Answer, Estimate, NamedCause};
+use crate::settings::SETTINGS;
+use catalogue::answer::{NONE, UNKNOWN};
+use inference::evidence::none_of;
+use inference::experiment::Standing;
+use inference::robust::NINETY;
+use verdict::{Cause, Diagnosis, FreeRun, Retuned, Verdict};
+
+/// What was found, however it was compared.
+pub struct Found<'a> {
+    /// The answer.
+    pub answer: Answer,
+    /// Causes that are named.
+    pub named: &'a [NamedCause],
+    /// Labels and probabilities of the others.
+    pub others: &'a [(String, f64)],
+    /// Constants as they were fitted.
+    pub constants: &'a [Estimate],
+    /// Those that re-tuning moved.
+    pub retuned: &'a [Estimate],
+    /// Error as a share of the motion: as stated, re-tuned, with the answer.
+    pub shares: [f64; 3],
+}
+
+impl Found<'_> {
+    /// The verdict without its sentences; a warning where free runs speak against what is named.
+    pub fn verdict(&self, free_runs: Vec<FreeRun>) -> Diagnosis {
+        let mut out = Diagnosis::withheld();
+        out.verdict = match self.answer {
+            Answer::Nothing | Answer::Retune => Verdict::NoMismatch,
+            Answer::Named => Verdict::Explained,
+            Answer::Unknown => Verdict::Unknown,
+        };
+        out.ranked = self.ranked();
+        let classes = self.named.iter().filter(|c| !c.alike.is_empty());
+        out.indistinguishable =
+            classes.map(|c| std::iter::once(c.label.clone()).chain(c.alike.iter().cloned()).collect()).collect();
+        let [given, _, best] = self.shares;
+        if out.verdict != Verdict::NoMismatch {
+            out.unexplained = Some((best / given.max(f64::MIN_POSITIVE)).powi(2).min(1.0));
+        }
+        if self.answer == Answer::Retune {
+            out.retuned = self.retuned.iter().filter(|e| e.is_moved()).map(retuned).collect();
+            out.retuned.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
+        }
+        out.tuning = self.constants.iter().map(|e| (e.name.clone(), e.value)).collect();
+        out.free_runs = free_runs;
+        if out.verdict == Verdict::Explained {
+            out.limits.extend(Standing::new(&out.free_runs).and_then(|s| s.objection(None)));
+        }
+        out
+    }
+
+    /// All answers with their probabilities, the given one first.
+    fn ranked(&self) -> Vec<Cause> {
+        let is_unknown = self.answer == Answer::Unknown;
+        // Candidates that do not account for the drives share what "unknown" leaves.
+        let trust = if is_unknown { SETTINGS.naming.listed } else { 1.0 };
+        let mut out: Vec<Cause> = self.named.iter().map(cause).collect();
+        out.iter_mut().for_each(|c| c.probability *= trust);
+        for (label, probability) in self.others.iter().map(|(label, p)| (label, p * trust)) {
+            if probability >= SETTINGS.naming.listed {
+                let id = label.split(' ').next().unwrap_or(label);
+                out.push(Cause { name: label.clone(), ..Cause::plain(id, label, probability) });
+            }
+        }
+        let none = match self.answer {
+            Answer::Nothing | Answer::Retune => none_of(self.others.iter().map(|(_, p)| *p)),
+            Answer::Named | Answer::Unknown => trust * none_of(self.named.iter().map(|c| c.probability)),
+        };
+        let unknown = if is_unknown { 1.0 - SETTINGS.naming.listed } else { 0.0 };
+        out.push(Cause::plain(NONE.id, NONE.name, none));
+        out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
+        if self.answer != Answer::Named {
+            out.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        }
+        out
+    }
+
+    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scale`: the effect whose size
+    /// is a factor on all counts, of which familiar values are told.
+    pub fn causes<'a>(&'a self, scale: &'a str) -> impl Iterator<Item = String> + 'a {
+        self.named.iter().map(move |named| {
+            let values = named.estimates.iter().map(|e| {
+                let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
+                format!("{} {}{from}", e.name, number(e))
+            });
+            let alike = if named.alike.is_empty() {
+                String::new()
+            } else {
+                format!("; these drives cannot tell it from {}", named.alike.join(", "))
+            };
+            let familiar = if named.spec.id == scale { familiar(named) } else { String::new() };
+            format!("{}: {}{familiar}{alike}.", named.label, values.collect::<Vec<_>>().join("; "))
+        })
+    }
+}
+
+fn cause(named: &NamedCause) -> Cause {
+    let mut out = Cause::plain(named.spec.id, &named.label, named.probability);
+    if let Some(first) = named.estimates.first() {
+        let factor = if first.given == 0.0 || first.unit == "rad" { 1.0 } else { first.given };
+        // Sizes of lengths are factors; the lengths themselves stand among the parameters.
+        out.magnitude = Some(first.value / factor);
+        out.sigma = Some(first.half_width / NINETY / factor.abs());
+        out.unit = named.spec.unit.into();
+    }
+    let number =
+        |e: &Estimate| verdict::Estimate { value: e.value, sigma: Some(e.half_width / NINETY), at_bound: false };
+    out.parameters = named.estimates.iter().map(|e| (e.name.clone(), number(e))).collect();
+    if !named.intervals.is_empty() {
+        let mut intervals: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
+        for (recording, interval) in &named.intervals {
+            intervals.entry(recording.clone()).or_default().push(*interval);
+        }
+        out.intervals = Some(intervals);
+    }
+    out
+}
+
+fn retuned(e: &Estimate) -> Retuned {
+    Retuned {
+        constant: e.name.clone(),
+        unit: if e.unit == "1" { "-".to_owned() } else { e.unit.to_owned() },
+        from: e.given,
+        to: e.value,
+        half_width: e.half_width,
+        sigmas: e.sigmas,
+    }
+}
+
+/// "0.0842 ± 0.0003 m", with two digits of the interval.
+fn number(e: &Estimate) -> String {
+    let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
+    let digits = (1 - e.half_width.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
+}
+
+/// Tells a factor on all counts that is a familiar one.
+fn familiar(named: &NamedCause) -> String {
+    let Some(first) = named.estimates.first() else { return String::new() };
+    let factor = first.value / first.given;
+    let near = SETTINGS.naming.factors.iter().find(|f| (factor / **f).ln().abs() < SETTINGS.naming.familiar);
+    near.map_or_else(String::new, |near| {
+        format!(
+            ", which is the factor {near:.3}: look at counts per turn (edges that are counted), gear, or diameter for radius"
+        )
+    })
+}
+
+/// Free runs of one recording on which nothing was fitted, from medians of position, m, and heading, rad: by simulation (as
+/// stated, re-tuned, corrected, placebo), then by length, s. `from`: what they are computed from.
+pub fn free_runs(
+    recording: &str,
+    from: &str,
+    lengths: [f64; 3],
+    medians: impl Fn(usize, usize) -> Option<[f64; 2]>,
+) -> Vec<FreeRun> {
+    let mut out = Vec::new();
+    for (k, length) in lengths.iter().enumerate() {
+        for (axis, quantity, unit) in [(0, "position", "m"), (1, "heading", "rad")] {
+            let of = |row: usize| medians(row, k).map(|m| m[axis]);
+            let [Some(nominal), Some(retuned), Some(corrected)] = [of(0), of(1), of(2)] else { continue };
+            out.push(FreeRun {
+                recording: recording.to_owned(),
+                quantity: format!("{quantity} after {length} s from {from}, median, {unit}"),
+                nominal,
+                retuned,
+                corrected,
+                placebo: of(3),
+            });
+        }
+    }
+    out
+}
