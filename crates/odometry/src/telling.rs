@@ -60,8 +60,8 @@ impl Found<'_> {
         let is_unknown = self.answer == Answer::Unknown;
         // Candidates that do not account for the drives share what "unknown" leaves.
         let trust = if is_unknown { SETTINGS.naming.listed } else { 1.0 };
-        let mut out: Vec<Cause> = self.named.iter().map(cause).collect();
-        out.iter_mut().for_each(|c| c.probability *= trust);
+        let trusted = |named: &NamedCause| Cause { probability: trust * named.probability, ..cause(named) };
+        let mut out: Vec<Cause> = self.named.iter().map(trusted).collect();
         for (label, probability) in self.others.iter().map(|(label, p)| (label, p * trust)) {
             if probability >= SETTINGS.naming.listed {
                 let id = label.split(' ').next().unwrap_or(label);
