@@ -14,7 +14,7 @@ struct StandIn {
     place: usize,
     /// How far it would have moved, in the unit of its tuning: the logarithm of a factor, or an offset.
     moved: f64,
-    /// Change of the effect's size with that move.
+    /// Change of the effect's size with that move, without its sign.
     slope: f64,
 }
 
@@ -33,6 +33,10 @@ fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<StandIn>
             Some(1) => offset("com_y"),
             _ => None,
         },
+        // The share of the adhesion that is lost everywhere.
+        ("adhesion_patch", Place::Whole) => {
+            (size < 1.0).then(|| StandIn { place: constant("adhesion"), moved: (1.0 - size).ln(), slope: 1.0 - size })
+        }
         ("turning_resistance", Place::Whole) => factor("lateral_factor", 1.0),
         ("slip_stiffness", Place::Whole) => factor("slip_at_peak", 1.0),
         ("viscous_friction", Place::Whole) => factor("viscous", robot.viscous[0]),
@@ -106,6 +110,9 @@ mod tests {
             priced("payload", 0.3 * robot.mass).expect("mass stands for it") > 100.0,
             "a third of the mass is no drift"
         );
+        let adhesion = problem.sigma[constant("adhesion")] * tunables::<f64>()[constant("adhesion")].between_visits;
+        let lost = priced("adhesion_patch", 1.0 - (-2.0 * adhesion).exp()).expect("adhesion stands for it everywhere");
+        approx::assert_relative_eq!(lost, 2.0 + (NUISANCES as f64).ln(), epsilon = 1e-9);
         assert_eq!(priced("grade", 0.05), None);
         let of_size = |id: &str, size: f64| sigma_of_size(&problem, &of(id), size);
         approx::assert_relative_eq!(of_size("torque_constant", 0.2), 1.2 * sigma, epsilon = 1e-12);
