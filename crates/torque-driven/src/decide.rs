@@ -115,8 +115,6 @@ pub(crate) fn fault_free_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
 /// `scatter`: of the references' segments about their regimes; `null_scores`: the highest score of a fault-free drive.
 pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64], null_score: f64) -> Decision {
     let base: &Fitted = &found.retuned;
-    let gained = |t: &Trial| (base.cost - t.fitted.cost).max(0.0);
-    let of_form = PRICES.form_of_first * found.singles.iter().map(gained).fold(0.0, f64::max);
     let mut scored: Vec<Scored> = found
         .singles
         .iter()
@@ -127,9 +125,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             let effects = &t.fitted.point.effects;
             let form =
                 if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &problem.sizes()) };
-            let beside = of_form * t.hypothesis.parts.len().saturating_sub(1) as f64;
-            let priced = penalty(&t.hypothesis, effects, &problem.sizes()) + once + form + beside;
-            let score = base.cost - t.fitted.cost - priced;
+            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, effects, &problem.sizes()) - once - form;
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
@@ -144,7 +140,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let owners: Vec<(Option<usize>, f64)> = std::iter::once((None, none))
         .chain(scored.iter().enumerate().map(|(i, s)| (Some(i), s.score)))
-        .chain(moved_instead(problem, &scored, of_form))
+        .chain(moved_instead(problem, &scored))
         .collect();
     let scores: Vec<f64> = owners.iter().map(|(_, score)| *score).collect();
     let mut nothing = 0.0;
@@ -158,9 +154,8 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
 }
 
 /// Hypotheses in which a constant that moved since the references stands for one of the effects: whose probability they add
-/// to (that of the remaining effects; `None` for "nothing is missing"), and their scores. `of_form`: what an effect beside
-/// another pays for the other's form.
-fn moved_instead(problem: &Problem<'_>, scored: &[Scored], of_form: f64) -> Vec<(Option<usize>, f64)> {
+/// to (that of the remaining effects; `None` for "nothing is missing"), and their scores.
+fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<(Option<usize>, f64)> {
     if !problem.has_references {
         return Vec::new();
     }
@@ -173,8 +168,7 @@ fn moved_instead(problem: &Problem<'_>, scored: &[Scored], of_form: f64) -> Vec<
             rest.parts.remove(part);
             // The effect that comes first pays no price of a second one; what remains of two effects is one.
             let second = if part == 0 && !rest.parts.is_empty() { PRICES.second } else { 0.0 };
-            let beside = if rest.parts.is_empty() { 0.0 } else { of_form };
-            let score = s.score + own[part] + second + beside - price;
+            let score = s.score + own[part] + second - price;
             if rest.parts.is_empty() {
                 out.push((None, score));
             } else {
@@ -238,34 +232,6 @@ mod tests {
         // The score that fault-free drives reach is the least that names anything.
         let strict = decide(&problem, &found, &[1.0], 100.0);
         assert!(strict.none > 0.99 * (1.0 - strict.unknown), "{}", strict.none);
-    }
-
-    #[test]
-    fn an_effect_beside_a_strong_one_must_add_more_than_the_form_of_that_one_may_leave() {
-        let robot = robot();
-        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
-        let problem = problem(&robot, &cuts);
-        let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
-        retuned.cost += 20_000.0;
-        let first = gained(&problem, &retuned, "quadratic_drag", 10_000.0);
-        let probability_of_both = |gain: f64| {
-            let second = gained(&problem, &retuned, "constant_pull", 60.0);
-            let mut both = gained(&problem, &retuned, "quadratic_drag", gain);
-            both.hypothesis.parts.extend(second.hypothesis.parts.clone());
-            both.fitted.point.effects.extend(&second.fitted.point.effects);
-            let found = SearchResult {
-                retuned: retuned.clone(),
-                singles: vec![first.clone(), second],
-                several: vec![both],
-                screened: Vec::new(),
-            };
-            let decision = decide(&problem, &found, &[1.0], 0.0);
-            let of_both = decision.scored.iter().find(|s| s.trial.hypothesis.parts.len() == 2).expect("weighed");
-            of_both.probability / (1.0 - decision.unknown)
-        };
-        let form = PRICES.form_of_first * 10_000.0;
-        assert!(probability_of_both(10_000.0 + 0.5 * form) < 0.01);
-        assert!(probability_of_both(10_000.0 + 2.0 * form) > 0.9);
     }
 
     #[test]

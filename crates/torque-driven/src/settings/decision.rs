@@ -19,11 +19,6 @@
         /// Price of a second effect.
         second: f64 = 18.0, "nats",
             "our own generator, seed 8001: 46 wrong partners scored up to 20 before it, 21 right ones from 40";
-        /// Share of what the best single effect explains that an effect beside it must add: as much may be left by the first
-        /// one's form, which no law of the catalogue has exactly.
-        form_of_first: f64 = 0.02, "1",
-            "100 drawn robots of every sort, seed 24: wrong partners added 0.013, 0.019 and 0.028, right ones 0.054 at least \
-             but for one of 0.004";
         /// Preference for "nothing is missing".
         none: f64 = 12.0, "nats", "an earlier recipe, tuned on the 72 development cases";
         /// Evidence by which constants that moved between visits must exceed the best hypothesis with constants as the

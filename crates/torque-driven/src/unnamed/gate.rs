@@ -143,3 +143,24 @@ impl<'a> References<'a> {
         Some([x, 0.5 * b * b / stiff - 0.5 * stiff.ln()])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Errors of re-tuning, of a law and of its best shifted copy on a recording that was left out.
+    fn row([retuned, law, shifted]: [f64; 3]) -> LawFreeRun {
+        let (recording, quantity) = ("run_1".to_owned(), "wheel speed, rad/s".to_owned());
+        LawFreeRun { recording, quantity, nominal: 1.0, retuned, named: None, law, shifted }
+    }
+
+    #[test]
+    fn a_law_holds_where_it_beats_re_tuning_and_no_shifted_copy_beats_it() {
+        assert!(holds_elsewhere(&[row([0.5, 0.2, 0.45]), row([0.5, 0.3, 0.5])]));
+        // A law that hardly changes in time is its own copy.
+        assert!(holds_elsewhere(&[row([0.5, 0.2, 0.2])]));
+        assert!(!holds_elsewhere(&[row([0.5, 0.4, 0.2])]), "a shifted copy does better");
+        assert!(!holds_elsewhere(&[row([0.5, 0.495, 0.5])]), "hardly better than re-tuning");
+        assert!(!holds_elsewhere(&[]), "there is no proof without recordings left out");
+    }
+}
