@@ -1,82 +1,36 @@
 //! Smoothing: velocity from noisy poses, local polynomial estimates.
 
-use inference::robust;
-
 use crate::settings::preparation::{SETTINGS, Smoothing};
 
 const SMOOTHING: Smoothing = SETTINGS.smoothing;
 
 /// Whittaker–Henderson smoother on equally spaced nodes: minimises
-/// `Σ w_i (z_i − x(t_i))² + λ Σ (Δ³x)²`, with `x` linear between nodes (a discrete quintic smoothing spline).
+/// `Σ (z_i − x(t_i))² + λ Σ (Δ³x)²`, with `x` linear between nodes (a discrete quintic smoothing spline).
 ///
-/// `at` are the sample positions in nodes, `sigma` their errors, one sigma. λ is found so that the residual is as large as
-/// these say (discrepancy principle), or as the samples' own scatter about their neighbours where that is less: noise that
-/// is not there would bend the path. Samples that err by more than [`Smoothing::outlier`] sigmas count as if by that, and
-/// weigh by `(outlier / error)²`, so that a few of them neither bend the path nor make it follow the noise of the others.
-/// Returns the node values; `None` with too few samples.
-pub(crate) fn smooth(at: &[f64], z: &[f64], nodes: usize, sigma: &[f64]) -> Option<Vec<f64>> {
+/// `at` are the sample positions in nodes. λ is found so that the rms residual equals `sigma`
+/// (discrepancy principle). Returns the node values; `None` with too few samples.
+pub(crate) fn smooth(at: &[f64], z: &[f64], nodes: usize, sigma: f64) -> Option<Vec<f64>> {
     if at.len() < SMOOTHING.least_samples || nodes < SMOOTHING.least_samples {
         return None;
     }
-    let most = SMOOTHING.outlier;
-    // In sigmas.
-    let errors = |x: &[f64]| -> Vec<f64> {
-        at.iter().zip(z).zip(sigma).map(|((&t, &v), s)| ((v - interpolate(x, t)) / s).abs()).collect()
+    let rms = |x: &[f64]| {
+        let sum: f64 = at.iter().zip(z).map(|(&t, &v)| (v - interpolate(x, t)).powi(2)).sum();
+        (sum / at.len() as f64).sqrt()
     };
-    let rms = |errors: &[f64]| robust::rms(errors.iter().map(|e| e.min(most))).unwrap_or(0.0);
-    let scatter = rms(&scatter(z, sigma)).max(SMOOTHING.least_scatter);
-    let wanted = clipped(most).sqrt().min(scatter);
-    let least = sigma.iter().copied().fold(f64::INFINITY, f64::min);
-    let exact: Vec<f64> = sigma.iter().map(|s| (least / s).powi(2)).collect();
-
-    let mut weights = exact.clone();
-    let mut best = Vec::new();
-    for _ in 0..SMOOTHING.rounds {
-        let [mut low, mut high] = SMOOTHING.log_weights;
-        best = whittaker(at, z, &weights, nodes, 10f64.powf(low));
-        // The residual grows with λ: bisect its logarithm.
-        for _ in 0..SMOOTHING.halvings {
-            let middle = 0.5 * (low + high);
-            let x = whittaker(at, z, &weights, nodes, 10f64.powf(middle));
-            if rms(&errors(&x)) > wanted {
-                high = middle;
-            } else {
-                low = middle;
-                best = x;
-            }
+    let [mut low, mut high] = SMOOTHING.log_weights;
+    let mut best = whittaker(at, z, nodes, 10f64.powf(low));
+    // The residual grows with λ: bisect its logarithm.
+    for _ in 0..SMOOTHING.halvings {
+        let middle = 0.5 * (low + high);
+        let x = whittaker(at, z, nodes, 10f64.powf(middle));
+        if rms(&x) > sigma {
+            high = middle;
+        } else {
+            low = middle;
+            best = x;
         }
-        let errors = errors(&best);
-        weights = exact.iter().zip(errors).map(|(w, e)| w * (most / e.max(most)).powi(2)).collect();
     }
     Some(best)
-}
-
-/// How far samples are from the cubic through two neighbours on each side, in sigmas of that distance. A motion adds to it.
-fn scatter(z: &[f64], sigma: &[f64]) -> Vec<f64> {
-    // (4 (z₋₁ + z₁) − z₋₂ − z₂) / 6 of equally spaced samples, whose variance is 34/36 of theirs.
-    let spread = (1.0 + 34.0 / 36.0_f64).sqrt();
-    let of = |(z, s): (&[f64], &[f64])| (z[2] - (4.0 * (z[1] + z[3]) - z[0] - z[4]) / 6.0).abs() / (spread * s[2]);
-    z.windows(5).zip(sigma.windows(5)).map(of).collect()
-}
-
-/// Errors, one sigma, of samples that err by `sigma` and are written in the first row after their instant, where rows are
-/// `row` nodes apart: they come late by up to a row, which errs by `|ż| row / √12`. Samples in every row are not late.
-pub(crate) fn errors_of_late(at: &[f64], z: &[f64], sigma: f64, row: f64) -> Vec<f64> {
-    let apart = robust::median(at.windows(2).map(|t| t[1] - t[0])).unwrap_or(0.0);
-    let late = if apart > SMOOTHING.every_row * row { row / 12_f64.sqrt() } else { 0.0 };
-    let beside = SMOOTHING.beside;
-    let speed = |i: usize| {
-        let (a, b) = (i.saturating_sub(beside), (i + beside).min(at.len() - 1));
-        if at[b] > at[a] { (z[b] - z[a]) / (at[b] - at[a]) } else { 0.0 }
-    };
-    (0..at.len()).map(|i| sigma.hypot(late * speed(i))).collect()
-}
-
-/// `E min(z², c²)` of a standard normal `z`: `Φ(c) − Φ(−c) − 2 c φ(c) + 2 c² Φ(−c)`.
-fn clipped(c: f64) -> f64 {
-    let beyond = robust::normal_cdf(-c);
-    let density = (-0.5 * c * c).exp() / std::f64::consts::TAU.sqrt();
-    1.0 - 2.0 * beyond - 2.0 * c * density + 2.0 * c * c * beyond
 }
 
 /// Value between nodes.
@@ -97,19 +51,19 @@ pub(crate) fn slope(x: &[f64], t: f64) -> f64 {
 /// Half bandwidth of the normal matrix: third differences couple four nodes.
 const BAND: usize = 3;
 
-fn whittaker(at: &[f64], z: &[f64], weights: &[f64], n: usize, lambda: f64) -> Vec<f64> {
+fn whittaker(at: &[f64], z: &[f64], n: usize, lambda: f64) -> Vec<f64> {
     // Row i holds the entries (i, i), (i, i+1), ... (i, i+3) of the symmetric normal matrix.
     let mut m = vec![[0.0; BAND + 1]; n];
     let mut b = vec![0.0; n];
-    for ((&t, &v), &w) in at.iter().zip(z).zip(weights) {
+    for (&t, &v) in at.iter().zip(z) {
         let t = t.clamp(0.0, (n - 1) as f64);
         let i = (t.floor() as usize).min(n - 2);
         let f = t - i as f64;
-        m[i][0] += w * (1.0 - f) * (1.0 - f);
-        m[i][1] += w * f * (1.0 - f);
-        m[i + 1][0] += w * f * f;
-        b[i] += w * (1.0 - f) * v;
-        b[i + 1] += w * f * v;
+        m[i][0] += (1.0 - f) * (1.0 - f);
+        m[i][1] += f * (1.0 - f);
+        m[i + 1][0] += f * f;
+        b[i] += (1.0 - f) * v;
+        b[i + 1] += f * v;
     }
 
     let d = [-1.0, 3.0, -3.0, 1.0];
@@ -185,52 +139,10 @@ mod tests {
         let f = |t: f64| 0.3 + 0.1 * t - 0.02 * t * t;
         let at: Vec<f64> = (0..60).map(|i| 0.3 + 1.7 * f64::from(i)).collect();
         let z: Vec<f64> = at.iter().map(|&t| f(t)).collect();
-        let x = smooth(&at, &z, 104, &[1e-3; 60]).expect("enough samples");
-        // Linear between nodes: about an eighth of the second difference is lost.
-        approx::assert_abs_diff_eq!(interpolate(&x, 50.0), f(50.0), epsilon = 0.04 / 7.0);
+        let x = smooth(&at, &z, 104, 1e-3).expect("enough samples");
+        // Linear between nodes: up to an eighth of the second difference is lost.
+        approx::assert_abs_diff_eq!(interpolate(&x, 50.0), f(50.0), epsilon = 0.04 / 8.0);
         approx::assert_abs_diff_eq!(slope(&x, 50.0), 0.1 - 0.04 * 50.0, epsilon = 1e-2);
-    }
-
-    #[test]
-    fn a_few_wild_samples_do_not_make_the_path_follow_the_noise() {
-        let mut stream = sim::Stream::new(3, sim::Purpose::SensorNoise, 0);
-        let at: Vec<f64> = (0..300).map(|i| 2.0 * f64::from(i)).collect();
-        let truth = |t: f64| (0.02 * t).sin();
-        let plain: Vec<f64> = at.iter().map(|&t| truth(t) + 0.01 * stream.normal()).collect();
-        let wild: Vec<f64> = plain.iter().enumerate().map(|(i, z)| z + if i % 33 == 7 { 0.08 } else { 0.0 }).collect();
-        let error = |z: &[f64]| {
-            let x = smooth(&at, z, 600, &[0.01; 300]).expect("enough samples");
-            robust::rms((20..580).map(|k| slope(&x, f64::from(k)) - 0.02 * (0.02 * f64::from(k)).cos()))
-                .expect("slopes")
-        };
-        let [plain, wild] = [error(&plain), error(&wild)];
-        // A path that follows the noise has slopes thirty times as wrong.
-        assert!(wild < 5.0 * plain, "{wild} beside {plain}");
-    }
-
-    #[test]
-    fn samples_that_come_late_err_by_what_is_moved_meanwhile() {
-        // Ten nodes apart at two per row, moving by 0.3 a node.
-        let at: Vec<f64> = (0..20).map(|i| 10.0 * f64::from(i)).collect();
-        let z: Vec<f64> = at.iter().map(|t| 0.3 * t).collect();
-        for error in errors_of_late(&at, &z, 0.1, 2.0) {
-            approx::assert_relative_eq!(error, 0.1_f64.hypot(0.3 * 2.0 / 12_f64.sqrt()), epsilon = 1e-12);
-        }
-        // In every row none is late.
-        assert!(errors_of_late(&at, &z, 0.1, 10.0).iter().all(|e| *e == 0.1));
-    }
-
-    #[test]
-    fn a_clipped_square_of_a_normal_number_is_as_large_as_its_formula_says() {
-        // By the trapezoidal rule.
-        let of = |c: f64| {
-            let z = |i: i32| f64::from(i) * 1e-3;
-            let density = |z: f64| (-0.5 * z * z).exp() / std::f64::consts::TAU.sqrt();
-            (-9000..9000).map(|i| z(i).abs().min(c).powi(2) * density(z(i)) * 1e-3).sum::<f64>()
-        };
-        for c in [0.5, 2.0, 2.5] {
-            approx::assert_abs_diff_eq!(clipped(c), of(c), epsilon = 1e-6);
-        }
     }
 
     #[test]
