@@ -3,17 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use serde_json::{Value, json};
 use single_track::file::RobotFile;
 use single_track::{Case, diagnosis, examine};
 use verdict::Diagnosis;
 
 use crate::case_folder::robot_of;
-use crate::envelope::Program;
+use crate::columns::{ColumnsEnvelope, Kind};
+use crate::envelope::SourceFile;
 use crate::odometry::drives;
-
-/// Version of the JSON of such a case.
-const FORMAT: u32 = 1;
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -23,7 +20,7 @@ pub struct CarCase {
     /// The robot file.
     pub robot: String,
     /// Files of the references, then of the recordings.
-    pub files: [Vec<String>; 2],
+    pub files: [Vec<SourceFile>; 2],
     /// Other things in the folders, which were not read.
     pub ignored: Vec<String>,
 }
@@ -69,19 +66,8 @@ impl CarCase {
         Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
     }
 
-    /// A diagnosis with what it was made from, as JSON.
-    ///
-    /// # Errors
-    /// A number that JSON cannot hold.
-    pub fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
-        Ok(json!({
-            "format": FORMAT,
-            "kind": "car",
-            "program": Program::default(),
-            "robot": self.robot,
-            "sources": { "reference": self.files[0], "recordings": self.files[1] },
-            "ignored_files": self.ignored,
-            "diagnosis": diagnosis,
-        }))
+    /// A diagnosis with what it was made from.
+    pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
+        ColumnsEnvelope::new(Kind::Car, &self.robot, &self.files, &self.ignored, diagnosis)
     }
 }

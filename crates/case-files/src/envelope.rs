@@ -3,19 +3,21 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use inference::Options;
 use recordings::Spot;
 use robot_file::RobotSpec;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use verdict::Diagnosis;
 
 use crate::TextError;
 use crate::case_folder::CaseFolder;
+use crate::columns::ColumnsEnvelope;
 
-/// Version of this envelope; the diagnosis inside has its own.
-const FORMAT: u32 = 2;
+/// Version of the envelopes; the diagnosis inside has its own.
+pub(crate) const FORMAT: u32 = 2;
 
 /// A diagnosis with all that it was made from. No clock and no machine in it: the same input gives the same text.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -116,17 +118,74 @@ pub struct UnusedColumn {
     pub column: String,
 }
 
+/// A diagnosis of a robot of any kind, as `lacuna diagnose --json` writes it.
+#[derive(Debug)]
+pub enum Answered {
+    /// Of a robot whose recordings were read with a mapping.
+    Mapped(Box<Envelope>),
+    /// Of a robot whose file names its columns.
+    Columns(Box<ColumnsEnvelope>),
+}
+
+impl Answered {
+    /// Opens what `lacuna diagnose --json` wrote.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is no such file.
+    pub fn open(file: &Path) -> Result<Self> {
+        let (name, text) = read(file)?;
+        if Version::of(&text).is_some_and(|version| version.kind.is_some()) {
+            return Ok(Self::Columns(Box::new(parsed(&name, &text)?)));
+        }
+        Ok(Self::Mapped(Box::new(Envelope::parse(&name, &text)?)))
+    }
+}
+
+/// Name and text of a verdict's file.
+fn read(file: &Path) -> Result<(String, String)> {
+    let shown = file.display().to_string();
+    let text = std::fs::read_to_string(file)
+        .with_context(|| format!("cannot read '{shown}'; `lacuna diagnose ... --json FILE` writes such a file"))?;
+    Ok((shown, text))
+}
+
+/// Reads an envelope of either form; `name` is what messages call it.
+fn parsed<T: DeserializeOwned>(name: &str, text: &str) -> Result<T> {
+    let refused = |e: &serde_json::Error| {
+        let message = e.to_string();
+        let end = message.rfind(" at line ").unwrap_or(message.len());
+        TextError {
+            spot: Spot { file: name.to_owned(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
+            message: format!(
+                "this is not what `lacuna diagnose --json` of version {} writes ({}); write it again",
+                Program::default().version,
+                &message[..end]
+            ),
+        }
+    };
+    if let Some(version) = Version::of(text) {
+        version.ensure_readable(name)?;
+    }
+    Ok(serde_json::from_str(text).map_err(|e| refused(&e))?)
+}
+
 /// What any version of the envelope has.
 #[derive(Deserialize)]
 struct Version {
     format: u32,
     program: Program,
+    /// Of a robot whose file names its columns.
+    kind: Option<String>,
 }
 
 impl Version {
+    fn of(text: &str) -> Option<Self> {
+        serde_json::from_str(text).ok()
+    }
+
     /// The one place that decides which formats are read.
     fn ensure_readable(&self, name: &str) -> Result<()> {
-        let Self { format, program } = self;
+        let Self { format, program, .. } = self;
         ensure!(
             *format == FORMAT,
             "'{name}' holds a verdict of format {format}, written by {} {}, but this version reads format {FORMAT}: \
@@ -196,33 +255,22 @@ impl Envelope {
     /// # Errors
     /// When the file cannot be read, or is no such file.
     pub fn open(file: &Path) -> Result<Self> {
-        let shown = file.display();
-        let text = std::fs::read_to_string(file)
-            .with_context(|| format!("cannot read '{shown}'; `lacuna diagnose ... --json FILE` writes such a file"))?;
-        Self::parse(&shown.to_string(), &text)
+        let (name, text) = read(file)?;
+        Self::parse(&name, &text)
     }
 
     /// Reads the text that `lacuna diagnose --json` writes; `name` is what messages call it.
     ///
     /// # Errors
-    /// When it is no such text, or that of another version.
+    /// When it is no such text, that of another version, or of a robot whose file names its columns.
     pub fn parse(name: &str, text: &str) -> Result<Self> {
-        let refused = |e: &serde_json::Error| {
-            let message = e.to_string();
-            let end = message.rfind(" at line ").unwrap_or(message.len());
-            TextError {
-                spot: Spot { file: name.to_owned(), at: Some((e.line().max(1) as u32, e.column().max(1) as u32)) },
-                message: format!(
-                    "this is not what `lacuna diagnose --json` of version {} writes ({}); write it again",
-                    Program::default().version,
-                    &message[..end]
-                ),
-            }
-        };
-        if let Ok(version) = serde_json::from_str::<Version>(text) {
-            version.ensure_readable(name)?;
+        if let Some(kind) = Version::of(text).and_then(|version| version.kind) {
+            bail!(
+                "'{name}' holds a verdict of kind {kind}, of which nothing can be exported and no law be told; \
+                 `lacuna report '{name}' -o page.html` shows it"
+            );
         }
-        Ok(serde_json::from_str(text).map_err(|e| refused(&e))?)
+        parsed(name, text)
     }
 
     /// The robot that was diagnosed, as its file had it.

@@ -8,6 +8,7 @@ pub mod answers;
 pub mod car;
 pub mod case_folder;
 pub mod check;
+pub mod columns;
 pub mod envelope;
 pub mod inputs;
 pub mod kind;

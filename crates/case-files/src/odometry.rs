@@ -5,15 +5,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use odometry::file::RobotFile;
 use odometry::{Case, diagnosis, left_out};
-use serde_json::{Value, json};
 use verdict::Diagnosis;
 
 use crate::case_folder::{folders, robot_of};
-use crate::envelope::Program;
+use crate::columns::{ColumnsEnvelope, Kind, source};
+use crate::envelope::SourceFile;
 use crate::inputs::{is_path, list};
-
-/// Version of the JSON of such a case.
-const FORMAT: u32 = 1;
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -23,7 +20,7 @@ pub struct OdometryCase {
     /// The robot file, or the built-in robot's name.
     pub robot: String,
     /// Files of the references, then of the recordings.
-    pub files: [Vec<String>; 2],
+    pub files: [Vec<SourceFile>; 2],
     /// Other things in the folders, which were not read.
     pub ignored: Vec<String>,
 }
@@ -73,8 +70,8 @@ pub fn read(
     Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, robot: name, files, ignored }))
 }
 
-/// Drives and names of files: of the references, then of the recordings.
-type Parts<D> = ([Vec<D>; 2], [Vec<String>; 2]);
+/// Drives and files: of the references, then of the recordings.
+type Parts<D> = ([Vec<D>; 2], [Vec<SourceFile>; 2]);
 
 /// Drives of references and recordings, of a case folder or of paths, read by `drive` from name and text.
 pub(crate) fn drives<D>(
@@ -91,13 +88,13 @@ pub(crate) fn drives<D>(
         None => [reference.to_vec(), recordings.to_vec()],
     };
     let mut drives = [Vec::new(), Vec::new()];
-    let mut files: [Vec<String>; 2] = Default::default();
+    let mut files: [Vec<SourceFile>; 2] = Default::default();
     for (part, paths) in parts.iter().enumerate() {
         for path in tables(paths, ignored)? {
             let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
             let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
             drives[part].push(drive(&stem, &text)?);
-            files[part].push(path.display().to_string());
+            files[part].push(source(path.display().to_string(), &text));
         }
     }
     Ok((drives, files))
@@ -131,19 +128,8 @@ impl OdometryCase {
         Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
     }
 
-    /// A diagnosis with what it was made from, as JSON.
-    ///
-    /// # Errors
-    /// A number that JSON cannot hold.
-    pub fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
-        Ok(json!({
-            "format": FORMAT,
-            "kind": "odometry",
-            "program": Program::default(),
-            "robot": self.robot,
-            "sources": { "reference": self.files[0], "recordings": self.files[1] },
-            "ignored_files": self.ignored,
-            "diagnosis": diagnosis,
-        }))
+    /// A diagnosis with what it was made from.
+    pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
+        ColumnsEnvelope::new(Kind::Odometry, &self.robot, &self.files, &self.ignored, diagnosis)
     }
 }

@@ -106,3 +106,35 @@ fn what_cannot_be_is_one_clear_sentence() {
     bench.write("case/robot.toml", &ROBOT.replace("\"left\"\n\n", "\"links\"\n\n"));
     bench.run(&["diagnose", "case"]).failed(&["run_0", "no column 'links'", "it has t, left, right"]);
 }
+
+#[test]
+fn a_drive_is_drawn_beside_its_simulations_at_once_or_from_the_verdict() {
+    let bench = bench();
+    let run = bench.run(&["diagnose", "case", "--report", "now.html", "--json", "out.json", "--mcap", "out.mcap"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert!(!run.err().contains("does not write"), "{}", run.err());
+    assert_eq!(bench.run(&["report", "out.json", "-o", "later.html"]).code(), Some(0));
+    let page = bench.read("now.html");
+    assert_eq!(page, bench.read("later.html"));
+    for part in
+        ["wheel motion beside a pose", "position x", "heading", "left out of the fit", "case/recordings/run_0.csv"]
+    {
+        assert!(page.contains(part), "no `{part}` in the page");
+    }
+
+    let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
+    let hash = json["sources"]["recordings"][0]["sha256"].as_str().unwrap();
+    assert_eq!(hash.len(), 64);
+    let traces = json["diagnosis"]["traces"].as_array().unwrap();
+    assert_eq!(traces.len(), 3);
+    let error = |trace: &Value, which: &str| -> f64 {
+        let values = |name: &str| trace["channels"][2][name].as_array().unwrap().clone();
+        let pairs = values("recorded").into_iter().zip(values(which));
+        pairs.filter_map(|(a, b)| Some((a.as_f64()? - b.as_f64()?).powi(2))).sum::<f64>().sqrt()
+    };
+    for trace in traces {
+        assert_eq!(trace["left_out"], true);
+        assert!(error(trace, "corrected") < 0.2 * error(trace, "nominal"), "{}", trace["recording"]);
+    }
+    bench.run(&["law", "out.json"]).failed(&["verdict of kind odometry", "lacuna report"]);
+}

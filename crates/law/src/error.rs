@@ -12,7 +12,7 @@ pub enum LawError {
     /// A number is not finite.
     #[error("a number of '{0}' is not finite; give numbers such as 0.66")]
     NotFinite(String),
-    /// A range begins above its end, or is not finite.
+    /// A range begins above its end.
     #[error("the range of '{variable}' is {low} to {high}; write the least value first, then the largest")]
     Range {
         /// The variable.

@@ -90,10 +90,15 @@ impl TryFrom<Written> for Law {
     fn try_from(written: Written) -> Result<Self, LawError> {
         let law: Self = written.formula.parse()?;
         let seen = written.seen.into_iter().map(|(name, range)| {
-            let finite = range.iter().all(|x| x.is_finite()) && range[0] <= range[1];
             let variable = crate::text::variable(&name)?;
-            let [low, high] = range.map(|x| x.to_string());
-            if finite { Ok((variable, range)) } else { Err(LawError::Range { variable: name, low, high }) }
+            if range.iter().any(|x| !x.is_finite()) {
+                return Err(LawError::NotFinite(name));
+            }
+            let [low, high] = range;
+            if low > high {
+                return Err(LawError::Range { variable: name, low: low.to_string(), high: high.to_string() });
+            }
+            Ok((variable, range))
         });
         let seen = seen.collect::<Result<Vec<_>, _>>()?;
         Ok(law.seen_within(&seen))

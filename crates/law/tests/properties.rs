@@ -111,3 +111,16 @@ fn a_law_is_held_within_the_range_in_which_it_was_seen() {
     let seen = law.seen_within(&[(Variable::WheelSpeed, [-4.0, 5.0])]);
     assert_eq!(seen.act(&fast, &[]).torque[0], 10.0);
 }
+
+#[test]
+fn a_range_upside_down_or_without_end_is_refused_in_a_sentence() {
+    let read = |range: &str| {
+        let text = format!("formula = \"T_both = -0.5 [N m] * sgn(omega, 0.3)\"\n[seen]\nomega = {range}\n");
+        toml::from_str::<Law>(&text)
+    };
+    assert!(read("[-4, 5]").is_ok());
+    let reversed = read("[5, -4]").expect_err("refused").to_string();
+    assert!(reversed.contains("the range of 'omega' is 5 to -4; write the least value first"), "{reversed}");
+    let endless = read("[-4, inf]").expect_err("refused").to_string();
+    assert!(endless.contains("a number of 'omega' is not finite"), "{endless}");
+}

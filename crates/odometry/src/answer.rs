@@ -21,6 +21,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         free_runs(session, "counts alone", LENGTHS, |row, k| errors.get(row).and_then(|e| e[k].medians()))
     };
     let mut out = found.verdict(table.by_session.iter().flat_map(of_session).collect());
+    out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &out, has_references);
     out.sentences.extend(found.causes(RADIUS_OF_ALL_WHEELS.id));
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));

@@ -10,15 +10,18 @@ use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
 use crate::fit::{Fit, Prior, equations, fit, scatter};
+use crate::motion::Laws;
 use crate::name::{Named, name};
 use crate::settings::SETTINGS;
+use crate::traces::trace;
 use crate::weigh::{Evidence, Posterior};
 use crate::wheel::WheeledRobot;
-use crate::windows::Data;
+use crate::windows::{Data, laws};
 use catalogue::CauseSpec;
 use catalogue::odometry::LOST_COUNTS;
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
+use verdict::Trace;
 
 /// Kind of answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,6 +100,8 @@ pub struct Findings {
     pub counts: [usize; 3],
     /// What was done to the recordings, for people.
     pub told: Vec<String>,
+    /// The recordings beside the simulations that were fitted to them.
+    pub traces: Vec<Trace>,
 }
 
 /// Drives with the constants fitted to them, and what was named.
@@ -107,6 +112,21 @@ pub(crate) struct Solved {
     pub(crate) fit: Fit,
     pub(crate) named: Named,
     pub(crate) lost: Vec<Lost>,
+}
+
+impl Solved {
+    /// The laws as stated or as the references have them, re-tuned, and with the named causes.
+    pub(crate) fn laws(&self, robot: &WheeledRobot) -> [Laws; 3] {
+        let of = |theta: &DVector<f64>| laws(robot, &self.constants, theta.as_slice());
+        [of(&self.prior.mean), of(&self.named.retuned.mean), of(&self.named.posterior.mean)]
+    }
+
+    /// A drive beside these simulations; the last only where a cause is named.
+    pub(crate) fn trace(&self, robot: &WheeledRobot, drive: &Drive, left_out: bool) -> Trace {
+        let [stated, retuned, corrected] = &self.laws(robot);
+        let corrected = (!self.named.chosen.is_empty()).then_some(corrected);
+        trace(robot, drive, [Some(stated), Some(retuned), corrected], left_out)
+    }
 }
 
 /// Compares wheel motion and pose of a case, and names what would make them agree.
@@ -293,6 +313,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         shares: [given.1, tuned.1, best.1],
         counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
         told,
+        traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::forecast::{Errors, forecast};
 use crate::motion::Laws;
 use crate::rivals::RIVALS;
 use crate::windows::laws;
+use verdict::Trace;
 
 /// Errors of forecasts of left-out sessions, by calibration.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +21,8 @@ pub struct Table {
     pub by_session: Vec<(String, Vec<[Errors; 3]>)>,
     /// Labels of the causes that each fold named.
     pub named: Vec<Vec<String>>,
+    /// Drives that were left out beside the simulations fitted without them.
+    pub traces: Vec<Trace>,
 }
 
 /// Names of the simulations beside the rivals.
@@ -56,13 +59,9 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == *left);
         let solved = solve(&case.robot, &case.references, &rest, Some(&start))?;
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
-        let of = |theta: &nalgebra::DVector<f64>| Some(laws(&case.robot, &solved.constants, theta.as_slice()));
-        let mut models: Vec<Option<Laws>> = vec![
-            of(&solved.prior.mean),
-            of(&solved.named.retuned.mean),
-            of(&solved.named.posterior.mean),
-            solved.named.placebo.as_ref().and_then(|(_, p)| of(&p.mean)),
-        ];
+        let placebo = solved.named.placebo.as_ref();
+        let placebo = placebo.map(|(_, p)| laws(&case.robot, &solved.constants, p.mean.as_slice()));
+        let mut models: Vec<Option<Laws>> = solved.laws(&case.robot).into_iter().map(Some).chain([placebo]).collect();
         models.extend(RIVALS.iter().map(|(_, rival)| rival(&case.robot, &rest)));
         let errors: Vec<[Errors; 3]> = models
             .iter()
@@ -79,6 +78,7 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         }
         out.by_session.push((left.clone(), errors));
         out.named.push(labels);
+        out.traces.extend(of_fold.iter().map(|drive| solved.trace(&case.robot, drive, true)));
     }
     out.rows = names.into_iter().zip(sums).collect();
     Ok(out)

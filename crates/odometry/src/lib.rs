@@ -11,6 +11,7 @@
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables.
 //! * `diagnose`, `left_out`, `telling`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
 mod answer;
@@ -32,6 +33,7 @@ mod name;
 mod rivals;
 mod settings;
 pub mod telling;
+pub mod traces;
 mod units;
 mod weigh;
 mod wheel;

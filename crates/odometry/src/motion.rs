@@ -131,3 +131,22 @@ pub(crate) fn relative(from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     [cos * dx + sin * dy, cos * dy - sin * dx, to[2] - from[2]]
 }
+
+/// The pose that is seen from pose `from` as `seen`: the inverse of [`relative`].
+pub(crate) fn placed([x, y, yaw]: [f64; 3], seen: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = yaw.sin_cos();
+    [x + cos * seen[0] - sin * seen[1], y + sin * seen[0] + cos * seen[1], yaw + seen[2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_seen_from_a_pose_is_where_it_was() {
+        let (from, to) = ([1.0, -2.0, 0.7], [0.3, 4.0, -1.9]);
+        for (a, b) in placed(from, relative(from, to)).into_iter().zip(to) {
+            approx::assert_relative_eq!(a, b, epsilon = 1e-12);
+        }
+    }
+}

@@ -231,6 +231,14 @@
         /// Return to the start that makes a loop of a drive: share of its way.
         loop_share: f64 = 0.05, "1", "guess";
     }
+
+    /// Drives beside their simulations, on pages and in pictures.
+    traces: Traces {
+        /// Time over which a simulation runs free.
+        free: f64 = 10.0, "s", "equal to the second length of forecasts: a room";
+        /// Distance of the rows that are shown.
+        step: f64 = 0.1, "s", "equal to the windows of torque-driven robots";
+    }
 }
 
 /// As this crate uses them.

@@ -177,3 +177,29 @@ pub fn free_runs(
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn probabilities_of_all_answers_add_up_whatever_the_answer_is() {
+        let named = [NamedCause {
+            spec: &catalogue::odometry::STEERING_ZERO,
+            label: "steering_zero (front)".to_owned(),
+            probability: 0.8,
+            alike: Vec::new(),
+            estimates: Vec::new(),
+            intervals: Vec::new(),
+        }];
+        for answer in [Answer::Named, Answer::Unknown] {
+            let found =
+                Found { answer, named: &named, others: &[], constants: &[], retuned: &[], shares: [0.3, 0.2, 0.1] };
+            let told = found.verdict(Vec::new());
+            let total: f64 = told.ranked.iter().map(|c| c.probability).sum();
+            approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
+            let first = if answer == Answer::Named { "steering_zero" } else { UNKNOWN.id };
+            assert_eq!(told.ranked[0].effect, first);
+        }
+    }
+}

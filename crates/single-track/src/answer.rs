@@ -24,6 +24,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         free_runs(drive, "throttle and steering alone", LENGTHS, medians)
     };
     let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());
+    out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &out, has_references);
     out.sentences.extend(found.causes(ENCODER_SCALE.id));
     out.sentences.extend(forecast_sentence(table));

@@ -13,6 +13,7 @@ use crate::rows::Kind;
 use crate::settings::SETTINGS;
 use crate::solve::{Solved, solve};
 use inference::robust::{NINETY, rms};
+use verdict::Trace;
 
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
@@ -41,6 +42,8 @@ pub struct Findings {
     pub counts: [usize; 3],
     /// What was done to the recordings, for people.
     pub told: Vec<String>,
+    /// The recordings with a pose beside the simulations that were fitted to them.
+    pub traces: Vec<Trace>,
 }
 
 /// Compares a car's drives with what throttle and steering imply, and names what would make them agree.
@@ -140,6 +143,7 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
             data.shown.iter().map(|s| s.windows.len()).sum(),
         ],
         told,
+        traces: data.shown.iter().filter_map(|shown| solved.trace(shown, false)).collect(),
     }
 }
 

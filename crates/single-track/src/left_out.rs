@@ -8,6 +8,7 @@ use crate::rivals::RIVALS;
 use crate::settings::{Forecast, SETTINGS};
 use crate::solve::Solved;
 use inference::robust::median;
+use verdict::Trace;
 
 const RULES: Forecast = SETTINGS.forecast;
 
@@ -22,6 +23,8 @@ pub struct Table {
     pub by_drive: Vec<(String, Vec<ByLength>)>,
     /// Labels of the causes that each fold named.
     pub named: Vec<Vec<String>>,
+    /// The drives beside the simulations that were fitted without them.
+    pub traces: Vec<Trace>,
 }
 
 /// Names of the simulations beside the rivals.
@@ -56,6 +59,7 @@ pub(crate) fn left_out_of(solved: &Solved<'_>, progress: &dyn Fn(&str)) -> Table
         }
         out.by_drive.push((fold.name.clone(), errors));
         out.named.push(fold.named.clone());
+        out.traces.extend(fold.trace.clone());
     }
     out.drives = folds.len();
     out.rows = names.into_iter().zip(sums).collect();
@@ -70,6 +74,7 @@ struct Fold {
     plain: Vec<Vec<ByLength>>,
     /// For each past: of each habit, the model that follows.
     following: Vec<Vec<ByLength>>,
+    trace: Option<Trace>,
 }
 
 impl Fold {
@@ -124,5 +129,6 @@ fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
         named: solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect(),
         plain: RULES.past.into_iter().map(plain).collect(),
         following: RULES.past.into_iter().map(|past| habits(past).into_iter().map(follow).collect()).collect(),
+        trace: solved.trace(own, true),
     })
 }

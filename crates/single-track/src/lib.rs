@@ -10,6 +10,7 @@
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
 //! * `file/*`: robot files of this kind, and drives from tables.
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
 mod answer;
@@ -30,6 +31,7 @@ mod rivals;
 mod rows;
 mod settings;
 mod solve;
+mod traces;
 
 pub use answer::diagnosis;
 pub use car::{Car, Stated};

@@ -230,6 +230,14 @@
         /// Share of the re-tuned error that has to be left then.
         left_of_retuned: f64 = 0.8, "1", "guess";
     }
+
+    /// Drives beside their simulations, on pages and in pictures.
+    traces: Traces {
+        /// Time over which a simulation runs free.
+        free: f64 = 2.0, "s", "equal to the longest forecasts";
+        /// Past over which velocities at its start are taken.
+        past: f64 = 0.2, "s", "guess; the middle of those of forecasts";
+    }
 }
 
 /// As this crate uses them.

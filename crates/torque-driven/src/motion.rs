@@ -2,7 +2,7 @@
 
 use crate::run::Run;
 use crate::settings::preparation::{Freezing, SETTINGS};
-use crate::smooth::{interpolate, slope, smooth};
+use crate::smooth::{errors_of_late, interpolate, slope, smooth};
 
 /// What a sensor correction found by redundancy leaves to do.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -128,7 +128,7 @@ impl Smoothed {
             (None, false) => {
                 let at: Vec<f64> = poses.iter().map(|&(k, _)| node(k)).collect();
                 let z: Vec<f64> = poses.iter().map(|p| p.1).collect();
-                smooth(&at, &z, nodes, sigma).map_or_else(
+                smooth(&at, &z, nodes, &errors_of_late(&at, &z, sigma, run.period / NODE)).map_or_else(
                     || vec![0.0; rows],
                     |x| (0..rows).map(|k| interpolate(&x, k as f64 * run.period / NODE)).collect(),
                 )
@@ -137,7 +137,7 @@ impl Smoothed {
 
         let axis = |i: usize| {
             let (at, z): (Vec<f64>, Vec<f64>) = Run::present(&run.pose[i]).map(|(k, v)| (node(k), v)).unzip();
-            smooth(&at, &z, nodes, sigma)
+            smooth(&at, &z, nodes, &errors_of_late(&at, &z, sigma, run.period / NODE))
         };
         let x = axis(0).zip(axis(1)).map(|(x, y)| [x, y]);
         Self { x, yaw }

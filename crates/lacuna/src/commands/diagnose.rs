@@ -9,11 +9,12 @@ use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
+use case_files::report_page::{page, page_of_columns};
 use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::{Options, SearchForLaw};
 use recordings::Mapping;
-use verdict::Verdict;
+use verdict::{Diagnosis, Verdict};
 
 use super::{Outcome, Reading, odometry, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
@@ -234,19 +235,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
             predictions::write(dir, diagnosis)?;
         }
     }
-    if let Some(file) = &args.picture {
-        let svg = ::report::picture::svg(diagnosis)?;
-        std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
-    }
-    if let Some(file) = &args.report {
-        report::write(file, &envelope)?;
-    }
-    if let Some(file) = &args.mcap {
-        if diagnosis.traces.is_empty() {
-            warning("this diagnosis has no recording beside the simulation; the MCAP holds the verdict alone");
-        }
-        mcap_out::write(file, diagnosis)?;
-    }
+    write_drawings(args, diagnosis, || page(&envelope))?;
     if let Some(target) = &args.json {
         emit_json(target, &serde_json::to_value(&envelope)?)?;
     }
@@ -264,24 +253,34 @@ fn verdict_of_columns(args: &Args, case: &odometry::Case, progress: Progress) ->
     let diagnosis = case.diagnose(&|what| progress.stage(what))?;
     drop(progress);
 
-    let asked = [
-        (args.report.is_some(), "--report"),
-        (args.mcap.is_some(), "--mcap"),
-        (args.predictions.is_some(), "--predictions"),
-        (args.next, "--next"),
-    ];
-    odometry::warn_of_unused(case.kind(), &asked);
-    if let Some(file) = &args.picture {
-        let svg = ::report::picture::svg(&diagnosis)?;
-        std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
-    }
+    odometry::warn_of_unused(case.kind(), &[(args.predictions.is_some(), "--predictions"), (args.next, "--next")]);
+    let envelope = case.envelope(diagnosis);
+    write_drawings(args, &envelope.diagnosis, || page_of_columns(&envelope))?;
     if let Some(target) = &args.json {
-        emit_json(target, &case.envelope(&diagnosis)?)?;
+        emit_json(target, &serde_json::to_value(&envelope)?)?;
     }
     if args.json.as_deref() != Some("-") {
-        emit(&diagnosis_text::render(&diagnosis, &[], case.ignored(), None))?;
+        emit(&diagnosis_text::render(&envelope.diagnosis, &[], case.ignored(), None))?;
     }
-    Ok(outcome(diagnosis.verdict, args.fail_on, &[]))
+    Ok(outcome(envelope.diagnosis.verdict, args.fail_on, &[]))
+}
+
+/// Writes the picture, the page and the MCAP that were asked for.
+fn write_drawings(args: &Args, diagnosis: &Diagnosis, page: impl Fn() -> String) -> Result<()> {
+    if let Some(file) = &args.picture {
+        let svg = ::report::picture::svg(diagnosis)?;
+        std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
+    }
+    if let Some(file) = &args.report {
+        report::write_page(file, &page())?;
+    }
+    if let Some(file) = &args.mcap {
+        if diagnosis.traces.is_empty() {
+            warning("this diagnosis has no recording beside the simulation; the MCAP holds the verdict alone");
+        }
+        mcap_out::write(file, diagnosis)?;
+    }
+    Ok(())
 }
 
 /// Where the parts of a case are.

@@ -3,8 +3,8 @@
 
 use anyhow::{Result, bail};
 use case_files::car::{self, CarCase};
+use case_files::columns::{ColumnsEnvelope, Kind};
 use case_files::odometry::{self, OdometryCase};
-use serde_json::Value;
 use verdict::Diagnosis;
 
 use super::diagnose::Input;
@@ -22,8 +22,8 @@ impl Case {
     /// Its kind, as robot files write it.
     pub(crate) fn kind(&self) -> &'static str {
         match self {
-            Self::Odometry(_) => "odometry",
-            Self::Car(_) => "car",
+            Self::Odometry(_) => Kind::Odometry.name(),
+            Self::Car(_) => Kind::Car.name(),
         }
     }
 
@@ -50,8 +50,8 @@ impl Case {
         }
     }
 
-    /// A diagnosis with what it was made from, as JSON.
-    pub(crate) fn envelope(&self, diagnosis: &Diagnosis) -> Result<Value> {
+    /// A diagnosis with what it was made from.
+    pub(crate) fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
         match self {
             Self::Odometry(case) => case.envelope(diagnosis),
             Self::Car(case) => case.envelope(diagnosis),

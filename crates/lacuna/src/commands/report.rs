@@ -4,8 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use case_files::envelope::Envelope;
-use case_files::report_page::page;
+use case_files::report_page::page_of_file;
 use clap::Args as ClapArgs;
 
 use super::Outcome;
@@ -34,13 +33,8 @@ pub(crate) struct Args {
 
 /// Makes the page.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    write(&args.out, &Envelope::open(&args.verdict)?)?;
+    write_page(&args.out, &page_of_file(&args.verdict)?)?;
     Ok(Outcome::Done)
-}
-
-/// Writes the page of a diagnosis to a file, or to standard output for `-`.
-pub(crate) fn write(target: &str, envelope: &Envelope) -> Result<()> {
-    write_page(target, &page(envelope))
 }
 
 /// Writes a page to a file, or to standard output for `-`.

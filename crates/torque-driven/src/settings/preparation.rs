@@ -66,10 +66,18 @@
         node: f64 = 0.05, "s", "guess";
         /// Fewest samples, and nodes, that are smoothed at all.
         least_samples: usize = 8, "1", "guess";
-        /// Decimal logarithms between which the weight of roughness is looked for.
-        log_weights: [f64; 2] = [-4.0, 9.0], "1", "guess";
-        /// Halvings of that range.
-        halvings: usize = 20, "1", "numerical guard: twenty halvings leave nothing to gain";
+        /// Decimal logarithms between which the weight of roughness is looked for, over that of the samples of a node.
+        log_weights: [f64; 2] = [-3.0, 9.0], "1", "guess";
+        /// Steps of that range.
+        tried: usize = 48, "1", "guess: a step changes the width of a path by a tenth";
+        /// Error, in sigmas of the poses, beyond which a pose weighs less.
+        outlier: f64 = 2.0, "1", "usual for robust weights: 1.5 to 2.5";
+        /// Rows between poses, above which a pose is written in the first row after its instant.
+        every_row: f64 = 1.5, "1", "formula: between one row and two";
+        /// Poses to each side from which the speed at one is taken.
+        beside: usize = 2, "1", "guess";
+        /// Times that the weights are found anew.
+        rounds: usize = 3, "1", "guess";
         /// Poses beyond which the integrated gyro's drift against them is reported as well as its offset.
         least_for_drift: f64 = 10.0, "1", "guess";
     }

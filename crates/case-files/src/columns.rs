@@ -1,0 +1,84 @@
+//! A diagnosis of a robot whose file names its columns itself, with what it was made from: what `lacuna diagnose --json` writes
+//! of wheel motion beside a pose and of cars, and `lacuna report` reads.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use verdict::Diagnosis;
+
+use crate::envelope::{FORMAT, Program, SourceFile};
+
+/// Kinds of robots whose files name their columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Wheel motion beside a pose.
+    Odometry,
+    /// Throttle and steering in, motion out.
+    Car,
+}
+
+impl Kind {
+    /// As robot files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Odometry => "odometry",
+            Self::Car => "car",
+        }
+    }
+
+    /// What is compared, for people.
+    pub fn compares(self) -> &'static str {
+        match self {
+            Self::Odometry => "wheel motion beside a pose",
+            Self::Car => "motion beside throttle and steering",
+        }
+    }
+}
+
+/// A diagnosis with all that it was made from. No clock and no machine in it: the same input gives the same text.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct ColumnsEnvelope {
+    /// Version of this form.
+    pub format: u32,
+    /// What kind of robot it is.
+    pub kind: Kind,
+    /// What wrote it.
+    pub program: Program,
+    /// The robot file, or the built-in robot's name.
+    pub robot: String,
+    /// Files by the part they play: reference, recordings.
+    pub sources: BTreeMap<String, Vec<SourceFile>>,
+    /// Other things in the folders, which were not read.
+    pub ignored_files: Vec<String>,
+    /// The answer.
+    pub diagnosis: Diagnosis,
+}
+
+impl ColumnsEnvelope {
+    /// Packs a diagnosis with what it was made from: files of the references, then of the recordings.
+    pub fn new(
+        kind: Kind,
+        robot: &str,
+        files: &[Vec<SourceFile>; 2],
+        ignored: &[String],
+        diagnosis: Diagnosis,
+    ) -> Self {
+        let [reference, recordings] = files.clone();
+        Self {
+            format: FORMAT,
+            kind,
+            program: Program::default(),
+            robot: robot.to_owned(),
+            sources: [("reference", reference), ("recordings", recordings)].map(|(k, v)| (k.to_owned(), v)).into(),
+            ignored_files: ignored.to_vec(),
+            diagnosis,
+        }
+    }
+}
+
+/// A file that was read whole.
+pub(crate) fn source(name: String, text: &str) -> SourceFile {
+    SourceFile { name, bytes: text.len(), sha256: hex::encode(Sha256::digest(text.as_bytes())) }
+}
