@@ -12,6 +12,7 @@
 //! * `robot`, `robot_json`: the robot as its user knows it.
 //! * `free`, `measure`: how much a hidden effect matters, by free runs.
 //! * `command`: command-driven cases, with a controller, wheels and a ground of their own.
+//! * `rolling`: wheel counts beside a pose, of robots with two, three and four wheels, steered and omnidirectional.
 //! * `speed`: speed-driven cases, with a law of steady torques, sensors and events of their own.
 //! * `csv`, `truth`: the files of a case, and what was hidden, for the scorer.
 //! * `random`: random numbers fixed by a path of keys; `error`: what can go wrong.
@@ -36,6 +37,7 @@ mod plant;
 mod random;
 mod robot;
 mod robot_json;
+pub mod rolling;
 mod run;
 mod sensors;
 mod set;

@@ -96,6 +96,43 @@ fn a_wheel_that_is_too_large_is_named_with_its_radius() {
 }
 
 #[test]
+fn counts_that_are_lost_in_many_windows_are_named_with_their_times() {
+    let bench = bench();
+    // From 9 s on, in every 14 s, the left wheel loses most of its counts for 2 s.
+    let lossy = |text: String| -> String {
+        let line = |line: &str| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if let (Ok(t), Ok(count)) = (cells[0].parse::<f64>(), cells[1].parse::<f64>())
+                && (t - 9.0).rem_euclid(14.0) < 2.0
+            {
+                cells[1] = (0.3 * count).round().to_string();
+            }
+            cells.join(",") + "\n"
+        };
+        text.lines().map(line).collect()
+    };
+    bench.write(
+        "case/robot.toml",
+        &ROBOT.replacen("radius = 0.05\n", "radius = 0.0525\n", 2).replacen("0.0525", "0.05", 1),
+    );
+    for (k, phase) in [0.0, 0.4, 0.8].into_iter().enumerate() {
+        bench.write(&format!("case/recordings/run_{k}.csv"), &lossy(drive(phase)));
+    }
+    let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
+    let first = &json["diagnosis"]["ranked"][0];
+    assert_eq!((&json["diagnosis"]["verdict"], &first["name"]), (&"explained".into(), &"lost_counts (left)".into()));
+    let times = first["intervals"]["run_0"].as_array().unwrap();
+    assert!(times.len() >= 3, "{times:?}");
+    for span in times {
+        let (from, until) = (span[0].as_f64().unwrap(), span[1].as_f64().unwrap());
+        let begins = 9.0 + 14.0 * ((from - 8.0) / 14.0).floor();
+        assert!((from - begins).abs() < 0.8 && (until - begins - 2.0).abs() < 0.8, "{from} to {until}");
+    }
+}
+
+#[test]
 fn what_cannot_be_is_one_clear_sentence() {
     let bench = bench();
     bench.run(&["diagnose", "case", "--mapping", "lacuna"]).failed(&["kind odometry", "leave out --mapping lacuna"]);

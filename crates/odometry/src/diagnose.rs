@@ -174,8 +174,9 @@ fn data<'a>(
 ) -> Result<Data<'a>, OdometryError> {
     let mut data = Data::new(robot, constants, drives)?;
     for found in lost {
-        for (window, _) in &found.windows {
-            data.dropped[found.drive][*window] = true;
+        for window in 0..data.windows[found.drive].len() {
+            let [from, until] = data.span(found.drive, window);
+            data.dropped[found.drive][window] |= found.spans.iter().any(|([a, b], _)| from < *b && *a < until);
         }
     }
     Ok(data)
@@ -205,7 +206,15 @@ pub(crate) fn solve(
 
     let (mut fit, mut named) = weigh(&data, &prior, &causes, start).ok_or_else(|| short(&data))?;
     // Lost counts are found beside the best answer, and then left out of it.
-    let lost = dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale);
+    let wide = wide(&prior, &causes);
+    let often = dropout::often(&data, &fit, prior.mean.as_slice(), |rest, start| self::fit(rest, &wide, start));
+    let lost = match often.filter(|(_, lost)| !lost.is_empty()) {
+        Some((theta, lost)) => {
+            fit.theta = theta;
+            lost
+        }
+        None => dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale),
+    };
     if !lost.is_empty() {
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
@@ -228,12 +237,15 @@ fn align(robot: &WheeledRobot, constants: &[Constant], drives: &[&Drive], start:
     }
 }
 
+/// What is known before the recordings if every cause may be there.
+fn wide(prior: &Prior, causes: &[Cause]) -> Prior {
+    let every: Vec<usize> = (0..causes.len()).collect();
+    Prior { mean: prior.mean.clone(), covariance: crate::name::covariance(&prior.covariance, causes, &every) }
+}
+
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
-    let every: Vec<usize> = (0..causes.len()).collect();
-    let wide =
-        Prior { mean: prior.mean.clone(), covariance: crate::name::covariance(&prior.covariance, causes, &every) };
-    let mut fit = fit(data, &wide, start)?;
+    let mut fit = fit(data, &wide(prior, causes), start)?;
     let weighed = |fit: &Fit| {
         let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
         name(&evidence, &prior.covariance, causes)
@@ -341,13 +353,9 @@ fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
         let wheel = &case.robot.wheels[measured[found.wheel]].name;
         let label = label_of(found.wheel);
         let own = odds.iter().find(|(w, _)| *w == found.wheel).map_or(f64::NEG_INFINITY, |(_, odds)| *odds);
-        let time = |w: usize| {
-            let window = data.windows[found.drive][w];
-            [data.drives[found.drive].time[window.from], data.drives[found.drive].time[window.to]]
-        };
-        let intervals = found.windows.iter().map(|(w, _)| (data.drives[found.drive].name.clone(), time(*w)));
-        let share = inference::robust::mean(found.windows.iter().map(|(_, s)| *s)).unwrap_or(0.0);
-        let spread = rms(found.windows.iter().map(|(_, s)| s - share)).unwrap_or(0.0);
+        let intervals = found.joined().into_iter().map(|span| (data.drives[found.drive].name.clone(), span));
+        let share = inference::robust::mean(found.spans.iter().map(|(_, s)| *s)).unwrap_or(0.0);
+        let spread = rms(found.spans.iter().map(|(_, s)| s - share)).unwrap_or(0.0);
         match out.iter_mut().find(|n| n.label == label) {
             Some(same) => same.intervals.extend(intervals),
             None => out.push(NamedCause {

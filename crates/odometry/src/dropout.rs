@@ -5,7 +5,7 @@
 //! that it might have had, `ln(|column| / (σ √2π))`. All wheels and none compete for the same windows.
 
 use crate::constants::Quantity;
-use crate::fit::columns;
+use crate::fit::{Fit, columns};
 use crate::settings::{Dropout, SETTINGS};
 use crate::windows::Data;
 
@@ -17,10 +17,24 @@ pub(crate) struct Lost {
     /// Index among the measured wheels.
     pub(crate) wheel: usize,
     pub(crate) drive: usize,
-    /// Windows, with the share of counts that each lost.
-    pub(crate) windows: Vec<(usize, f64)>,
+    /// From when to when, s, with the share of counts that was lost meanwhile.
+    pub(crate) spans: Vec<([f64; 2], f64)>,
     /// Evidence of each wheel that it lost counts here, over that of outliers, nats.
     pub(crate) evidence: Vec<(usize, f64)>,
+}
+
+impl Lost {
+    /// From when to when, s, spans that follow each other as one.
+    pub(crate) fn joined(&self) -> Vec<[f64; 2]> {
+        let mut out: Vec<[f64; 2]> = Vec::new();
+        for ([from, until], _) in &self.spans {
+            match out.last_mut() {
+                Some(last) if last[1] >= *from => last[1] = *until,
+                _ => out.push([*from, *until]),
+            }
+        }
+        out
+    }
 }
 
 /// Log odds of each wheel over all others and none together.
@@ -40,6 +54,46 @@ pub(crate) fn log_odds(lost: &[Lost]) -> Vec<(usize, f64)> {
     sums.iter().map(|&(wheel, sum)| (wheel, sum - rivals(wheel))).collect()
 }
 
+/// Counts that were lost so often that they widen the scale of the errors and hide each other: looked for in short windows,
+/// beside a fit to the windows that are not far off. `first` is a fit to all, `stated` what is known without them: the one
+/// begins of which most windows are nearer. `refit` fits what is not left out, from where another fit ended.
+///
+/// The fit, and what was lost beside it; `None` where the scale is not widened.
+pub(crate) fn often(
+    data: &Data<'_>,
+    first: &Fit,
+    stated: &[f64],
+    refit: impl Fn(&Data<'_>, Vec<f64>) -> Option<Fit>,
+) -> Option<(Vec<f64>, Vec<Lost>)> {
+    let usual = |theta: &[f64]| data.usual_scale(&data.errors(theta));
+    let mut theta = if usual(stated) < usual(&first.theta) { stated.to_vec() } else { first.theta.clone() };
+    if first.scale < RULES.widened * usual(&theta) {
+        return None;
+    }
+    for _ in 0..RULES.rounds {
+        let errors = data.errors(&theta);
+        let usual = data.usual_scale(&errors);
+        let mut rest = data.clone();
+        for (dropped, errors) in rest.dropped.iter_mut().zip(&errors) {
+            let far: Vec<bool> = errors.iter().map(|e| size(e, usual) > RULES.outlier.powi(2)).collect();
+            let count = far.iter().filter(|far| **far).count();
+            if count as f64 <= RULES.most * far.len() as f64 {
+                *dropped = far;
+            }
+        }
+        theta = refit(&rest, theta)?.theta;
+    }
+    let short = data.with_windows(RULES.length);
+    let scale = short.usual_scale(&short.errors(&theta));
+    let lost = lost(&short, &theta, scale);
+    Some((theta, lost))
+}
+
+/// Squared errors of a window in sigmas.
+fn size(errors: &[f64; 3], scale: f64) -> f64 {
+    errors.iter().map(|e| (e / scale).powi(2)).sum()
+}
+
 /// Finds windows far off that one wheel's missing counts account for.
 pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
     let errors = data.errors(theta);
@@ -51,7 +105,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
         .collect();
     let mut out: Vec<Lost> = Vec::new();
     for drive in 0..data.drives.len() {
-        let size = |e: &[f64; 3]| e.iter().map(|e| (e / scale).powi(2)).sum::<f64>();
+        let size = |e: &[f64; 3]| size(e, scale);
         let far: Vec<usize> =
             (0..errors[drive].len()).filter(|&w| size(&errors[drive][w]) > RULES.outlier.powi(2)).collect();
         if far.is_empty() || far.len() as f64 > RULES.most * errors[drive].len() as f64 {
@@ -61,30 +115,32 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
         let total: f64 = far.iter().map(|&w| size(&errors[drive][w])).sum();
         let of_wheel = |&(k, wheel): &(usize, usize)| {
             let (mut explained, mut nats) = (0.0, 0.0);
-            let mut windows = Vec::new();
+            let mut spans = Vec::new();
             for &w in &far {
                 let (column, error) = (columns[k][w], errors[drive][w]);
                 let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-                // Missing counts shorten what the wheels imply: the error is the column times minus the share.
-                let share = -dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
-                if share > RULES.lost && share < 1.0 + RULES.lost {
+                // Missing counts shorten what the wheels imply, and the column with it: the error is that times minus what is
+                // lost over what is kept.
+                let over_kept = -dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
+                let share = over_kept / (1.0 + over_kept);
+                if over_kept > 0.0 && share > RULES.lost {
                     let taken = (dot(column, error).powi(2) / dot(column, column)) / (scale * scale);
                     explained += taken;
-                    let left = size(&error) - taken;
+                    let left = (size(&error) - taken) / (1.0 + RULES.linear.powi(2) * taken);
                     let width = (dot(column, column).sqrt() / (scale * std::f64::consts::TAU.sqrt())).max(1.0);
                     let outlier = SETTINGS.windows.outlier.powi(2);
                     nats += 0.5 * (size(&error).min(outlier) - left.min(outlier)) - width.ln();
-                    windows.push((w, share));
+                    spans.push((data.span(drive, w), share));
                 }
             }
-            (explained, nats, Lost { wheel, drive, windows, evidence: Vec::new() })
+            (explained, nats, Lost { wheel, drive, spans, evidence: Vec::new() })
         };
         let weighed: Vec<(f64, f64, Lost)> = wheels.iter().map(of_wheel).collect();
         let evidence: Vec<(usize, f64)> = weighed.iter().map(|(_, nats, found)| (found.wheel, *nats)).collect();
         let best = weighed.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((explained, _, found)) = best
             && explained > RULES.share * total
-            && found.windows.len() >= RULES.windows
+            && found.spans.len() >= RULES.windows
         {
             out.push(Lost { evidence, ..found });
         }
@@ -109,7 +165,7 @@ mod tests {
     use super::*;
 
     fn found(evidence: &[(usize, f64)]) -> Lost {
-        Lost { wheel: 0, drive: 0, windows: Vec::new(), evidence: evidence.to_vec() }
+        Lost { wheel: 0, drive: 0, spans: Vec::new(), evidence: evidence.to_vec() }
     }
 
     #[test]

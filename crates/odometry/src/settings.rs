@@ -204,6 +204,14 @@
         windows: usize = 2, "1", "guess";
         /// Share of a drive's windows that show it at most: what shows in all is no dropout.
         most: f64 = 0.5, "1", "guess";
+        /// Share of a loss that its linearisation gets wrong in a window.
+        linear: f64 = 0.15, "1", "guess; a body that turns by 0.3 rad in a window";
+        /// Length of windows in which counts are looked for that were lost often.
+        length: f64 = 0.5, "s", "guess; a share of the counts lost for a second is one in some of them";
+        /// Scale of the errors over the usual one, from which counts may have been lost often.
+        widened: f64 = 2.0, "1", "guess; of normal errors both are the same";
+        /// Times that such a fit is made anew.
+        rounds: usize = 3, "1", "guess";
     }
 
     /// Clocks of counts and pose before any fit.

@@ -6,7 +6,7 @@ use crate::error::OdometryError;
 use crate::motion::{Laws, implied, relative};
 use crate::settings::{SETTINGS, Windows as Rules};
 use crate::wheel::WheeledRobot;
-use inference::robust::{quantile, sorted};
+use inference::robust::{MAD_TO_SIGMA, quantile, sorted};
 
 const RULES: Rules = SETTINGS.windows;
 
@@ -57,6 +57,7 @@ pub(crate) fn windows(drive: &Drive, length: f64, every: f64) -> Vec<Window> {
 }
 
 /// Drives with their windows, ready for fits.
+#[derive(Clone)]
 pub(crate) struct Data<'a> {
     pub(crate) robot: &'a WheeledRobot,
     pub(crate) drives: Vec<&'a Drive>,
@@ -93,6 +94,19 @@ impl<'a> Data<'a> {
         Ok(Self { robot, drives, constants, windows, session, sessions, dropped })
     }
 
+    /// The same drives in windows of another length, of which none is left out.
+    pub(crate) fn with_windows(&self, length: f64) -> Self {
+        let windows: Vec<Vec<Window>> = self.drives.iter().map(|d| windows(d, length, length)).collect();
+        let dropped = windows.iter().map(|w| vec![false; w.len()]).collect();
+        Self { windows, dropped, ..self.clone() }
+    }
+
+    /// From when to when a window of a drive lasts, s.
+    pub(crate) fn span(&self, drive: usize, window: usize) -> [f64; 2] {
+        let Window { from, to, .. } = self.windows[drive][window];
+        [from, to].map(|row| self.drives[drive].time[row])
+    }
+
     /// The laws at these values of the constants.
     pub(crate) fn laws(&self, theta: &[f64]) -> Laws {
         laws(self.robot, self.constants, theta)
@@ -115,16 +129,26 @@ impl<'a> Data<'a> {
 
     /// Scale of the errors of windows in motion, m: by their upper quantile, for a few may be outliers.
     pub(crate) fn scale(&self, errors: &[Vec<[f64; 3]>]) -> f64 {
-        let moving = |drive: usize| {
-            let used = self.windows[drive].iter().zip(&self.dropped[drive]).zip(&errors[drive]);
-            used.filter(|((w, dropped), _)| w.is_moving() && !**dropped).map(|(_, e)| *e)
-        };
-        let all: Vec<[f64; 3]> = (0..errors.len()).flat_map(moving).collect();
-        let sizes = sorted(all.iter().flatten().map(|e| e.abs()));
+        let sizes = self.sizes(errors);
         let limit = quantile(&sizes, RULES.quantile).unwrap_or(0.0) / RULES.quantile_sigmas;
         let cut = 2.0 * RULES.quantile_sigmas * limit;
         let clipped = inference::robust::rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0);
         clipped.max(RULES.floor)
+    }
+
+    /// The same by the median, which half of the windows may be off without moving much.
+    pub(crate) fn usual_scale(&self, errors: &[Vec<[f64; 3]>]) -> f64 {
+        let median = quantile(&self.sizes(errors), 0.5).unwrap_or(0.0);
+        (MAD_TO_SIGMA * median).max(RULES.floor)
+    }
+
+    /// Sizes of the errors of windows in motion, rising.
+    fn sizes(&self, errors: &[Vec<[f64; 3]>]) -> Vec<f64> {
+        let moving = |drive: usize| {
+            let used = self.windows[drive].iter().zip(&self.dropped[drive]).zip(&errors[drive]);
+            used.filter(|((w, dropped), _)| w.is_moving() && !**dropped).map(|(_, e)| *e)
+        };
+        sorted((0..errors.len()).flat_map(moving).flatten().map(f64::abs))
     }
 }
 

@@ -90,6 +90,7 @@ struct Known {
     track_sigma: Option<f64>,
     wheelbase_sigma: Option<f64>,
     steering_sigma_deg: Option<f64>,
+    steering_gain_sigma: Option<f64>,
     pose_direction_sigma_deg: Option<f64>,
     pose_origin_sigma: Option<f64>,
     #[serde(rename = "source")]
@@ -176,7 +177,7 @@ impl RobotFile {
                 across: share(known.track_sigma, 1),
                 along: share(known.wheelbase_sigma, 0),
                 steering: known.steering_sigma_deg.map(f64::to_radians),
-                steering_gain: None,
+                steering_gain: known.steering_gain_sigma,
                 mounting: known.pose_direction_sigma_deg.map(f64::to_radians),
                 origin: known.pose_origin_sigma,
             },

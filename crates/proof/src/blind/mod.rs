@@ -22,6 +22,7 @@ mod drawn;
 mod figures;
 mod given;
 pub(crate) mod layout;
+mod rolling;
 mod score;
 pub(crate) mod seal;
 mod set;
@@ -43,6 +44,7 @@ Examples:
   cargo xtask blind --wide                             robots, sensors and visits of every sort
   cargo xtask blind --kind speed --count 200           speed-driven cases
   cargo xtask blind --kind command --count 200         command-driven cases
+  cargo xtask blind --kind odometry --count 240        wheel counts and a pose
   cargo xtask blind --kind all --count 200             so many of each kind
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
 
@@ -82,6 +84,8 @@ enum Kind {
     Speed,
     /// Commanded and measured wheel speeds and a pose are given.
     Command,
+    /// Counts of the wheels and a pose are given.
+    Odometry,
     /// So many of each kind, one after the other.
     All,
 }
@@ -128,16 +132,19 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let of = |out: PathBuf| drawn::Set { seed, count, out, draw_only, judge, docs };
     let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
     let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
+    let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling>(&of(out)));
     match args.kind {
         Kind::Torque => torque(args, out("blind")?, &pool),
         Kind::Speed => speed(out("blind-speed")?),
         Kind::Command => command(out("blind-command")?),
+        Kind::Odometry => rolling(out("blind-odometry")?),
         Kind::All => {
             let folder = out("blind-all")?;
             let kinds = [
                 torque(args, folder.join("torque"), &pool)?,
                 speed(folder.join("speed"))?,
                 command(folder.join("command"))?,
+                rolling(folder.join("odometry"))?,
             ];
             Ok(kinds.into_iter().all(|met| met))
         }

@@ -1,0 +1,49 @@
+//! `cargo xtask blind --kind odometry`: wheel counts beside a pose, with something hidden.
+
+use std::path::PathBuf;
+
+use examiner::rolling::{RollingPlan, RollingTruth};
+use serde_json::Value;
+
+use super::drawn::Subject;
+use crate::document::Section;
+use crate::output::Figure;
+
+mod figures;
+mod score;
+
+/// Robots of which wheel motion and a pose are known.
+pub(super) struct Rolling;
+
+impl Subject for Rolling {
+    type Plan = RollingPlan;
+    type Truth = RollingTruth;
+    type Row = score::Row;
+    const PAGE: [&'static str; 2] = ["blind-odometry.md", "Blind cases, wheel motion beside a pose"];
+    const LAW: &'static str = "bodies that move first and wheels that follow";
+
+    fn plans(seed: u64, count: usize) -> Vec<RollingPlan> {
+        RollingPlan::set(seed, count)
+    }
+
+    fn name(plan: &RollingPlan) -> &str {
+        &plan.name
+    }
+
+    fn draw(plan: &RollingPlan) -> (Vec<(PathBuf, Vec<u8>)>, RollingTruth) {
+        let case = plan.draw();
+        (case.files, case.truth)
+    }
+
+    fn row(truth: &RollingTruth, diagnosis: &Value, processor_seconds: Option<f64>) -> score::Row {
+        score::row(truth, diagnosis, processor_seconds)
+    }
+
+    fn figures(rows: &[score::Row]) -> Vec<Figure> {
+        figures::figures(rows)
+    }
+
+    fn tables(rows: &[score::Row]) -> Vec<Section> {
+        figures::tables(rows)
+    }
+}

@@ -1,0 +1,164 @@
+//! One answer against what was hidden, in the program's own words.
+
+use examiner::rolling::{Chassis, Hidden, RollingTruth};
+use serde::Serialize;
+use serde_json::Value;
+
+/// Above this probability a cause is named.
+const LIKELY: f64 = 0.5;
+/// Half width of a 90 % interval, in sigmas.
+const NINETY: f64 = 1.645;
+
+/// What came of a case.
+#[derive(Debug, Clone, Serialize)]
+pub(in crate::blind) struct Row {
+    pub(super) case: String,
+    pub(super) chassis: Chassis,
+    pub(super) hidden: Vec<Hidden>,
+    /// As the verdict says it; "refused" without one.
+    pub(super) verdict: String,
+    pub(super) headline: String,
+    /// Causes that are named, with the wheel that they are about.
+    pub(super) named: Vec<String>,
+    /// Whether each hidden thing is named, or is of the class of what is named.
+    pub(super) found: Vec<bool>,
+    /// Named causes that were not hidden.
+    pub(super) invented: Vec<String>,
+    /// Numbers that were hidden and are told: name, error over half of the 90 % interval.
+    pub(super) errors: Vec<(String, f64)>,
+    /// Position left out over 10 s, median: corrected over the error as stated.
+    pub(super) forecast: Option<f64>,
+    pub(super) processor_seconds: Option<f64>,
+}
+
+impl Row {
+    /// Whether a cause or "unknown" is told.
+    pub(super) fn is_answered(&self) -> bool {
+        matches!(self.verdict.as_str(), "explained" | "unknown")
+    }
+}
+
+/// The label of the cause that something hidden is, without the wheel or distance that it is about.
+fn cause(hidden: Hidden) -> &'static str {
+    match hidden {
+        Hidden::AllRadii => "radius_of_all_wheels",
+        Hidden::OneRadius => "radius_of_one_wheel",
+        Hidden::Distance => "wheel_distance",
+        Hidden::SteeringZero => "steering_zero",
+        Hidden::SteeringGain => "steering_gain",
+        Hidden::TurnSlip => "slip_in_turns",
+        Hidden::RateSlip => "slip_with_turning",
+        Hidden::SpeedSlip => "slip_with_speed",
+        Hidden::RollerSlip => "roller_slip",
+        Hidden::ClockOffset => "counts_clock_offset",
+        Hidden::ClockRate => "clock_rate",
+        Hidden::Mounting => "pose_mounting",
+        Hidden::Origin => "pose_origin",
+        Hidden::LostCounts => "lost_counts",
+    }
+}
+
+/// Whether a label is that of something hidden, of the wheel that it is about.
+fn is(label: &str, hidden: Hidden, truth: &RollingTruth) -> bool {
+    let (id, of) = label.split_once(" (").map_or((label, None), |(id, of)| (id, Some(of.trim_end_matches(')'))));
+    let wheel = matches!(hidden, Hidden::OneRadius | Hidden::LostCounts).then_some(truth.wheel.as_deref()).flatten();
+    id == cause(hidden) && wheel.is_none_or(|wheel| of == Some(wheel))
+}
+
+/// What a number is called in the answer, and the power of length that it is told in.
+fn told_as(name: &str, truth: &RollingTruth) -> String {
+    match name {
+        "radius" => format!("radius of {}", truth.wheel.as_deref().unwrap_or_default()),
+        "distance" => match truth.chassis {
+            Chassis::Differential => "track".to_owned(),
+            Chassis::Tricycle => "wheelbase".to_owned(),
+            Chassis::Omni3 | Chassis::Omni4 => "distance from centre to wheels".to_owned(),
+        },
+        "steering_zero" => "steering zero".to_owned(),
+        "steering_gain" => "steering gain".to_owned(),
+        "mounting" => "direction of the pose's frame".to_owned(),
+        "origin_x" => "place of the pose's origin, x".to_owned(),
+        "origin_y" => "place of the pose's origin, y".to_owned(),
+        "clock_offset" => "offset of the clocks".to_owned(),
+        "clock_rate" => "rate of the clocks".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+fn list<'a>(v: &'a Value, key: &str) -> &'a [Value] {
+    v[key].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Scores an answer; null is a refusal.
+pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64>) -> Row {
+    let text = |v: &Value| v.as_str().unwrap_or_default().to_owned();
+    let is_cause = |c: &&Value| !["none", "unknown"].contains(&c["effect"].as_str().unwrap_or_default());
+    let likely = || list(d, "ranked").iter().filter(|c| c["probability"].as_f64().is_some_and(|p| p > LIKELY));
+    let named: Vec<String> = likely().filter(is_cause).map(|c| text(&c["name"])).collect();
+    let classes: Vec<Vec<String>> = list(d, "indistinguishable")
+        .iter()
+        .map(|class| class.as_array().map_or(&[][..], Vec::as_slice).iter().map(text).collect())
+        .collect();
+    // A class stands for each of its members.
+    let stands_for = |label: &String, hidden: Hidden| {
+        let class = classes.iter().find(|class| class.contains(label));
+        is(label, hidden, truth) || class.is_some_and(|class| class.iter().any(|other| is(other, hidden, truth)))
+    };
+    let error = |(name, value): (&String, &f64)| {
+        let told = likely().find_map(|c| c["parameters"].get(told_as(name, truth)))?;
+        let half = told["sigma"].as_f64().filter(|sigma| *sigma > 0.0)? * NINETY;
+        let told = told["value"].as_f64()?;
+        let told = if name.starts_with("clock") { told.abs() } else { told };
+        Some((name.clone(), (told - value) / half))
+    };
+    let runs = list(d, "free_runs").iter();
+    let ahead = runs.filter(|f| f["quantity"].as_str().is_some_and(|q| q.starts_with("position after 10 s")));
+    let sums = ahead.fold([0.0, 0.0], |[a, b], f| {
+        [a + f["corrected"].as_f64().unwrap_or(f64::NAN), b + f["nominal"].as_f64().unwrap_or(f64::NAN)]
+    });
+    Row {
+        case: truth.case.clone(),
+        chassis: truth.chassis,
+        hidden: truth.hidden.clone(),
+        verdict: d["verdict"].as_str().unwrap_or("refused").to_owned(),
+        headline: list(d, "sentences").first().map(text).unwrap_or_default(),
+        found: truth.hidden.iter().map(|h| named.iter().any(|label| stands_for(label, *h))).collect(),
+        invented: named.iter().filter(|label| !truth.hidden.iter().any(|h| stands_for(label, *h))).cloned().collect(),
+        named,
+        errors: truth.numbers.iter().filter_map(error).collect(),
+        forecast: Some(sums[0] / sums[1]).filter(|share| share.is_finite()),
+        processor_seconds,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_cause_is_found_by_its_label_or_its_class_and_a_number_by_its_interval() {
+        let truth = RollingTruth {
+            case: "r001".into(),
+            chassis: Chassis::Differential,
+            hidden: vec![Hidden::OneRadius],
+            wheel: Some("right".into()),
+            numbers: [("radius".to_owned(), 0.05)].into(),
+        };
+        let parameters = json!({ "radius of right": { "value": 0.051, "sigma": 0.001 } });
+        let say = |label: &str, class: Value| {
+            json!({ "verdict": "explained", "sentences": ["x"], "indistinguishable": class,
+                "ranked": [{ "effect": "radius_of_one_wheel", "name": label, "probability": 0.99, "parameters": parameters },
+                    { "effect": "unknown", "name": "unknown", "probability": 0.6 }],
+                "free_runs": [{ "quantity": "position after 10 s from counts alone, median, m", "nominal": 0.4,
+                    "corrected": 0.1 }] })
+        };
+        let right = row(&truth, &say("radius_of_one_wheel (right)", json!([])), None);
+        assert_eq!((right.found, right.invented.len()), (vec![true], 0));
+        assert!((right.errors[0].1 - 1.0 / NINETY).abs() < 1e-9 && right.forecast == Some(0.25));
+        let left = row(&truth, &say("radius_of_one_wheel (left)", json!([])), None);
+        assert_eq!((left.found, left.invented.len()), (vec![false], 1));
+        let class = json!([["radius_of_one_wheel (left)", "radius_of_one_wheel (right)"]]);
+        assert_eq!(row(&truth, &say("radius_of_one_wheel (left)", class), None).found, [true]);
+    }
+}
