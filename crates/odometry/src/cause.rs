@@ -68,5 +68,10 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             None => out.push(Cause { spec, of, directions: vec![direction] }),
         }
     }
+    // Clocks that run apart agree at some instant, which may be any.
+    let offset = constants.iter().position(|c| c.quantity == Quantity::ClockOffset);
+    if let Some((cause, k)) = out.iter_mut().find(|cause| cause.spec == &spec::CLOCK_RATE).zip(offset) {
+        cause.directions.push((vec![(k, 1.0)], constants[k].usual));
+    }
     out
 }

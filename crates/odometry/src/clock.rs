@@ -39,11 +39,12 @@ pub(crate) fn alignment(robot: &WheeledRobot, drive: &Drive) -> Option<[f64; 2]>
     let path = implied(robot, drive, &Laws::given(robot));
     let (first, last) = (drive.time[0], drive.time[drive.time.len() - 1]);
     let rows = ((last - first) / RULES.step) as usize;
+    let middle = 0.5 * (first + last);
     let grid = |row: usize| first + (row as f64 + 0.5) * RULES.step;
     let of_pose = speeds(&drive.time, &drive.pose, grid, rows);
 
     let misfit = |offset: f64, rate: f64| -> f64 {
-        let shifted = |row: usize| grid(row) - offset - rate * (grid(row) - first);
+        let shifted = |row: usize| grid(row) - offset - rate * (grid(row) - middle);
         let of_counts = speeds(&drive.time, &path, shifted, rows);
         let pairs = of_counts.iter().zip(&of_pose).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
         let [mut sum, mut count] = [0.0; 2];

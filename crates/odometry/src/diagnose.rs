@@ -173,12 +173,7 @@ fn data<'a>(
     lost: &[Lost],
 ) -> Result<Data<'a>, OdometryError> {
     let mut data = Data::new(robot, constants, drives)?;
-    for found in lost {
-        for window in 0..data.windows[found.drive].len() {
-            let [from, until] = data.span(found.drive, window);
-            data.dropped[found.drive][window] |= found.spans.iter().any(|([a, b], _)| from < *b && *a < until);
-        }
-    }
+    dropout::leave_out(&mut data, lost);
     Ok(data)
 }
 

@@ -142,13 +142,13 @@ impl Drive {
         [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
     }
 
-    /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` from
-    /// the beginning of the drive: row `t` shows what the counts have at `t − offset − rate (t − t₀)`.
+    /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` about
+    /// the middle of the drive: row `t` shows what the counts have at `t − offset − rate (t − t_mid)`.
     pub(crate) fn at_shifted_clock(&self, path: &[[f64; 3]], [offset, rate]: [f64; 2]) -> Vec<[f64; 3]> {
-        let start = self.time[0];
+        let middle = 0.5 * (self.time[0] + self.time[self.time.len() - 1]);
         let mut k = 0;
         let at = |t: f64| {
-            let t = t - offset - rate * (t - start);
+            let t = t - offset - rate * (t - middle);
             while k + 2 < self.time.len() && self.time[k + 1] < t {
                 k += 1;
             }

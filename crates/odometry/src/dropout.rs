@@ -86,7 +86,21 @@ pub(crate) fn often(
     let short = data.with_windows(RULES.length);
     let scale = short.usual_scale(&short.errors(&theta));
     let lost = lost(&short, &theta, scale);
-    Some((theta, lost))
+    // Without them the windows must agree far better: heavy tails of other causes would not go away.
+    let mut rest = data.clone();
+    leave_out(&mut rest, &lost);
+    let left = rest.scale(&rest.errors(&theta));
+    (first.scale > RULES.falls * left).then_some((theta, lost))
+}
+
+/// Leaves out the windows in which counts were lost.
+pub(crate) fn leave_out(data: &mut Data<'_>, lost: &[Lost]) {
+    for found in lost {
+        for window in 0..data.windows[found.drive].len() {
+            let [from, until] = data.span(found.drive, window);
+            data.dropped[found.drive][window] |= found.spans.iter().any(|([a, b], _)| from < *b && *a < until);
+        }
+    }
 }
 
 /// Squared errors of a window in sigmas.

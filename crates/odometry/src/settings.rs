@@ -210,6 +210,8 @@
         length: f64 = 0.5, "s", "guess; a share of the counts lost for a second is one in some of them";
         /// Scale of the errors over the usual one, from which counts may have been lost often.
         widened: f64 = 2.0, "1", "guess; of normal errors both are the same";
+        /// Factor by which the scale has to fall without them.
+        falls: f64 = 5.0, "1", "12 to 46 in four drawn robots that lost counts often, below 5 in four real robots";
         /// Times that such a fit is made anew.
         rounds: usize = 3, "1", "guess";
     }

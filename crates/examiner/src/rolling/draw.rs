@@ -223,7 +223,9 @@ fn sheet(chassis: Chassis, robot: &Robot, counts: f64, loses: Option<usize>, s: 
     }
 
     let mut out = String::from("time_s");
-    (1..=robot.wheels.len()).for_each(|k| out += &format!(",tick_{k}"));
+    for k in 1..=robot.wheels.len() {
+        let _ = write!(out, ",tick_{k}");
+    }
     out += if robot.is_steered { ",steer_rad,x_m,y_m,yaw_rad\n" } else { ",x_m,y_m,yaw_rad\n" };
     // Some bursts in which a wheel misses most of its counts.
     let bursts: Vec<[f64; 2]> = (0..3)

@@ -181,7 +181,7 @@ impl RollingPlan {
             let kind = i % Chassis::ALL.len();
             let chassis = Chassis::ALL[kind];
             let of: Vec<Hidden> = Hidden::ALL.into_iter().filter(|h| h.is_of(chassis)).collect();
-            let hidden = (i / Chassis::ALL.len() % 4 != 0).then(|| {
+            let hidden = (!(i / Chassis::ALL.len()).is_multiple_of(4)).then(|| {
                 turn[kind] += 1;
                 of[(turn[kind] - 1) % of.len()]
             });
