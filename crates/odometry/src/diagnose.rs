@@ -208,7 +208,7 @@ pub(crate) fn solve(
             fit.theta = theta;
             lost
         }
-        None => dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale),
+        None => dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale, SETTINGS.dropout.linear_most),
     };
     if !lost.is_empty() {
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;

@@ -85,7 +85,7 @@ pub(crate) fn often(
     }
     let short = data.with_windows(RULES.length);
     let scale = short.usual_scale(&short.errors(&theta));
-    let lost = lost(&short, &theta, scale);
+    let lost = lost(&short, &theta, scale, 1.0);
     // Without them the windows must agree far better: heavy tails of other causes would not go away.
     let mut rest = data.clone();
     leave_out(&mut rest, &lost);
@@ -108,8 +108,8 @@ fn size(errors: &[f64; 3], scale: f64) -> f64 {
     errors.iter().map(|e| (e / scale).powi(2)).sum()
 }
 
-/// Finds windows far off that one wheel's missing counts account for.
-pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
+/// Finds windows far off that one wheel's missing counts account for, of which it lost the share `most` at most.
+pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64, most: f64) -> Vec<Lost> {
     let errors = data.errors(theta);
     let wheels: Vec<(usize, usize)> = data
         .constants
@@ -137,7 +137,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Lost> {
                 // lost over what is kept.
                 let over_kept = -dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
                 let share = over_kept / (1.0 + over_kept);
-                if over_kept > 0.0 && share > RULES.lost {
+                if over_kept > 0.0 && share > RULES.lost && share <= most {
                     let taken = (dot(column, error).powi(2) / dot(column, column)) / (scale * scale);
                     explained += taken;
                     let left = (size(&error) - taken) / (1.0 + RULES.linear.powi(2) * taken);

@@ -206,12 +206,14 @@
         most: f64 = 0.5, "1", "guess";
         /// Share of a loss that its linearisation gets wrong in a window.
         linear: f64 = 0.15, "1", "guess; a body that turns by 0.3 rad in a window";
+        /// Share of the counts that can be lost at most in a window of the fit: beyond, its motion is another one.
+        linear_most: f64 = 0.52, "1", "a look at a real tricycle, whose outliers would be lost counts otherwise";
         /// Length of windows in which counts are looked for that were lost often.
         length: f64 = 0.5, "s", "guess; a share of the counts lost for a second is one in some of them";
         /// Scale of the errors over the usual one, from which counts may have been lost often.
         widened: f64 = 2.0, "1", "guess; of normal errors both are the same";
         /// Factor by which the scale has to fall without them.
-        falls: f64 = 5.0, "1", "12 to 46 in four drawn robots that lost counts often, below 5 in four real robots";
+        falls: f64 = 5.0, "1", "12 to 46 in four drawn robots that lost counts often, about 1 in four real robots";
         /// Times that such a fit is made anew.
         rounds: usize = 3, "1", "guess";
     }
