@@ -92,7 +92,8 @@ pub(super) fn paths(d: &Diagnosis) -> Option<Figure> {
             value: at().map(|i| t.before.get(i).copied().flatten()).collect(),
         })
     };
-    let runs: Vec<PathOf> = d.traces.iter().filter_map(path).collect();
+    // Without mismatches a path would look as usual.
+    let runs: Vec<PathOf> = d.traces.iter().filter(|t| !t.before.is_empty()).filter_map(path).collect();
     let discs: Vec<[f64; 3]> = d.ranked.iter().filter(|c| c.probability > 0.5).filter_map(|c| c.place).collect();
     let place = match discs.as_slice() {
         [[x, y, r], ..] => format!(" Dashed: the place that was found, within {r:.2} m of ({x:.2}, {y:.2}) m."),

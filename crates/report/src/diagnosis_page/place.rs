@@ -21,6 +21,10 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
     }
     match timeline(d) {
         Some(figure) => page.figure(&figure),
+        // Wheel motion beside a pose, and cars, are not compared with fault-free drives window by window.
+        None if d.findings.is_empty() && d.cells.is_empty() && d.steady.is_none() => {
+            page.paragraph("This comparison does not tell in which stretches of time a signal differs.");
+        }
         None => page.paragraph("In no stretch of time does a signal differ by clearly more than in fault-free drives."),
     }
     let figures: Vec<Figure> = map(d).into_iter().chain(paths(d)).collect();
