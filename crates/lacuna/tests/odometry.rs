@@ -153,6 +153,7 @@ fn a_drive_is_drawn_beside_its_simulations_at_once_or_from_the_verdict() {
     assert_eq!(bench.run(&["report", "out.json", "-o", "later.html"]).code(), Some(0));
     let page = bench.read("now.html");
     assert_eq!(page, bench.read("later.html"));
+    assert!(!page.contains("Paths of the recordings") && !page.contains("than in fault-free drives"));
     for part in
         ["wheel motion beside a pose", "position x", "heading", "left out of the fit", "case/recordings/run_0.csv"]
     {
