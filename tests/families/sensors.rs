@@ -51,7 +51,6 @@ fn spoilt(seed: u64, effects: &[EffectId], spoil: impl Fn(&mut [Run], u64)) -> D
 const EFFECT: EffectId = EffectId::ViscousFriction;
 
 #[test]
-#[ignore = "seed 112: unknown 0.78, none 0.22"]
 fn heavy_tails_invent_nothing() {
     nothing_is_missing(&spoilt(112, &[], heavy_tails));
 }
