@@ -1,5 +1,6 @@
 //! Cases that the examiner draws for one kind of robot: drawn, sealed, asked, scored.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -16,7 +17,7 @@ use crate::child;
 use crate::document::{Section, number, to_markdown, to_text};
 use crate::output::{self, Asked, Figure, write};
 
-use super::score::statistics::Rate;
+use super::score::statistics::{Rate, median};
 
 /// What is asked for.
 pub(super) struct Set {
@@ -119,6 +120,22 @@ fn table(figures: &[Figure]) -> Section {
         table.rows.push(cells.map(Into::into).to_vec());
     }
     table
+}
+
+/// A table of hidden numbers that are told: how many, how many 90 % intervals hold, and the median error over half of one.
+pub(super) fn intervals<'a>(errors: impl Iterator<Item = &'a (String, f64)>) -> Section {
+    let mut by_name: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (name, error) in errors {
+        by_name.entry(name).or_default().push(*error);
+    }
+    let head = ["number", "told", "held", "median error"];
+    let mut out = Section::new("Intervals", "Error over half of the 90 % interval.", &head);
+    for (name, own) in by_name {
+        let held = own.iter().filter(|e| e.abs() <= 1.0).count();
+        let middle = median(&own).map_or(String::new(), |m| format!("{m:+.2}"));
+        out.rows.push([name.to_owned(), own.len().to_string(), held.to_string(), middle].map(Into::into).to_vec());
+    }
+    out
 }
 
 /// Figures as they are gathered.

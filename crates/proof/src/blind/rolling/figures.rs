@@ -3,7 +3,7 @@
 use examiner::rolling::{Chassis, Hidden};
 
 use super::score::Row;
-use crate::blind::drawn::List;
+use crate::blind::drawn::{List, intervals};
 use crate::blind::score::statistics::median;
 use crate::document::Section;
 use crate::output::Asked::{AtLeast, AtMost};
@@ -42,17 +42,7 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
 
 /// Intervals by number, and every case that is not right.
 pub(super) fn tables(rows: &[Row]) -> Vec<Section> {
-    let mut names: Vec<&String> = rows.iter().flat_map(|r| &r.errors).map(|(name, _)| name).collect();
-    names.sort();
-    names.dedup();
-    let mut numbers =
-        Section::new("Intervals", "Error over half of the 90 % interval.", &["number", "told", "held", "median error"]);
-    for name in names {
-        let own: Vec<f64> = rows.iter().flat_map(|r| &r.errors).filter(|(n, _)| n == name).map(|(_, e)| *e).collect();
-        let held = own.iter().filter(|e| e.abs() <= 1.0).count();
-        let middle = median(&own).map_or(String::new(), |m| format!("{m:+.2}"));
-        numbers.rows.push([name.clone(), own.len().to_string(), held.to_string(), middle].map(Into::into).to_vec());
-    }
+    let numbers = intervals(rows.iter().flat_map(|r| &r.errors));
     let mut wrong = Section::new(
         "Cases that are not right",
         "Alarmed without cause, something hidden that is not named, or a cause that was not hidden.",
