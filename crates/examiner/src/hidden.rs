@@ -69,11 +69,13 @@ pub(crate) struct Laws {
     pub linear_drift: bool,
     /// Angle between the run-outs of the front and the rear wheel of a side, rad; near zero if not given.
     pub between_wheels: Option<f64>,
+    /// Share of its load by which a wheel out of true presses harder for each metre that it rises, 1/m.
+    pub load_per_rise: f64,
 }
 
 impl Default for Laws {
     fn default() -> Self {
-        Self { stribeck: 2.0, drag: 2.0, linear_drift: false, between_wheels: None }
+        Self { stribeck: 2.0, drag: 2.0, linear_drift: false, between_wheels: None, load_per_rise: 0.0 }
     }
 }
 
@@ -85,6 +87,7 @@ impl Laws {
             drag: s.uniform(1.0, 2.5),
             linear_drift: s.unit() < 0.5,
             between_wheels: Some(s.uniform(0.0, std::f64::consts::TAU)),
+            load_per_rise: s.uniform(0.0, 100.0),
         }
     }
 

@@ -114,9 +114,9 @@ impl Plant {
         let (vx, vy, w) = (s[VELOCITY], s[VELOCITY + 1], s[YAW_RATE]);
         let centre = [self.centre[0], self.centre[1] + f.cargo * s[CARGO]];
         d[CARGO] = (w - w.abs() * s[CARGO]) * 2.0;
-        let loads = self.loads(s, centre, m);
-        let omega: [f64; 4] = four(s, SPEED);
         let radius = self.radii(s);
+        let loads = self.loads(s, centre, m, &radius);
+        let omega: [f64; 4] = four(s, SPEED);
         let mut rolling = [c.rolling + m.rolling; 4];
         let mut grip: [f64; 4] =
             std::array::from_fn(|i| c.adhesion * (1.0 + c.load_loss - self.load_loss * loads[i]) * loads[i]);
@@ -222,7 +222,7 @@ impl Plant {
     }
 
     /// Vertical loads of the wheels.
-    fn loads(&self, s: &State, centre: [f64; 2], m: &Moment) -> [f64; 4] {
+    fn loads(&self, s: &State, centre: [f64; 2], m: &Moment, radius: &[f64; 4]) -> [f64; 4] {
         let quarter = 0.25 * self.mass;
         let pitch = (GRAVITY * centre[0] - s[LOAD] * self.height) / self.c.half_base;
         let roll = (GRAVITY * centre[1] - s[LOAD + 1] * self.height) / self.c.half_track;
@@ -232,6 +232,12 @@ impl Plant {
             let lost = 0.85 * n[wheel];
             n[wheel] -= lost;
             n[(wheel + 2) % 4] += lost;
+        }
+        if self.hidden.laws.load_per_rise > 0.0 {
+            for (i, load) in n.iter_mut().enumerate() {
+                let rise = radius[i] - self.radius[i / 2];
+                *load *= (1.0 + self.hidden.laws.load_per_rise * rise).max(0.0);
+            }
         }
         n
     }

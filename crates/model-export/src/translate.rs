@@ -78,7 +78,7 @@ fn carry(carrier: Carrier, at: &At<'_>, v: &mut Vehicle) {
         },
         Carrier::WheelCentre => {
             for side in sides() {
-                let [_, _, front_cosine, front_sine] = *at.values();
+                let [_, _, front_cosine, front_sine, ..] = *at.values();
                 add([a + front_cosine, b + front_sine], &mut v.eccentric[side]);
                 add([a - front_cosine, b - front_sine], &mut v.eccentric[side + 2]);
             }
@@ -131,7 +131,7 @@ fn added(at: &At<'_>, why: &str, v: &Vehicle) -> Option<Residual> {
 /// What stands for what in the lines of an effect, see [`Lines`].
 fn placeholders(at: &At<'_>, v: &Vehicle) -> Vec<(&'static str, String)> {
     let list = |values: &[f64]| values.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
-    let [a, b, c, d] = at.values().map(number);
+    let [a, b, c, d, ..] = at.values().map(number);
 
     // What the law adds at rest, the heading along the world's x.
     let bare = v.robot.coefficients();

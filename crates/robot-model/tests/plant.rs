@@ -102,7 +102,7 @@ fn a_torque_driven_robot_at_the_needed_torque_keeps_its_speed() {
 fn an_effect_acts_only_where_and_when_it_is_present() {
     let whole = Presence::default();
     let cases: [(&'static dyn Effect<f64>, &[f64]); 7] = [
-        (&effects::wheel_eccentricity::Law, &[0.004, 0.003, 0.002, -0.001]),
+        (&effects::wheel_eccentricity::Law, &[0.004, 0.003, 0.002, -0.001, 30.0]),
         (&effects::adhesion_patch::Law, &[0.6]),
         (&effects::rolling_resistance::Law, &[0.1]),
         (&effects::turning_resistance::Law, &[0.5]),

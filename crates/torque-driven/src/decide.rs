@@ -2,10 +2,12 @@
 
 use faer::Mat;
 use inference::algebra::solve_spd;
-use inference::evidence::{logistic, penalty_of_smallness, probabilities};
+use inference::evidence::{logistic, none_of, penalty_of_smallness, probabilities};
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
+use crate::stand_in::StandIn;
+use crate::structure::Structure;
 use crate::trial::{SearchResult, Trial};
 use crate::{stand_in, visits};
 use inference::hypothesis::{Onsets, Place, Sizes, Variant};
@@ -28,6 +30,10 @@ pub(crate) struct Decision {
     pub(crate) scored: Vec<Scored>,
     pub(crate) none: f64,
     pub(crate) unknown: f64,
+    /// Probability that the cause is not in the catalogue by how much the best hypothesis leaves.
+    pub(crate) by_level: f64,
+    /// The same by the form of what it leaves.
+    by_form: f64,
 }
 
 impl Decision {
@@ -36,12 +42,13 @@ impl Decision {
         self.none >= self.unknown + self.scored.iter().map(|s| s.probability).sum::<f64>()
     }
 
-    /// The same with another probability that the cause is not in the catalogue.
-    pub(crate) fn with_unknown(mut self, unknown: f64) -> Self {
+    /// The same with another probability, by how much is left, that the cause is not in the catalogue.
+    pub(crate) fn with_level(mut self, by_level: f64) -> Self {
+        let unknown = 1.0 - none_of([by_level, self.by_form]);
         let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
         self.none *= factor;
         self.scored.iter_mut().for_each(|s| s.probability *= factor);
-        Self { unknown, ..self }
+        Self { unknown, by_level, ..self }
     }
 }
 
@@ -95,6 +102,35 @@ fn penalty_of_form(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> f64 {
     h.variants().map(of).sum()
 }
 
+/// What an effect that is a constant under another name gets back of its price without references, nats: all but `½ z²` at
+/// the sigmas `z` from which on it is named.
+///
+/// What the motion gains is less than it seems, since residuals are correlated and the plant's laws are not the robot's;
+/// hence the price. What a constant gains that may stay where the robot file has it is as much as the file says.
+fn relief_counts(problem: &Problem<'_>, found: &SearchResult, trial: &Trial) -> f64 {
+    if problem.has_references {
+        return 0.0;
+    }
+    let named_at = 0.5 * PRICES.named_from.powi(2);
+    let is_most = |without: &Fitted| {
+        let relief = problem.prior(&without.point) - problem.prior(&trial.fitted.point);
+        relief > PRICES.most * (without.cost - trial.fitted.cost)
+    };
+    let is_constant = |v: &Variant| StandIn::of(v, problem.robot).is_some();
+    match trial.hypothesis.parts.as_slice() {
+        [(variant, _)] if is_constant(variant) && is_most(&found.retuned) => PRICES.none + PRICES.per_effect - named_at,
+        [first, second] => {
+            let alone =
+                |v: &Variant| found.singles.iter().find(|t| t.hypothesis.variants().all(|o| o.label() == v.label()));
+            let relieved = [(first, second), (second, first)].into_iter().any(|((effect, _), (other, _))| {
+                is_constant(effect) && alone(other).is_some_and(|t| is_most(&t.fitted))
+            });
+            if relieved { PRICES.second + PRICES.per_effect - named_at } else { 0.0 }
+        }
+        _ => 0.0,
+    }
+}
+
 /// Cost that a fault-free drive of these segments would have: each as far from its expectation as
 /// the references' segments are from theirs, on average.
 pub(crate) fn fault_free_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
@@ -125,7 +161,8 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             let effects = &t.fitted.point.effects;
             let form =
                 if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &problem.sizes()) };
-            let score = base.cost - t.fitted.cost - penalty(&t.hypothesis, effects, &problem.sizes()) - once - form;
+            let price = penalty(&t.hypothesis, effects, &problem.sizes()) + once + form;
+            let score = base.cost - t.fitted.cost - price + relief_counts(problem, found, t);
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
@@ -136,7 +173,13 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
-    let unknown = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
+    let by_level = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
+    let by_form = if problem.has_references {
+        0.0
+    } else {
+        Structure::of(problem, &scored.first().map_or(base, |s| &s.trial.fitted).response).is_no_noise()
+    };
+    let unknown = 1.0 - none_of([by_level, by_form]);
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let owners: Vec<(Option<usize>, f64)> = std::iter::once((None, none))
         .chain(scored.iter().enumerate().map(|(i, s)| (Some(i), s.score)))
@@ -150,7 +193,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             None => nothing += (1.0 - unknown) * share,
         }
     }
-    Decision { scored, none: nothing, unknown }
+    Decision { scored, none: nothing, unknown, by_level, by_form }
 }
 
 /// Hypotheses in which a constant that moved since the references stands for one of the effects: whose probability they add
@@ -250,5 +293,27 @@ mod tests {
         };
         assert!(named(0.012) < 0.5, "{}", named(0.012));
         assert!(named(0.2) > 0.9, "{}", named(0.2));
+    }
+
+    #[test]
+    fn without_references_an_effect_that_is_a_constant_is_named_from_so_many_of_its_sigmas_on() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let problem = Problem { has_references: false, ..problem(&robot, &cuts) };
+        let at = crate::run_numbers::constant("viscous");
+        let named = |id: &str, sigmas: f64| {
+            let mut point = problem.origin();
+            point.theta[at] += sigmas;
+            let retuned = problem.begin(&Hypothesis::default(), point, None);
+            // The motion is the same with the constant where the file has it and the effect beside it.
+            let mut single = gained(&problem, &retuned, id, 0.5 * sigmas * sigmas);
+            single.fitted.point.theta = problem.origin().theta;
+            let several = Vec::new();
+            let found = SearchResult { retuned, singles: vec![single], several, screened: Vec::new() };
+            let decision = decide(&problem, &found, &[1.0], 0.0);
+            decision.scored[0].probability > decision.none
+        };
+        assert!(!named("viscous_friction", 3.5) && named("viscous_friction", 3.9));
+        assert!(!named("constant_pull", 3.9), "no constant is a pull: it pays in full");
     }
 }

@@ -104,7 +104,7 @@ impl Calibrated {
             (found, decision)
         };
         let (mut found, mut decision) = weigh(&calibration, Vec::new());
-        let unknown = decision.unknown;
+        let by_level = decision.by_level;
         // References of another visit: what is found may be constants that moved since.
         if !self.references.is_empty() && !decision.finds_nothing() {
             let moved = calibration.clone().on_another_visit();
@@ -125,7 +125,7 @@ impl Calibrated {
             }
             (found, decision) = weigh(&calibration, Vec::new());
             // Noise that is learnt from what is left cannot say that too much is left.
-            decision = decision.with_unknown(unknown);
+            decision = decision.with_level(by_level);
         }
         let problem = problem(&robot, case, &recordings, &calibration, largest, options);
         progress("comparing on data that was not fitted");

@@ -234,7 +234,8 @@ impl Problem<'_> {
         if f.is_finite() { f } else { HOPELESS }
     }
 
-    fn prior(&self, point: &Point) -> f64 {
+    /// Cost of a point by what is known of the constants and of what runs have to themselves.
+    pub(crate) fn prior(&self, point: &Point) -> f64 {
         let off: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
         half_quadratic(&self.information, &off) + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
     }

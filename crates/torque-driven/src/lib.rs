@@ -13,8 +13,8 @@
 //!   runs.
 //! * `hypothesis`: effects that are missing together.
 //! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
-//!   `onset`: place and time.
-//! * `decide`, `judged`, `visits`, `stand_in`: from fits to probabilities.
+//!   `onset`: place and time; `handed_over`: effects that hide in a constant.
+//! * `decide`, `judged`, `visits`, `stand_in`, `structure`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
@@ -39,6 +39,7 @@ mod few_constants;
 mod fit;
 mod fitted_robot;
 mod forward;
+mod handed_over;
 mod hypothesis;
 mod judged;
 mod leave_out;
@@ -63,6 +64,7 @@ mod simulate;
 mod simulator;
 mod smooth;
 mod stand_in;
+mod structure;
 #[cfg(test)]
 mod testing;
 mod trial;

@@ -10,13 +10,15 @@ use verdict::Retuned;
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::settings::decision::{Answer, Retune, SETTINGS};
+use crate::stand_in;
 
 const RETUNE: Retune = SETTINGS.retune;
 const ANSWER: Answer = SETTINGS.answer;
 
 /// Constants that a fit moved from where the references, or the robot file, have them; the farthest first.
 ///
-/// What stands for a law that the plant lacks is not among them: nobody can measure it on a robot.
+/// What stands for a law that the plant lacks is not among them, since nobody can measure it on a robot, unless an effect of
+/// the catalogue is it under another name.
 pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
@@ -35,8 +37,10 @@ pub(crate) fn moved(
         let moved = last[k] - first[k];
         let sigma = |of: &Mat<f64>| of[(k, k)].max(0.0).sqrt();
         let known = ANSWER.curvature * sigma(known);
-        let far = RETUNE.least_sigmas.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
-        if tunable.between_visits < RETUNE.measurable || moved.abs() < far {
+        let is_measurable = tunable.between_visits >= RETUNE.measurable;
+        let least = if is_measurable { RETUNE.least_sigmas } else { RETUNE.least_of_form };
+        let far = least.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
+        if moved.abs() < far || !(is_measurable || stand_in::is_an_effect(k, robot)) {
             return None;
         }
         let constant = otherwise(robot, sigma_of, [first, last], k)?;
@@ -113,5 +117,21 @@ mod tests {
 
         let at_rest = p.begin(&none, p.origin(), None);
         assert!(retuned(&p, &none, &at_rest).is_empty());
+    }
+
+    #[test]
+    fn of_constants_that_stand_for_the_form_of_a_law_those_are_told_that_are_effects() {
+        let robot = robot();
+        let little = Mat::from_fn(NUISANCES, NUISANCES, |i, j| if i == j { 0.01 } else { 0.0 });
+        let told = |id: &str, sigmas: f64| {
+            let mut theta = [0.0; NUISANCES];
+            theta[crate::run_numbers::constant(id)] = sigmas;
+            let found = moved(&robot, &usual_sigma(), [&[0.0; NUISANCES], &theta], [&little, &little]);
+            found.into_iter().map(|r| r.constant).collect::<Vec<_>>()
+        };
+        assert_eq!(told("lateral_factor", -3.7), ["lateral_factor"]);
+        assert!(told("lateral_factor", -1.5).is_empty(), "fault-free robots are that far off");
+        assert!(told("sliding_share", 3.7).is_empty(), "no effect of the catalogue is a share in sliding");
+        assert_eq!(told("rolling_resistance", 1.5), ["rolling_resistance"]);
     }
 }

@@ -8,8 +8,8 @@ use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::screen::screen;
 use crate::settings::search::{Finalists, Pairs, Retuning, SETTINGS, Thirds};
-use crate::trial::{SearchResult, Trial};
-use crate::{disc, onset};
+use crate::trial::{SearchResult, Trial, include};
+use crate::{disc, handed_over, onset};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const RETUNING: Retuning = SETTINGS.retuning;
@@ -126,6 +126,9 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
             trial
         })
         .collect();
+    if !problem.has_references {
+        include_handed_over(problem, &none, &retuned, &mut singles);
+    }
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
     let close = singles.iter_mut().filter(|t| t.fitted.cost < best + FINALISTS.close);
@@ -172,6 +175,15 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
     SearchResult { retuned, singles, several, screened }
 }
 
+/// Adds effects that may hide in a constant which was re-tuned far beside `h`, each in the better of both fits.
+fn include_handed_over(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted, trials: &mut Vec<Trial>) {
+    for (hypothesis, point) in handed_over::starts(problem, h, fitted) {
+        let start = problem.begin(&hypothesis, point, Some(fitted.columns.clone()));
+        let trial = refit(problem, hypothesis, start, FINALISTS.more_steps, Some(2));
+        include(trials, trial);
+    }
+}
+
 /// Fits what a hypothesis holds with one effect less again, from its tuning: a fit that had not converged would invent a
 /// gain for the effect that is added.
 fn converge_members(problem: &Problem<'_>, whole: &Trial, members: &mut [Trial]) {
@@ -210,8 +222,14 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         ids.push(id);
         let (h1, e1) = (&first.hypothesis, &first.fitted.point.effects);
         let base = begin(problem, h1, &origin.point, e1, origin);
-        let partners = screen_beside(problem, &base, first);
+        let mut partners = screen_beside(problem, &base, first);
         let mut places = Places(PAIRS.partners);
+        if !problem.has_references {
+            // What the robot file's constants hide shows beside re-tuned ones, and the other way round.
+            partners = in_turn(&partners, &screen_beside(problem, &first.fitted, first));
+            places = Places(PAIRS.partners_by_file);
+            include_handed_over(problem, h1, &first.fitted, &mut out);
+        }
         let worth = partners.into_iter().filter(|p| p.evidence > PAIRS.partner_evidence);
         for p in worth.filter(|p| places.take(p.variant.spec())) {
             let known = out.iter().any(|t: &Trial| t.hypothesis.ids() == [p.variant.spec().id, id]);
@@ -230,6 +248,19 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         *trial = polish(problem, trial, FINALISTS.more_steps);
     }
     best_first(&mut out);
+    out
+}
+
+/// Two rankings in one, alternately; of each effect the candidate that comes first.
+fn in_turn(first: &[Candidate], second: &[Candidate]) -> Vec<Candidate> {
+    let mut out: Vec<Candidate> = Vec::new();
+    for i in 0..first.len().max(second.len()) {
+        for candidate in [first, second].iter().filter_map(|list| list.get(i)) {
+            if !out.iter().any(|o| o.variant.spec().id == candidate.variant.spec().id) {
+                out.push(candidate.clone());
+            }
+        }
+    }
     out
 }
 

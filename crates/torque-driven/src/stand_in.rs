@@ -6,63 +6,103 @@ use robot_model::tunable::{COUNT as NUISANCES, tunables};
 use crate::fit::Problem;
 use crate::run_numbers::constant;
 use crate::trial::Trial;
-use inference::hypothesis::{Place, Variant};
+use inference::hypothesis::{Place, Variant, variants};
 
 /// A constant that an effect is, under another name.
-struct StandIn {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StandIn {
     /// Its place among the tunable constants.
-    place: usize,
-    /// How far it would have moved, in the unit of its tuning: the logarithm of a factor, or an offset.
-    moved: f64,
-    /// Change of the effect's size with that move, without its sign.
-    slope: f64,
+    pub(crate) place: usize,
+    relation: Relation,
 }
 
-/// The constant that stands for an effect of a size, if one does and can move so far.
-fn stand_in(variant: &Variant, size: f64, robot: &Robot<f64>) -> Option<StandIn> {
-    let offset = |id| Some(StandIn { place: constant(id), moved: size, slope: 1.0 });
-    let factor = |id, of: f64| {
-        let possible = of > 0.0 && of + size > 0.0;
-        possible.then(|| StandIn { place: constant(id), moved: (1.0 + size / of).ln(), slope: of + size })
-    };
-    match (variant.spec().id, variant.place) {
-        ("torque_constant", Place::Whole) => factor("torque_constant", 1.0),
-        ("payload", Place::Whole) => factor("mass", robot.mass),
-        ("com_offset", Place::Whole) => match variant.axis {
-            Some(0) => offset("com_x"),
-            Some(1) => offset("com_y"),
+/// How a constant's move, in the unit of its tuning (the logarithm of a factor, or an offset), and an effect's size go
+/// together.
+#[derive(Debug, Clone, Copy)]
+enum Relation {
+    /// The size is the offset.
+    Offset,
+    /// The size is what the factor adds to a value.
+    Added(f64),
+    /// The size is the share that the factor takes away.
+    Lost,
+}
+
+impl StandIn {
+    /// The constant that stands for a form of an effect, if one does.
+    pub(crate) fn of(variant: &Variant, robot: &Robot<f64>) -> Option<Self> {
+        let with = |relation, id| Some(Self { place: constant(id), relation });
+        let added = |id, of: f64| (of > 0.0).then_some(()).and_then(|()| with(Relation::Added(of), id));
+        match (variant.spec().id, variant.place) {
+            ("torque_constant", Place::Whole) => added("torque_constant", 1.0),
+            ("payload", Place::Whole) => added("mass", robot.mass),
+            ("com_offset", Place::Whole) => match variant.axis {
+                Some(0) => with(Relation::Offset, "com_x"),
+                Some(1) => with(Relation::Offset, "com_y"),
+                _ => None,
+            },
+            // The share of the adhesion that is lost everywhere.
+            ("adhesion_patch", Place::Whole) => with(Relation::Lost, "adhesion"),
+            ("turning_resistance", Place::Whole) => added("lateral_factor", 1.0),
+            ("slip_stiffness", Place::Whole) => added("slip_at_peak", 1.0),
+            ("viscous_friction", Place::Whole) => added("viscous", robot.viscous[0]),
+            ("rolling_resistance", Place::Whole) => added("rolling_resistance", robot.rolling_resistance),
+            ("coulomb_side", Place::Side(0)) => added("coulomb_left", robot.coulomb[0]),
+            ("coulomb_side", Place::Side(1)) => added("coulomb_right", robot.coulomb[1]),
             _ => None,
-        },
-        // The share of the adhesion that is lost everywhere.
-        ("adhesion_patch", Place::Whole) => {
-            (size < 1.0).then(|| StandIn { place: constant("adhesion"), moved: (1.0 - size).ln(), slope: 1.0 - size })
         }
-        ("turning_resistance", Place::Whole) => factor("lateral_factor", 1.0),
-        ("slip_stiffness", Place::Whole) => factor("slip_at_peak", 1.0),
-        ("viscous_friction", Place::Whole) => factor("viscous", robot.viscous[0]),
-        ("rolling_resistance", Place::Whole) => factor("rolling_resistance", robot.rolling_resistance),
-        ("coulomb_side", Place::Side(0)) => factor("coulomb_left", robot.coulomb[0]),
-        ("coulomb_side", Place::Side(1)) => factor("coulomb_right", robot.coulomb[1]),
-        _ => None,
+    }
+
+    /// How far it would have moved; `None` where it cannot move so far.
+    fn moved(self, size: f64) -> Option<f64> {
+        match self.relation {
+            Relation::Offset => Some(size),
+            Relation::Added(to) => (to + size > 0.0).then(|| (1.0 + size / to).ln()),
+            Relation::Lost => (size < 1.0).then(|| (1.0 - size).ln()),
+        }
+    }
+
+    /// Size of the effect that is this move.
+    pub(crate) fn size(self, moved: f64) -> f64 {
+        match self.relation {
+            Relation::Offset => moved,
+            Relation::Added(to) => to * (moved.exp() - 1.0),
+            Relation::Lost => 1.0 - moved.exp(),
+        }
+    }
+
+    /// Change of the effect's size with the move, without its sign.
+    fn slope(self, size: f64) -> f64 {
+        match self.relation {
+            Relation::Offset => 1.0,
+            Relation::Added(to) => to + size,
+            Relation::Lost => 1.0 - size,
+        }
     }
 }
 
 /// Price of a constant that moved instead of an effect: `½ z² + ln K` with its move `z`, in standard deviations of what it
 /// moves by between visits, and the number `K` of constants of which one moved. `None` where no constant stands for it.
 fn price(variant: &Variant, size: f64, problem: &Problem<'_>) -> Option<f64> {
-    let constant = stand_in(variant, size, problem.robot)?;
+    let constant = StandIn::of(variant, problem.robot)?;
     let of_visits = spread(&problem.sigma, constant.place)?;
-    Some(0.5 * (constant.moved / of_visits).powi(2) + (NUISANCES as f64).ln())
+    Some(0.5 * (constant.moved(size)? / of_visits).powi(2) + (NUISANCES as f64).ln())
 }
 
 /// What the constant that stands for an effect may have moved by since the references, as one sigma of the effect's size.
 /// Zero without references: the constants' own sigmas are then in every fit.
 pub(crate) fn sigma_of_size(problem: &Problem<'_>, variant: &Variant, size: f64) -> f64 {
     let moved = || {
-        let constant = stand_in(variant, size, problem.robot)?;
-        Some(spread(&problem.sigma, constant.place)? * constant.slope)
+        let constant = StandIn::of(variant, problem.robot)?;
+        constant.moved(size)?;
+        Some(spread(&problem.sigma, constant.place)? * constant.slope(size))
     };
     if problem.has_references { moved().unwrap_or(0.0) } else { 0.0 }
+}
+
+/// Whether an effect of the catalogue is this constant under another name.
+pub(crate) fn is_an_effect(place: usize, robot: &Robot<f64>) -> bool {
+    variants(true).iter().any(|v| StandIn::of(v, robot).is_some_and(|constant| constant.place == place))
 }
 
 /// How far a constant moves from visit to visit, one standard deviation, in the unit of its tuning.

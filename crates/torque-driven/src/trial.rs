@@ -23,13 +23,17 @@ pub(crate) struct SearchResult {
 impl SearchResult {
     /// Takes a fit that was found elsewhere, unless the same hypothesis was fitted better here.
     pub(crate) fn include(&mut self, trial: Trial) {
-        let list = if trial.hypothesis.parts.len() > 1 { &mut self.several } else { &mut self.singles };
-        let labels = |t: &Trial| t.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
-        match list.iter_mut().find(|t| labels(t) == labels(&trial)) {
-            Some(known) if known.fitted.cost <= trial.fitted.cost => {}
-            Some(known) => *known = trial,
-            None => list.push(trial),
-        }
+        include(if trial.hypothesis.parts.len() > 1 { &mut self.several } else { &mut self.singles }, trial);
+    }
+}
+
+/// Adds a fit to others; of two fits of one hypothesis the better stays.
+pub(crate) fn include(list: &mut Vec<Trial>, trial: Trial) {
+    let labels = |t: &Trial| t.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
+    match list.iter_mut().find(|t| labels(t) == labels(&trial)) {
+        Some(known) if known.fitted.cost <= trial.fitted.cost => {}
+        Some(known) => *known = trial,
+        None => list.push(trial),
     }
 }
 

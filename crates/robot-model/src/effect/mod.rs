@@ -104,7 +104,7 @@ pub struct Readings<T> {
 }
 
 /// Most parameters an effect's law may have.
-pub const MAX_PARAMETERS: usize = 4;
+pub const MAX_PARAMETERS: usize = 5;
 
 /// Values of an effect's parameters in the order of its specification; what that does not name is zero.
 pub type Values<T> = [T; MAX_PARAMETERS];

@@ -6,30 +6,34 @@ use crate::effect::{
 };
 use crate::scalar::Scalar;
 
-/// r(θ) = r + (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel and − at its rear wheel
+/// r(θ) = r + e(θ), e(θ) = (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel and − at its rear wheel;
+/// grip and rolling resistance of each in proportion to its load, times max(0, 1 + κ e(θ))
 ///
 /// Two wheels are out of true by amounts and at angles of their own; `√(e_c² + e_s² + d_c² + d_s²)` is the root mean
-/// square of their amounts.
+/// square of their amounts. A wheel presses harder while its long side is down, by its stiffness over its load at rest, κ, if
+/// the body stays where it is; κ = 0 if the body follows every rise.
 pub struct Law;
 
 /// What is known about it.
 pub const SPEC: EffectSpec = EffectSpec {
     id: "wheel_eccentricity",
     name: "wheels of one side out of true",
-    law: "r(θ) = r + (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel, − at its rear wheel",
-    seen: "Speed and heading ripple once per turn of the wheel.",
+    law: "r(θ) = r + e(θ), e(θ) = (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel, − at its rear \
+        wheel; grip and rolling resistance of each times max(0, 1 + κ e(θ))",
+    seen: "Speed and heading ripple once per turn of the wheel, most of all in turns where the load on the wheel ripples too.",
     parameters: &[
         Parameter::strength("cosine", "m", [-0.05, 0.05], &[0.003]),
         Parameter::strength("sine", "m", [-0.05, 0.05], &[0.003]),
         Parameter::strength("front cosine", "m", [-0.05, 0.05], &[0.003]),
         Parameter::strength("front sine", "m", [-0.05, 0.05], &[0.003]),
+        Parameter::shape("κ", "1/m", [0.0, 200.0], 0.0, &[30.0]),
     ],
     scopes: Scopes::ONE_SIDE,
     sized_by: SizedBy::WheelRadius,
     interest: 0.0018,
     revealed_by: "steady straight driving at two speeds",
     resembles: "periodic ripple of the drivetrain",
-    source: "geometry",
+    source: "geometry; a wheel as a spring under a body that is too heavy to follow",
     export: Export {
         section: Section::Wheels,
         mjcf: Way::Held("place of the wheels' shapes off their axles; wheel angles count"),
@@ -49,8 +53,13 @@ impl<T: Scalar> Effect<T> for Law {
     fn apply(&self, v: &Values<T>, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
         for j in 0..2 {
             let (sin, cos) = at.wheel_angle[j].sin_cos();
-            c.radius[j] += (v[0] + v[2]) * cos + (v[1] + v[3]) * sin;
-            c.radius[j + 2] += (v[0] - v[2]) * cos + (v[1] - v[3]) * sin;
+            let rise = [(v[0] + v[2]) * cos + (v[1] + v[3]) * sin, (v[0] - v[2]) * cos + (v[1] - v[3]) * sin];
+            for (i, rise) in [(j, rise[0]), (j + 2, rise[1])] {
+                let load = (T::one() + v[4] * rise).max(T::zero());
+                c.radius[i] += rise;
+                c.adhesion[i] *= load;
+                c.rolling[i] *= load;
+            }
         }
     }
 }

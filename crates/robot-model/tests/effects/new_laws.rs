@@ -1,6 +1,7 @@
 //! Effects against their closed-form laws, driven by the plant.
 
 use robot_model::contact::combined;
+use robot_model::effect::OperatingPoint;
 use robot_model::{Active, Effect, Plant, Presence, Readings, Robot, State, effects};
 
 use crate::battery::{H, instant};
@@ -140,6 +141,31 @@ fn a_wheel_that_loses_contact_gives_its_load_to_the_other_diagonal() {
     near(spin(-q)[2] - bare[2], bare[2] - with[2], 1e-6);
     // The sum of the loads stays, and so does the push: left and right alike carry half.
     near(with[0], bare[0], 1e-6);
+}
+
+#[test]
+fn a_wheel_out_of_true_presses_harder_while_its_long_side_is_down() {
+    let robot = flat();
+    let with = |values: &[f64], angle: f64| {
+        let mut c = robot.coefficients();
+        let at = OperatingPoint { wheel_angle: [angle; 2], ..robot.at_rest() };
+        on(&effects::wheel_eccentricity::Law, values, Some(1)).apply(&at, &mut c);
+        c
+    };
+    let bare = robot.coefficients();
+    for (angle, rise) in [(0.0, 0.002), (std::f64::consts::PI, -0.002)] {
+        let c = with(&[0.002, 0.0, 0.0, 0.0, 60.0], angle);
+        for i in [1, 3] {
+            near(c.radius[i] - bare.radius[i], rise, 1e-12);
+            near(c.adhesion[i] / bare.adhesion[i], 1.0 + 60.0 * rise, 1e-12);
+            near(c.rolling[i] / bare.rolling[i], 1.0 + 60.0 * rise, 1e-12);
+        }
+        assert_eq!([c.adhesion[0], c.adhesion[2]], [bare.adhesion[0], bare.adhesion[2]], "the other side");
+        assert_eq!(with(&[0.002], angle).adhesion, bare.adhesion, "a body that follows every rise");
+    }
+    // No wheel pulls at the ground, however far out of true.
+    let lifted = with(&[-0.05, 0.0, 0.0, 0.0, 200.0], 0.0);
+    assert_eq!((lifted.adhesion[1], lifted.rolling[3]), (0.0, 0.0));
 }
 
 #[test]

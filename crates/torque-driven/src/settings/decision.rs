@@ -30,6 +30,11 @@
         size_width: f64 = 0.35, "1", "guess";
         /// Without references: sizes below so many times the error of the plant's form are not told from it.
         form_errors: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
+        /// Without references: an effect that is a constant of the robot under another name is named from so many sigmas of
+        /// the robot file on, where most of its gain is that the constant may stay where the file has it.
+        named_from: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
+        /// Share of a gain that is most of it.
+        most: f64 = 0.5, "1", "definition";
         /// Temperature that turns scores into probabilities.
         temperature: f64 = 4.0, "nats", "guess";
     }
@@ -54,6 +59,24 @@
         left_slope: f64 = 12.0, "1", "119 cases of our own generator, seed 8001";
         /// Centre of that logistic.
         left_centre: f64 = 0.5, "1", "119 cases of our own generator, seed 8001";
+        /// Without references: orders between the harmonics of a wheel's turn, at which only noise stands.
+        between: [f64; 6] = [1.6, 2.4, 2.6, 3.4, 3.6, 4.4], "1", "definition: about the harmonics 2, 3 and 4, away from them";
+        /// Without references: power at a harmonic over that between harmonics at which either is as likely.
+        harmonic_centre: f64 = 30.0, "1",
+            "the 72 development cases without their references: 8 at most in fault-free ones, 120 at least where a cause outside \
+             the catalogue repeats with the wheel";
+        /// Slope of its logistic, in the logarithm.
+        harmonic_slope: f64 = 4.0, "1", "the same cases";
+        /// Without references: correlation of an acceleration's residuals over a window at which either is as likely.
+        correlation_centre: f64 = 0.48, "1",
+            "the same cases: 0.06 at most in fault-free ones, 0.31 at most with an effect of the catalogue, 0.64 with a cause \
+             outside that shakes the body";
+        /// Slope of its logistic.
+        correlation_slope: f64 = 25.0, "1", "the same cases";
+        /// Wheel speed below which a turn of the wheel takes too long to repeat.
+        least_turning: f64 = 0.5, "rad/s", "guess";
+        /// Windows from which on a power is told.
+        least_windows: usize = 100, "1", "guess";
         /// Mismatch below which what is left is not a share of anything.
         least_mismatch: f64 = 60.0, "nats", "guess";
     }
@@ -91,6 +114,9 @@
         least_known: f64 = 2.0, "1", "guess";
         /// Least move, in sigmas of what was known of the constant before.
         least_prior: f64 = 1.5, "1", "guess";
+        /// Least move, in the sigmas that the robot file states, of a constant that makes up for the form of the plant's laws
+        /// and is an effect under another name.
+        least_of_form: f64 = 2.0, "1", "guess: such constants are 2 of their sigmas off on fault-free robots";
         /// Share of its sigma that a constant moves between visits at least, if it is one that can be measured on a robot.
         measurable: f64 = 0.5, "1", "formula: below it stand constants that make up for the form of the plant's laws";
         /// What holds an effect's size that shows nowhere.

@@ -88,12 +88,21 @@
         starts: usize = 3, "1", "guess";
     }
 
+    /// Without references: effects that hide in a constant.
+    handed_over: HandedOver {
+        /// Move of a constant, in sigmas of the robot file, from which on the effect that it may stand for is fitted from
+        /// that move.
+        least_sigmas: f64 = 1.6, "1", "a prototype without references, chosen on the development cases";
+    }
+
     /// Refits of two effects together.
     pairs: Pairs {
         /// First effects of pairs, common and rare.
         firsts: [usize; 2] = [2, 1], "1", "guess";
         /// Partners of a first effect that are tried, common and rare.
         partners: [usize; 2] = [4, 1], "1", "guess";
+        /// The same without references, where what is missing hides in constants.
+        partners_by_file: [usize; 2] = [6, 1], "1", "a look at the 72 development cases without their references";
         /// Evidence that a partner must exceed.
         partner_evidence: f64 = 3.0, "nats", "guess";
         /// Pairs that get more steps.

@@ -1,0 +1,166 @@
+//! Structure of what the best hypothesis leaves: harmonics of the wheels' angles, and accelerations that follow each other.
+//!
+//! Without references the noise is learnt from the recordings, and a cause that is not in the catalogue passes for noise of
+//! its size. What it leaves has a form all the same: noise repeats with no angle of a wheel and is forgotten from one window
+//! to the next.
+
+use std::f64::consts::PI;
+
+use inference::evidence::{logistic, none_of};
+use inference::robust::mean;
+
+use crate::channel::Channel;
+use crate::fit::Problem;
+use crate::settings::decision::{SETTINGS, Unknown};
+use crate::simulate::Response;
+use crate::windows::WINDOW;
+
+/// Harmonics of a wheel's turn that noise does not have. The first is left out: effects of the catalogue have it.
+const HARMONICS: [u8; 3] = [2, 3, 4];
+const UNKNOWN: Unknown = SETTINGS.unknown;
+
+/// What is left, by its form.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Structure {
+    /// Power of a signal at the strongest harmonic of a wheel's turn over its power between harmonics.
+    pub(crate) harmonic: f64,
+    /// Largest correlation of an acceleration with itself one window later.
+    pub(crate) correlation: f64,
+}
+
+impl Structure {
+    /// Probability that a cause which is not in the catalogue left this.
+    pub(crate) fn is_no_noise(self) -> f64 {
+        let repeats = UNKNOWN.harmonic_slope * (self.harmonic.max(f64::MIN_POSITIVE) / UNKNOWN.harmonic_centre).ln();
+        let follows = UNKNOWN.correlation_slope * (self.correlation - UNKNOWN.correlation_centre);
+        1.0 - none_of([repeats, follows].map(logistic))
+    }
+
+    /// Of a response's residuals.
+    pub(crate) fn of(problem: &Problem<'_>, response: &Response) -> Self {
+        let mut harmonic = 0.0_f64;
+        for side in 0..2 {
+            for channel in [Channel::WHEELS[side], Channel::YawRate, Channel::ForwardAcceleration] {
+                harmonic = harmonic.max(ratio(problem, response, side, channel).unwrap_or(0.0));
+            }
+        }
+        let of = |channel| correlation(problem, response, channel).unwrap_or(0.0);
+        let correlation = of(Channel::ForwardAcceleration).max(of(Channel::LateralAcceleration));
+        Self { harmonic, correlation }
+    }
+}
+
+/// Residuals of a channel in one segment, less their straight line, with the angle of a side's wheels in the middle of each
+/// window and their speed.
+fn residuals(
+    problem: &Problem<'_>,
+    response: &Response,
+    [run, segment]: [usize; 2],
+    side: usize,
+    channel: Channel,
+) -> Vec<[f64; 3]> {
+    let s = &problem.cuts[run].segments[segment];
+    let mut angle = s.start.wheel_angle[side];
+    let mut out = Vec::with_capacity(s.windows);
+    for ((shown, predicted), valid) in s.observed.iter().zip(&response[run][segment]).zip(&s.valid) {
+        let speed =
+            if valid[Channel::WHEELS[side]] { shown[Channel::WHEELS[side]] } else { predicted[Channel::WHEELS[side]] };
+        let middle = angle + 0.5 * speed * WINDOW;
+        angle += speed * WINDOW;
+        if valid[channel] {
+            out.push([shown[channel] - predicted[channel], middle, speed]);
+        }
+    }
+    without_line(&mut out);
+    out
+}
+
+/// Takes the straight line through values that follow each other off them.
+fn without_line(values: &mut [[f64; 3]]) {
+    let n = values.len() as f64;
+    let middle = 0.5 * (n - 1.0);
+    let mean = values.iter().map(|v| v[0]).sum::<f64>() / n.max(1.0);
+    let slope = values.iter().enumerate().map(|(i, v)| (i as f64 - middle) * v[0]).sum::<f64>()
+        / (n * (n * n - 1.0) / 12.0).max(1.0);
+    for (i, v) in values.iter_mut().enumerate() {
+        v[0] -= mean + slope * (i as f64 - middle);
+    }
+}
+
+fn segments<'a>(problem: &'a Problem<'_>) -> impl Iterator<Item = [usize; 2]> + 'a {
+    problem.cuts.iter().enumerate().flat_map(|(r, cut)| (0..cut.segments.len()).map(move |s| [r, s]))
+}
+
+/// Power at the strongest harmonic over the mean power between harmonics.
+fn ratio(problem: &Problem<'_>, response: &Response, side: usize, channel: Channel) -> Option<f64> {
+    // A faster wheel turns too far in a window to show the highest order.
+    let highest = UNKNOWN.between.into_iter().fold(0.0, f64::max);
+    let fastest = PI / (highest * WINDOW);
+    let values: Vec<[f64; 3]> = segments(problem)
+        .flat_map(|at| residuals(problem, response, at, side, channel))
+        .filter(|v| (UNKNOWN.least_turning..fastest).contains(&v[2].abs()))
+        .collect();
+    let power = |order: f64| {
+        let (mut c, mut s) = (0.0, 0.0);
+        for v in &values {
+            let (sin, cos) = (order * v[1]).sin_cos();
+            c += v[0] * cos;
+            s += v[0] * sin;
+        }
+        c * c + s * s
+    };
+    let between = mean(UNKNOWN.between.map(power)).filter(|p| *p > 0.0)?;
+    let strongest = HARMONICS.map(|n| power(f64::from(n))).into_iter().fold(0.0, f64::max);
+    (values.len() >= UNKNOWN.least_windows).then(|| strongest / between)
+}
+
+/// Correlation of a channel's residuals with those one window later.
+fn correlation(problem: &Problem<'_>, response: &Response, channel: Channel) -> Option<f64> {
+    let (mut product, mut square) = (0.0, 0.0);
+    for at in segments(problem) {
+        let values = residuals(problem, response, at, 0, channel);
+        product += values.windows(2).map(|w| w[0][0] * w[1][0]).sum::<f64>();
+        square += values.iter().map(|v| v[0] * v[0]).sum::<f64>();
+    }
+    (square > 0.0).then(|| product / square)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::Hypothesis;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use testing::robot;
+
+    /// Structure of what the plant leaves of its own drive when `added` is added to what the sensors show: of the time in s,
+    /// and the angle of the left wheels in rad.
+    fn of(added: impl Fn(f64, f64) -> [f64; 2]) -> Structure {
+        let robot = robot();
+        let mut run = driven(&robot, &[], 40.0);
+        for k in 0..run.rows() {
+            let angle = run.angle[0][k].unwrap_or(0.0);
+            let [yaw_rate, acceleration] = added(k as f64 * run.period, angle);
+            run.gyro[k] = run.gyro[k].map(|x| x + yaw_rate);
+            run.accel[1][k] = run.accel[1][k].map(|x| x + acceleration);
+        }
+        let cuts = [cut(&run, &cutting())];
+        let problem = problem(&robot, &cuts);
+        Structure::of(&problem, &problem.response(&problem.origin(), &Hypothesis::default()))
+    }
+
+    /// Numbers without a pattern, from −1 to 1.
+    fn noise(t: f64) -> f64 {
+        ((12.9898 * t).sin() * 43_758.545).fract()
+    }
+
+    #[test]
+    fn what_repeats_with_the_wheel_or_follows_itself_is_no_noise_and_noise_is() {
+        let plain = of(|t, _| [0.05 * noise(t), 0.5 * noise(t + 0.37)]);
+        assert!(plain.is_no_noise() < 0.05, "{plain:?}");
+        let cogging = of(|t, angle| [0.05 * noise(t) + 0.05 * (3.0 * angle).cos(), 0.5 * noise(t + 0.37)]);
+        assert!(cogging.harmonic > 10.0 * plain.harmonic && cogging.is_no_noise() > 0.9, "{cogging:?}");
+        let shaken = of(|t, _| [0.05 * noise(t), 0.5 * noise(t + 0.37) + 0.5 * (2.0 * t).sin()]);
+        assert!(shaken.correlation > 0.6 && shaken.is_no_noise() > 0.9, "{shaken:?}");
+    }
+}
