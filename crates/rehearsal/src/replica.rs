@@ -64,6 +64,7 @@ fn beginning(run: &Run, seconds: f64) -> Run {
     Run {
         name: run.name.clone(),
         from: 0.0,
+        visit: run.visit.clone(),
         period: run.period,
         torque: run.torque[..rows].to_vec(),
         angle: run.angle.each_ref().map(cut),

@@ -17,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
 use crate::settings::fit;
-use crate::{locate, retuned, stand_in, words};
+use crate::{locate, retuned, stand_in, visit, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -361,6 +361,8 @@ impl Judged<'_> {
                     .to_owned(),
             );
         }
+        let factor = Some(self.calibration.moves.factor).filter(|_| self.calibration.moves.taught);
+        out.extend(visit::sentence(self.visits, &visit::visits_of(&self.case.recordings), factor));
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
             out.push(
