@@ -3,7 +3,7 @@
 use inference::Options;
 use recordings::Recording;
 use testing::{recording, robot, samples};
-use torque_driven::{Case, Run, simulate};
+use torque_driven::{Case, KnownBy, Run, Visit, simulate};
 use verdict::{FoundFrom, Rehearsal};
 
 use recordings::Signal;
@@ -40,6 +40,31 @@ fn plan() -> Plan {
 
 fn rehearsed(case: &Case, plan: &Plan) -> Rehearsal {
     rehearse(case, plan, &Options::default(), &|_| {}).expect("a rehearsal")
+}
+
+/// The case with drives of these visits.
+fn of_visits(names: [&str; 2]) -> Case {
+    let mut case = case();
+    for (run, name) in case.recordings.iter_mut().zip(names) {
+        run.visit = Some(Visit { name: name.to_owned(), known_by: KnownBy::User });
+    }
+    case
+}
+
+#[test]
+fn constants_of_replicas_move_between_visits_and_not_within_one() {
+    let (plan, options) = (Plan { references: Some(0), ..plan() }, Options::default());
+    let adhesions = |case: &Case| {
+        let rehearsing = crate::rehearse::Rehearsing::new(case, &plan, &options).expect("a plan");
+        rehearsing.robots_of(0).expect("a replica").iter().map(|robot| robot.adhesion.ln()).collect::<Vec<_>>()
+    };
+    let apart = |case: &Case| {
+        let of = adhesions(case);
+        (of[0] - of[1]).abs()
+    };
+    let within = apart(&of_visits(["today", "today"]));
+    assert!((within - apart(&case())).abs() < 1e-12, "a name for all drives moves nothing");
+    assert!(apart(&of_visits(["monday", "tuesday"])) > 2.0 * within, "{within}");
 }
 
 #[test]
