@@ -248,6 +248,7 @@ impl Judged<'_> {
         let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
         let located = locate::locate(self, &calibrated, fitted, &forecasts, unexplained, &ranked);
         let mut limits = self.limits();
+        limits.extend(retuned::moved_by_visit(p, fitted, &self.case.recordings));
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
