@@ -135,7 +135,9 @@ impl Calibration {
         let factor = self.moves.of_recordings;
         if !self.moves.apart.is_empty() {
             let Moves { visits, apart, .. } = &mut self.moves;
-            apart.iter().for_each(|&visit| visits[visit] = VisitMove::unknown(factor));
+            for &visit in apart.iter() {
+                visits[visit] = VisitMove::unknown(factor);
+            }
         } else if let Some(mut covariance) = inverse_spd(&self.information) {
             let moves = usual_moves().map(|sigma| (factor * sigma).powi(2));
             (0..NUISANCES).for_each(|k| covariance[(k, k)] += moves[k]);

@@ -127,13 +127,16 @@ pub(crate) fn sentence(
 
     let numbers = VisitNumbers::new(references, recordings);
     let how: Vec<&str> = known_by.into_iter().map(KnownBy::words).collect();
-    let mut out = "visits (drives of one day, place and load): ".to_owned();
-    if !references.is_empty() {
-        out += &format!("the references are of {}, ", listed(references, true));
-    }
-    out += &format!("the recordings of {}, {}; ", listed(recordings, false), how.join(" and "));
-    out += &consequence(&numbers, references.is_empty(), factor);
-    Some(out)
+    let compared = if references.is_empty() {
+        format!("the recordings are of {}", listed(recordings, false))
+    } else {
+        format!("the references are of {}, the recordings of {}", listed(references, true), listed(recordings, false))
+    };
+    Some(format!(
+        "visits (drives of one day, place and load): {compared}, {}; {}",
+        how.join(" and "),
+        consequence(&numbers, references.is_empty(), factor)
+    ))
 }
 
 /// What follows from the visits for the constants.
