@@ -1,6 +1,7 @@
 //! From drives to a verdict.
 
 use case_files::envelope::Envelope;
+use case_files::visits::GivenVisit;
 use pyo3::prelude::*;
 
 use crate::case::{self, Part, RobotGiven};
@@ -34,6 +35,9 @@ const NEXT_LENGTH: f64 = 12.0;
 /// same_robot : bool
 ///     Nobody changed the robot since it was right: its mass, motors and wheels are not weighed (torque- and speed-driven
 ///     robots).
+/// visit : list of str, optional
+///     Drives of one day, place and load, between which constants do not move (torque-driven robots): ``name=file,file`` for
+///     each visit, as ``--visit`` of the command line.
 /// next : bool
 ///     Advise on the next drive too: a few seconds more.
 /// progress : callable, optional
@@ -49,7 +53,7 @@ const NEXT_LENGTH: f64 = 12.0;
 ///     When something is missing or cannot be read, or the recordings do not determine an answer.
 #[pyfunction]
 #[pyo3(signature = (case=None, *, robot=None, reference=None, recordings=None, heldout=None, mapping=None,
-    reading="normal", same_robot=false, next=false, progress=None))]
+    reading="normal", same_robot=false, visit=None, next=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is a keyword of its own in Python")]
 pub(crate) fn diagnose(
     py: Python<'_>,
@@ -61,6 +65,7 @@ pub(crate) fn diagnose(
     mapping: Option<&Bound<'_, PyAny>>,
     reading: &str,
     same_robot: bool,
+    visit: Option<Vec<String>>,
     next: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosis> {
@@ -73,16 +78,20 @@ pub(crate) fn diagnose(
     if folder.is_none() && robot.is_none() {
         return Err(LacunaError::new_err("no robot was named; give a case folder, or robot = with drives"));
     }
+    let visits = visit.unwrap_or_default();
+    let visits = visits.iter().map(|text| GivenVisit::parse(text)).collect::<Result<Vec<_>, _>>();
+    let visits = visits.map_err(LacunaError::new_err)?;
     let (mapping, read) = (case::mapping(mapping)?, case::reading(reading)?);
     let options = inference::Options { next: next.then_some(NEXT_LENGTH), same_robot, ..inference::Options::default() };
     let (envelope, found) = work::run(py, || {
         let listener = Listener::new(progress);
         listener.stage("reading the recordings");
         let name = mapping.as_deref();
-        let opened = match (&folder, &robot) {
+        let mut opened = match (&folder, &robot) {
             (None, Some(robot)) => case::drives(robot, parts, name, read)?,
             (folder, robot) => case::folder(&folder.clone().unwrap_or_default(), robot.as_ref(), name, read)?,
         };
+        opened.case = opened.case.with_visits(&visits)?;
         let diagnosis = opened.case.diagnose(&options, &|what| listener.stage(what))?;
         let envelope = Envelope::new(diagnosis, &opened.case, &options, &opened.mapping, reading)?;
         Ok((envelope, opened.found))

@@ -17,3 +17,4 @@ mod sensors;
 mod simulators;
 mod times;
 mod two;
+mod visits;

@@ -7,11 +7,13 @@ use anyhow::{Context, Result, bail, ensure};
 use inference::Options;
 use recordings::{Mapping, Read, ReadOptions};
 use robot_file::{Causality, RobotSpec};
+use torque_driven::Visit;
 use verdict::{Coverage, Diagnosis};
 
 use crate::inputs;
 pub use crate::inputs::{Loaded, mapping, robot};
 use crate::long::Budget;
+use crate::visits::{self, GivenVisit};
 
 /// Folders of a case with what belongs into them.
 const FOLDERS: [(&str, &str); 3] = [
@@ -43,6 +45,8 @@ pub struct CaseFolder {
     pub simulation: Loaded,
     /// Of long recordings and references, what they stand for, by the name of their folder.
     pub coverage: BTreeMap<String, Coverage>,
+    /// Visits that the user named.
+    visits: Vec<GivenVisit>,
 }
 
 impl CaseFolder {
@@ -72,6 +76,27 @@ impl CaseFolder {
             self.robot.causality.name()
         );
         self.simulation = inputs::load(mapping, paths, options)?;
+        Ok(self)
+    }
+
+    /// The same with visits that the user names: drives of one day, place and load.
+    ///
+    /// # Errors
+    /// Robots of whose constants it is not known what moves between visits, and visits that contradict each other or are of
+    /// no drive.
+    pub fn with_visits(mut self, given: &[GivenVisit]) -> Result<Self> {
+        if given.is_empty() {
+            return Ok(self);
+        }
+        ensure!(
+            self.robot.causality == Causality::TorqueDriven,
+            "robot '{}' is {}: which of its constants move between visits is known of torque-driven robots only, so all \
+             references count as one visit and all recordings as another; leave out --visit",
+            self.robot.name,
+            self.robot.causality.name()
+        );
+        visits::check(given, [&self.reference, &self.recordings])?;
+        self.visits = given.to_vec();
         Ok(self)
     }
 
@@ -133,7 +158,8 @@ impl CaseFolder {
         }
         let [reference, recordings, held_out] = parts;
         let simulation = Loaded::default();
-        let case = Self { robot, reference, recordings, held_out, simulation, coverage: BTreeMap::new() };
+        let (coverage, visits) = (BTreeMap::new(), Vec::new());
+        let case = Self { robot, reference, recordings, held_out, simulation, coverage, visits };
         case.refuse_twins()?;
         Ok(case)
     }
@@ -213,15 +239,15 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn torque_driven(&self) -> Result<torque_driven::Case> {
-        let runs = |l: &Loaded| -> Result<Vec<torque_driven::Run>> {
-            l.reads
-                .iter()
-                .map(|r| {
-                    let run = torque_driven::Run::new(&r.recording).with_context(|| file_names(r))?;
-                    Ok(torque_driven::Run { from: self.start_of(r.recording.name()), ..run })
-                })
-                .collect()
+        let [reference, recordings, _] = FOLDERS.map(|(name, _)| name);
+        let runs = |l: &Loaded, visits: Vec<Option<Visit>>| -> Result<Vec<torque_driven::Run>> {
+            let run = |(r, visit): (&Read, Option<Visit>)| {
+                let run = torque_driven::Run::new(&r.recording).with_context(|| file_names(r))?;
+                Ok(torque_driven::Run { from: self.start_of(r.recording.name()), visit, ..run })
+            };
+            l.reads.iter().zip(visits).map(run).collect()
         };
+        let visited = |part: &str, l: &Loaded| runs(l, visits::of(part, l, &self.visits));
         let held_out = self
             .held_out
             .reads
@@ -232,9 +258,9 @@ impl CaseFolder {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
             pose_sigma: self.robot.pose_sigma,
-            references: runs(&self.reference)?,
-            simulations: runs(&self.simulation)?,
-            recordings: runs(&self.recordings)?,
+            references: visited(reference, &self.reference)?,
+            simulations: runs(&self.simulation, vec![None; self.simulation.reads.len()])?,
+            recordings: visited(recordings, &self.recordings)?,
             held_out,
         })
     }

@@ -109,16 +109,17 @@ pub fn endings(mapping: &Mapping) -> BTreeSet<&str> {
     all.filter_map(|end| end.rsplit('.').next()).filter(|end| !end.is_empty()).collect()
 }
 
-/// All files below `paths` (a folder's files, or a file itself), sorted within each folder. A folder of bags is a folder
-/// of folders: where the mapping reads bags, those that hold one are looked into as well.
+/// All files below `paths` (a folder's files, those of its folders, or a file itself), sorted within each folder. A bag may
+/// be a folder: where the mapping reads bags, folders are looked into one deeper.
 ///
 /// In a folder, a file is meant when it fits the mapping or ends like something that does; notes beside are not.
 fn files(mapping: &Mapping, paths: &[PathBuf]) -> Result<Files> {
     let endings = endings(mapping);
+    let bags = mapping.files.iter().any(|f| f.topic.is_some());
     let mut out = Files::default();
     for path in paths {
         if path.is_dir() {
-            folder(mapping, &endings, path, true, &mut out)?;
+            folder(mapping, &endings, path, if bags { 2 } else { 1 }, &mut out)?;
         } else {
             let shown = path.display();
             ensure!(path.exists(), "there is no file or folder '{shown}'; give a recording, or a folder of recordings");
@@ -141,14 +142,13 @@ pub fn list(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(inside.iter().map(fs::DirEntry::path).collect())
 }
 
-/// Adds the files of a folder.
-fn folder(mapping: &Mapping, endings: &BTreeSet<&str>, path: &Path, descend: bool, out: &mut Files) -> Result<()> {
-    let bags = mapping.files.iter().any(|f| f.topic.is_some());
+/// Adds the files of a folder, and of the folders in it down to a depth.
+fn folder(mapping: &Mapping, endings: &BTreeSet<&str>, path: &Path, depth: usize, out: &mut Files) -> Result<()> {
     for file in list(path)? {
         let name = file.display().to_string();
-        if file.is_dir() && descend && bags {
+        if file.is_dir() && depth > 0 {
             let mut below = Files::default();
-            folder(mapping, endings, &file, false, &mut below)?;
+            folder(mapping, endings, &file, depth - 1, &mut below)?;
             if below.meant.is_empty() {
                 out.ignored.push(name);
             } else {

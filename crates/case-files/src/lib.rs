@@ -22,6 +22,7 @@ mod sensor_faults;
 pub mod simulated;
 pub mod skeleton;
 mod text_error;
+pub mod visits;
 mod watched;
 pub mod which_mapping;
 

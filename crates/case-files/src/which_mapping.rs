@@ -12,7 +12,7 @@ use crate::{case_folder, inputs};
 /// The mapping of tables whose columns describe themselves.
 pub const SELF_DESCRIBING: &str = "skid-steer-columns";
 
-/// The bags among files, in folders and in the folders of these.
+/// The bags among files, in folders and in the folders of these, which may be bags themselves.
 ///
 /// # Errors
 /// A folder that cannot be listed.
@@ -32,7 +32,10 @@ fn bags_and_tables(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, bool)> {
         let (folders, own): (Vec<_>, Vec<_>) = inputs::list(path)?.into_iter().partition(|p| p.is_dir());
         files.extend(own);
         for folder in folders {
-            files.extend(inputs::list(&folder)?.into_iter().filter(|p| is_bag(&p.to_string_lossy())));
+            let (below, inside): (Vec<_>, Vec<_>) = inputs::list(&folder)?.into_iter().partition(|p| p.is_dir());
+            let below = below.iter().map(|bag| inputs::list(bag)).collect::<Result<Vec<_>>>()?;
+            let bags = inside.into_iter().chain(below.into_iter().flatten());
+            files.extend(bags.filter(|p| is_bag(&p.to_string_lossy())));
         }
     }
     let tables = files.iter().any(|p| p.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")));

@@ -17,17 +17,6 @@ pub enum Case {
     CommandDriven(Box<ResponseCase>),
 }
 
-impl Case {
-    /// What was given as recordings is what the simulation is right in: a case that has references only.
-    pub fn recordings_become_references(&mut self) {
-        match self {
-            Self::TorqueDriven(case) => case.references = std::mem::take(&mut case.recordings),
-            Self::SpeedDriven(case) => case.references = std::mem::take(&mut case.recordings),
-            Self::CommandDriven(case) => case.references = std::mem::take(&mut case.recordings),
-        }
-    }
-}
-
 /// Says what physics the simulation of a case left out. `progress` is told the stage that begins.
 ///
 /// # Errors

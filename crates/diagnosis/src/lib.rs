@@ -12,12 +12,14 @@
 //! * `long/*`: long recordings: screened once by weak form (`law`, `rows`, `thin`), of which the
 //!   minutes that differ most from the references are kept (`pool`) for a diagnosis.
 //! * `possible`: values that no robot of the file can show, and the unit that would explain them.
+//! * `visits`: which drives are of one day, place and load, by when they were started.
 //! * `settings`: every tuned number, with unit and source.
 
 mod case;
 pub mod long;
 mod possible;
 mod settings;
+pub mod visits;
 
 pub use case::{Case, Prepared, diagnose};
 pub use inference::{DiagnosisError, Options};

@@ -21,6 +21,12 @@
         reference_ns: i64 = 12_000_000_000, "ns", "guess";
     }
 
+    /// Drives of one day, place and load.
+    visits: Visits {
+        /// Time from the start of one drive to the start of the next from which they are of different visits.
+        apart_ns: i64 = 21_600_000_000_000, "ns", "guess; six hours: between the drives of a day lies a meal, between days a night";
+    }
+
     /// Values that no robot on wheels can show.
     possible: Possible {
         /// Fastest drive.

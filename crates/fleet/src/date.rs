@@ -3,9 +3,6 @@
 use chrono::{DateTime, NaiveDate, NaiveTime, SecondsFormat, Utc};
 use serde::{Deserialize, Serialize};
 
-/// 2000-01-01 in Unix time, ns: stamps below it count from the start of something else.
-const ABSOLUTE_FROM_NS: i64 = 946_684_800_000_000_000;
-
 /// An instant in UTC; of a date its first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -28,7 +25,7 @@ impl Date {
 
     /// The instant of a stamp in ns, if it counts from 1970; a robot that counts from its start tells no date.
     pub fn of_stamp(ns: i64) -> Option<Self> {
-        (ns >= ABSOLUTE_FROM_NS).then(|| Self(DateTime::from_timestamp_nanos(ns)))
+        diagnosis::visits::is_absolute(ns).then(|| Self(DateTime::from_timestamp_nanos(ns)))
     }
 
     /// Milliseconds since 1970.

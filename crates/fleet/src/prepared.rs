@@ -45,14 +45,12 @@ impl Prepared {
             }
             _ => (Loaded::default(), None),
         };
-        // As recordings of a case without references: the conversions are those of a case.
+        // The conversions are those of a case.
         let none = Loaded::default;
-        let case = CaseFolder::new(robot, [none(), std::mem::take(&mut reference), none()])?;
-        let mut ready = case.case()?;
-        ready.recordings_become_references();
-        let ready = diagnosis::Prepared::new(ready, &settings.options)?;
-        let compared = case.recordings.reads.clone();
-        let reference = without_samples(case.recordings)?;
+        let case = CaseFolder::new(robot, [std::mem::take(&mut reference), none(), none()])?;
+        let ready = diagnosis::Prepared::new(case.case()?, &settings.options)?;
+        let compared = case.reference.reads.clone();
+        let reference = without_samples(case.reference)?;
         Ok(Self { robot: case.robot, key, reference, compared, of_reference, mapping, ready })
     }
 

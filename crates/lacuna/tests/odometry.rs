@@ -136,6 +136,7 @@ fn counts_that_are_lost_in_many_windows_are_named_with_their_times() {
 fn what_cannot_be_is_one_clear_sentence() {
     let bench = bench();
     bench.run(&["diagnose", "case", "--mapping", "lacuna"]).failed(&["kind odometry", "leave out --mapping lacuna"]);
+    bench.run(&["diagnose", "case", "--visit", "today=*"]).failed(&["kind odometry take no --visit", "leave it out"]);
     bench.write("case/robot.toml", &ROBOT.replace("[0.0, -0.15]", "[0.0, 0.15]"));
     bench.run(&["diagnose", "case"]).failed(&["cart", "do not determine its turning"]);
     bench.write("case/robot.toml", &ROBOT.replacen("counts_per_turn = 4000.0\n", "", 1));

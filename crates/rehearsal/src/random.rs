@@ -23,6 +23,8 @@ pub(crate) enum Purpose {
     Noise,
     /// The direction of an effect of several components.
     Direction,
+    /// By how much constants moved to a visit.
+    Visit,
 }
 
 /// A stream of random numbers of one purpose.

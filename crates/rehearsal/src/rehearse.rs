@@ -68,7 +68,11 @@ impl<'a> Rehearsing<'a> {
         // A simulator's log shows neither noise nor drives of the robot.
         let real: Vec<&Run> = case.references.iter().filter(|run| !run.is_noise_free()).collect();
         let references: Vec<Template> = match plan.references {
-            Some(wanted) => recordings.iter().cycle().take(wanted).cloned().collect(),
+            // On the inputs of recordings, but of the visit of the references.
+            Some(wanted) => {
+                let visit = real.first().and_then(|run| run.visit.clone());
+                recordings.iter().cycle().take(wanted).map(|template| template.of_visit(visit.clone())).collect()
+            }
             None => real.iter().take(SETTINGS.plan.references).map(|run| template(run)).collect::<Result<_, _>>()?,
         };
         let shortened = words::shortened(case, &real, &plan, [&recordings, &references]);
@@ -112,6 +116,12 @@ impl<'a> Rehearsing<'a> {
 
     fn dose(&self, place: usize, multiple: f64, replica: usize) -> Option<Dose> {
         self.effects[place].dose(multiple, self.plan.seed, replica)
+    }
+
+    /// The robots of a replica, one for each recording.
+    #[cfg(test)]
+    pub(crate) fn robots_of(&self, replica: usize) -> Result<Vec<robot_model::Robot<f64>>, DiagnosisError> {
+        Ok(Replica::new(&self.common, replica)?.robots)
     }
 
     /// How many diagnoses will be made.

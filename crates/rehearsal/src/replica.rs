@@ -1,11 +1,13 @@
 //! A replica: a robot drawn about the robot file, its fault-free references, and the drives of its recordings.
 
+use std::collections::BTreeMap;
+
 use inference::hypothesis::Dose;
 use inference::{DiagnosisError, Options};
 use recordings::{Channel, Clock, Recording, RecordingError, Signal};
-use robot_model::tunable::{COUNT, tuned};
+use robot_model::tunable::{COUNT, tunables, tuned};
 use robot_model::{Active, Robot};
-use torque_driven::{Calibrated, Case, Run, simulate};
+use torque_driven::{Calibrated, Case, Run, Visit, simulate};
 
 use crate::random::{Purpose, Stream};
 use crate::score::Scored;
@@ -38,6 +40,11 @@ impl Template {
         Ok(Self { run, inputs })
     }
 
+    /// The same driven on another visit.
+    pub(crate) fn of_visit(&self, visit: Option<Visit>) -> Self {
+        Self { run: Run { visit, ..self.run.clone() }, inputs: self.inputs.clone() }
+    }
+
     /// What ideal sensors would show of it.
     ///
     /// # Errors
@@ -64,6 +71,7 @@ fn beginning(run: &Run, seconds: f64) -> Run {
     Run {
         name: run.name.clone(),
         from: 0.0,
+        visit: run.visit.clone(),
         period: run.period,
         torque: run.torque[..rows].to_vec(),
         angle: run.angle.each_ref().map(cut),
@@ -99,7 +107,7 @@ pub(crate) struct Common<'a> {
 /// A robot of its own with its references, ready to be diagnosed with anything hidden in its recordings.
 pub(crate) struct Replica {
     /// Its robot in each recording.
-    robots: Vec<Robot<f64>>,
+    pub(crate) robots: Vec<Robot<f64>>,
     noise: Vec<Noise>,
     /// The case without recordings.
     case: Case,
@@ -114,9 +122,12 @@ impl Replica {
     pub(crate) fn new(common: &Common<'_>, number: usize) -> Result<Self, DiagnosisError> {
         let (case, seed) = (common.case, common.seed);
         let theta = constants(common, number)?;
-        let of_drive = |drive: usize| {
+        let of_visits = moves_of_visits(common, number);
+        let of_drive = |drive: usize, template: &Template| {
             let mut stream = Stream::new(seed, Purpose::Drive, &[number, drive]);
-            let moved = theta.map(|x| x + CONSTANTS.between_drives * stream.normal());
+            let mut moved = theta.map(|x| x + CONSTANTS.between_drives * stream.normal());
+            let visit = template.run.visit.as_ref().and_then(|visit| of_visits.get(visit.name.as_str()));
+            visit.into_iter().flatten().zip(&mut moved).for_each(|(by, x)| *x += by);
             tuned(&case.robot, &case.sigma, &moved)
         };
         let noise = |drive: usize, template: &Template| Noise::draw(&template.run, seed, [number, drive]);
@@ -124,7 +135,7 @@ impl Replica {
         // Recordings have the first numbers: one reference more or less leaves their noise as it is.
         let first = common.recordings.len();
         let references = common.references.iter().zip(first..).map(|(template, drive)| {
-            let ideal = template.ideal(&of_drive(drive), None, common.options)?;
+            let ideal = template.ideal(&of_drive(drive, template), None, common.options)?;
             let mut run = shown(&template.run, &ideal, &common.sigmas, &noise(drive, template));
             run.name = format!("reference {}", drive - first + 1);
             Ok(run)
@@ -133,7 +144,7 @@ impl Replica {
         let base = Case { sigma: case.sigma, pose_sigma: case.pose_sigma, references, ..Case::new(case.robot) };
 
         Ok(Self {
-            robots: (0..first).map(of_drive).collect(),
+            robots: common.recordings.iter().enumerate().map(|(drive, template)| of_drive(drive, template)).collect(),
             noise: common.recordings.iter().enumerate().map(|(drive, template)| noise(drive, template)).collect(),
             calibrated: Calibrated::new(&base, common.options)?,
             case: base,
@@ -161,6 +172,21 @@ impl Replica {
             Err(why) => Scored::failed(why.to_string()),
         }
     }
+}
+
+/// How far constants moved to each visit that has a name, in the robot file's sigmas; the first is where they are without.
+fn moves_of_visits<'a>(common: &Common<'a>, number: usize) -> BTreeMap<&'a str, [f64; COUNT]> {
+    let mut names: Vec<&str> = Vec::new();
+    for run in common.case.references.iter().chain(&common.case.recordings) {
+        let name = run.visit.as_ref().map(|visit| visit.name.as_str());
+        names.extend(name.filter(|name| !names.contains(name)));
+    }
+    let usual = tunables::<f64>().map(|t| t.between_visits);
+    let moves = |visit: usize| {
+        let mut stream = Stream::new(common.seed, Purpose::Visit, &[number, visit]);
+        usual.map(|sigma| if visit == 0 { 0.0 } else { sigma * stream.normal() })
+    };
+    names.into_iter().enumerate().map(|(visit, name)| (name, moves(visit))).collect()
 }
 
 /// Constants of a robot that can exist, in the robot file's sigmas.

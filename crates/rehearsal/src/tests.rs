@@ -3,7 +3,7 @@
 use inference::Options;
 use recordings::Recording;
 use testing::{recording, robot, samples};
-use torque_driven::{Case, Run, simulate};
+use torque_driven::{Case, KnownBy, Run, Visit, simulate};
 use verdict::{FoundFrom, Rehearsal};
 
 use recordings::Signal;
@@ -40,6 +40,32 @@ fn plan() -> Plan {
 
 fn rehearsed(case: &Case, plan: &Plan) -> Rehearsal {
     rehearse(case, plan, &Options::default(), &|_| {}).expect("a rehearsal")
+}
+
+/// The case with drives of these visits.
+fn of_visits(names: [&str; 2]) -> Case {
+    let mut case = case();
+    for (run, name) in case.recordings.iter_mut().zip(names) {
+        run.visit = Some(Visit { name: name.to_owned(), known_by: KnownBy::User });
+    }
+    case
+}
+
+#[test]
+fn constants_of_replicas_move_between_visits_and_not_within_one() {
+    let (plan, options) = (Plan { references: Some(0), ..plan() }, Options::default());
+    // By how much the adhesion of one drive differs from that of the other, over some replicas.
+    let apart = |case: &Case| -> f64 {
+        let rehearsing = crate::rehearse::Rehearsing::new(case, &plan, &options).expect("a plan");
+        let of = |replica: usize| {
+            let robots = rehearsing.robots_of(replica).expect("a replica");
+            (robots[0].adhesion / robots[1].adhesion).ln().abs()
+        };
+        (0..6).map(of).sum()
+    };
+    let within = apart(&of_visits(["today", "today"]));
+    assert!((within - apart(&case())).abs() < 1e-12, "a name for all drives moves nothing");
+    assert!(apart(&of_visits(["monday", "tuesday"])) > 2.0 * within, "{within}");
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
 use crate::settings::fit;
-use crate::{locate, retuned, stand_in, words};
+use crate::{locate, retuned, stand_in, visit, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -248,6 +248,7 @@ impl Judged<'_> {
         let fitted = winner.map_or(retuned, |w| &w.trial.fitted);
         let located = locate::locate(self, &calibrated, fitted, &forecasts, unexplained, &ranked);
         let mut limits = self.limits();
+        limits.extend(retuned::moved_by_visit(p, fitted, &self.case.recordings));
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
@@ -361,6 +362,8 @@ impl Judged<'_> {
                     .to_owned(),
             );
         }
+        let factor = Some(self.calibration.moves.factor).filter(|_| self.calibration.moves.taught);
+        out.extend(visit::sentence(self.visits, &visit::visits_of(&self.case.recordings), factor));
         let runs = || self.case.recordings.iter();
         if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
             out.push(

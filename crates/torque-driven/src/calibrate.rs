@@ -1,10 +1,13 @@
 //! Calibration on the references: what the model explains when nothing is missing, and how well.
 
+use std::sync::Arc;
+
 use faer::Mat;
 use inference::robust::median;
 use robot_model::Robot;
-use robot_model::tunable::{COUNT as NUISANCES, tunables};
+use robot_model::tunable::COUNT as NUISANCES;
 
+use crate::between_visits::{Moves, constants_of_visits, likeliest_factor, visits_of_references};
 use crate::case::Case;
 use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
@@ -30,6 +33,8 @@ pub(crate) struct Calibration {
     pub(crate) regimes: Regimes,
     /// Null scores of the references themselves.
     pub(crate) null_scores: NullScores,
+    /// What is known of moves between visits.
+    pub(crate) moves: Moves,
 }
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
@@ -132,6 +137,8 @@ pub(crate) fn calibrate_on(
             information: Mat::identity(NUISANCES, NUISANCES),
             centre: [0.0; NUISANCES],
             spread: 0.0,
+            visits: if driver == Driver::Robot { visits_of_references(cuts) } else { Vec::new() },
+            moves: 0.0,
             likelihood_power: options.likelihood_power,
             outlier_scale: options.outlier_scale,
             step: options.step,
@@ -148,6 +155,11 @@ pub(crate) fn calibrate_on(
         problem.spread = likeliest_spread(&mut problem, &at.point, &at.columns)?;
     }
     let mut at = problem.begin(&none, at.point, None);
+    let mut moves = Moves { taught: !problem.visits.is_empty(), ..Moves::default() };
+    if moves.taught {
+        (moves.factor, at.point) = likeliest_factor(&mut problem, &at)?;
+        at.cost = problem.cost(&at.point, &at.response);
+    }
     at = problem.refine(&none, at, CALIBRATING.last_steps, None);
     problem.variance = channel_variance(&problem, &at.response);
     let regimes = if driver == Driver::Robot && cuts.len() < CALIBRATING.enough_references {
@@ -161,12 +173,13 @@ pub(crate) fn calibrate_on(
     problem.regime = regimes.of(cuts);
 
     // What the references know of the constants is the prior of the recordings.
-    let columns = problem.nuisance_columns(&at.point, &none, &at.response);
+    at.columns = Arc::new(problem.nuisance_columns(&at.point, &none, &at.response));
     let normal = problem
-        .normal(&at.point, &at.response, &columns, &Columns(Vec::new()))
+        .normal(&at.point, &at.response, &at.columns, &Columns(Vec::new()))
         .ok_or(DiagnosisError::Singular { stage: "calibration" })?;
     let information = &normal.matrix + &problem.information;
-    let null_scores = NullScores::new(&problem, &at.point, &information);
+    moves.known = constants_of_visits(&problem, &at, &information)?;
+    let null_scores = NullScores::new(&problem, &at.point, &information, &moves.known);
     Ok(Calibration {
         theta: at.point.theta,
         information,
@@ -174,6 +187,7 @@ pub(crate) fn calibrate_on(
         spread: problem.spread,
         regimes,
         null_scores,
+        moves,
     })
 }
 
@@ -222,17 +236,8 @@ impl Calibration {
             spread: CALIBRATING.usual_spread,
             regimes: Regimes::default(),
             null_scores: NullScores::default(),
+            moves: Moves::default(),
         }
-    }
-
-    /// The same for drives of another visit: constants may have moved since the references.
-    pub(crate) fn on_another_visit(mut self) -> Self {
-        let moves = tunables::<f64>().map(|t| t.between_visits.powi(2));
-        if let Some(mut covariance) = inverse_spd(&self.information) {
-            (0..NUISANCES).for_each(|k| covariance[(k, k)] += moves[k]);
-            self.information = inverse_spd(&covariance).unwrap_or(self.information);
-        }
-        self
     }
 
     /// Raises the variance of each channel to what the best hypothesis leaves of it, never below the usual; whether any
@@ -323,6 +328,8 @@ pub(crate) fn problem<'a>(
         information: calibration.information.clone(),
         centre: calibration.theta,
         spread: calibration.spread,
+        visits: calibration.moves.visits.clone(),
+        moves: calibration.moves.of_recordings,
         likelihood_power: options.likelihood_power,
         outlier_scale: options.outlier_scale,
         step: options.step,

@@ -26,6 +26,7 @@ pub(crate) struct Scored {
 }
 
 /// The decision.
+#[derive(Default)]
 pub(crate) struct Decision {
     pub(crate) scored: Vec<Scored>,
     pub(crate) none: f64,
@@ -33,7 +34,7 @@ pub(crate) struct Decision {
     /// Probability that the cause is not in the catalogue by how much the best hypothesis leaves.
     pub(crate) by_level: f64,
     /// The same by the form of what it leaves.
-    by_form: f64,
+    pub(crate) by_form: f64,
 }
 
 impl Decision {
@@ -80,13 +81,14 @@ fn penalties(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> Vec<f64> {
 pub(crate) fn evidence(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Option<f64> {
     let none = h.parts.is_empty();
     let columns = if none { Columns(Vec::new()) } else { problem.effect_columns(&fitted.point, h, &fitted.response) };
-    let mut normal = problem.normal(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
+    let (mut normal, of_visits) =
+        problem.normal_with_visits(&fitted.point, &fitted.response, &fitted.columns, &columns)?;
     problem.with_prior(&fitted.point, &mut normal);
     let n = normal.matrix.nrows();
     (problem.centre.len()..n).for_each(|i| normal.matrix[(i, i)] += 1.0);
 
     let log_determinant = |of: &Mat<f64>| solve_spd(of, &Mat::zeros(of.nrows(), 1)).map(|(_, ln)| ln);
-    let occam = 0.5 * (log_determinant(&normal.matrix)? - log_determinant(&problem.information)?);
+    let occam = 0.5 * (log_determinant(&normal.matrix)? - log_determinant(&problem.information)? + of_visits);
     Some(-fitted.cost - occam - penalty(h, &fitted.point.effects, &problem.sizes()))
 }
 

@@ -14,6 +14,7 @@ use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulator::{Simulator, check_inputs};
 use crate::trial::{SearchResult, Trial};
+use crate::visit::{Visit, VisitNumbers, visits_of};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, Options};
 use verdict::Diagnosis;
@@ -28,6 +29,8 @@ pub struct Calibrated {
     /// What the user's simulator believes, where its logs were given.
     pub(crate) simulator: Option<Simulator>,
     references: Vec<Cut>,
+    /// Visits of the references.
+    visits: Vec<Option<Visit>>,
     calibration: Calibration,
     largest_torque: f64,
 }
@@ -60,11 +63,13 @@ impl Calibrated {
             if let Some(simulator) = &simulator {
                 calibration.theta = simulator.theta;
             }
-            return Ok(Self { simulator, references: Vec::new(), calibration, largest_torque });
+            return Ok(Self { simulator, references: Vec::new(), visits: Vec::new(), calibration, largest_torque });
         }
-        let references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
+        let visits = visits_of(&references);
+        let mut references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
+        number(&mut references, &VisitNumbers::new(&visits, &[]).references);
         let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
-        Ok(Self { simulator, references, calibration, largest_torque })
+        Ok(Self { simulator, references, visits, calibration, largest_torque })
     }
 
     /// Diagnoses the recordings of a case with the same robot and references. `progress` is called
@@ -87,13 +92,16 @@ impl Calibrated {
         check_inputs(case)?;
         let robot = case.robot.checked()?;
         let sensors = check(&case.recordings, &case.references);
-        let recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
+        let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
+        let mut recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
+        number(&mut recordings, &visits.recordings);
         let largest = largest_torque(&case.recordings).max(self.largest_torque);
-        let mut calibration = if largest > self.largest_torque && !self.references.is_empty() {
+        let taught = if largest > self.largest_torque && !self.references.is_empty() {
             calibrate(&robot, &case.sigma, &self.references, largest, options)?
         } else {
             self.calibration.clone()
         };
+        let mut calibration = taught.for_visits(&visits);
         let weigh = |calibration: &Calibration, known: Vec<Trial>| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let mut found = search(&problem, progress);
@@ -105,8 +113,8 @@ impl Calibrated {
         };
         let (mut found, mut decision) = weigh(&calibration, Vec::new());
         let by_level = decision.by_level;
-        // References of another visit: what is found may be constants that moved since.
-        if !self.references.is_empty() && !decision.finds_nothing() {
+        // References of another visit, or several visits: what is found may be constants that moved between them.
+        if calibration.moves.may_have_been(!self.references.is_empty()) && !decision.finds_nothing() {
             let moved = calibration.clone().on_another_visit();
             let [before, after] =
                 [&calibration, &moved].map(|c| problem(&robot, case, &recordings, c, largest, options));
@@ -134,6 +142,7 @@ impl Calibrated {
             options,
             problem: &problem,
             references: &self.references,
+            visits: &self.visits,
             calibration: &calibration,
             sensors: &sensors,
             decision: &decision,
@@ -188,6 +197,11 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
     }
     let largest = largest_torque(&case.references).max(largest_torque(&case.recordings));
     Calibrated::up_to(largest, case, options)?.diagnose(case, options, progress)
+}
+
+/// Writes down which visit each run is of.
+fn number(cuts: &mut [Cut], visits: &[usize]) {
+    cuts.iter_mut().zip(visits).for_each(|(cut, visit)| cut.visit = Some(*visit));
 }
 
 /// Runs without their sensors' faults, cut into segments.

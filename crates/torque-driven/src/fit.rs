@@ -11,6 +11,7 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
 use sim::rollout::Grid;
 
+use crate::between_visits::{Deviations, VisitMove};
 use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
 pub(crate) use crate::hypothesis::Hypothesis;
@@ -45,6 +46,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) centre: [f64; NUISANCES],
     /// Common factor of the run-to-run deviations.
     pub(crate) spread: f64,
+    /// Where the constants of each visit are, by its number.
+    pub(crate) visits: Vec<VisitMove>,
+    /// How far constants may have moved since the references, in what is usual between visits; zero within a visit.
+    pub(crate) moves: f64,
     /// Share of the log-likelihood that counts, for correlation within a segment.
     pub(crate) likelihood_power: f64,
     /// Saturation of outliers.
@@ -73,6 +78,8 @@ pub(crate) struct Point {
     pub(crate) theta: [f64; NUISANCES],
     /// What each run has to itself.
     pub(crate) run: Vec<RunNumbers>,
+    /// What each visit has to itself.
+    pub(crate) visits: Vec<Deviations>,
     pub(crate) effects: Vec<f64>,
 }
 
@@ -81,7 +88,8 @@ pub(crate) struct Columns(pub(crate) Vec<Response>);
 
 impl Problem<'_> {
     pub(crate) fn origin(&self) -> Point {
-        Point { theta: self.centre, run: vec![UNKNOWN; self.cuts.len()], effects: Vec::new() }
+        let visits = vec![[0.0; NUISANCES]; self.visits.len()];
+        Point { theta: self.centre, run: vec![UNKNOWN; self.cuts.len()], visits, effects: Vec::new() }
     }
 
     /// A hypothesis at a point, for files.
@@ -118,6 +126,7 @@ impl Problem<'_> {
 
     fn robot_of(&self, point: &Point, run: usize) -> Robot<f64> {
         let mut theta = point.theta;
+        self.move_to_visit(&mut theta, point, run);
         for (number, value) in RunNumber::ALL.into_iter().zip(point.run[run]) {
             if let RunNumber::Constant { place, .. } = number {
                 theta[place] += value * self.run_scale(number);
@@ -237,7 +246,8 @@ impl Problem<'_> {
     /// Cost of a point by what is known of the constants and of what runs have to themselves.
     pub(crate) fn prior(&self, point: &Point) -> f64 {
         let off: Vec<f64> = point.theta.iter().zip(&self.centre).map(|(a, b)| a - b).collect();
-        half_quadratic(&self.information, &off) + point.run.iter().flatten().map(|u| 0.5 * u * u).sum::<f64>()
+        let own = point.run.iter().flatten().chain(point.visits.iter().flatten());
+        half_quadratic(&self.information, &off) + own.map(|u| 0.5 * u * u).sum::<f64>()
     }
 
     pub(crate) fn cost(&self, point: &Point, response: &Response) -> f64 {
@@ -324,7 +334,7 @@ impl least_squares::Problem for FreeRunFit<'_> {
     }
 
     fn moved(&self, from: &Fitted, step: &Step<'_>) -> Option<Fitted> {
-        let point = Problem::advanced(&from.point, step);
+        let point = self.problem.advanced(&from.point, step);
         Some(self.problem.begin(self.hypothesis, point, Some(from.columns.clone())))
     }
 }

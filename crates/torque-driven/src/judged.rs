@@ -6,6 +6,7 @@ use crate::decide::{Decision, Scored};
 use crate::fit::Problem;
 use crate::redundancy::Redundant;
 use crate::simulator::Simulator;
+use crate::visit::Visit;
 use crate::windows::Cut;
 use inference::Options;
 
@@ -15,6 +16,8 @@ pub(crate) struct Judged<'a> {
     pub(crate) options: &'a Options,
     pub(crate) problem: &'a Problem<'a>,
     pub(crate) references: &'a [Cut],
+    /// Visits of the references.
+    pub(crate) visits: &'a [Option<Visit>],
     pub(crate) calibration: &'a Calibration,
     pub(crate) sensors: &'a Redundant,
     pub(crate) decision: &'a Decision,

@@ -76,7 +76,7 @@ impl Experiment for LeftOut<'_> {
         let retuned = others.refine(&none, others.begin(&none, others.origin(), None), LEAVE_OUT.steps, None);
 
         // What a recording has to itself is not known beforehand: its deviations are zero.
-        let elsewhere = |f: &Fitted| Point { theta: f.point.theta, effects: f.point.effects.clone(), ..p.origin() };
+        let elsewhere = |f: &Fitted| Point { run: p.origin().run, ..f.point.clone() };
         let refit = |s: &Scored, theta, columns, steps| {
             let h = without(&s.trial.hypothesis, run);
             let start = Point { theta, effects: s.trial.fitted.point.effects.clone(), ..others.origin() };
@@ -230,6 +230,7 @@ fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::between_visits::Moves;
     use crate::calibrate::{Calibration, Regimes};
     use crate::case::Case;
     use crate::channel::Channel;
@@ -261,6 +262,7 @@ mod tests {
             spread: p.spread,
             regimes: Regimes::default(),
             null_scores: NullScores::default(),
+            moves: Moves::default(),
         };
         let case = Case { pose_sigma: 1e-4, ..Case::new(robot) };
         let all = [("viscous_friction", 30.0), ("rolling_resistance", 10.0), ("viscous_friction", 5.0)];
@@ -270,10 +272,11 @@ mod tests {
             options: &Options::default(),
             problem: &p,
             references: &[],
+            visits: &[],
             calibration: &calibration,
             sensors: &Redundant::default(),
             simulator: None,
-            decision: &Decision { scored, none: 0.1, unknown: 0.0 },
+            decision: &Decision { scored, none: 0.1, ..Decision::default() },
         };
         let placebo = placebo(&answer).expect("a rival").trial.hypothesis.ids();
         assert_eq!(placebo, ["rolling_resistance"], "the best hypothesis that shares nothing with the winner");

@@ -7,6 +7,8 @@
 //!   free runs.
 //! * `redundancy/*`: sensor faults that two sensors show without any force law.
 //! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
+//! * `visit`, `between_visits`: drives of one day, place and load, and how far constants move from one to
+//!   the next.
 //! * `calibrate`, `null_scores`: constants and noise from the references, and the null score of each
 //!   reference.
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
@@ -27,6 +29,7 @@
 //! * `settings/*`: every tuned number, stage by stage.
 
 mod answer;
+mod between_visits;
 mod calibrate;
 mod candidate;
 mod case;
@@ -69,6 +72,7 @@ mod structure;
 mod testing;
 mod trial;
 mod unnamed;
+mod visit;
 mod visits;
 mod windows;
 mod words;
@@ -78,6 +82,7 @@ pub use diagnose::{Calibrated, diagnose};
 pub use fitted_robot::{FittedConstant, FittedRobot, fit_logs};
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use run::Run;
+pub use visit::{KnownBy, Visit};
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

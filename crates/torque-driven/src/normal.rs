@@ -14,17 +14,54 @@ use inference::hypothesis::Free;
 
 const FIT: Fit = SETTINGS.fit;
 
+/// Adds moves to numbers.
+fn add(numbers: &mut [f64], moves: &[f64]) {
+    numbers.iter_mut().zip(moves).for_each(|(u, m)| *u += m);
+}
+
 impl Problem<'_> {
     /// Normal equations of θ, then `effects`, at `base`, with every run's own numbers eliminated.
     pub(crate) fn normal(&self, point: &Point, base: &Response, theta: &Columns, effects: &Columns) -> Option<Normal> {
-        let parts: Vec<Normal> = (0..self.cuts.len())
+        Some(self.normal_with_visits(point, base, theta, effects)?.0)
+    }
+
+    /// The same, those of visits eliminated too, with the log-determinant of what visits have to themselves.
+    pub(crate) fn normal_with_visits(
+        &self,
+        point: &Point,
+        base: &Response,
+        theta: &Columns,
+        effects: &Columns,
+    ) -> Option<(Normal, f64)> {
+        let mut parts: Vec<Option<Normal>> = (0..self.cuts.len())
             .into_par_iter()
-            .map(|r| self.normal_of_run(point, base, theta, effects, r))
+            .map(|r| self.normal_of_run(point, base, theta, effects, r).map(Some))
             .collect::<Option<Vec<_>>>()?;
 
-        let mut sum = Normal::zero(NUISANCES + effects.0.len());
-        for part in parts {
-            sum.add(part);
+        let (mut sum, mut of_visits) = (Normal::zero(NUISANCES + effects.0.len()), 0.0);
+        for (visit, runs) in self.free_visits() {
+            let mut own = Normal::zero(NUISANCES + effects.0.len());
+            runs.into_iter().filter_map(|r| parts[r].take()).for_each(|part| own.add(part));
+            let of_runs = own.log_determinant;
+            let own = self.without_visit(point, own, visit)?;
+            of_visits += own.log_determinant - of_runs;
+            sum.add(own);
+        }
+        parts.into_iter().flatten().for_each(|part| sum.add(part));
+        Some((sum, of_visits))
+    }
+
+    /// Normal equations of θ by some of the runs alone, what their visit has to itself left in.
+    pub(crate) fn normal_of_runs(
+        &self,
+        point: &Point,
+        base: &Response,
+        theta: &Columns,
+        runs: &[usize],
+    ) -> Option<Normal> {
+        let mut sum = Normal::zero(NUISANCES);
+        for &r in runs {
+            sum.add(self.normal_of_run(point, base, theta, &Columns(Vec::new()), r)?);
         }
         Some(sum)
     }
@@ -107,18 +144,29 @@ impl Problem<'_> {
         theta.chain(effects).collect()
     }
 
-    /// The point at the end of a step; every run's own numbers follow.
-    pub(crate) fn advanced(point: &Point, step: &Step<'_>) -> Point {
+    /// The point at the end of a step; every run's own numbers follow, and every visit's.
+    pub(crate) fn advanced(&self, point: &Point, step: &Step<'_>) -> Point {
         let mut p = point.clone();
         let (theta, effects) = step.values.split_at(NUISANCES);
         p.theta.copy_from_slice(theta);
         p.effects.copy_from_slice(effects);
 
-        for (own, moves) in p.run.iter_mut().zip(step.normal.back_substituted(step.delta)) {
-            for (u, m) in own.iter_mut().zip(moves) {
-                *u += m;
-            }
+        // Blocks come as they were eliminated: the runs of a visit, then the visit, at last the runs without one.
+        let by_step = step.normal.back_substituted(step.delta);
+        let mut at = 0;
+        let mut others: Vec<usize> = (0..p.run.len()).collect();
+        for (visit, runs) in self.free_visits() {
+            let moves = &by_step[at + runs.len()];
+            add(&mut p.visits[visit], moves);
+            // Constants of these runs move with the step and with the visit.
+            let mut delta = step.delta.clone();
+            (0..NUISANCES).for_each(|k| delta[(k, 0)] += self.visits[visit].sigma[k] * moves[k]);
+            let own = step.normal.back_substituted(&delta);
+            runs.iter().zip(&own[at..]).for_each(|(&r, moves)| add(&mut p.run[r], moves));
+            others.retain(|r| !runs.contains(r));
+            at += runs.len() + 1;
         }
+        others.iter().zip(&by_step[at..]).for_each(|(&r, moves)| add(&mut p.run[r], moves));
         p
     }
 }

@@ -4,6 +4,7 @@
 use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
+use crate::between_visits::VisitConstants;
 use crate::decide::penalty;
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::run_numbers::UNKNOWN;
@@ -22,25 +23,36 @@ impl NullScores {
     ///
     /// At the calibrated θ the gradients of all references and of the prior cancel, so that without reference r
     /// `θ₋ᵣ = θ − (H − Sᵣ)⁻¹ gᵣ` with prior information `H − Sᵣ`: no second calibration is needed.
-    pub(crate) fn new(problem: &Problem<'_>, at: &Point, information: &Mat<f64>) -> Self {
+    ///
+    /// A reference of one of several visits is compared with the constants of its visit, `of_visits`.
+    pub(crate) fn new(problem: &Problem<'_>, at: &Point, information: &Mat<f64>, of_visits: &[VisitConstants]) -> Self {
         if problem.cuts.len() < 2 {
             return Self::default();
         }
-        let of_references =
-            (0..problem.cuts.len()).filter_map(|r| Self::left_out(problem, at, information, r)).collect();
-        Self { of_references }
+        let left_out = |r: usize| {
+            let of_visit = problem.cuts[r].visit.and_then(|visit| of_visits.get(visit));
+            let (theta, information) = of_visit.map_or((&at.theta, information), |v| (&v.theta, &v.information));
+            Self::left_out(problem, theta, information, r)
+        };
+        Self { of_references: (0..problem.cuts.len()).filter_map(left_out).collect() }
     }
 
-    fn left_out(problem: &Problem<'_>, at: &Point, information: &Mat<f64>, r: usize) -> Option<(String, f64)> {
+    fn left_out(
+        problem: &Problem<'_>,
+        theta: &[f64; NUISANCES],
+        information: &Mat<f64>,
+        r: usize,
+    ) -> Option<(String, f64)> {
         let none = Hypothesis::default();
         let mut alone = Problem {
+            visits: Vec::new(),
             cuts: &problem.cuts[r..=r],
             regime: vec![problem.regime[r].clone()],
             information: information.clone(),
-            centre: at.theta,
+            centre: *theta,
             ..problem.clone()
         };
-        let point = Point { theta: at.theta, run: vec![UNKNOWN], effects: Vec::new() };
+        let point = Point { theta: *theta, run: vec![UNKNOWN], visits: Vec::new(), effects: Vec::new() };
         let base = alone.begin(&none, point, None);
         let own = alone.normal(&base.point, &base.response, &base.columns, &Columns(Vec::new()))?;
         let others = information - &own.matrix;

@@ -9,6 +9,7 @@ use robot_model::tunable::{COUNT as NUISANCES, Tunable, tunables, tuned};
 use verdict::Retuned;
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
+use crate::run::Run;
 use crate::settings::decision::{Answer, Retune, SETTINGS};
 use crate::stand_in;
 
@@ -52,6 +53,30 @@ pub(crate) fn moved(
     out
 }
 
+/// A sentence on each visit of the recordings whose constants a fit found a stated sigma and more from those of the others.
+pub(crate) fn moved_by_visit(problem: &Problem<'_>, fitted: &Fitted, recordings: &[Run]) -> Vec<String> {
+    let theta = fitted.point.theta;
+    let of_visit = |(_, runs): (usize, Vec<usize>)| {
+        let first = *runs.first()?;
+        let mut there = theta;
+        problem.move_to_visit(&mut there, &fitted.point, first);
+        let is_far = |k: &usize| {
+            (there[*k] - theta[*k]).abs() >= RETUNE.least_sigmas
+                && tunables::<f64>()[*k].between_visits >= RETUNE.measurable
+        };
+        let elsewhere = (0..NUISANCES).filter(is_far);
+        let constants: Vec<String> = elsewhere
+            .filter_map(|k| otherwise(problem.robot, &problem.sigma, [&theta, &there], k))
+            .map(|constant| constant.values())
+            .collect();
+        let name = recordings.get(first)?.visit.as_ref().map_or("without a name", |visit| &visit.name);
+        (!constants.is_empty()).then(|| {
+            format!("on the visit '{name}' constants are not where the others have them: {}", constants.join(", "))
+        })
+    };
+    problem.free_visits().into_iter().filter_map(of_visit).collect()
+}
+
 /// The constant at place `k` at two tunings, without an interval; `None` of one that no robot file has.
 pub(crate) fn otherwise(
     robot: &Robot<f64>,
@@ -92,8 +117,10 @@ fn covariance(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Option<Mat<f6
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::between_visits::visits_of_references;
     use crate::testing::{cutting, driven, problem};
-    use crate::windows::cut;
+    use crate::visit::{KnownBy, Visit};
+    use crate::windows::{Cut, cut};
     use robot_model::tunable::usual_sigma;
     use testing::robot;
 
@@ -133,5 +160,32 @@ mod tests {
         assert!(told("lateral_factor", -1.5).is_empty(), "fault-free robots are that far off");
         assert!(told("sliding_share", 3.7).is_empty(), "no effect of the catalogue is a share in sliding");
         assert_eq!(told("rolling_resistance", 1.5), ["rolling_resistance"]);
+    }
+
+    #[test]
+    fn a_visit_whose_constants_moved_is_told_with_them() {
+        let robot = robot();
+        let mut theta = [0.0; robot_model::tunable::COUNT];
+        for id in ["rolling_resistance", "coulomb_left", "coulomb_right"] {
+            theta[crate::run_numbers::constant(id)] = 3.0;
+        }
+        let there = tuned(&robot, &usual_sigma(), &theta);
+        let days: Vec<Run> = [("monday", &robot), ("tuesday", &there)]
+            .map(|(day, robot)| {
+                let visit = Some(Visit { name: day.to_owned(), known_by: KnownBy::User });
+                Run { visit, ..driven(robot, &[], 24.0) }
+            })
+            .to_vec();
+        let number = |(visit, run): (usize, &Run)| Cut { visit: Some(visit), ..cut(run, &cutting()) };
+        let cuts: Vec<Cut> = days.iter().enumerate().map(number).collect();
+        // The constants that both scatter about are known.
+        let information = Mat::from_fn(NUISANCES, NUISANCES, |i, j| if i == j { 100.0 } else { 0.0 });
+        let p = Problem { visits: visits_of_references(&cuts), information, ..problem(&robot, &cuts) };
+
+        let none = Hypothesis::default();
+        let fitted = p.refine(&none, p.begin(&none, p.origin(), None), 8, Some(2));
+        let [told] = &moved_by_visit(&p, &fitted, &days)[..] else { panic!("{:?}", fitted.point.visits) };
+        assert!(told.starts_with("on the visit 'tuesday'") && told.contains("coulomb"), "{told}");
+        assert!(moved_by_visit(&p, &p.begin(&none, p.origin(), None), &days).is_empty());
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use recordings::{Recording, Signal};
 
 use crate::settings::preparation::{Logs, Runs, SETTINGS};
+use crate::visit::Visit;
 use inference::DiagnosisError;
 
 const RUNS: Runs = SETTINGS.runs;
@@ -19,6 +20,8 @@ pub struct Run {
     pub name: String,
     /// Time of the first row, s: zero unless the run is a later stretch of a longer recording. Time counts from its start.
     pub from: f64,
+    /// The visit that it is of; without one, that of all references or of all recordings without one.
+    pub visit: Option<Visit>,
     /// Time between rows, s.
     pub period: f64,
     /// Torque command of each side, held for the row that follows, N m.
@@ -124,6 +127,7 @@ impl Run {
 
         Ok(Self {
             from: 0.0,
+            visit: None,
             period,
             torque,
             angle,

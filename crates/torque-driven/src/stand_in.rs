@@ -85,7 +85,7 @@ impl StandIn {
 /// moves by between visits, and the number `K` of constants of which one moved. `None` where no constant stands for it.
 fn price(variant: &Variant, size: f64, problem: &Problem<'_>) -> Option<f64> {
     let constant = StandIn::of(variant, problem.robot)?;
-    let of_visits = spread(&problem.sigma, constant.place)?;
+    let of_visits = spread(problem, constant.place)?;
     Some(0.5 * (constant.moved(size)? / of_visits).powi(2) + (NUISANCES as f64).ln())
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn sigma_of_size(problem: &Problem<'_>, variant: &Variant, size: f64)
     let moved = || {
         let constant = StandIn::of(variant, problem.robot)?;
         constant.moved(size)?;
-        Some(spread(&problem.sigma, constant.place)? * constant.slope(size))
+        Some(spread(problem, constant.place)? * constant.slope(size))
     };
     if problem.has_references { moved().unwrap_or(0.0) } else { 0.0 }
 }
@@ -105,9 +105,10 @@ pub(crate) fn is_an_effect(place: usize, robot: &Robot<f64>) -> bool {
     variants(true).iter().any(|v| StandIn::of(v, robot).is_some_and(|constant| constant.place == place))
 }
 
-/// How far a constant moves from visit to visit, one standard deviation, in the unit of its tuning.
-fn spread(sigma: &[f64; NUISANCES], place: usize) -> Option<f64> {
-    let moves = sigma[place] * tunables::<f64>()[place].between_visits;
+/// How far a constant may have moved since the references, one standard deviation, in the unit of its tuning; `None` of one
+/// that did not, as within a visit.
+fn spread(problem: &Problem<'_>, place: usize) -> Option<f64> {
+    let moves = problem.sigma[place] * tunables::<f64>()[place].between_visits * problem.moves;
     (moves > 0.0).then_some(moves)
 }
 

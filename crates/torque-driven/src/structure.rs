@@ -91,18 +91,22 @@ fn segments<'a>(problem: &'a Problem<'_>) -> impl Iterator<Item = [usize; 2]> + 
     problem.cuts.iter().enumerate().flat_map(|(r, cut)| (0..cut.segments.len()).map(move |s| [r, s]))
 }
 
-/// Power at the strongest harmonic over the mean power between harmonics.
+/// Power of a channel's residuals at the strongest harmonic of a side's wheels over the mean power between harmonics.
 fn ratio(problem: &Problem<'_>, response: &Response, side: usize, channel: Channel) -> Option<f64> {
+    let values: Vec<[f64; 3]> =
+        segments(problem).flat_map(|at| residuals(problem, response, at, side, channel)).collect();
+    strongest(&values)
+}
+
+/// The same of values, each with an angle and its speed; `None` where too few turn at a speed that shows harmonics.
+fn strongest(values: &[[f64; 3]]) -> Option<f64> {
     // A faster wheel turns too far in a window to show the highest order.
     let highest = UNKNOWN.between.into_iter().fold(0.0, f64::max);
-    let fastest = PI / (highest * WINDOW);
-    let values: Vec<[f64; 3]> = segments(problem)
-        .flat_map(|at| residuals(problem, response, at, side, channel))
-        .filter(|v| (UNKNOWN.least_turning..fastest).contains(&v[2].abs()))
-        .collect();
+    let speeds = UNKNOWN.least_turning..PI / (highest * WINDOW);
+    let turning: Vec<&[f64; 3]> = values.iter().filter(|v| speeds.contains(&v[2].abs())).collect();
     let power = |order: f64| {
         let (mut c, mut s) = (0.0, 0.0);
-        for v in &values {
+        for v in &turning {
             let (sin, cos) = (order * v[1]).sin_cos();
             c += v[0] * cos;
             s += v[0] * sin;
@@ -111,7 +115,7 @@ fn ratio(problem: &Problem<'_>, response: &Response, side: usize, channel: Chann
     };
     let between = mean(UNKNOWN.between.map(power)).filter(|p| *p > 0.0)?;
     let strongest = HARMONICS.map(|n| power(f64::from(n))).into_iter().fold(0.0, f64::max);
-    (values.len() >= UNKNOWN.least_windows).then(|| strongest / between)
+    (turning.len() >= UNKNOWN.least_windows).then(|| strongest / between)
 }
 
 /// Correlation of a channel's residuals with those one window later.
@@ -133,16 +137,12 @@ mod tests {
     use crate::windows::cut;
     use testing::robot;
 
-    /// Structure of what the plant leaves of its own drive when `added` is added to what the sensors show: of the time in s,
-    /// and the angle of the left wheels in rad.
-    fn of(added: impl Fn(f64, f64) -> [f64; 2]) -> Structure {
+    /// Structure of what the plant leaves of its own drive when `added` is added to the lateral acceleration that is shown.
+    fn of(added: impl Fn(f64) -> f64) -> Structure {
         let robot = robot();
         let mut run = driven(&robot, &[], 40.0);
         for k in 0..run.rows() {
-            let angle = run.angle[0][k].unwrap_or(0.0);
-            let [yaw_rate, acceleration] = added(k as f64 * run.period, angle);
-            run.gyro[k] = run.gyro[k].map(|x| x + yaw_rate);
-            run.accel[1][k] = run.accel[1][k].map(|x| x + acceleration);
+            run.accel[1][k] = run.accel[1][k].map(|x| x + added(k as f64 * run.period));
         }
         let cuts = [cut(&run, &cutting())];
         let problem = problem(&robot, &cuts);
@@ -156,11 +156,21 @@ mod tests {
 
     #[test]
     fn what_repeats_with_the_wheel_or_follows_itself_is_no_noise_and_noise_is() {
-        let plain = of(|t, _| [0.05 * noise(t), 0.5 * noise(t + 0.37)]);
+        let plain = of(|t| 0.5 * noise(t));
         assert!(plain.is_no_noise() < 0.05, "{plain:?}");
-        let cogging = of(|t, angle| [0.05 * noise(t) + 0.05 * (3.0 * angle).cos(), 0.5 * noise(t + 0.37)]);
-        assert!(cogging.harmonic > 10.0 * plain.harmonic && cogging.is_no_noise() > 0.9, "{cogging:?}");
-        let shaken = of(|t, _| [0.05 * noise(t), 0.5 * noise(t + 0.37) + 0.5 * (2.0 * t).sin()]);
+        let shaken = of(|t| 0.5 * noise(t) + 0.5 * (5.0 * t).sin());
         assert!(shaken.correlation > 0.6 && shaken.is_no_noise() > 0.9, "{shaken:?}");
+
+        let turned = |speed: f64, cogging: f64| {
+            let value = |k: i32| {
+                let t = f64::from(k) * WINDOW;
+                [0.05 * noise(t) + cogging * (3.0 * speed * t).cos(), speed * t, speed]
+            };
+            strongest(&(0..400).map(value).collect::<Vec<_>>())
+        };
+        let of_harmonic = |harmonic| Structure { harmonic, correlation: 0.0 }.is_no_noise();
+        assert!(turned(2.9, 0.0).is_some_and(|ratio| of_harmonic(ratio) < 0.05), "{:?}", turned(2.9, 0.0));
+        assert!(turned(2.9, 0.05).is_some_and(|ratio| of_harmonic(ratio) > 0.9), "{:?}", turned(2.9, 0.05));
+        assert_eq!(turned(20.0, 0.05), None, "in a window the wheel turns farther than a harmonic is long");
     }
 }

@@ -38,6 +38,7 @@ pub(crate) fn blank(rows: usize) -> Run {
     Run {
         name: "synthetic".to_owned(),
         from: 0.0,
+        visit: None,
         period: PERIOD,
         torque: vec![[0.0; 2]; rows],
         angle: [nothing(), nothing()],
@@ -137,6 +138,8 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         information: Mat::identity(NUISANCES, NUISANCES),
         centre: [0.0; NUISANCES],
         spread: SETTINGS.calibration.usual_spread,
+        visits: Vec::new(),
+        moves: 1.0,
         likelihood_power: options.likelihood_power,
         outlier_scale: options.outlier_scale,
         step: options.step,

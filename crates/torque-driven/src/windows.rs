@@ -46,6 +46,8 @@ impl Segment {
 #[derive(Debug, Clone)]
 pub(crate) struct Cut {
     pub(crate) name: String,
+    /// Number of the visit that it is of.
+    pub(crate) visit: Option<usize>,
     /// Time of the first row, s.
     pub(crate) from: f64,
     pub(crate) period: f64,
@@ -122,6 +124,7 @@ pub(crate) fn cut(run: &Run, o: &CutOptions) -> Cut {
         .collect();
     Cut {
         name: run.name.clone(),
+        visit: None,
         from: run.from,
         period: run.period,
         rows_per_window: per_window,

@@ -33,7 +33,7 @@ impl Retuned {
     }
 
     /// "adhesion from 0.600 to 0.510", of a constant that is not known by itself.
-    pub(crate) fn values(&self) -> String {
+    pub fn values(&self) -> String {
         let (digits, unit) = (self.digits(), self.unit());
         let name = self.constant.replace('_', " ");
         format!("{name} from {:.digits$}{unit} to {:.digits$}{unit}", self.from, self.to)

@@ -45,6 +45,7 @@ def diagnose(
     mapping: _Path | None = None,
     reading: _Reading = "normal",
     same_robot: bool = False,
+    visit: list[str] | None = None,
     next: bool = False,
     progress: Callable[[str], object] | None = None,
 ) -> Diagnosis: ...

@@ -10,6 +10,7 @@ use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
 use case_files::report_page::{page, page_of_columns};
+use case_files::visits::GivenVisit;
 use case_files::{kind, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
 use inference::{Options, SearchForLaw};
@@ -27,6 +28,10 @@ Examples:
   lacuna diagnose case/ --report page.html
   lacuna diagnose --robot robot.toml --mapping my-robot.toml \\
          --reference monday/ --recordings tuesday/run_3.csv tuesday/run_4.csv
+  lacuna diagnose case/ --visit 'today=*'         references and recordings are of
+                                                  one day, place and load
+  lacuna diagnose case/ --visit 'monday=reference/mon_*' \\
+         --visit 'tuesday=reference/tue_*,recordings/run_1.csv'
   lacuna diagnose --robot husky-a200 --mapping husky-open \\
          --reference FLOORING --recordings SANDY_LOAM
   lacuna diagnose --robot husky-drive --recordings drives/ --heldout unseen/
@@ -104,6 +109,11 @@ pub(crate) struct Input {
     /// weighed (torque- and speed-driven robots).
     #[arg(long)]
     pub(crate) same_robot: bool,
+    /// Drives of one day, place and load, between which constants do not move (torque-driven robots): a name, and which
+    /// references and recordings these are, by file or folder, `*` standing for anything. Again for each visit. Drives that
+    /// no --visit names: references are one visit and recordings another, or several by folder or start time.
+    #[arg(long, value_name = "NAME=FILE[,FILE...]", value_parser = GivenVisit::parse)]
+    pub(crate) visit: Vec<GivenVisit>,
     /// What to do with bad rows and cells of recordings.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) reading: Reading,
@@ -311,7 +321,8 @@ pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
     let in_folder = args.case.as_deref().map(case_folder::simulation_of).unwrap_or_default();
     let simulation = [args.simulation.clone(), in_folder].concat();
     let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?
-        .with_simulation(&simulation, &mapping, &options)?;
+        .with_simulation(&simulation, &mapping, &options)?
+        .with_visits(&args.visit)?;
     Ok((case, mapping.name))
 }
 

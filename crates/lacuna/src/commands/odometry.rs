@@ -78,6 +78,12 @@ pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
     if !input.simulation.is_empty() || !input.heldout.is_empty() {
         bail!("robots of kind {kind} take --reference and --recordings only; leave out --simulation and --heldout");
     }
+    if !input.visit.is_empty() {
+        bail!(
+            "robots of kind {kind} take no --visit: of their constants it is not known which move from one visit to another, so \
+             all references count as one visit and all recordings as another; leave it out"
+        );
+    }
     Ok(Some(case))
 }
 

@@ -1,6 +1,6 @@
 //! `lacuna screen`: passes once over recordings of any number and length, and tells which are unlike the references.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use case_files::envelope::Program;
 use case_files::long::{Budget, Screened};
 use clap::Args as ClapArgs;
@@ -47,6 +47,12 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(&[("screening the recordings", 0.0)], verbose);
     progress.stage("screening the recordings");
+    if !args.input.visit.is_empty() {
+        bail!(
+            "`lacuna screen` compares every minute with all references, of whatever visit; leave out --visit, which \
+             `lacuna diagnose` takes"
+        );
+    }
     let Located { robot, paths: [reference, recordings, _], mapping } = located(&args.input)?;
     let budget = args.input.budget.map(Budget::of_minutes).unwrap_or_default();
     let screened = budget.screen(&robot, [&reference, &recordings], &mapping, &args.input.reading.options())?;

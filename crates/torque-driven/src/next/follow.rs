@@ -85,6 +85,7 @@ impl Follower {
 
         Cut {
             from: 0.0,
+            visit: None,
             name: "next".to_owned(),
             period: self.period,
             rows_per_window: self.rows_per_window,

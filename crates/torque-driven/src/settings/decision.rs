@@ -47,6 +47,12 @@
         needed: usize = 2, "1", "definition: what happened once may have been an event in time";
     }
 
+    /// What is told of visits of one day, place and load.
+    moves: MovesBetweenVisits {
+        /// Visits that are listed by name.
+        listed: usize = 5, "1", "guess; more than a line holds";
+    }
+
     /// When none of the catalogue's effects explains the mismatch.
     unknown: Unknown {
         /// Slope of the logistic of the logarithm of cost over fault-free cost.

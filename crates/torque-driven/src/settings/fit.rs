@@ -30,6 +30,14 @@ use crate::channel::ByQuantity;
         acceleration: f64 = 0.03, "m/s²", "guess";
     }
 
+    /// How far constants move from one visit to another; the table of constants says how far each moves usually.
+    between_visits: BetweenVisits {
+        /// Common factors of the moves between visits that are tried where the references are of several visits.
+        factors: [f64; 9] = [0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0], "1", "guess; steps of √2";
+        /// Width of the log-normal prior of that factor, whose median is 1, in its logarithm.
+        factor_width: f64 = 0.7, "1", "guess: a factor of two either way is usual";
+    }
+
     /// Gauss–Newton in free run.
     fit: Fit {
         /// Gain below which a fit has arrived.

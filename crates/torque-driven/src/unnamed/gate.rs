@@ -9,7 +9,6 @@ use crate::candidate::{Ground, reduced};
 use crate::decide::fault_free_cost;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem, difference};
 use crate::judged::Judged;
-use crate::run_numbers::UNKNOWN;
 use crate::settings::fit;
 use crate::settings::law::{Gates, SETTINGS};
 use faer::Mat;
@@ -115,8 +114,7 @@ impl<'a> References<'a> {
             problem(p.robot, judged.case, judged.references, judged.calibration, p.largest_torque, judged.options);
         // What the references taught must not count twice: only the robot file is known before.
         let problem = Problem { information: Mat::identity(NUISANCES, NUISANCES), centre: [0.0; NUISANCES], ..of_cuts };
-        let run = vec![UNKNOWN; judged.references.len()];
-        let point = Point { theta: judged.calibration.theta, run, effects: Vec::new() };
+        let point = Point { theta: judged.calibration.theta, ..problem.origin() };
         let none = Hypothesis::default();
         let begun = problem.begin(&none, point, None);
         let base = problem.refine(&none, begun, SETTINGS.proof.steps, None);

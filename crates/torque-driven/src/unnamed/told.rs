@@ -215,7 +215,7 @@ impl Telling<'_> {
                 let point = Point { effects: start, ..others.origin() };
                 let fitted = others.refine(&fit, others.begin(&fit, point, None), PROOF.steps, None);
                 // What a recording has to itself is not known beforehand.
-                let elsewhere = Point { theta: fitted.point.theta, effects: fitted.point.effects, ..p.origin() };
+                let elsewhere = Point { run: p.origin().run, ..fitted.point };
                 rms(p, &[(run, p.run_response(run, &elsewhere, &forecast))])
             };
             all.map(error).collect()
