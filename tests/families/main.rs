@@ -12,6 +12,7 @@ mod files;
 mod model;
 mod nothing;
 mod places;
+mod robot_file_only;
 mod rules;
 mod sensors;
 mod simulators;

@@ -240,7 +240,7 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
             h.parts.push((p.variant, p.onsets.clone()));
             let start: Vec<f64> = e1.iter().chain(&p.start).copied().collect();
             let start = begin(problem, &h, &origin.point, &start, origin);
-            out.push(refit(problem, h, start, FINALISTS.steps, None));
+            include(&mut out, refit(problem, h, start, FINALISTS.steps, None));
         }
     }
     best_first(&mut out);

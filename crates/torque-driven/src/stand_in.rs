@@ -45,6 +45,7 @@ impl StandIn {
             ("adhesion_patch", Place::Whole) => with(Relation::Lost, "adhesion"),
             ("turning_resistance", Place::Whole) => added("lateral_factor", 1.0),
             ("slip_stiffness", Place::Whole) => added("slip_at_peak", 1.0),
+            ("stiction", Place::Whole) => with(Relation::Offset, "stribeck"),
             ("viscous_friction", Place::Whole) => added("viscous", robot.viscous[0]),
             ("rolling_resistance", Place::Whole) => added("rolling_resistance", robot.rolling_resistance),
             ("coulomb_side", Place::Side(0)) => added("coulomb_left", robot.coulomb[0]),

@@ -1,0 +1,36 @@
+//! No drive in which the simulation was right: the robot file stands in its place.
+
+use examiner::{EffectId, Settings};
+use verdict::Diagnosis;
+
+use crate::common::{case_of, draw};
+use crate::rules::{answer, are_in_the_first_three, diagnosed, is_named, nothing_is_missing, strong};
+
+/// The answer to a drawn case without its references.
+fn without_references(seed: u64, settings: &Settings) -> Diagnosis {
+    let mut case = case_of(&draw(settings, seed));
+    case.references.clear();
+    answer(&format!("seed {seed}, no reference"), &case)
+}
+
+#[test]
+fn what_hides_in_a_constant_is_named_far_beyond_its_sigma_and_nothing_is_invented() {
+    for effect in [EffectId::ViscousFriction, EffectId::TorqueConstant] {
+        is_named(&without_references(131, &strong(&[effect])), effect);
+    }
+    for seed in [132, 133] {
+        nothing_is_missing(&without_references(seed, &strong(&[])));
+    }
+}
+
+#[test]
+fn a_second_effect_that_hides_in_a_constant_is_found_beside_the_first() {
+    let both = [EffectId::Grade, EffectId::Stiction];
+    are_in_the_first_three(&without_references(134, &strong(&both)), &both);
+}
+
+#[test]
+fn wheels_out_of_true_that_press_harder_are_named() {
+    let (_, d) = diagnosed(135, &Settings { other_laws: true, ..strong(&[EffectId::WheelEccentricity]) });
+    is_named(&d, EffectId::WheelEccentricity);
+}
