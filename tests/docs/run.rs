@@ -15,6 +15,7 @@ use harness::stale::newer_source;
 pub(crate) struct Programs {
     lacuna: PathBuf,
     xtask: PathBuf,
+    measuring: PathBuf,
     proof: PathBuf,
 }
 
@@ -24,23 +25,27 @@ impl Programs {
         let this = std::env::current_exe().expect("this program");
         let profile = this.parent().and_then(Path::parent).expect("it lies in target/PROFILE/deps");
         let target = profile.parent().expect("it lies in target/PROFILE/deps");
-        let [lacuna, xtask, proof] =
-            ["lacuna", "xtask", "proof"].map(|name| profile.join(format!("{name}{EXE_SUFFIX}")));
+        let packages = ["lacuna", "xtask", "measuring", "proof"];
+        let programs = packages.map(|name| profile.join(format!("{name}{EXE_SUFFIX}")));
+        let are_new = programs.iter().all(|program| program.is_file() && newer_source(program).is_none());
+        let [lacuna, xtask, measuring, proof] = programs;
+        let found = Self { lacuna, xtask, measuring, proof };
         // Tests of the whole workspace build all; cargo would build them anew, with the features of fewer packages.
-        if [&lacuna, &xtask, &proof].iter().all(|program| program.is_file() && newer_source(program).is_none()) {
-            return Self { lacuna, xtask, proof };
+        if are_new {
+            return found;
         }
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut build = process::Command::new(cargo);
         build
-            .args(["build", "--locked", "-p", "lacuna", "-p", "xtask", "-p", "proof", "--bins", "--target-dir"])
-            .arg(target);
+            .args(["build", "--locked", "--bins", "--target-dir"])
+            .arg(target)
+            .args(packages.into_iter().flat_map(|package| ["-p", package]));
         if profile.ends_with("release") {
             build.arg("--release");
         }
         let status = build.current_dir(root()).status().expect("cargo");
         assert!(status.success(), "the programs cannot be built");
-        Self { lacuna, xtask, proof }
+        found
     }
 
     /// The program that knows a command of `cargo xtask`; `None` where tests of the workspace do not build it.
@@ -48,6 +53,7 @@ impl Programs {
         let elsewhere = ELSEWHERE.iter().find(|command| args.first().is_some_and(|name| name == command.name));
         match elsewhere.map(|command| command.package) {
             None => Some(&self.xtask),
+            Some("measuring") => Some(&self.measuring),
             Some("proof") => Some(&self.proof),
             Some(_) => None,
         }

@@ -1,23 +1,18 @@
 //! Development commands: `cargo xtask COMMAND`.
 //!
-//! This program is light, so that the first command in a fresh clone builds no more than it needs. What needs the readers
-//! of recordings, the diagnosis or a generator of books is a package of its own, built and started when it is asked for.
+//! This program is light, so that the first command in a fresh clone builds no more than it needs. What measures, or
+//! needs the readers of recordings, the diagnosis or a generator of books, is a package of its own, built and started when
+//! it is asked for.
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use harness::{binary, child, document, exit_code, output};
+use harness::{document, exit_code, output};
 
 mod browser;
-mod cold;
-mod compare;
 mod effect;
 mod elsewhere;
-mod examples;
-mod growth;
-mod instructions;
-mod learn;
 mod mutants;
 mod reproduce;
 
@@ -33,16 +28,6 @@ struct Cli {
 enum Command {
     /// Reproduce Table 1 and the figures of Hendzel & Trojnacki 2014.
     Reproduce(reproduce::Args),
-    /// Compare adaptive laws on laps they have not seen: which keep what they learn.
-    Learn(learn::Args),
-    /// Measure our kernels beside C, SciPy, numba, PySINDy and MuJoCo.
-    Compare(compare::Args),
-    /// Measure what `lacuna` costs as recordings become longer and more, and with how many cores.
-    Growth(growth::Args),
-    /// Count instructions of the hot kernels and compare them with those on record.
-    Instructions(instructions::Args),
-    /// Measure what a fresh clone costs: the first command, the program, the tests.
-    Cold(cold::Args),
     /// Write the file of a new effect, to be filled with its law.
     Effect(effect::Args),
     /// Change the code that decides, one thing at a time, and ask whether a test notices.
@@ -67,11 +52,6 @@ fn main() -> ExitCode {
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     exit_code(match cli.command {
         Command::Reproduce(args) => reproduce::run(args),
-        Command::Learn(args) => learn::run(args),
-        Command::Compare(args) => compare::run(&args),
-        Command::Growth(args) => growth::run(&args),
-        Command::Instructions(args) => instructions::run(&args),
-        Command::Cold(args) => cold::run(&args),
         Command::Effect(args) => effect::run(&args),
         Command::Mutants(args) => mutants::run(&args),
         Command::Browser => browser::run(),

@@ -14,7 +14,12 @@ pub struct Elsewhere {
 }
 
 /// All of them. The programs themselves say the same sentences; their tests compare.
-pub const ELSEWHERE: [Elsewhere; 9] = [
+pub const ELSEWHERE: [Elsewhere; 14] = [
+    measuring("learn", "Compare adaptive laws on laps they have not seen: which keep what they learn"),
+    measuring("compare", "Measure our kernels beside C, SciPy, numba, PySINDy and MuJoCo"),
+    measuring("growth", "Measure what `lacuna` costs as recordings become longer and more, and with how many cores"),
+    measuring("instructions", "Count instructions of the hot kernels and compare them with those on record"),
+    measuring("cold", "Measure what a fresh clone costs: the first command, the program, the tests"),
     proof(
         "blind",
         "Draw blind cases, seal their truth, diagnose and score them; or write answers for given case folders",
@@ -33,6 +38,10 @@ pub const ELSEWHERE: [Elsewhere; 9] = [
         features: Some("generator"),
     },
 ];
+
+const fn measuring(name: &'static str, about: &'static str) -> Elsewhere {
+    Elsewhere { name, about, package: "measuring", features: None }
+}
 
 const fn proof(name: &'static str, about: &'static str) -> Elsewhere {
     Elsewhere { name, about, package: "proof", features: None }

@@ -3,13 +3,20 @@
 //! # How a command is started
 //!
 //! ```text
-//! cargo xtask COMMAND ── xtask (light) ──┬─ reproduce, learn, compare, growth, instructions, cold
-//!                                        └─ proof, book, ...: packages of their own, started by cargo
+//! cargo xtask COMMAND ── xtask (light) ──┬─ reproduce, effect, mutants, browser
+//!                                        └─ measuring, proof, book: packages of their own, started by cargo
 //! ```
+//!
+//! # Feature
+//!
+//! `watch`: the examined program and its SHA-256 (`binary`), processes whose time and memory are measured (`child`). The
+//! light program has no use for them, and reading `/proc` is ten crates.
 
 use std::process::ExitCode;
 
+#[cfg(feature = "watch")]
 pub mod binary;
+#[cfg(feature = "watch")]
 pub mod child;
 pub mod commands;
 pub mod commit;
