@@ -116,7 +116,8 @@ impl Experiment {
         Ok(tallies.map(|t| t.close(self.trajectory.torques.len())))
     }
 
-    /// Runs the draws `0..draws` on all cores, several side by side on each; `done` is called after each.
+    /// Runs the draws `0..draws` on all cores, several side by side on each where the recipe has the paper's scheme and number
+    /// of neurons; `done` is called after each.
     ///
     /// The result is in the order of the draws, does not depend on the number of threads and has the bits that
     /// [`Experiment::identify`] gives each draw alone.
@@ -124,19 +125,23 @@ impl Experiment {
     /// # Errors
     /// The error of a draw that failed.
     pub fn ensemble(&self, seed: u64, draws: u64, done: impl Fn() + Sync) -> Result<Vec<Draw>, SimError> {
+        self.all(seed, draws, &done)
+    }
+
+    /// [`Experiment::ensemble`], compiled once and not in every crate that calls it.
+    fn all(&self, seed: u64, draws: u64, done: &(dyn Fn() + Sync)) -> Result<Vec<Draw>, SimError> {
         let side_by_side = group::WIDTH as u64;
+        let i = &self.recipe.identifier;
+        let grouped = i.scheme == Scheme::Midpoint && i.network.units == UNITS;
         let groups: Vec<Vec<Draw>> = (0..draws.div_ceil(side_by_side))
             .into_par_iter()
             .map(|g| {
                 let numbers: Vec<u64> = (g * side_by_side..draws.min((g + 1) * side_by_side)).collect();
-                let found = match self.recipe.identifier.network.units {
-                    WIDE => group::identify::<WIDE>(&self.recipe, &self.trajectory, seed, &numbers),
-                    _ => group::identify::<UNITS>(&self.recipe, &self.trajectory, seed, &numbers),
-                };
-                // An estimate that stops being finite stops its own draw only: one by one it is found which.
-                let found = match found {
-                    Err(SimError::NotFinite { .. }) => numbers.iter().map(|n| self.identify(seed, *n)).collect(),
-                    other => other,
+                let one_by_one = || numbers.iter().map(|n| self.identify(seed, *n)).collect();
+                let found = match grouped.then(|| group::identify(&self.recipe, &self.trajectory, seed, &numbers)) {
+                    // An estimate that stops being finite stops its own draw only: one by one it is found which.
+                    None | Some(Err(SimError::NotFinite { .. })) => one_by_one(),
+                    Some(other) => other,
                 };
                 for _ in &numbers {
                     done();

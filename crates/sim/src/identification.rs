@@ -4,18 +4,8 @@ use identifier::{Identifier, Law, Step};
 use nn_basis::{Basis, Scalar, real};
 
 use crate::network_recipe::{SIGNALS, Signals};
-use crate::random::{Purpose, Stream};
 use crate::tally::Tally;
 use crate::{SimError, Trajectory};
-
-/// Comparison weights are drawn between minus and plus this, rad/s²: the size that weights really take.
-const COMPARISON_RANGE: f64 = 30.0;
-
-/// Comparison weights W* for the certificates of a draw, one set per output, rad/s².
-pub fn comparison<const N: usize>(seed: u64, draw: u64) -> [[f64; N]; 2] {
-    let mut stream = Stream::new(seed, Purpose::Comparison, draw);
-    std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)))
-}
 
 /// Follows both wheel speeds with the given bases; `watch` sees every step of both outputs.
 ///

@@ -6,11 +6,12 @@
 //!   the robot; `rollout/visitor`: who watches; `rollout/start`: known states and restarts; `rollout/lanes`: several
 //!   robots side by side.
 //!
-//! The paper's experiment:
+//! The paper's experiment, where the feature `paper` asks for it (it does unless default features are switched off; who
+//! simulates robots of recordings only need not build it):
 //! * [`rk4`]: the integrator;
 //! * [`Recipe`], `network_recipe`: everything that the experiment assumes, as data;
 //! * [`Trajectory`]: the plant under its controller, simulated once;
-//! * [`Experiment`]: identifiers with many random first layers over that trajectory, since the motion does not depend
+//! * [`Experiment`]: identifiers with many random first layers over that trajectory (`layers`), since the motion does not depend
 //!   on what an identifier makes of it; `identification`: one draw; `group`: eight draws side by side; `tally`: their
 //!   indices;
 //! * [`learning`]: which adaptive laws keep what they learn;
@@ -33,9 +34,15 @@
 //! ```
 
 mod error;
+#[cfg(feature = "paper")]
 mod experiment;
+#[cfg(feature = "paper")]
 mod group;
+#[cfg(feature = "paper")]
 mod identification;
+#[cfg(feature = "paper")]
+mod layers;
+#[cfg(feature = "paper")]
 pub mod learning;
 mod network_recipe;
 mod random;
@@ -43,21 +50,26 @@ mod recipe;
 mod rk4;
 pub mod rollout;
 pub mod statistics;
+#[cfg(feature = "paper")]
 pub mod table1;
+#[cfg(feature = "paper")]
 mod tally;
+#[cfg(feature = "paper")]
 mod trajectory;
 
 pub use error::SimError;
+#[cfg(feature = "paper")]
 pub use experiment::{Draw, Experiment, Trace};
-pub use identification::comparison;
 pub use network_recipe::{Input, NetworkRecipe, SIGNALS, Scaling, Signals};
-pub use random::{Purpose, Stream};
+pub use random::{Purpose, Stream, comparison};
 pub use recipe::{
     ControllerRecipe, IdentifierRecipe, Integrator, PathRecipe, Recipe, RobotSet, Scenario, Scenarios, Scheme,
     SpeedProfile, UNITS,
 };
 pub use rk4::rk4;
+#[cfg(feature = "paper")]
 pub use tally::OutputIndices;
+#[cfg(feature = "paper")]
 pub use trajectory::{EVENTS, Trajectory, Windows};
 
 /// The README's snippets, run as tests.

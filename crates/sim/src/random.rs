@@ -3,6 +3,9 @@
 use rand_core::Rng;
 use rand_pcg::Pcg64;
 
+/// Comparison weights are drawn between minus and plus this, rad/s²: the size that weights really take.
+const COMPARISON_RANGE: f64 = 30.0;
+
 /// What random numbers are used for. Streams of different purposes are independent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -50,6 +53,12 @@ impl Stream {
         let radius = (-2.0 * nalgebra::ComplexField::ln(1.0 - self.uniform(0.0, 1.0))).sqrt();
         radius * nalgebra::ComplexField::cos(self.uniform(0.0, std::f64::consts::TAU))
     }
+}
+
+/// Comparison weights W* for the certificates of a draw, one set per output, rad/s².
+pub fn comparison<const N: usize>(seed: u64, draw: u64) -> [[f64; N]; 2] {
+    let mut stream = Stream::new(seed, Purpose::Comparison, draw);
+    std::array::from_fn(|_| std::array::from_fn(|_| stream.uniform(-COMPARISON_RANGE, COMPARISON_RANGE)))
 }
 
 /// SplitMix64: one round of mixing.

@@ -10,8 +10,6 @@ use crate::{NetworkRecipe, SimError};
 pub const UNITS: usize = 6;
 /// Neurons per output of the wider network that the sensitivity table looks at.
 pub(crate) const WIDE: usize = 12;
-/// Neurons of the controller's network.
-pub(crate) const CONTROLLER_UNITS: usize = 8;
 
 /// The robots that the paper's experiment can be run with; the paper does not give its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -6,7 +6,6 @@ use robot_model::paper::{PaperRobot, Parameters, State};
 
 use crate::network_recipe::Signals;
 use crate::random::{Purpose, Stream};
-use crate::recipe::CONTROLLER_UNITS;
 use crate::recipe::Integrator;
 use crate::{Recipe, RobotSet, SimError};
 
@@ -136,6 +135,9 @@ impl Trajectory {
 fn length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
+
+/// Neurons of the controller's network.
+const CONTROLLER_UNITS: usize = 8;
 
 type LoopController = Tracking<f64, SigmoidLayer<f64, 4, CONTROLLER_UNITS>, CONTROLLER_UNITS>;
 

@@ -87,7 +87,7 @@ fn a_battery_sags_with_the_torque_of_both_sides() {
     // T (1 − 2 σ T) is what the robot takes.
     near(with, (1.0 - (1.0 - 8.0 * sigma * bare).sqrt()) / (4.0 * sigma), 1e-9);
     let (at, mut w) = instant(0.3);
-    effects::battery_sag::Law.apply(&[sigma, 0.0, 0.0, 0.0], &at, &mut w);
+    effects::battery_sag::Law.apply(&[sigma, 0.0, 0.0, 0.0, 0.0], &at, &mut w);
     let sum = at.torque[0].abs() + at.torque[1].abs();
     for j in 0..2 {
         near(w.torque[j], -sigma * sum * at.torque[j], 1e-15);

@@ -145,6 +145,11 @@ impl Study {
         draws: u64,
         done: impl Fn() + Sync,
     ) -> Result<Tried, SimError> {
+        self.all(contender, seed, draws, &done)
+    }
+
+    /// [`Study::ensemble`], compiled once and not in every crate that calls it.
+    fn all(&self, contender: Contender, seed: u64, draws: u64, done: &(dyn Fn() + Sync)) -> Result<Tried, SimError> {
         let scores: Result<Vec<_>, _> = (0..draws)
             .into_par_iter()
             .map(|draw| {

@@ -1,11 +1,8 @@
 //! Header stamps: those that nobody set are no instants, and the others are measured against the log times.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
 use std::io::Cursor;
 
-use common::{Bag, Kept, gyro};
+use crate::common::{Bag, Kept, gyro};
 use recordings::{HeaderStamps, Input, LossKind, Mapping, Policy, Read, ReadOptions, RecordingError, contents, read};
 
 const MAPPING: &str = r#"

@@ -36,7 +36,7 @@ fn folder() -> PathBuf {
 
 /// What is told of a file.
 fn told(name: &str, bytes: &[u8]) -> String {
-    let built_in = include_str!("../mappings/skid-steer-columns.toml");
+    let built_in = include_str!("../../mappings/skid-steer-columns.toml");
     let mapping = match Path::new(name).extension().and_then(|ending| ending.to_str()) {
         Some("csv") => Some(Mapping::parse("csv", built_in).unwrap()),
         Some("parquet") => Some(Mapping::parse("parquet", &built_in.replace("*.csv", "*.parquet")).unwrap()),

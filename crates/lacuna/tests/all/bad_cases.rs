@@ -1,8 +1,6 @@
 //! Cases that are not complete, and command lines that make no sense.
 
-mod common;
-
-use common::{Bench, drive};
+use crate::common::{Bench, drive};
 
 #[test]
 fn no_such_folder() {
@@ -72,7 +70,7 @@ fn wrong_usage_exits_with_2() {
 #[test]
 fn currents_without_their_constant() {
     let bench = Bench::new();
-    bench.write("r.toml", &common::ROBOT.replace("torque-driven", "speed-driven"));
+    bench.write("r.toml", &crate::common::ROBOT.replace("torque-driven", "speed-driven"));
     let text =
         drive(300, 0.0).replace("torque_left_Nm", "current_left_A").replace("torque_right_Nm", "current_right_A");
     bench.write("run.csv", &text);

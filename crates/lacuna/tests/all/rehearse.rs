@@ -1,10 +1,8 @@
 //! `lacuna rehearse` from files to shares of replicas, a page and JSON, and what it refuses.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::{Bench, ROBOT};
+use crate::common::{Bench, ROBOT};
 use serde_json::Value;
 
 /// Torques of 6 s, and nothing else.

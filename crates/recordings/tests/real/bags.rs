@@ -91,7 +91,7 @@ const KOBUKI: [&str; 3] = [
     "kobuki_run_a_mcap_zstd/kobuki_run_a_mcap_zstd.mcap",
 ];
 
-fn kobuki_wheels_currents_and_gyro_are_those_of_the_csv() -> Outcome {
+pub(crate) fn kobuki_wheels_currents_and_gyro_are_those_of_the_csv() -> Outcome {
     let data = data()?;
     let core = columns(&data.join("kobuki/run-a/core.csv"));
     let imu = columns(&data.join("kobuki/run-a/imu.csv"));
@@ -153,7 +153,7 @@ wheel_angle_left = { column = "position[0]", unit = "rad" }
 wheel_angle_right = { column = "position[1]", unit = "rad" }
 "#;
 
-fn kobuki_commands_and_odometry_are_those_of_the_csv() -> Outcome {
+pub(crate) fn kobuki_commands_and_odometry_are_those_of_the_csv() -> Outcome {
     let data = data()?;
     let core = columns(&data.join("kobuki/run-a/core.csv"));
     let commands = columns(&data.join("kobuki/run-a/cmd.csv"));
@@ -193,7 +193,7 @@ fn kobuki_commands_and_odometry_are_those_of_the_csv() -> Outcome {
     Ok(())
 }
 
-fn husky_speeds_currents_and_imu_are_those_of_the_csv() -> Outcome {
+pub(crate) fn husky_speeds_currents_and_imu_are_those_of_the_csv() -> Outcome {
     let data = data()?;
     let drives = columns(&data.join("husky-open/ASPHALT/pro_00.csv"));
     let imu = columns(&data.join("husky-open/ASPHALT/imu_00.csv"));
@@ -220,7 +220,7 @@ fn husky_speeds_currents_and_imu_are_those_of_the_csv() -> Outcome {
     Ok(())
 }
 
-fn the_contents_are_those_that_the_bags_describe() -> Outcome {
+pub(crate) fn the_contents_are_those_that_the_bags_describe() -> Outcome {
     let data = data()?;
     for bag in KOBUKI {
         let path = data.join("ros2-bags").join(bag);
@@ -240,7 +240,7 @@ fn the_contents_are_those_that_the_bags_describe() -> Outcome {
     Ok(())
 }
 
-fn built_in_definitions_decode_as_those_in_the_bags() -> Outcome {
+pub(crate) fn built_in_definitions_decode_as_those_in_the_bags() -> Outcome {
     let data = data()?;
     let path = data.join("ros2-bags").join(KOBUKI[1]);
     let inside = contents("kobuki", &mut File::open(&path).unwrap()).unwrap();
@@ -268,11 +268,3 @@ fn built_in_definitions_decode_as_those_in_the_bags() -> Outcome {
     assert_eq!((compared, readers.len()), (6521, 4));
     Ok(())
 }
-
-skipping::tests![
-    kobuki_wheels_currents_and_gyro_are_those_of_the_csv,
-    kobuki_commands_and_odometry_are_those_of_the_csv,
-    husky_speeds_currents_and_imu_are_those_of_the_csv,
-    the_contents_are_those_that_the_bags_describe,
-    built_in_definitions_decode_as_those_in_the_bags,
-];

@@ -1,12 +1,9 @@
 //! A survey finds what reading finds that keeps all samples, and what is inside bags, by one pass.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
 use std::fmt::Write as _;
 use std::io::Cursor;
 
-use common::{Bag, Kept, messages, wheel};
+use crate::common::{Bag, Kept, messages, wheel};
 use mcap::Compression;
 use recordings::{
     Contents, Fingerprint, Mapping, Opened, Policy, Quality, ReadOptions, contents, contents_of_beginning, read_from,

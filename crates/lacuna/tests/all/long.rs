@@ -1,8 +1,6 @@
 //! Recordings that are longer than what a diagnosis rests on.
 
-mod common;
-
-use common::Bench;
+use crate::common::Bench;
 use examiner::{Case, Content, EffectId, Setting, Settings, Severity, TyreLaw};
 use serde_json::Value;
 
@@ -47,7 +45,7 @@ fn a_long_recording_is_screened_whole_and_diagnosed_on_its_budget() {
     );
     assert!(run.out().contains("were screened but not diagnosed"), "{}", run.out());
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
-    common::reads_back(&bench.read("out.json"));
+    crate::common::reads_back(&bench.read("out.json"));
     let diagnosis = &json["diagnosis"];
     assert_eq!(diagnosis["ranked"][0]["effect"], "payload", "{}", run.out());
     let coverage = &diagnosis["coverage"]["recordings"];

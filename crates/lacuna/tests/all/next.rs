@@ -1,8 +1,6 @@
 //! `lacuna next` from files to advice, a profile and a picture.
 
-mod common;
-
-use common::Bench;
+use crate::common::Bench;
 use serde_json::Value;
 
 /// Wheel radius and half track of the bench's robot, m.
@@ -69,7 +67,7 @@ fn a_diagnosis_tells_the_next_drive_when_it_is_asked() {
     let run = bench.run(&["diagnose", "case", "--next", "--json", "d.json"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
     assert!(run.out().contains("The next drive"), "{}", run.out());
-    common::reads_back(&bench.read("d.json"));
+    crate::common::reads_back(&bench.read("d.json"));
     let run = bench.run(&["diagnose", "case", "--json", "-"]);
     let plain: Value = serde_json::from_str(&run.out()).unwrap();
     assert!(plain["diagnosis"]["next"].is_null());

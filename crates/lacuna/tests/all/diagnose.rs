@@ -1,10 +1,8 @@
 //! `lacuna diagnose` from files to a verdict, on a case of the blind examiner.
 
-mod common;
-
 use std::path::Path;
 
-use common::Bench;
+use crate::common::Bench;
 use examiner::{Case, Content, DrawnCase, EffectId, Setting, Settings, Severity, TyreLaw};
 use serde_json::Value;
 
@@ -51,7 +49,7 @@ fn a_case_folder_becomes_a_verdict_json_and_predictions() {
     assert_eq!(json["lost"].as_array().map(Vec::len), Some(0));
     assert_eq!(json["robot"]["causality"], "torque-driven");
     assert_eq!(json["sources"]["recordings"].as_array().map(Vec::len), Some(2));
-    common::reads_back(&bench.read("out.json"));
+    crate::common::reads_back(&bench.read("out.json"));
     let d = &json["diagnosis"];
     let trace = &d["traces"][0];
     assert_eq!((&trace["recording"], &trace["left_out"]), (&"run_1".into(), &true.into()));

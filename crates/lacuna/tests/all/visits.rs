@@ -1,8 +1,6 @@
 //! Drives of one day, place and load: named, found, and refused where they contradict each other.
 
-mod common;
-
-use common::{Bench, ROBOT, drive};
+use crate::common::{Bench, ROBOT, drive};
 
 /// References of two days in a folder each, and a recording.
 fn of_two_days() -> Bench {

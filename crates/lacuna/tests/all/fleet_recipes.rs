@@ -1,11 +1,9 @@
 //! The recipes of `docs/fleet.md` for many machines: their shell lines run, their files parse.
 
-mod common;
-
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::Bench;
+use crate::common::Bench;
 use serde_json::Value;
 
 /// The text of a block that the page says to write to a file.

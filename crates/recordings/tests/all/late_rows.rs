@@ -1,9 +1,6 @@
 //! Rows that were overtaken on their way are sorted by their stamps and counted, in every format.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
-use common::{Bag, wheel};
+use crate::common::{Bag, wheel};
 use proptest::prelude::*;
 use recordings::{Input, LossKind, Mapping, Policy, Read, ReadOptions, RecordingError, Signal, read};
 

@@ -1,11 +1,8 @@
 //! rosbag2's sqlite3 files: whole, compressed, old, cut and flipped.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
 use std::io::Cursor;
 
-use common::{Kept, WHEEL, keep, wheel};
+use crate::common::{Kept, WHEEL, keep, wheel};
 use recordings::{FileError, LossKind, Mapping, Opened, ReadOptions, RecordingError, Signal, messages, read_from};
 use rusqlite::Connection;
 

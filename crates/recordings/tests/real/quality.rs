@@ -50,7 +50,7 @@ fn near(value: f64, expected: f64, part: f64) -> bool {
     (value / expected - 1.0).abs() < part
 }
 
-fn kobuki_stamps_bursts_counters_and_steps() -> Outcome {
+pub(crate) fn kobuki_stamps_bursts_counters_and_steps() -> Outcome {
     for run in ["a", "b", "c", "d"] {
         let core = Table::read(&format!("kobuki/run-{run}/core.csv"), ',', 0)?;
         // 50 Hz by the stamps; by the arrivals too, but in bursts.
@@ -79,7 +79,7 @@ fn kobuki_stamps_bursts_counters_and_steps() -> Outcome {
     Ok(())
 }
 
-fn husky_set_points_dead_bands_and_made_up_stamps() -> Outcome {
+pub(crate) fn husky_set_points_dead_bands_and_made_up_stamps() -> Outcome {
     let runs = ["FLOORING/pro_01", "FLOORING/pro_02", "ASPHALT/pro_00", "ASPHALT/pro_01", "SANDY_LOAM/pro_08"];
     for run in runs {
         let drive = Table::read(&format!("husky-open/{run}.csv"), ',', 0)?;
@@ -116,7 +116,7 @@ fn husky_set_points_dead_bands_and_made_up_stamps() -> Outcome {
     Ok(())
 }
 
-fn drive_windows_restart_and_wheel_speeds_are_held() -> Outcome {
+pub(crate) fn drive_windows_restart_and_wheel_speeds_are_held() -> Outcome {
     for (robot, windows, held, step) in [("husky", 402, 0.5, 1e-6), ("warthog", 240, 0.8, 0.25_f64.to_radians())] {
         let table = Table::read(&format!("drive-husky/{robot}.csv"), ',', 0)?;
         for side in ["wheel_left", "wheel_right"] {
@@ -134,7 +134,7 @@ fn drive_windows_restart_and_wheel_speeds_are_held() -> Outcome {
     Ok(())
 }
 
-fn robotino_steps_of_speed_and_current_and_uneven_periods() -> Outcome {
+pub(crate) fn robotino_steps_of_speed_and_current_and_uneven_periods() -> Outcome {
     for run in ["v10_dir000", "v20_dir090", "v30_dir210"] {
         let table = Table::read(&format!("robotino-open/floor-a/{run}.csv"), ';', 2)?;
         let t_ns = table.stamps("t", 1e6);
@@ -151,7 +151,7 @@ fn robotino_steps_of_speed_and_current_and_uneven_periods() -> Outcome {
     Ok(())
 }
 
-fn no_good_channel_is_called_bad() -> Outcome {
+pub(crate) fn no_good_channel_is_called_bad() -> Outcome {
     let imu = Table::read("husky-open/ASPHALT/imu_00.csv", ',', 0)?;
     for name in ["wx", "wy", "wz", "ax", "ay", "az"] {
         let quality = imu.quality("time", name);
@@ -160,7 +160,7 @@ fn no_good_channel_is_called_bad() -> Outcome {
     Ok(())
 }
 
-fn each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole() -> Outcome {
+pub(crate) fn each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole() -> Outcome {
     let prints = |rows: std::ops::Range<usize>| {
         let of = |run| {
             let core = Table::read(&format!("kobuki/run-{run}/core.csv"), ',', 0)?;
@@ -178,12 +178,3 @@ fn each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole() -> Outcome {
     assert!(all[0].shared(&all[1]) < 0.05 && all[2].shared(&all[6]) > 0.95);
     Ok(())
 }
-
-skipping::tests![
-    kobuki_stamps_bursts_counters_and_steps,
-    husky_set_points_dead_bands_and_made_up_stamps,
-    drive_windows_restart_and_wheel_speeds_are_held,
-    robotino_steps_of_speed_and_current_and_uneven_periods,
-    no_good_channel_is_called_bad,
-    each_run_is_content_of_its_own_and_a_part_belongs_to_its_whole,
-];

@@ -1,11 +1,8 @@
 //! A source whose n-th read or search fails, for every n.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
-use common::{Bag, keep, messages};
+use crate::common::{Bag, keep, messages};
 use recordings::{FileError, Mapping, Opened, ReadOptions, RecordingError, read_from};
 
 /// Gives short reads, and fails one call of all.

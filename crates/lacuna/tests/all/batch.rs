@@ -1,14 +1,12 @@
 //! `lacuna batch` and `lacuna merge`: whatever the way to the table, its bytes are the same.
 
-mod common;
-
 use std::collections::HashMap;
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use common::Bench;
+use crate::common::Bench;
 use examiner::{Case, Content, EffectId, Setting, Settings, Severity, TyreLaw};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
@@ -171,7 +169,7 @@ fn alone(bench: &Bench, name: &str) {
         "-",
     ]);
     assert_eq!(run.out(), bench.read(&format!("whole/json/{name}")));
-    common::reads_back(&run.out());
+    crate::common::reads_back(&run.out());
 }
 
 /// A run that is killed after its first answers goes on where it was.

@@ -1,10 +1,8 @@
 //! `lacuna diagnose` for robots of which command, wheel speed and heading are recorded, and nothing else.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::Bench;
+use crate::common::Bench;
 use serde_json::Value;
 
 /// Steps of the command at 20 Hz; wheels follow with a lag of 0.3 s and the body turns on twice the track.
@@ -32,7 +30,7 @@ fn steps(count: u32, phase: f64) -> String {
 
 fn bench() -> Bench {
     let bench = Bench::empty();
-    bench.write("case/robot.toml", &common::ROBOT.replace("torque-driven", "command-driven"));
+    bench.write("case/robot.toml", &crate::common::ROBOT.replace("torque-driven", "command-driven"));
     bench.write("case/recordings/run_1.csv", &steps(20, 0.0));
     bench.write("case/heldout/run_2.csv", &steps(6, 0.5));
     bench
@@ -48,7 +46,7 @@ fn a_response_is_reported_without_any_reference() {
     }
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
     assert_eq!(json["robot"]["causality"], "command-driven");
-    common::reads_back(&bench.read("out.json"));
+    crate::common::reads_back(&bench.read("out.json"));
     let parameters = json["diagnosis"]["response"]["parameters"].as_array().unwrap();
     let value = |id: &str| parameters.iter().find(|p| p["id"] == id).and_then(|p| p["value"].as_f64());
     assert!(value("lag").is_some_and(|v| (v - 0.3).abs() < 0.03), "{parameters:?}");
@@ -95,7 +93,7 @@ fn the_page_is_the_same_at_once_and_from_the_json() {
 #[test]
 fn what_another_kind_of_robot_needs_is_named() {
     let bench = bench();
-    bench.write("torque.toml", common::ROBOT);
+    bench.write("torque.toml", crate::common::ROBOT);
     let run = bench.run(&["diagnose", "--robot", "torque.toml", "--recordings", "case/recordings"]);
     run.failed(&["run_1.csv", "no signal torque_left", "map a column to it"]);
 }

@@ -1,9 +1,7 @@
 //! Bags of robots that no built-in mapping knows: mapped by themselves for `check`, refused with the way on elsewhere.
 
-mod common;
-
-use common::bags::{bag, bag_with_filler, cdr, cmd_vel, imu, joint_states};
-use common::{Bench, ROBOT};
+use crate::common::bags::{bag, bag_with_filler, cdr, cmd_vel, imu, joint_states};
+use crate::common::{Bench, ROBOT};
 use serde_json::Value;
 
 const JACKAL: [&str; 4] =

@@ -1,11 +1,8 @@
 //! Mappings of topics: clocks, parts, optional fields, stamps in disorder, and what is said when something is missing.
 
-#[path = "../../bags/tests/common/mod.rs"]
-mod common;
-
 use std::io::Cursor;
 
-use common::{Bag, Kept, gyro, messages, wheel};
+use crate::common::{Bag, Kept, gyro, messages, wheel};
 use recordings::{Input, LossKind, Mapping, Policy, Read, ReadOptions, RecordingError, Signal, contents, read};
 
 const MAPPING: &str = r#"

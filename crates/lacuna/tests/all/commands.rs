@@ -1,10 +1,8 @@
 //! Commands that succeed: help, catalogue, identifier.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::{Bench, drive};
+use crate::common::{Bench, drive};
 use serde_json::Value;
 
 #[test]

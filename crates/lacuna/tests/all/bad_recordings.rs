@@ -1,10 +1,8 @@
 //! Recordings and mappings that cannot be used: one message with file, place and what to do; exit code 1.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::{Bench, HEADER, drive};
+use crate::common::{Bench, HEADER, drive};
 
 const RUN: &str = "case/recordings/run_1.csv";
 

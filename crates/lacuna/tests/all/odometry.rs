@@ -1,10 +1,8 @@
 //! `lacuna diagnose` for robots of which wheel counts and a pose are recorded.
 
-mod common;
-
 use std::fmt::Write as _;
 
-use common::Bench;
+use crate::common::Bench;
 use serde_json::Value;
 
 const ROBOT: &str = r#"

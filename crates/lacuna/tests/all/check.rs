@@ -1,8 +1,6 @@
 //! `lacuna check` and `lacuna convert`.
 
-mod common;
-
-use common::{Bench, drive};
+use crate::common::{Bench, drive};
 use serde_json::Value;
 
 const RUN: &str = "case/recordings/run_1.csv";

@@ -1,8 +1,6 @@
 //! Robot files that cannot be used: one message with file, line and key; exit code 1.
 
-mod common;
-
-use common::{Bench, ROBOT};
+use crate::common::{Bench, ROBOT};
 
 const FILE: &str = "case/robot.toml";
 
@@ -39,7 +37,7 @@ const FLAT: &str = r#"{
 }"#;
 
 /// Identifies with the flat robot, changed.
-fn flat(from: &str, to: &str) -> common::Run {
+fn flat(from: &str, to: &str) -> crate::common::Run {
     assert!(FLAT.contains(from));
     let bench = Bench::new();
     bench.write("flat.json", &FLAT.replacen(from, to, 1));

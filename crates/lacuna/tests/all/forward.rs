@@ -1,8 +1,6 @@
 //! `lacuna simulate` and `lacuna predict`: robot files forward.
 
-mod common;
-
-use common::{Bench, ROBOT, drive};
+use crate::common::{Bench, ROBOT, drive};
 use examiner::{Case, Content, EffectId, Setting, Settings, Severity, TyreLaw};
 use serde_json::Value;
 
