@@ -80,8 +80,13 @@ fn without_line(values: &mut [[f64; 3]]) {
     let n = values.len() as f64;
     let middle = 0.5 * (n - 1.0);
     let mean = values.iter().map(|v| v[0]).sum::<f64>() / n.max(1.0);
-    let slope = values.iter().enumerate().map(|(i, v)| (i as f64 - middle) * v[0]).sum::<f64>()
-        / (n * (n * n - 1.0) / 12.0).max(1.0);
+    let (mut product, mut square) = (0.0, 0.0);
+    for (i, v) in values.iter().enumerate() {
+        let from_middle = i as f64 - middle;
+        product += from_middle * v[0];
+        square += from_middle * from_middle;
+    }
+    let slope = if square > 0.0 { product / square } else { 0.0 };
     for (i, v) in values.iter_mut().enumerate() {
         v[0] -= mean + slope * (i as f64 - middle);
     }
