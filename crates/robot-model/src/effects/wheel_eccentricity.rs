@@ -7,7 +7,7 @@ use crate::effect::{
 use crate::scalar::Scalar;
 
 /// r(θ) = r + e(θ), e(θ) = (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel and − at its rear wheel;
-/// grip and rolling resistance of each in proportion to its load, times max(0, 1 + κ e(θ))
+/// grip and rolling resistance of each in proportion to its load, times 1 + κ e(θ), from 0 to 2
 ///
 /// Two wheels are out of true by amounts and at angles of their own; `√(e_c² + e_s² + d_c² + d_s²)` is the root mean
 /// square of their amounts. A wheel presses harder while its long side is down, by its stiffness over its load at rest, κ, if
@@ -19,7 +19,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     id: "wheel_eccentricity",
     name: "wheels of one side out of true",
     law: "r(θ) = r + e(θ), e(θ) = (e_c ± d_c) cos θ + (e_s ± d_s) sin θ on one side, + at its front wheel, − at its rear \
-        wheel; grip and rolling resistance of each times max(0, 1 + κ e(θ))",
+        wheel; grip and rolling resistance of each times 1 + κ e(θ), from 0 to 2",
     seen: "Speed and heading ripple once per turn of the wheel, most of all in turns where the load on the wheel ripples too.",
     parameters: &[
         Parameter::strength("cosine", "m", [-0.05, 0.05], &[0.003]),
@@ -55,7 +55,8 @@ impl<T: Scalar> Effect<T> for Law {
             let (sin, cos) = at.wheel_angle[j].sin_cos();
             let rise = [(v[0] + v[2]) * cos + (v[1] + v[3]) * sin, (v[0] - v[2]) * cos + (v[1] - v[3]) * sin];
             for (i, rise) in [(j, rise[0]), (j + 2, rise[1])] {
-                let load = (T::one() + v[4] * rise).max(T::zero());
+                // Not below nothing, and not above twice: it lifts its neighbour then.
+                let load = (T::one() + v[4] * rise).max(T::zero()).min(T::one() + T::one());
                 c.radius[i] += rise;
                 c.adhesion[i] *= load;
                 c.rolling[i] *= load;

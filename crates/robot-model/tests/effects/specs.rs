@@ -32,7 +32,7 @@ pub(crate) fn is_sound(spec: &EffectSpec) {
     let grows = |p: &&Parameter| p.role != Role::Shape && p.scale == Scale::Own && of_size.contains(&p.unit);
     let by_itself = spec.sized_by == SizedBy::Itself;
     assert_eq!(spec.parameters.iter().find(grows).is_none(), by_itself, "{}: its size grows with the robot", spec.id);
-    let units = ["-", "m", "s", "rad", "rad/s", "kg", "N", "N m", "N m s/rad", "N s²/m²", "m/s²", "1/(N m)"];
+    let units = ["-", "m", "1/m", "s", "rad", "rad/s", "kg", "N", "N m", "N m s/rad", "N s²/m²", "m/s²", "1/(N m)"];
     let id = spec.id;
     for (what, text) in [
         ("name", spec.name),
