@@ -68,7 +68,7 @@ fn what_is_hidden_is_named_first() {
 }
 
 #[test]
-fn healthy_robots_are_not_alarmed_and_intervals_hold_the_truth() {
+fn fault_free_robots_are_not_alarmed_and_intervals_hold_the_truth() {
     let (mut alarms, mut inside, mut constants, mut cases) = (Vec::new(), 0_usize, 0_usize, 0);
     for kind in KINDS {
         for seed in 0..40 {

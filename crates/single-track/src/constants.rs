@@ -29,7 +29,10 @@ pub enum Quantity {
     BackEmf,
     Friction,
     Viscous,
+    MotorBraking,
+    Drag,
     DriveLag,
+    DriveDelay,
     PointX,
     PointY,
     Direction,
@@ -87,6 +90,8 @@ impl Constant {
                 | Q::BackEmf
                 | Q::Friction
                 | Q::Viscous
+                | Q::MotorBraking
+                | Q::Drag
                 | Q::DriveLag
         )
     }
@@ -101,7 +106,7 @@ impl Constant {
 #[expect(clippy::too_many_lines, reason = "a table")]
 pub fn constants(car: &Car) -> Vec<Constant> {
     use Quantity as Q;
-    let (known, usual, scatter) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter);
+    let (known, usual, scatter, form) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter, SETTINGS.form);
     let mut out = Vec::new();
     let mut add = |quantity, name, unit, is_factor: bool, stated: Stated, usual, scatter, cause| {
         let sigma = if is_factor { stated.share() } else { stated.sigma };
@@ -110,13 +115,16 @@ pub fn constants(car: &Car) -> Vec<Constant> {
     let none = |sigma: f64| Stated::usual(0.0, sigma);
     let usually = |[value, share]: [f64; 2]| Stated::usual(value, value * share);
     let flat = |[value, sigma]: [f64; 2]| Stated::usual(value, sigma);
+    // What is stated is a number of another law than the model's.
+    let and = |stated: Stated, sigma: f64| Stated { sigma: stated.sigma.hypot(sigma), ..stated };
+    let and_share = |stated: Stated, share: f64| and(stated, share * stated.value);
 
     add(
         Q::FullSteering,
         "steering angle at full command",
         "rad",
         true,
-        car.full_steering,
+        and_share(car.full_steering, form.full),
         usual.gain,
         scatter.gain,
         &spec::STEERING_COMMAND_GAIN,
@@ -156,7 +164,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "dead time of the steering",
         "s",
         false,
-        car.steering_delay,
+        and(car.steering_delay, form.time),
         usual.delay,
         scatter.delay,
         &spec::STEERING_DELAY,
@@ -166,7 +174,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "time constant of the steering",
         "s",
         false,
-        car.steering_lag,
+        and(car.steering_lag, form.time),
         usual.delay,
         scatter.delay,
         &spec::STEERING_LAG,
@@ -257,7 +265,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "acceleration at full throttle",
         "m/s²",
         true,
-        car.drive_gain,
+        and_share(car.drive_gain, form.drive_gain),
         usual.drive_gain,
         scatter.drive_gain,
         &spec::DRIVE_GAIN,
@@ -267,7 +275,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "dead zone of the throttle",
         "1",
         false,
-        car.dead_zone,
+        and(car.dead_zone, form.dead_zone),
         usual.dead_zone,
         scatter.dead_zone,
         &spec::THROTTLE_DEAD_ZONE,
@@ -303,12 +311,42 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         &spec::DRIVE_FRICTION,
     );
     add(
+        Q::MotorBraking,
+        "acceleration lost per speed while there is throttle",
+        "1/s",
+        false,
+        flat(known.motor_braking),
+        usual.motor_braking,
+        scatter.viscous,
+        &spec::TOP_SPEED,
+    );
+    add(
+        Q::Drag,
+        "deceleration per square of the speed",
+        "1/m",
+        false,
+        flat(known.drag),
+        usual.drag,
+        scatter.drag,
+        &spec::DRIVE_FRICTION,
+    );
+    add(
         Q::DriveLag,
         "time constant of the drive",
         "s",
         false,
         flat(known.drive_lag),
         usual.delay,
+        scatter.delay,
+        &spec::DRIVE_LAG,
+    );
+    add(
+        Q::DriveDelay,
+        "dead time of the drive",
+        "s",
+        false,
+        flat(known.drive_delay),
+        usual.drive_delay,
         scatter.delay,
         &spec::DRIVE_LAG,
     );

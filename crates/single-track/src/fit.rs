@@ -213,17 +213,6 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     Some(out)
 }
 
-/// Fits the constants anew from where a fit ended, with its scales and scatter.
-pub(crate) fn refit(data: &Data<'_>, prior: &Prior, from: Fit) -> Option<Fit> {
-    let rules = SETTINGS.fitting;
-    let information = prior.covariance.clone().cholesky()?.inverse();
-    let settings =
-        Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
-    let problem = Driven { data, prior, information, scatter: data.scatter(from.factor), scales: from.scales };
-    let at = minimise(&problem, problem.at(from.theta), &settings).at;
-    Some(Fit { theta: at.theta, sessions: at.sessions, ..from })
-}
-
 /// A fit without one of its drives: equations and scales of the others, about where it ended.
 pub(crate) fn without(data: &Data<'_>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
     let mut out = fit.clone();

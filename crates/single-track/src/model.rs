@@ -1,7 +1,7 @@
 //! The single-track car: steering servo, drive, tyres, and its motion over a grid of steps.
 //!
 //! Steering: command `u` to angle `δ = A u + A₂ |u| u³/|u|… ` by [`Laws::map`], then dead time, lag, a largest rate and play.
-//! Drive: `v̇ = g e − (c₁ + c₂ |e|) v − f sgn v + v_y r − λ_f f_f δ` with the throttle `e` beyond the dead zone, after its lag.
+//! Drive: `v̇ = g e − (c₁ + c₂ |e| + c₃ [e ≠ 0] + c₄ |v|) v − f sgn v + v_y r − λ_f f_f δ` with the throttle `e` beyond the dead zone, after its lag.
 //! Tyres: side acceleration of an axle `f = α/√(k² + (α q)²)` at a slip angle `α`: compliance `k` (rad s²/m), largest `1/q`.
 //! Lateral velocity and yaw rate take implicit steps, stable at every speed; for `k → 0` they are those of the kinematic car
 //! (Kiencke & Nielsen, Automotive Control Systems; CommonRoad vehicle models).
@@ -49,7 +49,10 @@ pub(crate) struct Laws {
     pub(crate) back_emf: f64,
     pub(crate) friction: f64,
     pub(crate) viscous: f64,
+    pub(crate) motor_braking: f64,
+    pub(crate) drag: f64,
     pub(crate) drive_lag: f64,
+    pub(crate) drive_delay: f64,
     pub(crate) point: [f64; 2],
     pub(crate) direction: f64,
     pub(crate) clock: f64,
@@ -112,7 +115,7 @@ impl Laws {
             held = held.clamp(angle - self.play.abs(), angle + self.play.abs());
             out.steering.push(signed(self.play, angle, held));
 
-            let u = drive.throttle.mean(time);
+            let u = drive.throttle.mean(time - self.drive_delay);
             let pushed = (u.abs() - self.dead_zone).max(0.0) * u.signum();
             effort += (pushed - effort) * of_drive;
             out.throttle.push(signed(self.drive_lag, pushed, effort));
@@ -130,6 +133,15 @@ impl Laws {
             return (c * x.atan()).sin() / x / (k * c);
         }
         1.0 / (k * k + (slip * q).powi(2)).sqrt()
+    }
+
+    /// Speed after a step with a push, where cornering costs some deceleration.
+    pub(crate) fn speed_after(&self, speed: f64, effort: f64, side_drag: f64) -> f64 {
+        let driven = speed + STEP * (self.gain * effort - side_drag);
+        let on = (effort.abs() / RULES.throttle_on).min(1.0);
+        let of_motor = self.back_emf * effort.abs() + self.motor_braking * on;
+        let damped = driven / (1.0 + STEP * (self.viscous + of_motor + self.drag * speed.abs()).max(0.0));
+        damped.signum() * (damped.abs() - STEP * self.friction).max(0.0)
     }
 
     /// One step.
@@ -164,9 +176,7 @@ impl Laws {
             let force = a * (before.speed * tan - s.side - front * s.rate) / slow;
             side_drag = share * force * steering.sin() - s.side * s.rate;
         }
-        let driven = s.speed + STEP * (self.gain * effort - side_drag);
-        let damped = driven / (1.0 + STEP * (self.viscous + self.back_emf * effort.abs()).max(0.0));
-        s.speed = damped.signum() * (damped.abs() - STEP * self.friction).max(0.0);
+        s.speed = self.speed_after(s.speed, effort, side_drag);
 
         // The middle of the step.
         let yaw = s.yaw + 0.5 * STEP * s.rate;

@@ -1,8 +1,8 @@
 //! What a drive shows, row by row: windows of its pose against the model, and the car's reports against pose or model.
 
-use crate::constants::Constant;
+use crate::constants::{Constant, Quantity};
 use crate::drive::{Drive, Message};
-use crate::model::{Laws, STEP, State};
+use crate::model::{Inputs, Laws, STEP, State};
 use crate::settings::{SETTINGS, Windows};
 
 const RULES: Windows = SETTINGS.windows;
@@ -48,30 +48,40 @@ pub(crate) struct Shown<'a> {
     encoder_window: f64,
 }
 
-/// Rates at a step by a parabola through the poses of the steps from `first` to `last`: slope at the step.
+/// Rates at a step by a parabola through the steps from `first` to `last`: slope at the step. The way is added up in the axes
+/// of the car, so that a turn does not shorten it.
 pub(crate) fn slope(pose: &[[f64; 3]], first: usize, last: usize, at: usize) -> Option<[f64; 3]> {
-    let n = (last + 1).checked_sub(first)? as f64;
-    let middle = 0.5 * (first + last) as f64;
-    let x = |k: usize| k as f64 - middle;
-    let (mut s2, mut s4) = (0.0, 0.0);
-    for k in first..=last {
+    let mut way = Vec::with_capacity(last.saturating_sub(first) + 1);
+    let mut sum = [0.0; 3];
+    way.push(sum);
+    for k in first..last {
+        let (a, b) = (pose.get(k)?, pose.get(k + 1)?);
+        let (sin, cos) = (0.5 * (a[2] + b[2])).sin_cos();
+        let d = [b[0] - a[0], b[1] - a[1]];
+        sum = [sum[0] + d[0] * cos + d[1] * sin, sum[1] + d[1] * cos - d[0] * sin, sum[2] + b[2] - a[2]];
+        way.push(sum);
+    }
+    let [ahead, left, turning] = [0, 1, 2].map(|axis| parabola(way.iter().map(|w| w[axis]), at.checked_sub(first)));
+    let (sin, cos) = pose.get(at)?[2].sin_cos();
+    let out = [ahead * cos - left * sin, ahead * sin + left * cos, turning];
+    out.iter().all(|r| r.is_finite()).then_some(out)
+}
+
+/// Slope, per second, at a step of the parabola through values of steps.
+fn parabola(values: impl ExactSizeIterator<Item = f64>, at: Option<usize>) -> f64 {
+    let n = values.len() as f64;
+    let x = |k: usize| k as f64 - 0.5 * (n - 1.0);
+    let (mut s2, mut s4, mut sum, mut sx, mut sxx) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for (k, y) in values.enumerate() {
         s2 += x(k).powi(2);
         s4 += x(k).powi(4);
+        sum += y;
+        sx += x(k) * y;
+        sxx += x(k).powi(2) * y;
     }
     let bend = s4 - s2 * s2 / n;
-    let mut out = [0.0; 3];
-    for (axis, rate) in out.iter_mut().enumerate() {
-        let (mut sum, mut sx, mut sxx) = (0.0, 0.0, 0.0);
-        for k in first..=last {
-            let y = pose.get(k)?[axis] - pose[at][axis];
-            sum += y;
-            sx += x(k) * y;
-            sxx += x(k).powi(2) * y;
-        }
-        let second = if n > 3.0 { (sxx - s2 * sum / n) / bend } else { 0.0 };
-        *rate = (sx / s2 + 2.0 * second * x(at)) / STEP;
-    }
-    out.iter().all(|r| r.is_finite()).then_some(out)
+    let second = if n > 3.0 { (sxx - s2 * sum / n) / bend } else { 0.0 };
+    at.map_or(f64::NAN, |at| (sx / s2 + 2.0 * second * x(at)) / STEP)
 }
 
 /// Smoothed pose and rates at the end of the steps from `first` to `last`.
@@ -101,11 +111,15 @@ impl<'a> Shown<'a> {
             from += every;
         }
         if drive.has_pose() {
+            // Their errors are those of the smoothed pose, which is one and the same within its smoothing.
+            let seconds = drive.messages.last().zip(drive.messages.first()).map_or(0.0, |(b, a)| b.time - a.time);
+            let period = seconds / drive.messages.len().max(1) as f64;
+            let weight = (0.5 * period / SETTINGS.grid.smoothing).min(1.0);
             for message in &drive.messages {
                 for (kind, there) in [(Kind::Gyro, message.gyro), (Kind::Encoder, message.encoder)] {
                     if there.is_some() {
                         let moving = out.rate_at(message.time).is_some_and(|r| r[0].hypot(r[1]) > RULES.moving);
-                        out.rows.push(Row { kind, time: message.time, is_moving: moving, weight: 1.0 });
+                        out.rows.push(Row { kind, time: message.time, is_moving: moving, weight });
                     }
                 }
             }
@@ -170,13 +184,38 @@ impl<'a> Shown<'a> {
     }
 
     /// The state at the beginning of a window.
-    fn start(&self, laws: &Laws, from: usize) -> State {
+    fn start(&self, laws: &Laws, inputs: &Inputs, from: usize) -> State {
         if self.drive.has_pose() {
-            return laws.state(self.drive.pose[from], self.rates[from]);
+            let mut out = laws.state(self.drive.pose[from], self.rates[from]);
+            out.speed -= self.smoothed_too_fast(laws, inputs, from, out.speed);
+            return out;
         }
         let [encoder, gyro] = self.report_at(STEP * from as f64 + laws.clock).unwrap_or_default();
         let rate = (gyro - laws.gyro_bias) / laws.gyro_scale;
         State { place: [0.0; 2], yaw: 0.0, speed: encoder / laws.encoder_scale, side: laws.rear * rate, rate }
+    }
+
+    /// By how much the parabola about a step shows another speed than that of the step where the push changes about it, m/s: the
+    /// same parabola through the way of the model. Without this every change of the throttle seems to come late.
+    fn smoothed_too_fast(&self, laws: &Laws, inputs: &Inputs, from: usize, speed: f64) -> f64 {
+        let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
+        let Some(efforts) = from.checked_sub(half).and_then(|first| inputs.throttle.get(first..from + half)) else {
+            return 0.0;
+        };
+        // Speed and way of a straight drive with these pushes; only how they change matters.
+        let (mut v, mut way, mut at) = (speed, 0.0, speed);
+        let mut ways = Vec::with_capacity(2 * half + 1);
+        ways.push(way);
+        for (k, effort) in efforts.iter().enumerate() {
+            if k == half {
+                at = v;
+            }
+            let next = laws.speed_after(v, *effort, 0.0);
+            way += 0.5 * STEP * (v + next);
+            v = next;
+            ways.push(way);
+        }
+        parabola(ways.into_iter(), Some(half)) - at
     }
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
@@ -184,7 +223,7 @@ impl<'a> Shown<'a> {
         let inputs = laws.inputs(self.drive);
         let mut out = Vec::with_capacity(self.rows.len());
         for &window in &self.windows {
-            let states = laws.run(self.start(laws, window.from), &inputs, window.from, window.steps);
+            let states = laws.run(self.start(laws, &inputs, window.from), &inputs, window.from, window.steps);
             if self.drive.has_pose() {
                 for steps in [window.steps / 2, window.steps] {
                     out.extend(pose_error(laws.tracked(&states[steps - 1]), self.drive.pose[window.from + steps]));
@@ -232,7 +271,9 @@ impl<'a> Shown<'a> {
     /// Changes of the errors with each constant, by central differences.
     pub(crate) fn columns(&self, constants: &[Constant], theta: &[f64]) -> Vec<Vec<f64>> {
         let of = |k: usize| {
-            let step = RULES.difference * constants[k].usual;
+            let is_rate = constants[k].quantity == Quantity::Slowness;
+            let difference = if is_rate { RULES.difference_of_rate } else { RULES.difference };
+            let step = difference * constants[k].usual;
             let at = |sign: f64| {
                 let mut moved = theta.to_vec();
                 moved[k] += sign * step;

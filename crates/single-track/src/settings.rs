@@ -28,6 +28,8 @@
         least_share: f64 = 0.1, "1", "guess; no car stands on its front wheels alone";
         /// Shape factor C of the Pacejka tyre of the rival.
         pacejka_shape: f64 = 1.4, "1", "Pacejka, Tyre and Vehicle Dynamics: 1.3 to 1.65 for side force";
+        /// Throttle beyond the dead zone at which a motor is switched on in full.
+        throttle_on: f64 = 0.02, "1", "guess; a step of the throttle of usual remote controls";
         /// Least distances and rates that count as above none.
         tiny: f64 = 1e-9, "1", "far above rounding, far below anything measured";
     }
@@ -56,6 +58,8 @@
         least: usize = 8, "1", "guess";
         /// Step of finite differences, shares of a cause's usual size.
         difference: f64 = 0.01, "1", "guess; the dead zone's corner is crossed by few rows";
+        /// The same of the time that the steering takes for a radian: small ones change nothing, for no step is that fast.
+        difference_of_rate: f64 = 0.3, "1", "guess; 0.15 s/rad, which a step of 0.3 rad shows";
     }
 
     /// Fits of all constants.
@@ -87,7 +91,7 @@
         /// Delays, lags.
         delay: f64 = 0.02, "s", "guess; a few periods of usual logs";
         /// Time that the steering takes for a radian.
-        slowness: f64 = 0.02, "s/rad", "guess; a fast servo takes 0.1 s for 60 degrees";
+        slowness: f64 = 0.1, "s/rad", "usual servos take 0.05 to 0.2 s for 60 degrees";
         /// Play of the steering.
         play: f64 = 0.005, "rad", "guess";
         /// Distances.
@@ -110,8 +114,14 @@
         friction: [f64; 2] = [0.5, 1.5], "m/s²", "small gears; nothing is known of a drive not stated";
         /// Viscous friction of the drive.
         viscous: [f64; 2] = [0.3, 1.0], "1/s", "nothing is known of a drive not stated";
+        /// Loss of acceleration with speed while there is throttle at all: back-EMF of a motor that rolls free without.
+        motor_braking: [f64; 2] = [0.5, 1.5], "1/s", "nothing is known of a motor not stated";
+        /// Deceleration with the square of the speed.
+        drag: [f64; 2] = [0.05, 0.1], "1/m", "air and tyres; nothing is known of a car not stated";
         /// Lag of the motor.
         drive_lag: [f64; 2] = [0.05, 0.1], "s", "nothing is known of a motor not stated";
+        /// Dead time of the motor.
+        drive_delay: [f64; 2] = [0.01, 0.04], "s", "buses and drivers; nothing is known of a motor not stated";
         /// Place of the tracked point.
         point: f64 = 0.005, "m", "a tape measure";
         /// Direction of the tracked axes.
@@ -122,6 +132,19 @@
         gyro_bias: f64 = 0.01, "rad/s", "data sheets of small gyros, after a start at rest";
         /// Radius of the wheels that the encoder's speed is computed with.
         radius: f64 = 0.02, "share", "guess; rubber under load";
+    }
+
+    /// By how much a number of the owner's differs from that of the model because a car has another law than the model: one
+    /// sigma, beside that of the owner.
+    form: Form {
+        /// Times of steering, drive and sensors.
+        time: f64 = 0.012, "s", "guess; a servo of second order and one with a lag agree to a part of their times";
+        /// Acceleration at full throttle.
+        drive_gain: f64 = 0.12, "share", "guess; a motor's push is no straight line over throttle and speed";
+        /// Dead zone of the throttle.
+        dead_zone: f64 = 0.02, "1", "guess; dry friction is part of what an owner finds";
+        /// Steering angle at full command.
+        full: f64 = 0.02, "share", "guess; linkages, and axles that steer with load";
     }
 
     /// Usual sizes of causes: one sigma about none.
@@ -158,6 +181,12 @@
         friction: f64 = 1.0, "m/s²", "guess";
         /// Viscous friction.
         viscous: f64 = 0.5, "1/s", "guess";
+        /// Dead time of the motor.
+        drive_delay: f64 = 0.04, "s", "as it is known";
+        /// Loss of acceleration with speed while there is throttle.
+        motor_braking: f64 = 1.0, "1/s", "guess";
+        /// Deceleration with the square of the speed.
+        drag: f64 = 0.1, "1/m", "guess";
         /// Place of the tracked point.
         point: f64 = 0.05, "m", "guess";
         /// Direction of the tracked axes.
@@ -193,6 +222,8 @@
         friction: f64 = 0.05, "m/s²", "guess; temperature of gears";
         /// Friction, viscous, and back-EMF.
         viscous: f64 = 0.03, "1/s", "guess; temperature of gears";
+        /// Deceleration with the square of the speed.
+        drag: f64 = 0.005, "1/m", "guess; floor and temperature of tyres";
         /// Place of the tracked point.
         point: f64 = 1e-3, "m", "guess; motion capture is set up anew";
         /// Direction of the tracked axes.
@@ -225,6 +256,8 @@
 
     /// When something is left that no cause accounts for.
     naming: Naming {
+        /// Fits with what was named before, at most.
+        rounds: usize = 4, "1", "guess; two are usual";
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
         left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
         /// Share of the re-tuned error that has to be left then.

@@ -8,7 +8,7 @@ use crate::car::Car;
 use crate::cause::causes;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::{Data, Fit, Prior, fit, refit, sessions, without};
+use crate::fit::{Data, Fit, Prior, fit, sessions, without};
 use crate::settings::SETTINGS;
 use inference::robust::NINETY;
 
@@ -57,21 +57,34 @@ impl Solved<'_> {
     }
 }
 
-/// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
+/// Fits what is known, weighs the causes about that fit, and fits anew with what they name, until the same are named.
+///
+/// A fit in which every cause is free would say the same by many of them at once, each a little.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
-    let every: Vec<usize> = (0..causes.len()).collect();
-    let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
-    let fit = fit(data, &wide, start)?;
-    let first = named_about(data, prior, causes, &fit)?;
-    // The equations of the wide fit hold about it only: the answer is fitted anew with what it names.
-    let set: Vec<usize> = first.chosen.iter().map(|w| w.cause).collect();
-    let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
-    let fit = refit(data, &narrow, fit)?;
-    let mut named = named_about(data, prior, causes, &fit)?;
-    named.posterior.mean = DVector::from_column_slice(&fit.theta);
+    let mut about = fit(data, prior, start)?;
+    let mut named = named_about(data, prior, causes, &about)?;
+    let mut tried: Vec<Vec<usize>> = Vec::new();
+    for _ in 0..SETTINGS.naming.rounds {
+        let mut set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
+        set.sort_unstable();
+        if set.is_empty() || tried.contains(&set) {
+            break;
+        }
+        let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+        about = fit(data, &narrow, about.theta)?;
+        named = named_about(data, prior, causes, &about)?;
+        tried.push(set);
+    }
+    // About where it stands the fit is what it was fitted to be.
+    if tried
+        .last()
+        .is_some_and(|set| named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)))
+    {
+        named.posterior.mean = DVector::from_column_slice(&about.theta);
+    }
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);
-    Some((fit, named))
+    Some((about, named))
 }
 
 /// A cause whose constants are all where they were known to be, by their 90 % intervals, is none.

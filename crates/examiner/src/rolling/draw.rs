@@ -19,6 +19,9 @@ const RECORDINGS: usize = 4;
 const KNOWN: [f64; 2] = [0.008, 0.012];
 /// The same of steering, rad, and its gain.
 const STEERING: [f64; 2] = [0.008, 0.01];
+/// The same of the effective track of sides that skid, as a share, and of the point about which they turn, m.
+const SKIDDING: f64 = 0.12;
+const TURNS_ABOUT: f64 = 0.02;
 /// By how much radii and distances differ from session to session, as a share.
 const SESSION: f64 = 0.001;
 
@@ -29,7 +32,7 @@ pub(super) fn case(plan: &RollingPlan) -> RollingCase {
     let stated = stated(plan.chassis, &mut s);
     let counts = s.uniform(1500.0, 10_000.0).round();
 
-    let mut robot = as_built(&stated, &mut stream("rolling errors"));
+    let mut robot = as_built(plan.chassis, &stated, &mut stream("rolling errors"));
     let mut truth = RollingTruth {
         case: plan.name.clone(),
         chassis: plan.chassis,
@@ -57,7 +60,17 @@ pub(super) fn case(plan: &RollingPlan) -> RollingCase {
 fn stated(chassis: Chassis, s: &mut Stream) -> Robot {
     let radius = s.uniform(0.03, 0.12);
     let reach = s.uniform(0.1, 0.35);
-    let wheel = |name: &str, place: [f64; 2], direction: f64| Wheel { name: name.to_owned(), place, direction, radius };
+    let wheel = |name: &str, place: [f64; 2], direction: f64| Wheel {
+        name: name.to_owned(),
+        place,
+        direction,
+        radius,
+        roller: if chassis.is_omni() { 0.5 * PI } else { 0.0 },
+    };
+    let mecanum = |name: &str, [x, y]: [f64; 2], side: f64| Wheel {
+        roller: 0.25 * PI * side,
+        ..wheel(name, [x * reach, y * reach], 0.0)
+    };
     let around = |count: usize, first: f64| -> Vec<Wheel> {
         let one = |k: usize| {
             let at = first + TAU * k as f64 / count as f64;
@@ -70,6 +83,16 @@ fn stated(chassis: Chassis, s: &mut Stream) -> Robot {
         Chassis::Tricycle => vec![wheel("front", [2.0 * reach, 0.0], 0.0)],
         Chassis::Omni3 => around(3, PI / 3.0),
         Chassis::Omni4 => around(4, 0.25 * PI),
+        Chassis::Mecanum4 => vec![
+            mecanum("front left", [1.0, 0.9], 1.0),
+            mecanum("front right", [1.0, -0.9], -1.0),
+            mecanum("rear left", [-1.0, 0.9], -1.0),
+            mecanum("rear right", [-1.0, -0.9], 1.0),
+        ],
+        // The owner takes the effective track to be wider than the measured one.
+        Chassis::SkidSteer => {
+            vec![wheel("left side", [0.0, 1.5 * reach], 0.0), wheel("right side", [0.0, -1.5 * reach], 0.0)]
+        }
     };
     Robot {
         wheels,
@@ -80,6 +103,7 @@ fn stated(chassis: Chassis, s: &mut Stream) -> Robot {
         rate_slip: 0.0,
         speed_slip: 0.0,
         roller_slip: 0.0,
+        turns_about: 0.0,
         mounting: 0.0,
         origin: [0.0; 2],
         clock_offset: 0.0,
@@ -88,9 +112,12 @@ fn stated(chassis: Chassis, s: &mut Stream) -> Robot {
 }
 
 /// The robot as it is: within what its owner states.
-fn as_built(stated: &Robot, s: &mut Stream) -> Robot {
+fn as_built(chassis: Chassis, stated: &Robot, s: &mut Stream) -> Robot {
     let mut out = stated.clone();
-    scale_places(&mut out, 1.0 + s.normal(KNOWN[1]));
+    scale_places(&mut out, 1.0 + s.normal(track_share(chassis)));
+    if chassis == Chassis::SkidSteer {
+        out.turns_about = s.normal(TURNS_ABOUT);
+    }
     for wheel in &mut out.wheels {
         wheel.radius *= 1.0 + s.normal(KNOWN[0]);
     }
@@ -107,6 +134,11 @@ fn of_session(robot: &Robot, s: &mut Stream) -> Robot {
     scale_places(&mut out, 1.0 + s.normal(SESSION));
     out.wheels.iter_mut().for_each(|w| w.radius *= 1.0 + s.normal(SESSION));
     out
+}
+
+/// How well the track is known, one sigma, as a share.
+fn track_share(chassis: Chassis) -> f64 {
+    if chassis == Chassis::SkidSteer { SKIDDING } else { KNOWN[1] }
 }
 
 fn scale_places(robot: &mut Robot, factor: f64) {
@@ -131,7 +163,10 @@ fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTrut
         Hidden::Distance => {
             scale_places(robot, 1.0 + s.sign() * s.uniform(0.08, 0.2));
             let [x, y] = robot.wheels[0].place;
-            note("distance", if robot.wheels.len() == 2 { 2.0 * y } else { x.hypot(y) });
+            // Track and wheelbase of a mecanum robot show as their sum only.
+            if robot.wheels[0].roller.tan().abs() > 2.0 || robot.wheels[0].roller == 0.0 {
+                note("distance", if robot.wheels.len() == 2 { 2.0 * y } else { x.hypot(y) });
+            }
         }
         Hidden::SteeringZero => {
             robot.steering_zero += s.sign() * s.uniform(0.05, 0.12);
@@ -167,7 +202,7 @@ fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTrut
 }
 
 /// A smooth motion of the body: its velocities at every step.
-fn motion(chassis: Chassis, seconds: f64, s: &mut Stream) -> Vec<[f64; 3]> {
+fn motion(chassis: Chassis, turns_about: f64, seconds: f64, s: &mut Stream) -> Vec<[f64; 3]> {
     let (fastest, turn) = (s.uniform(0.4, 1.0), s.uniform(0.6, 1.2));
     let keep = (-STEP / s.uniform(0.2, 0.5)).exp();
     let steps = (seconds / STEP) as usize;
@@ -179,8 +214,10 @@ fn motion(chassis: Chassis, seconds: f64, s: &mut Stream) -> Vec<[f64; 3]> {
             until = k + (s.uniform(1.5, 5.0) / STEP) as usize;
             wanted = match chassis {
                 Chassis::Tricycle => [s.uniform(0.3, 1.0) * fastest, 0.0, 0.0],
-                Chassis::Differential => [s.uniform(-0.4, 1.0) * fastest, 0.0, s.uniform(-1.0, 1.0) * turn],
-                Chassis::Omni3 | Chassis::Omni4 => {
+                Chassis::Differential | Chassis::SkidSteer => {
+                    [s.uniform(-0.4, 1.0) * fastest, 0.0, s.uniform(-1.0, 1.0) * turn]
+                }
+                Chassis::Omni3 | Chassis::Omni4 | Chassis::Mecanum4 => {
                     [s.uniform(-1.0, 1.0) * fastest, s.uniform(-1.0, 1.0) * fastest, s.uniform(-1.0, 1.0) * turn]
                 }
             };
@@ -193,7 +230,8 @@ fn motion(chassis: Chassis, seconds: f64, s: &mut Stream) -> Vec<[f64; 3]> {
             first[axis] = wanted[axis] + keep * (first[axis] - wanted[axis]);
             now[axis] = first[axis] + keep * (now[axis] - first[axis]);
         }
-        out.push(now);
+        // What turns about a point ahead moves its origin sideways.
+        out.push([now[0], now[1] - turns_about * now[2], now[2]]);
     }
     out
 }
@@ -201,7 +239,7 @@ fn motion(chassis: Chassis, seconds: f64, s: &mut Stream) -> Vec<[f64; 3]> {
 /// Rows as sensors show them.
 fn sheet(chassis: Chassis, robot: &Robot, counts: f64, loses: Option<usize>, s: &mut Stream) -> String {
     let seconds = s.uniform(SECONDS[0], SECONDS[1]);
-    let velocities = motion(chassis, seconds, s);
+    let velocities = motion(chassis, robot.turns_about, seconds, s);
     let noise = [s.uniform(0.0005, 0.004), s.uniform(0.0005, 0.004)];
     let every = [4, 5, 10][s.index(3)];
 
@@ -277,7 +315,7 @@ fn robot_file(chassis: Chassis, stated: &Robot, counts: f64) -> String {
             k + 1
         );
         if chassis.is_omni() {
-            out += "roller_deg = 90\n";
+            let _ = writeln!(out, "roller_deg = {:.0}", wheel.roller.to_degrees());
         }
         if stated.is_steered {
             out += "steered = true\n";
@@ -309,7 +347,10 @@ fn robot_file(chassis: Chassis, stated: &Robot, counts: f64) -> String {
         let _ =
             write!(out, "wheelbase_sigma = {:.6}\ntrack_sigma = {:.6}\n", KNOWN[1] * extent(0), KNOWN[1] * extent(1));
     } else {
-        let _ = writeln!(out, "track_sigma = {:.6}", KNOWN[1] * 2.0 * y);
+        let _ = writeln!(out, "track_sigma = {:.6}", track_share(chassis) * 2.0 * y);
+    }
+    if chassis == Chassis::SkidSteer {
+        let _ = writeln!(out, "pose_origin_sigma = {TURNS_ABOUT}");
     }
     out += "\n[columns]\ntime = \"time_s\"\nwheels = \"counts\"\nx = \"x_m\"\ny = \"y_m\"\nyaw = \"yaw_rad\"\nlength_unit = \"m\"\n\
             angle_unit = \"rad\"\n";

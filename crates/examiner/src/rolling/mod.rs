@@ -24,11 +24,16 @@ pub enum Chassis {
     Omni3,
     /// Four omni wheels at 90 degrees.
     Omni4,
+    /// Four mecanum wheels.
+    Mecanum4,
+    /// Two sides that are driven as a whole and skid in turns.
+    SkidSteer,
 }
 
 impl Chassis {
     /// All.
-    pub const ALL: [Self; 4] = [Self::Differential, Self::Tricycle, Self::Omni3, Self::Omni4];
+    pub const ALL: [Self; 6] =
+        [Self::Differential, Self::Tricycle, Self::Omni3, Self::Omni4, Self::Mecanum4, Self::SkidSteer];
 
     /// Name for people.
     pub fn name(self) -> &'static str {
@@ -37,12 +42,14 @@ impl Chassis {
             Self::Tricycle => "tricycle",
             Self::Omni3 => "three omni wheels",
             Self::Omni4 => "four omni wheels",
+            Self::Mecanum4 => "four mecanum wheels",
+            Self::SkidSteer => "skid-steer",
         }
     }
 
     /// Whether it moves sideways as well.
     pub fn is_omni(self) -> bool {
-        matches!(self, Self::Omni3 | Self::Omni4)
+        matches!(self, Self::Omni3 | Self::Omni4 | Self::Mecanum4)
     }
 }
 
@@ -127,6 +134,8 @@ impl Hidden {
             Self::RollerSlip => chassis.is_omni(),
             // Omni wheels slip by their rollers.
             Self::TurnSlip | Self::RateSlip => !chassis.is_omni(),
+            // Nobody knows the effective track of sides that skid.
+            Self::Distance => chassis != Chassis::SkidSteer,
             _ => true,
         }
     }

@@ -13,6 +13,8 @@ pub(super) struct Wheel {
     pub(super) direction: f64,
     /// m.
     pub(super) radius: f64,
+    /// Angle from its axle to those of its rollers, rad; 0 without rollers.
+    pub(super) roller: f64,
 }
 
 /// A robot as it is.
@@ -31,6 +33,8 @@ pub(super) struct Robot {
     pub(super) speed_slip: f64,
     /// Share of the sideways motion that rollers lose.
     pub(super) roller_slip: f64,
+    /// How far ahead of the origin the point is about which it turns, m.
+    pub(super) turns_about: f64,
     /// The pose's frame on the robot, rad.
     pub(super) mounting: f64,
     /// The pose's point on the robot, m.
@@ -59,7 +63,11 @@ impl Robot {
         }
         let rate = |wheel: &Wheel| {
             let [a, b] = at(wheel.place);
-            (a * wheel.direction.cos() + b * wheel.direction.sin()) / wheel.radius
+            let (sin, cos) = wheel.direction.sin_cos();
+            let (ahead, across) = (a * cos + b * sin, b * cos - a * sin);
+            // Mecanum: rollers roll off what is across them, so that both shares make the wheel turn.
+            let of_rollers = if wheel.roller.abs() < 1.0 { across * wheel.roller.tan() } else { 0.0 };
+            (ahead - of_rollers) / wheel.radius
         };
         (self.wheels.iter().map(rate).collect(), 0.0)
     }

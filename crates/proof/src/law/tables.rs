@@ -31,7 +31,7 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
     let of = |name: &str, rate: Rate| Figure::free(name, share(rate), "");
     let is_told = |j: &Judged| matches!(j.claim, Some(Claim::Law));
     let claimed = |j: &&Judged| matches!(j.claim, Some(Claim::Law | Claim::Place));
-    let healthy = || all.iter().filter(|j| j.hidden.is_none());
+    let lack_nothing = || all.iter().filter(|j| j.hidden.is_none());
     let mut out = vec![
         Figure::free("robots with a name left out", hidden(all).count() as f64, ""),
         of("a law is told", hidden(all).map(is_told).collect()),
@@ -49,8 +49,10 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
             out.push(if m == 0 { figure.asked(Asked::AtLeast(CLOSED[q])) } else { figure });
         }
     }
-    out.push(Figure::free("robots that lack nothing", healthy().count() as f64, ""));
-    out.push(of("told a law that lack nothing", healthy().map(is_told).collect()).asked(Asked::AtMost(FALSE_LAWS)));
+    out.push(Figure::free("robots that lack nothing", lack_nothing().count() as f64, ""));
+    out.push(
+        of("told a law that lack nothing", lack_nothing().map(is_told).collect()).asked(Asked::AtMost(FALSE_LAWS)),
+    );
     out
 }
 

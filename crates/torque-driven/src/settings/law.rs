@@ -89,7 +89,7 @@
         /// Share of the excess cost that may be left where a place alone is told.
         left_of_place: f64 = 0.7, "1", "guess, after five development outsiders whose laws left 83 to 95 %";
         /// Coefficient of the same law in the references, as a share of that in the recordings, that is refused.
-        in_references: f64 = 0.25, "1", "the prototype: without it six of 18 healthy robots were told a law";
+        in_references: f64 = 0.25, "1", "the prototype: without it six of 18 fault-free robots were told a law";
         /// Laws within this cannot be told apart.
         class: f64 = 10.0, "nats", "the prototype";
         /// Coefficient in the references from which on every drive has the law.

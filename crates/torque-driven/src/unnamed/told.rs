@@ -65,7 +65,7 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
         Some(CommonLaw { place, formula: law.law.to_string(), in_references: s.in_references?[0] })
     });
 
-    // Of those that healthy drives do not have, the best.
+    // Of those that the references do not have, the best.
     let best = all().find(|(_, s)| !s.is_in_references());
     let claim = best.map_or(Claim::Nothing, |(law, s)| {
         if s.tells_a_law(law) {

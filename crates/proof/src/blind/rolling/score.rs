@@ -4,10 +4,7 @@ use examiner::rolling::{Chassis, Hidden, RollingTruth};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Above this probability a cause is named.
-const LIKELY: f64 = 0.5;
-/// Half width of a 90 % interval, in sigmas.
-const NINETY: f64 = 1.645;
+use crate::blind::said::{self, Said, id_of};
 
 /// What came of a case.
 #[derive(Debug, Clone, Serialize)]
@@ -34,7 +31,7 @@ pub(in crate::blind) struct Row {
 impl Row {
     /// Whether a cause or "unknown" is told.
     pub(super) fn is_answered(&self) -> bool {
-        matches!(self.verdict.as_str(), "explained" | "unknown")
+        said::is_answered(&self.verdict)
     }
 }
 
@@ -60,7 +57,7 @@ fn cause(hidden: Hidden) -> &'static str {
 
 /// Whether a label is that of something hidden, of the wheel that it is about.
 fn is(label: &str, hidden: Hidden, truth: &RollingTruth) -> bool {
-    let (id, of) = label.split_once(" (").map_or((label, None), |(id, of)| (id, Some(of.trim_end_matches(')'))));
+    let (id, of) = id_of(label);
     let wheel = matches!(hidden, Hidden::OneRadius | Hidden::LostCounts).then_some(truth.wheel.as_deref()).flatten();
     id == cause(hidden) && wheel.is_none_or(|wheel| of == Some(wheel))
 }
@@ -70,7 +67,7 @@ fn told_as(name: &str, truth: &RollingTruth) -> String {
     match name {
         "radius" => format!("radius of {}", truth.wheel.as_deref().unwrap_or_default()),
         "distance" => match truth.chassis {
-            Chassis::Differential => "track".to_owned(),
+            Chassis::Differential | Chassis::SkidSteer | Chassis::Mecanum4 => "track".to_owned(),
             Chassis::Tricycle => "wheelbase".to_owned(),
             Chassis::Omni3 | Chassis::Omni4 => "distance from centre to wheels".to_owned(),
         },
@@ -85,48 +82,30 @@ fn told_as(name: &str, truth: &RollingTruth) -> String {
     }
 }
 
-fn list<'a>(v: &'a Value, key: &str) -> &'a [Value] {
-    v[key].as_array().map_or(&[], Vec::as_slice)
-}
-
 /// Scores an answer; null is a refusal.
 pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64>) -> Row {
-    let text = |v: &Value| v.as_str().unwrap_or_default().to_owned();
-    let is_cause = |c: &&Value| !["none", "unknown"].contains(&c["effect"].as_str().unwrap_or_default());
-    let likely = || list(d, "ranked").iter().filter(|c| c["probability"].as_f64().is_some_and(|p| p > LIKELY));
-    let named: Vec<String> = likely().filter(is_cause).map(|c| text(&c["name"])).collect();
-    let classes: Vec<Vec<String>> = list(d, "indistinguishable")
-        .iter()
-        .map(|class| class.as_array().map_or(&[][..], Vec::as_slice).iter().map(text).collect())
-        .collect();
-    // A class stands for each of its members.
-    let stands_for = |label: &String, hidden: Hidden| {
-        let class = classes.iter().find(|class| class.contains(label));
-        is(label, hidden, truth) || class.is_some_and(|class| class.iter().any(|other| is(other, hidden, truth)))
-    };
+    let said = Said::new(d);
+    let stands_for = |label: &String, hidden: Hidden| said.stands_for(label, |other| is(other, hidden, truth));
     let error = |(name, value): (&String, &f64)| {
-        let told = likely().find_map(|c| c["parameters"].get(told_as(name, truth)))?;
-        let half = told["sigma"].as_f64().filter(|sigma| *sigma > 0.0)? * NINETY;
-        let told = told["value"].as_f64()?;
-        let told = if name.starts_with("clock") { told.abs() } else { told };
-        Some((name.clone(), (told - value) / half))
+        let error = said.error(&told_as(name, truth), *value, name.starts_with("clock"))?;
+        Some((name.clone(), error))
     };
-    let runs = list(d, "free_runs").iter();
-    let ahead = runs.filter(|f| f["quantity"].as_str().is_some_and(|q| q.starts_with("position after 10 s")));
-    let sums = ahead.fold([0.0, 0.0], |[a, b], f| {
-        [a + f["corrected"].as_f64().unwrap_or(f64::NAN), b + f["nominal"].as_f64().unwrap_or(f64::NAN)]
-    });
     Row {
         case: truth.case.clone(),
         chassis: truth.chassis,
         hidden: truth.hidden.clone(),
-        verdict: d["verdict"].as_str().unwrap_or("refused").to_owned(),
-        headline: list(d, "sentences").first().map(text).unwrap_or_default(),
-        found: truth.hidden.iter().map(|h| named.iter().any(|label| stands_for(label, *h))).collect(),
-        invented: named.iter().filter(|label| !truth.hidden.iter().any(|h| stands_for(label, *h))).cloned().collect(),
-        named,
+        verdict: said.verdict(),
+        headline: said.headline(),
+        found: truth.hidden.iter().map(|h| said.named.iter().any(|label| stands_for(label, *h))).collect(),
+        invented: said
+            .named
+            .iter()
+            .filter(|label| !truth.hidden.iter().any(|h| stands_for(label, *h)))
+            .cloned()
+            .collect(),
         errors: truth.numbers.iter().filter_map(error).collect(),
-        forecast: Some(sums[0] / sums[1]).filter(|share| share.is_finite()),
+        forecast: said.forecast("position after 10 s"),
+        named: said.named,
         processor_seconds,
     }
 }
@@ -155,7 +134,7 @@ mod tests {
         };
         let right = row(&truth, &say("radius_of_one_wheel (right)", json!([])), None);
         assert_eq!((right.found, right.invented.len()), (vec![true], 0));
-        assert!((right.errors[0].1 - 1.0 / NINETY).abs() < 1e-9 && right.forecast == Some(0.25));
+        assert!((right.errors[0].1 - 1.0 / 1.645).abs() < 1e-9 && right.forecast == Some(0.25));
         let left = row(&truth, &say("radius_of_one_wheel (left)", json!([])), None);
         assert_eq!((left.found, left.invented.len()), (vec![false], 1));
         let class = json!([["radius_of_one_wheel (left)", "radius_of_one_wheel (right)"]]);

@@ -1,0 +1,205 @@
+//! Cars: throttle and steering commands, a pose, a gyro and an encoder, and something between them that the robot file does
+//! not have.
+//!
+//! The plant is a two-axle car with brush tyres, a servo of second order and a motor with back-EMF, in small steps.
+
+mod draw;
+mod plant;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// Something hidden in a car.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CarHidden {
+    /// The wheels steer by more or less at full command.
+    SteeringGain,
+    /// The wheels do not point ahead at no command.
+    SteeringCentre,
+    /// The wheels turn by less per command far out.
+    SteeringBend,
+    /// Steering begins late.
+    SteeringDelay,
+    /// Steering settles slowly.
+    SteeringLag,
+    /// Steering moves at a limited rate.
+    SteeringRate,
+    /// The linkage has play.
+    SteeringPlay,
+    /// The axles are farther apart, or nearer.
+    Wheelbase,
+    /// Tyres give way.
+    TyreSlip,
+    /// Tyres hold little, and the car is driven fast.
+    GripLimit,
+    /// The motor pushes more or less.
+    DriveGain,
+    /// The motor does not turn below a higher throttle.
+    DeadZone,
+    /// Another point is tracked.
+    TrackedPoint,
+    /// The tracked axes are turned.
+    TrackedAxes,
+    /// All channels of the car are late.
+    ClockDelay,
+    /// The gyro shows another scale.
+    GyroScale,
+    /// The gyro shows turning at rest.
+    GyroBias,
+    /// The gyro alone is late.
+    GyroDelay,
+    /// The encoder shows another scale.
+    EncoderScale,
+    /// The encoder alone is late.
+    EncoderDelay,
+}
+
+impl CarHidden {
+    /// All.
+    pub const ALL: [Self; 20] = [
+        Self::SteeringGain,
+        Self::SteeringCentre,
+        Self::SteeringBend,
+        Self::SteeringDelay,
+        Self::SteeringLag,
+        Self::SteeringRate,
+        Self::SteeringPlay,
+        Self::Wheelbase,
+        Self::TyreSlip,
+        Self::GripLimit,
+        Self::DriveGain,
+        Self::DeadZone,
+        Self::TrackedPoint,
+        Self::TrackedAxes,
+        Self::ClockDelay,
+        Self::GyroScale,
+        Self::GyroBias,
+        Self::GyroDelay,
+        Self::EncoderScale,
+        Self::EncoderDelay,
+    ];
+
+    /// Name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SteeringGain => "gain of the steering",
+            Self::SteeringCentre => "centre of the steering",
+            Self::SteeringBend => "bend of the steering map",
+            Self::SteeringDelay => "delay of the steering",
+            Self::SteeringLag => "lag of the steering",
+            Self::SteeringRate => "largest rate of the steering",
+            Self::SteeringPlay => "play of the steering",
+            Self::Wheelbase => "wheelbase",
+            Self::TyreSlip => "slip of the tyres",
+            Self::GripLimit => "limit of the grip",
+            Self::DriveGain => "gain of the drive",
+            Self::DeadZone => "dead zone of the throttle",
+            Self::TrackedPoint => "tracked point",
+            Self::TrackedAxes => "tracked axes",
+            Self::ClockDelay => "delay of the car's clock",
+            Self::GyroScale => "scale of the gyro",
+            Self::GyroBias => "bias of the gyro",
+            Self::GyroDelay => "delay of the gyro",
+            Self::EncoderScale => "scale of the encoder",
+            Self::EncoderDelay => "delay of the encoder",
+        }
+    }
+}
+
+/// What was hidden in a case, for the scorer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CarTruth {
+    /// Name of the case.
+    pub case: String,
+    /// What is hidden.
+    pub hidden: Vec<CarHidden>,
+    /// Whether the tyres give way, so that slip and limit are both there.
+    pub has_tyres: bool,
+    /// Numbers of what is hidden, SI, by what they are: `gain`, `centre`, `delay`, `lag`, `rate` (s/rad), `play`, `wheelbase`,
+    /// `front_compliance`, `rear_compliance`, `drive`, `dead_zone`, `point_x`, `point_y`, `axes`, `clock`, `gyro_scale`,
+    /// `gyro_bias`, `gyro_delay`, `encoder_scale`, `encoder_delay`.
+    pub numbers: BTreeMap<String, f64>,
+}
+
+/// A drawn case: what the diagnoser gets, and what was hidden.
+#[derive(Debug, Clone)]
+pub struct CarCase {
+    /// Files of the case by their path in it.
+    pub files: Vec<(PathBuf, Vec<u8>)>,
+    /// What was hidden.
+    pub truth: CarTruth,
+}
+
+/// Which case is to be drawn.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CarPlan {
+    /// Name of the case.
+    pub name: String,
+    /// Seed of the set.
+    pub seed: u64,
+    /// Number of the case in it.
+    pub index: u64,
+    /// What is hidden.
+    pub hidden: Vec<CarHidden>,
+}
+
+impl CarPlan {
+    /// A set of so many cases: in a quarter nothing is hidden, in the others one thing, each as often; beside every third of
+    /// them the tyres slip as well.
+    pub fn set(seed: u64, count: usize) -> Vec<Self> {
+        let mut turn = 0;
+        let mut plan = |i: usize| {
+            let mut hidden = Vec::new();
+            if !i.is_multiple_of(4) {
+                let one = CarHidden::ALL[turn % CarHidden::ALL.len()];
+                turn += 1;
+                hidden.push(one);
+                let is_tyre = matches!(one, CarHidden::TyreSlip | CarHidden::GripLimit);
+                if turn.is_multiple_of(3) && !is_tyre {
+                    hidden.push(CarHidden::TyreSlip);
+                }
+            }
+            Self { name: format!("a{:03}", i + 1), seed, index: i as u64, hidden }
+        };
+        (0..count).map(&mut plan).collect()
+    }
+
+    /// Draws the case.
+    pub fn draw(&self) -> CarCase {
+        draw::case(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_hides_nothing_in_a_quarter_and_everything_in_turn() {
+        let all = CarPlan::set(1, 160);
+        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 40);
+        for hidden in CarHidden::ALL {
+            assert!(all.iter().filter(|p| p.hidden.contains(&hidden)).count() >= 6, "{hidden:?}");
+        }
+        let pairs = all.iter().filter(|p| p.hidden.len() == 2).count();
+        assert!((30..45).contains(&pairs), "{pairs}");
+    }
+
+    #[test]
+    fn a_case_is_the_same_twice_and_its_cars_drive() {
+        for plan in CarPlan::set(3, 28) {
+            let case = plan.draw();
+            assert_eq!(case.files, plan.draw().files);
+            assert_eq!(case.truth.hidden, plan.hidden);
+            let (path, bytes) = &case.files[1];
+            let text = String::from_utf8_lossy(bytes);
+            let cell = |line: &str, k: usize| line.split(',').nth(k).and_then(|c| c.parse::<f64>().ok());
+            let places: Vec<[f64; 2]> = text.lines().skip(1).filter_map(|l| Some([cell(l, 3)?, cell(l, 4)?])).collect();
+            let way: f64 = places.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+            assert!(way > 15.0 && way < 400.0, "{}: {way} m in {} rows", path.display(), places.len());
+        }
+    }
+}
