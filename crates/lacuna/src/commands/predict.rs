@@ -8,18 +8,20 @@ use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
 use case_files::kind::{self, Kind};
+use case_files::own_effects;
 use case_files::predictions;
 use clap::Args as ClapArgs;
 use recordings::Read;
 use serde_json::{Value, json};
 
-use super::{Outcome, Reader, Usage, sources};
+use super::{Outcome, OwnEffects, Reader, Usage, sources};
 use crate::console::{emit, emit_json};
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna predict robot.toml --drives heldout/ --out predicted/
   lacuna predict robot.toml corrected.toml --drives run_7.csv run_8.csv
+  lacuna predict corrected.toml --drives heldout/ --effects my-law.toml
 
 Several robot files are compared on the same drives. The simulation runs freely
 and is set to the recorded state at rows that hold all of it (pose, body
@@ -42,6 +44,8 @@ pub(crate) struct Args {
     drives: Vec<PathBuf>,
     #[command(flatten)]
     reader: Reader,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Least time between two restarts from the recorded state, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = seconds)]
     restart: f64,
@@ -71,7 +75,10 @@ struct Errors {
 
 /// Predicts drives.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let robots: Vec<RobotSpec> = args.robot.iter().map(|name| case_folder::robot(name)).collect::<Result<_>>()?;
+    let known = args.effects.known()?;
+    let robots: Vec<RobotSpec> =
+        args.robot.iter().map(|name| case_folder::robot_with(known, name)).collect::<Result<_>>()?;
+    robots.iter().try_for_each(own_effects::ensure_torque_driven)?;
     let causality = robots[0].causality;
     for robot in &robots {
         ensure!(
