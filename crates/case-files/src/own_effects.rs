@@ -13,6 +13,7 @@ use robot_file::{Causality, RobotSpec};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
+use verdict::Prediction;
 
 use crate::TextError;
 
@@ -154,22 +155,39 @@ fn is_named(robot: &RobotSpec, own: &OwnEffect) -> bool {
 
 /// A sentence for each variable that a simulated drive takes beyond the range in which a law of one's own was seen.
 pub fn beyond_seen(robot: &RobotSpec, shown: &Recording) -> Vec<String> {
-    let range = |signals: &[Signal]| {
-        let values = signals.iter().filter_map(|s| shown.get(*s)).flat_map(|c| c.values().iter().copied());
-        values.fold(None, |range: Option<[f64; 2]>, x| {
-            let [low, high] = range.unwrap_or([x; 2]);
-            Some([low.min(x), high.max(x)])
-        })
+    let both = |signals: &[Signal]| {
+        let channels = signals.iter().filter_map(|s| shown.get(*s));
+        range(channels.flat_map(|c| c.values().iter().copied()))
     };
-    let of = |variable: Variable| match variable {
-        Variable::WheelSpeed => range(&[Signal::WheelSpeedLeft, Signal::WheelSpeedRight]),
-        Variable::Torque => range(&[Signal::TorqueLeft, Signal::TorqueRight]),
-        Variable::Velocity => range(&[Signal::BodyVx]),
-        Variable::LateralVelocity => range(&[Signal::BodyVy]),
-        Variable::YawRate => range(&[Signal::GyroZ]),
+    beyond(robot, &|variable| match variable {
+        Variable::WheelSpeed => both(&[Signal::WheelSpeedLeft, Signal::WheelSpeedRight]),
+        Variable::Torque => both(&[Signal::TorqueLeft, Signal::TorqueRight]),
+        Variable::Velocity => both(&[Signal::BodyVx]),
+        Variable::LateralVelocity => both(&[Signal::BodyVy]),
+        Variable::YawRate => both(&[Signal::GyroZ]),
         _ => None,
-    };
+    })
+}
+
+/// The same of a forecast, which holds wheel speeds and the yaw rate.
+pub fn beyond_seen_in_forecast(robot: &RobotSpec, forecast: &Prediction) -> Vec<String> {
+    beyond(robot, &|variable| match variable {
+        Variable::WheelSpeed => range(forecast.wheel_speed.iter().flatten().copied()),
+        Variable::YawRate => range(forecast.yaw_rate.iter().copied()),
+        _ => None,
+    })
+}
+
+fn beyond(robot: &RobotSpec, of: &dyn Fn(Variable) -> Option<[f64; 2]>) -> Vec<String> {
     robot.known.own().iter().filter(|own| is_named(robot, own)).flat_map(|own| own.beyond_seen(of)).collect()
+}
+
+/// Least and largest of some values.
+fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.fold(None, |range, x| {
+        let [low, high] = range.unwrap_or([x; 2]);
+        Some([low.min(x), high.max(x)])
+    })
 }
 
 #[cfg(test)]

@@ -54,8 +54,7 @@ impl KnownEffects {
 
     /// All of them.
     pub fn all(self) -> impl Iterator<Item = &'static dyn Effect<f64>> {
-        let own = self.own.iter().map(|own| -> &'static dyn Effect<f64> { *own });
-        effects::catalogue::<f64>().into_iter().chain(own)
+        effects::catalogue::<f64>().into_iter().chain(self.own.iter().copied().map(OwnEffect::as_effect))
     }
 
     /// The effect of a name.

@@ -51,9 +51,14 @@ impl OwnEffect {
         any.downcast_ref()
     }
 
+    /// As an effect of a plant.
+    pub fn as_effect(&'static self) -> &'static dyn Effect<f64> {
+        self
+    }
+
     /// Its name.
     pub fn name(&self) -> &'static str {
-        self.spec.id
+        self.spec.name
     }
 
     /// What is known about it.

@@ -118,6 +118,9 @@ fn source(args: &Args) -> Result<Source> {
     if toml {
         let whole = case_folder::robot_with(known, &args.from.display().to_string())?;
         own_effects::ensure_torque_driven(&whole)?;
+        for sentence in own_effects::unused(&whole) {
+            warning(&sentence);
+        }
         let robot = if args.nominal || args.retuned { RobotSpec { effects: Vec::new(), ..whole } } else { whole };
         return Ok(Source { robot, before: None, causes: Vec::new() });
     }

@@ -15,7 +15,7 @@ use recordings::Read;
 use serde_json::{Value, json};
 
 use super::{Outcome, OwnEffects, Reader, Usage, sources};
-use crate::console::{emit, emit_json};
+use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -79,6 +79,10 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robots: Vec<RobotSpec> =
         args.robot.iter().map(|name| case_folder::robot_with(known, name)).collect::<Result<_>>()?;
     robots.iter().try_for_each(own_effects::ensure_torque_driven)?;
+    // With and without a law may be what is to be compared.
+    for sentence in robots.iter().map(own_effects::unused).min_by_key(Vec::len).unwrap_or_default() {
+        warning(&sentence);
+    }
     let causality = robots[0].causality;
     for robot in &robots {
         ensure!(
@@ -121,6 +125,9 @@ fn forecast(args: &Args, kind: &dyn Kind, robots: &[RobotSpec], read: &Read) -> 
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
         let forecast = kind.forecast(robot, &read.recording, args.restart)?;
+        for sentence in forecast.prediction.iter().flat_map(|p| own_effects::beyond_seen_in_forecast(robot, p)) {
+            warning(&sentence);
+        }
         out.push(forecast.errors);
         if let (Some(dir), Some(prediction)) = (&args.out, &forecast.prediction) {
             let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };

@@ -56,11 +56,15 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let robot = case_folder::robot_with(args.effects.known()?, &args.robot)?;
     own_effects::ensure_torque_driven(&robot)?;
-    own_effects::unused(&robot).iter().for_each(|sentence| warning(sentence));
+    for sentence in own_effects::unused(&robot) {
+        warning(&sentence);
+    }
     let (loaded, _) = args.reader.load(&args.recording)?;
     let read = only(&loaded)?;
     let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;
-    own_effects::beyond_seen(&robot, &simulated).iter().for_each(|sentence| warning(sentence));
+    for sentence in own_effects::beyond_seen(&robot, &simulated) {
+        warning(&sentence);
+    }
     if let Some(target) = &args.json {
         let columns = simulated.channels().iter().map(|c| (c.signal().column_name(), json!(c.values())));
         let stamps = simulated.channels().first().map(|c| c.t_ns().to_vec());
