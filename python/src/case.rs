@@ -6,14 +6,16 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::inputs::{self, Loaded};
+use case_files::own_effects;
 use case_files::which_mapping;
+use inference::KnownEffects;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use recordings::{Mapping, Policy, Read, ReadOptions};
 use robot_file::RobotSpec;
 
 use crate::arrays;
-use crate::error::LacunaError;
+use crate::error::{LacunaError, raised};
 
 /// What stands for a mapping where nothing was read from files.
 const ARRAYS: &str = "arrays";
@@ -33,10 +35,11 @@ impl RobotGiven {
         Ok(Self::Named(path(given)?.display().to_string()))
     }
 
-    pub(crate) fn open(&self) -> Result<RobotSpec> {
+    /// The robot, whose effects may be some of one's own.
+    pub(crate) fn open(&self, known: KnownEffects) -> Result<RobotSpec> {
         match self {
-            Self::Named(name) => case_folder::robot(name),
-            Self::Text(text) => Ok(RobotSpec::parse("robot.json", text)?),
+            Self::Named(name) => case_folder::robot_with(known, name),
+            Self::Text(text) => Ok(RobotSpec::parse_with(known, "robot.json", text)?),
         }
     }
 }
@@ -49,6 +52,12 @@ pub(crate) fn path(given: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
 /// A mapping by name, or a file.
 pub(crate) fn mapping(given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<String>> {
     given.map(|given| Ok(path(given)?.display().to_string())).transpose()
+}
+
+/// The catalogue with the effects of law files: one, or an iterable of them.
+pub(crate) fn effects(given: Option<&Bound<'_, PyAny>>) -> PyResult<KnownEffects> {
+    let files = given.map_or_else(|| Ok(Vec::new()), paths)?;
+    own_effects::read(&files).map_err(|e| raised(&e))
 }
 
 /// What to do with bad rows and cells.
@@ -171,8 +180,14 @@ pub(crate) fn folder(
 }
 
 /// Drives one by one: references, recordings, held-out drives.
-pub(crate) fn drives(robot: &RobotGiven, parts: [Part; 3], name: Option<&str>, options: ReadOptions) -> Result<Opened> {
-    let robot = robot.open()?;
+pub(crate) fn drives(
+    robot: &RobotGiven,
+    known: KnownEffects,
+    parts: [Part; 3],
+    name: Option<&str>,
+    options: ReadOptions,
+) -> Result<Opened> {
+    let robot = robot.open(known)?;
     ensure!(!parts[1].is_empty(), "there is nothing to diagnose; give drives as recordings");
     let paths: Vec<PathBuf> = parts.iter().flat_map(|part| part.paths.clone()).collect();
     let mapping = needed(name, &paths)?;

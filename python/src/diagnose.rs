@@ -38,6 +38,9 @@ const NEXT_LENGTH: f64 = 12.0;
 /// visit : list of str, optional
 ///     Drives of one day, place and load, between which constants do not move (torque-driven robots): ``name=file,file`` for
 ///     each visit, as ``--visit`` of the command line.
+/// effects : path or iterable of paths, optional
+///     Law files, as ``lacuna law --save`` writes them: each is an effect of your own beside those of the catalogue
+///     (torque-driven robots).
 /// next : bool
 ///     Advise on the next drive too: a few seconds more.
 /// progress : callable, optional
@@ -53,7 +56,7 @@ const NEXT_LENGTH: f64 = 12.0;
 ///     When something is missing or cannot be read, or the recordings do not determine an answer.
 #[pyfunction]
 #[pyo3(signature = (case=None, *, robot=None, reference=None, recordings=None, heldout=None, mapping=None,
-    reading="normal", same_robot=false, visit=None, next=false, progress=None))]
+    reading="normal", same_robot=false, visit=None, effects=None, next=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is a keyword of its own in Python")]
 pub(crate) fn diagnose(
     py: Python<'_>,
@@ -66,6 +69,7 @@ pub(crate) fn diagnose(
     reading: &str,
     same_robot: bool,
     visit: Option<Vec<String>>,
+    effects: Option<&Bound<'_, PyAny>>,
     next: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosis> {
@@ -82,13 +86,15 @@ pub(crate) fn diagnose(
     let visits = visits.iter().map(|text| GivenVisit::parse(text)).collect::<Result<Vec<_>, _>>();
     let visits = visits.map_err(LacunaError::new_err)?;
     let (mapping, read) = (case::mapping(mapping)?, case::reading(reading)?);
-    let options = inference::Options { next: next.then_some(NEXT_LENGTH), same_robot, ..inference::Options::default() };
+    let known = case::effects(effects)?;
+    let usual = inference::Options::default();
+    let options = inference::Options { next: next.then_some(NEXT_LENGTH), same_robot, known, ..usual };
     let (envelope, found) = work::run(py, || {
         let listener = Listener::new(progress);
         listener.stage("reading the recordings");
         let name = mapping.as_deref();
         let mut opened = match (&folder, &robot) {
-            (None, Some(robot)) => case::drives(robot, parts, name, read)?,
+            (None, Some(robot)) => case::drives(robot, known, parts, name, read)?,
             (folder, robot) => case::folder(&folder.clone().unwrap_or_default(), robot.as_ref(), name, read)?,
         };
         opened.case = opened.case.with_visits(&visits)?;

@@ -2,6 +2,7 @@
 
 use anyhow::Context;
 use case_files::case_folder::file_names;
+use case_files::own_effects;
 use case_files::simulated::simulated;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -24,6 +25,8 @@ use crate::{arrays, work};
 ///     columns' names (``torque_left_Nm``), in SI; nan where a sample is missing.
 /// mapping : path, optional
 ///     Mapping file, or name of a built-in mapping, for a recording that is a file.
+/// effects : path or iterable of paths, optional
+///     Law files of the robot's ``effects`` that are your own (torque-driven robots).
 ///
 /// Returns
 /// -------
@@ -36,18 +39,20 @@ use crate::{arrays, work};
 /// LacunaError
 ///     When inputs are missing or cannot be read, or the simulation does not stay finite.
 #[pyfunction]
-#[pyo3(signature = (robot, inputs, *, mapping=None))]
+#[pyo3(signature = (robot, inputs, *, mapping=None, effects=None))]
 pub(crate) fn simulate<'py>(
     py: Python<'py>,
     robot: &Bound<'py, PyAny>,
     inputs: &Bound<'py, PyAny>,
     mapping: Option<&Bound<'py, PyAny>>,
+    effects: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (robot, mapping) = (RobotGiven::of(robot)?, case::mapping(mapping)?);
     let inputs = Part::of(Some(inputs), "drive")?;
-    let options = case::reading("normal")?;
+    let (options, known) = (case::reading("normal")?, case::effects(effects)?);
     let shown = work::run(py, move || {
-        let robot = robot.open()?;
+        let robot = robot.open(known)?;
+        own_effects::ensure_torque_driven(&robot)?;
         let read = inputs.only(mapping.as_deref(), options)?;
         simulated(&robot, &read.recording).with_context(|| file_names(&read))
     })?;

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use inference::Options;
+use inference::{KnownEffects, Options};
 use recordings::{Mapping, Read, ReadOptions};
 use robot_file::{Causality, RobotSpec};
 use torque_driven::Visit;
 use verdict::{Coverage, Diagnosis};
 
 use crate::inputs;
-pub use crate::inputs::{Loaded, mapping, robot};
+pub use crate::inputs::{Loaded, mapping, robot, robot_with};
 use crate::long::Budget;
 use crate::visits::{self, GivenVisit};
 
@@ -56,7 +56,7 @@ impl CaseFolder {
     /// # Errors
     /// What is missing or cannot be read.
     pub fn open(folder: &Path, robot_name: Option<&str>, mapping: &Mapping, options: &ReadOptions) -> Result<Self> {
-        let (robot, [reference, recordings, held_out]) = located(folder, robot_name)?;
+        let (robot, [reference, recordings, held_out]) = located(KnownEffects::default(), folder, robot_name)?;
         let case = Self::from_paths(robot, [&reference, &recordings, &held_out], mapping, options)?;
         case.with_simulation(&simulation_of(folder), mapping, options)
     }
@@ -343,12 +343,12 @@ impl CaseFolder {
     }
 }
 
-/// The robot of a case folder (`robot.json` or `robot.toml`, or the one that is named) and its three parts, of which only
-/// the recordings must be there.
+/// The robot of a case folder (`robot.json` or `robot.toml`, or the one that is named), whose effects may be some of one's
+/// own, and its three parts, of which only the recordings must be there.
 ///
 /// # Errors
 /// What is missing.
-pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [Vec<PathBuf>; 3])> {
+pub fn located(known: KnownEffects, folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [Vec<PathBuf>; 3])> {
     let shown = folder.display();
     ensure!(
         folder.is_dir(),
@@ -356,8 +356,8 @@ pub fn located(folder: &Path, robot_name: Option<&str>) -> Result<(RobotSpec, [V
          make one with robot.toml, reference/ and recordings/, or give files with --reference and --recordings"
     );
     let robot = match robot_name {
-        Some(name) => robot(name)?,
-        None => robot(&robot_of(folder)?.display().to_string())?,
+        Some(name) => robot_with(known, name)?,
+        None => robot_with(known, &robot_of(folder)?.display().to_string())?,
     };
     for (name, what) in &FOLDERS[1..2] {
         ensure!(folder.join(name).is_dir(), "'{shown}' has no folder '{name}/'; make it and put {what} into it");

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
-use inference::Options;
+use inference::{KnownEffects, Options};
 use recordings::Spot;
 use robot_file::RobotSpec;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use verdict::Diagnosis;
+use verdict::{Diagnosis, LawOfFile};
 
 use crate::TextError;
 use crate::case_folder::CaseFolder;
@@ -278,7 +278,30 @@ impl Envelope {
     /// # Errors
     /// When it is not what a robot file must be.
     pub fn robot(&self) -> Result<RobotSpec> {
-        Ok(RobotSpec::parse("robot.json", &serde_json::to_string_pretty(&self.robot)?)?)
+        self.robot_with(KnownEffects::default())
+    }
+
+    /// The same where its effects may be some of one's own.
+    ///
+    /// # Errors
+    /// As [`Envelope::robot`].
+    pub fn robot_with(&self, known: KnownEffects) -> Result<RobotSpec> {
+        Ok(RobotSpec::parse_with(known, "robot.json", &serde_json::to_string_pretty(&self.robot)?)?)
+    }
+
+    /// Refuses a verdict whose correction holds effects of files that are not known.
+    ///
+    /// # Errors
+    /// The first of them, with its formula.
+    pub fn ensure_known(&self, known: KnownEffects) -> Result<()> {
+        let named = |law: &&LawOfFile| self.diagnosis.correction.effects.iter().any(|e| e.effect == law.name);
+        for LawOfFile { name, formula, .. } in self.diagnosis.own_effects.iter().filter(named) {
+            ensure!(
+                known.find(name).is_ok(),
+                "this verdict names '{name}', an effect of a file ({formula}): add --effects {name}.toml"
+            );
+        }
+        Ok(())
     }
 }
 

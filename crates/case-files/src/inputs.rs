@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use inference::KnownEffects;
 use recordings::{
     Group, GroupFile, Grouping, Loss, Mapping, Opened, Read, ReadOptions, RecordingError, Source, Survey, read_from,
     survey_from,
@@ -78,13 +79,21 @@ pub fn mapping(name: &str) -> Result<Mapping> {
 /// # Errors
 /// When it can be neither found nor parsed.
 pub fn robot(name: &str) -> Result<RobotSpec> {
+    robot_with(KnownEffects::default(), name)
+}
+
+/// The same of a file whose effects may be some of one's own.
+///
+/// # Errors
+/// As [`robot`].
+pub fn robot_with(known: KnownEffects, name: &str) -> Result<RobotSpec> {
     let path = Path::new(name);
     if path.is_file() {
         let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return Ok(RobotSpec::parse(name, &text)?);
+        return Ok(RobotSpec::parse_with(known, name, &text)?);
     }
     ensure!(!is_path(name), "there is no robot file '{name}'");
-    Ok(RobotSpec::built_in(name)?)
+    Ok(RobotSpec { known, ..RobotSpec::built_in(name)? })
 }
 
 /// Whether a name can only be meant as a file: no built-in name has a slash or ends so.

@@ -14,6 +14,7 @@ pub mod inputs;
 pub mod kind;
 pub mod long;
 pub mod odometry;
+pub mod own_effects;
 pub mod predictions;
 pub mod propose;
 #[cfg(feature = "page")]

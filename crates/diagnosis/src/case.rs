@@ -17,11 +17,23 @@ pub enum Case {
     CommandDriven(Box<ResponseCase>),
 }
 
+/// Refuses effects of one's own for robots that no free run of the plant is compared with.
+fn refuse_own_effects(case: &Case, options: &Options) -> Result<(), DiagnosisError> {
+    let kind = match case {
+        Case::TorqueDriven(_) => return Ok(()),
+        Case::SpeedDriven(_) => "speed-driven",
+        Case::CommandDriven(_) => "command-driven",
+    };
+    let names: Vec<&str> = options.known.own().iter().map(|own| own.name()).collect();
+    if names.is_empty() { Ok(()) } else { Err(DiagnosisError::OwnEffects { names: names.join(", "), kind }) }
+}
+
 /// Says what physics the simulation of a case left out. `progress` is told the stage that begins.
 ///
 /// # Errors
 /// When there is nothing to compare with, or the recordings do not determine an answer.
 pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Result<Diagnosis, DiagnosisError> {
+    refuse_own_effects(case, options)?;
     match case {
         Case::TorqueDriven(case) => torque_driven::diagnose(case, options, progress),
         Case::SpeedDriven(case) => speed_driven::diagnose_steady(case, options, progress),
@@ -43,6 +55,7 @@ impl Prepared {
     /// # Errors
     /// When the references do not determine the model.
     pub fn new(case: Case, options: &Options) -> Result<Self, DiagnosisError> {
+        refuse_own_effects(&case, options)?;
         let calibrated = match &case {
             Case::TorqueDriven(case) => Some(Calibrated::new(case, options)?),
             Case::SpeedDriven(_) | Case::CommandDriven(_) => None,

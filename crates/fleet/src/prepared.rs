@@ -1,8 +1,9 @@
 //! A robot with its references, read and calibrated once for all of its recordings.
 
 use anyhow::{Context, Result};
-use case_files::case_folder::{CaseFolder, file_names, robot};
+use case_files::case_folder::{CaseFolder, file_names, robot_with};
 use case_files::inputs::Loaded;
+use case_files::own_effects;
 use case_files::which_mapping::named_or_built_in;
 use recordings::{Mapping, Read, Recording};
 use robot_file::RobotSpec;
@@ -35,7 +36,8 @@ impl Prepared {
     /// What cannot be read, and references that do not determine the model.
     pub(crate) fn new(setup: &Setup, settings: &Settings) -> Result<Self> {
         let key = key::of_setup(setup, settings);
-        let robot = robot(&setup.robot)?;
+        let robot = robot_with(settings.options.known, &setup.robot)?;
+        own_effects::ensure_torque_driven(&robot)?;
         let name = setup.mapping.as_deref();
         let known = name.is_some() || !setup.reference.is_empty();
         let mapping = known.then(|| named_or_built_in(name, &setup.reference)).transpose()?;

@@ -85,11 +85,22 @@ pub enum DiagnosisError {
         /// What was named.
         id: String,
     },
-    /// A correction names an effect that is not in the catalogue.
-    #[error("there is no effect '{id}'; `lacuna effects` lists them")]
+    /// A correction names an effect that is not known.
+    #[error("there is no effect '{id}'; `lacuna effects` lists them, and --effects adds one of a law file")]
     NoSuchEffect {
         /// What was named.
         id: String,
+    },
+    /// Effects of one's own for a robot that no free run of the plant is compared with.
+    #[error(
+        "effects of one's own ({names}) are weighed in free runs of the plant, which torque-driven robots alone have; this \
+         one is {kind}: leave out --effects"
+    )]
+    OwnEffects {
+        /// Their names.
+        names: String,
+        /// The kind of robot.
+        kind: &'static str,
     },
     /// A correction gives an effect a parameter that it does not have, or a value that is no number.
     #[error("effect '{effect}' takes a finite number for each of {known}, but '{name}' is none of these")]

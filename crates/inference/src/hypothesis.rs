@@ -3,10 +3,11 @@
 use robot_model::constants::NO_LIMIT;
 use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
-use robot_model::{Active, Effect, EffectSpec, Robot, effects};
+use robot_model::{Active, Effect, EffectSpec, Robot};
 
 use verdict::{EffectAt, Side};
 
+use crate::KnownEffects;
 use crate::settings::SETTINGS;
 
 /// An effect at values, present somewhere.
@@ -134,7 +135,8 @@ impl Variant {
                 let of_torque = if p.scale == Scale::LargestTorque { sizes.largest_torque } else { 1.0 };
                 let probe = p.probes[p.probes.len() / 2] * of_robot * of_torque;
                 let bounds = p.bounds.map(|b| if b.abs() < NO_LIMIT { b * of_robot } else { b });
-                out.push(Free { parameter: Some(i), unit: probe.abs(), bounds, usual: probe });
+                let unit = p.step.unwrap_or(probe.abs());
+                out.push(Free { parameter: Some(i), unit, bounds, usual: probe });
             }
         }
         if self.place == Place::Disc {
@@ -212,12 +214,17 @@ impl Variant {
     }
 }
 
-/// All forms of all effects that show in the motion, in the order of the catalogue.
+/// All forms of all effects of the catalogue that show in the motion, in its order.
 ///
 /// Without a pose nothing but the motion can tell a fault of the gyro from turning: then it is one of them.
 pub fn variants(pose: bool) -> Vec<Variant> {
+    variants_of(KnownEffects::default(), pose)
+}
+
+/// The same with effects of one's own, which come last.
+pub fn variants_of(known: KnownEffects, pose: bool) -> Vec<Variant> {
     let mut out = Vec::new();
-    for effect in effects::catalogue::<f64>() {
+    for effect in known.all() {
         let spec = effect.spec();
         let of_gyro = matches!(spec.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
         if spec.redundancy != Redundancy::None && (pose || !of_gyro) {

@@ -8,6 +8,7 @@
 //! * `expected_information`, `advice`: which drive to record next, in bits.
 //! * `experiment`: what a kind of robot says so that data left out of its fit are forecast like all others'.
 //! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
+//! * `known`: the effects that may be named: the catalogue's, and those of one's own.
 //! * `corrected`: a correction as a robot and effects that a plant takes.
 //! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
 //! * `settings`: every tuned number, with unit and source.
@@ -25,6 +26,7 @@ pub mod expected_information;
 #[cfg(feature = "solver")]
 pub mod experiment;
 pub mod hypothesis;
+mod known;
 #[cfg(feature = "solver")]
 pub mod least_squares;
 mod options;
@@ -33,8 +35,9 @@ pub mod robust;
 mod settings;
 pub mod words;
 
-pub use corrected::{Corrected, active, in_catalogue};
+pub use corrected::Corrected;
 pub use error::DiagnosisError;
+pub use known::KnownEffects;
 pub use options::{Options, SearchForLaw};
 
 /// Every tuned number of this crate, for the page of settings; without those of the solver.

@@ -1,5 +1,6 @@
 //! Settings of a diagnosis.
 
+use crate::KnownEffects;
 use crate::settings::{SETTINGS, Usual};
 
 /// When a law is looked for that has no name in the catalogue.
@@ -35,6 +36,8 @@ pub struct Options {
     /// An effect of the motion that is weighed as little as if the catalogue did not hold it (torque-driven robots): what
     /// would be said of a cause without a name.
     pub without: Option<&'static str>,
+    /// The effects that may be named: the catalogue's, and those of one's own (torque-driven robots).
+    pub known: KnownEffects,
 }
 
 impl Default for Options {
@@ -49,6 +52,7 @@ impl Default for Options {
             same_robot: false,
             law: SearchForLaw::default(),
             without: None,
+            known: KnownEffects::default(),
         }
     }
 }

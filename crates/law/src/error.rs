@@ -1,4 +1,4 @@
-//! What can be wrong with a law.
+//! What can be wrong with a law, and with an effect of one's own.
 
 /// What can be wrong with a law.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -52,5 +52,51 @@ pub enum LawError {
         given: String,
         /// The unit that closes it.
         needed: String,
+    },
+}
+
+/// Why a law cannot be an effect of one's own.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum OwnEffectError {
+    /// No name of an effect.
+    #[error(
+        "'{0}' cannot be the name of an effect; write small letters, digits, '-' and '_', with a letter first, as \"my-law\""
+    )]
+    Name(String),
+    /// It remembers what was before.
+    #[error("'{0}' has a hidden state, which simulations do not carry; leave this factor out")]
+    State(String),
+    /// Too many numbers.
+    #[error("the law has {count} numbers; an effect has at most {most}: leave out a factor or a term")]
+    Numbers {
+        /// How many it has.
+        count: usize,
+        /// How many it may have.
+        most: usize,
+    },
+    /// Two terms whose sizes cannot be added up.
+    #[error(
+        "the constants of the law are in {first} and {second}; give terms in different units a file of their own each"
+    )]
+    Units {
+        /// Of the first term.
+        first: String,
+        /// Of the second.
+        second: String,
+    },
+    /// A constant without a size.
+    #[error("the constant of '{0}' is zero; give its usual size, at which a fit of it starts")]
+    Zero(String),
+    /// A shape number out of its bounds.
+    #[error("'{factor}' has {value}, but this number lies from {low} to {high}")]
+    Shape {
+        /// The factor.
+        factor: String,
+        /// The number.
+        value: String,
+        /// Its least value.
+        low: String,
+        /// Its largest.
+        high: String,
     },
 }

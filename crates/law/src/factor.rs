@@ -8,6 +8,9 @@ use crate::settings::SETTINGS;
 use crate::unit::Unit;
 use crate::variable::{Of, Variable, held};
 
+/// Shape numbers of a factor, at most.
+pub(crate) const MOST_SHAPES: usize = 3;
+
 /// How a variable enters a term. Shape numbers are in the variable's unit unless said otherwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Factor {
@@ -188,6 +191,18 @@ impl Factor {
         }
     }
 
+    /// Symbols of the shape numbers, in the order of [`Factor::shapes`].
+    pub(crate) fn shape_symbols(self) -> &'static [&'static str] {
+        match self {
+            Self::Excess(..) | Self::Clip(..) | Self::Bump(..) | Self::Above(..) => &["a"],
+            Self::Rise(_) | Self::Lag(..) | Self::Heat(..) => &["tau"],
+            Self::Turn(..) => &["phase"],
+            Self::Oscillation(..) => &["w", "phase"],
+            Self::Disc(..) => &["x", "y", "radius"],
+            Self::Power(..) | Self::EvenPower(..) | Self::Sign(..) => &[],
+        }
+    }
+
     /// The same with other shape numbers, those of [`Factor::shapes`].
     #[must_use]
     pub fn with(self, shapes: &[f64]) -> Self {
@@ -206,14 +221,38 @@ impl Factor {
         }
     }
 
-    /// Its value at an instant, with variables limited by `limit` and its hidden state `memory`.
+    /// Its shape numbers, in the order of [`Factor::shapes`], and how many there are: without an allocation.
     #[inline(always)]
-    pub(crate) fn value<T: Scalar>(self, m: &Motion<T>, of: Of, limit: &impl Fn(Variable, T) -> T, memory: T) -> T {
+    pub(crate) fn shape_values(self) -> ([f64; MOST_SHAPES], usize) {
+        match self {
+            Self::Excess(_, a) | Self::Clip(_, a) | Self::Bump(_, a) | Self::Above(_, a) | Self::Rise(a) => {
+                ([a, 0.0, 0.0], 1)
+            }
+            Self::Turn(_, _, phase) => ([phase, 0.0, 0.0], 1),
+            Self::Oscillation(w, phase) => ([w, phase, 0.0], 2),
+            Self::Lag(_, tau) | Self::Heat(_, _, tau) => ([tau, 0.0, 0.0], 1),
+            Self::Disc(x, y, radius) => ([x, y, radius], 3),
+            Self::Power(..) | Self::EvenPower(..) | Self::Sign(..) => ([0.0; MOST_SHAPES], 0),
+        }
+    }
+
+    /// Its value at an instant, with variables limited by `limit`, shape numbers `shapes` instead of its own (in the
+    /// order of [`Factor::shapes`]) and its hidden state `memory`.
+    #[inline(always)]
+    pub(crate) fn value<T: Scalar>(
+        self,
+        m: &Motion<T>,
+        of: Of,
+        limit: &impl Fn(Variable, T) -> T,
+        shapes: [T; MOST_SHAPES],
+        memory: T,
+    ) -> T {
         let s = SETTINGS.shapes;
         let (zero, one) = (T::zero(), T::one());
         let x = |v: Variable| limit(v, v.value(m, of));
         // A shape that is a size: positive, whatever was written.
-        let size = |a: f64| real::<T>(a.abs().max(s.least));
+        let size = |a: T| a.abs().max(real(s.least));
+        let [first, second, third] = shapes;
         let power = |x: T, p: u8| (1..p).fold(x, |y, _| y * x);
         match self {
             Self::Power(v, p) => {
@@ -221,21 +260,21 @@ impl Factor {
                 if p % 2 == 1 { power(x, p) } else { x * x.abs() }
             }
             Self::EvenPower(v, p) => power(x(v).abs(), p),
-            Self::Sign(v, x0) => (x(v) / size(x0)).tanh(),
-            Self::Excess(v, a) => {
-                let (x, a) = (x(v), size(a));
+            Self::Sign(v, x0) => (x(v) / size(real(x0))).tanh(),
+            Self::Excess(v, _) => {
+                let (x, a) = (x(v), size(first));
                 (x - a).max(zero) + (x + a).min(zero)
             }
-            Self::Clip(v, a) => x(v).max(-size(a)).min(size(a)),
-            Self::Bump(v, a) => {
-                let y = x(v) / size(a);
+            Self::Clip(v, _) => x(v).max(-size(first)).min(size(first)),
+            Self::Bump(v, _) => {
+                let y = x(v) / size(first);
                 (-(y * y).min(real(s.deepest))).exp()
             }
-            Self::Above(v, a) => {
-                let over = (x(v).abs() - size(a)) / (size(a) * real(s.edge));
+            Self::Above(v, _) => {
+                let over = (x(v).abs() - size(first)) / (size(first) * real(s.edge));
                 (one + over.tanh()) * real(0.5)
             }
-            Self::Turn(v, n, phase) => {
+            Self::Turn(v, n, _) => {
                 let (cos, sin) = if v == Variable::Heading {
                     let [c, s] = m.heading;
                     (1..n).fold((c, s), |(a, b), _| (a * c - b * s, a * s + b * c))
@@ -243,14 +282,15 @@ impl Factor {
                     let (sin, cos) = (x(v) * real(f64::from(n))).sin_cos();
                     (cos, sin)
                 };
-                cos * real(phase.cos()) - sin * real(phase.sin())
+                let (sin_of_phase, cos_of_phase) = first.sin_cos();
+                cos * cos_of_phase - sin * sin_of_phase
             }
-            Self::Oscillation(w, phase) => (held(m.time) * real(w) + real(phase)).sin_cos().1,
-            Self::Rise(tau) => one - (-(held(m.time).max(zero) / size(tau)).min(real(s.deepest))).exp(),
+            Self::Oscillation(..) => (held(m.time) * first + second).sin_cos().1,
+            Self::Rise(_) => one - (-(held(m.time).max(zero) / size(first)).min(real(s.deepest))).exp(),
             Self::Lag(..) | Self::Heat(..) => held(memory),
-            Self::Disc(cx, cy, radius) => {
-                let (dx, dy) = (held(m.position[0]) - real(cx), held(m.position[1]) - real(cy));
-                let inside = real::<T>(radius) - (dx * dx + dy * dy).sqrt();
+            Self::Disc(..) => {
+                let (dx, dy) = (held(m.position[0]) - first, held(m.position[1]) - second);
+                let inside = third - (dx * dx + dy * dy).sqrt();
                 (one + (inside / real(s.border)).tanh()) * real(0.5)
             }
         }

@@ -1,7 +1,8 @@
 //! A law for what has no name: a place, a formula whose units close, and where it was seen.
 //!
 //! `u = C f₁ f₂ f₃` at a place of the robot; a law has one such term or two. Types and evaluation,
-//! no engine: whoever simulates adds [`Law::act`] to its plant.
+//! no engine: whoever simulates adds [`Law::act`] to its plant, or takes a law with a name as an
+//! effect of it, [`OwnEffect`].
 //!
 //! # Files
 //!
@@ -11,21 +12,27 @@
 //! * `term`, `text`: terms and laws, as formulas that read back.
 //! * `memory`: hidden states, row by row.
 //! * `grammar`: every candidate that symmetry allows.
+//! * `plant`: what a law sees of an instant of the plant, and what it changes there.
+//! * `effect`: a law under a name as an effect; `python`: its lines beside an exported model.
 //! * `settings`: starting shapes; `error`: what can be wrong with a law.
 
+mod effect;
 mod error;
 mod factor;
 mod grammar;
 mod memory;
 mod motion;
 mod place;
+mod plant;
+mod python;
 mod settings;
 mod term;
 mod text;
 mod unit;
 mod variable;
 
-pub use error::LawError;
+pub use effect::OwnEffect;
+pub use error::{LawError, OwnEffectError};
 pub use factor::{Factor, Shape};
 pub use grammar::{Scales, candidates, dry_sign};
 pub use memory::Memory;

@@ -32,6 +32,16 @@
         most: f64 = 1e9, "1", "numerical guard: its third power times three factors is finite";
     }
 
+    /// A law as an effect of the plant.
+    effect: Effect {
+        /// Least share of a wheel's grip or radius that a law leaves.
+        least_share: f64 = 0.05, "1", "numerical guard";
+        /// Largest constant of an effect of one's own, in that of its file.
+        most: f64 = 50.0, "1", "guess; as of laws that are searched";
+        /// Size of an effect of one's own below which nobody would act, as a share of that of its file.
+        interest: f64 = 0.25, "1", "guess";
+    }
+
     /// Candidates of the search.
     grammar: Grammar {
         /// Wheel speed over which a dry law changes its sign.

@@ -90,17 +90,10 @@ impl TryFrom<Written> for Law {
     fn try_from(written: Written) -> Result<Self, LawError> {
         let law: Self = written.formula.parse()?;
         let seen = written.seen.into_iter().map(|(name, range)| {
-            let variable = crate::text::variable(&name)?;
-            if range.iter().any(|x| !x.is_finite()) {
-                return Err(LawError::NotFinite(name));
-            }
-            let [low, high] = range;
-            if low > high {
-                return Err(LawError::Range { variable: name, low: low.to_string(), high: high.to_string() });
-            }
+            let variable = Variable::seen(&name, range)?;
             Ok((variable, range))
         });
-        let seen = seen.collect::<Result<Vec<_>, _>>()?;
+        let seen = seen.collect::<Result<Vec<_>, LawError>>()?;
         Ok(law.seen_within(&seen))
     }
 }
@@ -184,6 +177,18 @@ impl Law {
     /// [`Memory`](crate::Memory) keeps them.
     #[inline(always)]
     pub fn act<T: Scalar>(&self, m: &Motion<T>, memory: &[T]) -> Action<T> {
+        self.evaluated(m, memory, |_, own| real(own))
+    }
+
+    /// The same without hidden states, at other numbers, in the order of [`Law::numbers`]; missing ones stay.
+    #[inline(always)]
+    pub fn act_with<T: Scalar>(&self, m: &Motion<T>, numbers: &[T]) -> Action<T> {
+        self.evaluated(m, &[], |i, own| numbers.get(i).copied().unwrap_or_else(|| real(own)))
+    }
+
+    /// The same with each number by its place in [`Law::numbers`] and its own value.
+    #[inline(always)]
+    fn evaluated<T: Scalar>(&self, m: &Motion<T>, memory: &[T], number: impl Fn(usize, f64) -> T) -> Action<T> {
         let most = SETTINGS.guard.most;
         let limit = |v: Variable, x: T| {
             let [low, high] = self.seen.iter().find(|(w, _)| *w == v).map_or([-most, most], |(_, range)| *range);
@@ -191,15 +196,23 @@ impl Law {
         };
         let mut out = Action::default();
         let mut states = memory.iter().copied();
+        let mut first = 0;
         for term in &self.terms {
+            let mut next = first;
             for &(input, of) in term.place.inputs() {
-                let mut value = real::<T>(term.constant);
+                let mut value = number(first, term.constant);
+                next = first + 1;
                 for factor in &term.factors {
+                    let (own, count) = factor.shape_values();
+                    let shape = |k: usize| if k < count { number(next + k, own[k]) } else { T::zero() };
+                    let shapes = [shape(0), shape(1), shape(2)];
                     let state = if factor.is_state() { states.next().unwrap_or_else(T::zero) } else { T::zero() };
-                    value *= factor.value(m, of, &limit, state);
+                    value *= factor.value(m, of, &limit, shapes, state);
+                    next += count;
                 }
                 out.add(input, value);
             }
+            first = next;
         }
         out
     }

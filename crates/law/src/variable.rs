@@ -2,6 +2,7 @@
 
 use scalar::{Scalar, real};
 
+use crate::error::LawError;
 use crate::motion::Motion;
 use crate::settings::SETTINGS;
 use crate::unit::Unit;
@@ -111,6 +112,23 @@ impl Variable {
     /// Whether it grows and falls about zero.
     pub const fn is_amount(self) -> bool {
         !self.is_angle() && !matches!(self, Self::Time)
+    }
+
+    /// The variable of a symbol whose range in a file is `range`.
+    ///
+    /// # Errors
+    /// Symbols that are none, and ranges that are none.
+    pub fn seen(symbol: &str, range: [f64; 2]) -> Result<Self, LawError> {
+        let variable = crate::text::variable(symbol)?;
+        if range.iter().any(|x| !x.is_finite()) {
+            return Err(LawError::NotFinite(symbol.to_owned()));
+        }
+        let [low, high] = range;
+        if low > high {
+            let (low, high) = (low.to_string(), high.to_string());
+            return Err(LawError::Range { variable: symbol.to_owned(), low, high });
+        }
+        Ok(variable)
     }
 
     /// Its value at an instant; of the heading, which is no number here, zero.

@@ -13,7 +13,8 @@ const FRICTION_REST: f64 = 0.15;
 
 /// What the names in the lines of a residual mean.
 const LEGEND: &str = "In the lines below: w, angle: speed and angle of each side's rear wheel (0 left, 1 right), rad/s, rad; \
-    v: velocity of the centre of mass in body axes, m/s; ch, sh: cosine and sine of the heading; t: time, s; T: torque that \
+    v: velocity of the centre of mass in body axes, m/s; r: yaw rate, rad/s; at: place of the chassis, m; heading, ch, sh: \
+    heading, rad, its cosine and sine; t: time, s; T: torque that \
     each side's drive delivers, N m; sign(x): x/0.15 kept within -1 and 1; share(i, x, y, r): 1 where wheel i is within r of \
     (x, y), else 0; grip[i]: friction of wheel i. To be added: torque at the rear wheel joint of each side, N m; force, N, and \
     moment, N m, in body axes at the centre of mass. y: what a sensor is to show.";

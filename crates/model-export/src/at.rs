@@ -1,6 +1,6 @@
 //! An effect at values, as the translations read it.
 
-use inference::DiagnosisError;
+use inference::{DiagnosisError, KnownEffects};
 use robot_model::effect::export::{Engine, Way, When};
 use robot_model::effect::{EffectSpec, MAX_PARAMETERS, Values};
 use robot_model::{Active, Effect, Presence};
@@ -17,10 +17,10 @@ pub(crate) struct At<'a> {
 
 impl<'a> At<'a> {
     /// Looks the effect up.
-    pub(crate) fn new(of: &'a EffectAt) -> Result<Self, DiagnosisError> {
-        // Refuses what the catalogue does not have.
-        inference::active(of, "")?;
-        let effect = inference::in_catalogue(of)?;
+    pub(crate) fn new(of: &'a EffectAt, known: KnownEffects) -> Result<Self, DiagnosisError> {
+        // Refuses what is not known.
+        known.active(of, "")?;
+        let effect = known.find(&of.effect)?;
         let mut values = [0.0; MAX_PARAMETERS];
         for (value, p) in values.iter_mut().zip(effect.spec().parameters) {
             *value = of.values.get(p.name).copied().unwrap_or(p.neutral);

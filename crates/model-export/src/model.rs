@@ -1,6 +1,6 @@
 //! What is exported, and what comes out.
 
-use inference::DiagnosisError;
+use inference::{DiagnosisError, KnownEffects};
 use robot_model::Robot;
 use verdict::{Cause, EffectAt};
 
@@ -11,8 +11,10 @@ pub struct Model<'a> {
     pub name: &'a str,
     /// Its constants, re-tuned if they are to be.
     pub robot: &'a Robot<f64>,
-    /// Effects of the catalogue, at values.
+    /// Effects, at values.
     pub effects: &'a [EffectAt],
+    /// The effects that these may be: the catalogue's, and those of one's own.
+    pub known: KnownEffects,
     /// The robot before it was re-tuned: comments say what changed.
     pub before: Option<&'a Robot<f64>>,
     /// Causes that the effects come from: comments give their intervals.

@@ -8,7 +8,7 @@
 and `shown(reading)` turns what ideal sensors read into what these show.
 """
 
-from math import cos, exp, hypot, sin
+from math import cos, exp, hypot, sin, tanh
 
 import mujoco
 import numpy as np
@@ -49,6 +49,7 @@ class Residual:
         arm = centre - data.xpos[self.chassis]
         velocity = data.qvel[:3] + np.cross(turn @ data.qvel[3:6], arm)
         v = [ch * velocity[0] + sh * velocity[1], ch * velocity[1] - sh * velocity[0]]
+        r, at = data.qvel[5], data.xpos[self.chassis]
 
         def share(wheel, x, y, radius):
             """How much of a wheel is in a disc: its edge is 30 mm wide."""

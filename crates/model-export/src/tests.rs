@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use inference::KnownEffects;
 use robot_model::effects::catalogue;
 use robot_model::{EffectSpec, Robot, paper};
 use verdict::{EffectAt, Side};
@@ -27,7 +28,7 @@ fn at(spec: &EffectSpec, side: Option<Side>) -> EffectAt {
 }
 
 fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported {
-    let model = Model { name: "tested", robot, effects, before: None, causes: &[] };
+    let model = Model { name: "tested", robot, effects, known: KnownEffects::default(), before: None, causes: &[] };
     model.export(engine).expect("a model")
 }
 
@@ -80,9 +81,10 @@ fn masses_and_inertias_sum_up_to_those_of_the_robot() {
     let robot = robot();
     let payload = catalogue::<f64>().into_iter().find(|e| e.spec().id == "payload").expect("payload");
     let load = at(payload.spec(), None);
-    let model = Model { name: "tested", robot: &robot, effects: &[load], before: None, causes: &[] };
+    let known = KnownEffects::default();
+    let model = Model { name: "tested", robot: &robot, effects: &[load], known, before: None, causes: &[] };
     let mut expected = robot;
-    payload.robot(At::new(&model.effects[0]).expect("values").values(), &mut expected);
+    payload.robot(At::new(&model.effects[0], known).expect("values").values(), &mut expected);
     for engine in Engine::ALL {
         let v = vehicle(&model, engine).expect("a vehicle");
         let total = Parts::new(&v, engine != Engine::Mjcf).total();
@@ -175,7 +177,39 @@ fn a_place_is_a_disc_on_the_ground_or_a_residual() {
 fn an_effect_that_is_not_in_the_catalogue_is_refused() {
     let robot = robot();
     let stranger = [EffectAt { effect: "wind".to_owned(), ..EffectAt::default() }];
-    let model = Model { name: "tested", robot: &robot, effects: &stranger, before: None, causes: &[] };
+    let known = KnownEffects::default();
+    let model = Model { name: "tested", robot: &robot, effects: &stranger, known, before: None, causes: &[] };
     let error = model.export(Engine::Mjcf).expect_err("refused").to_string();
     assert!(error.contains("wind"), "{error}");
+}
+
+#[test]
+fn a_law_of_ones_own_has_its_lines_with_its_numbers_beside_every_engine() {
+    let robot = robot();
+    let exported = |formula: &str, values: &[(&str, f64)], engine: Engine| {
+        let own = law::OwnEffect::new("my-law", formula.parse().expect("a law")).expect("an effect");
+        let values = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let effects = [EffectAt { effect: "my-law".to_owned(), values, ..EffectAt::default() }];
+        let known = KnownEffects::with(vec![own]);
+        let model = Model { name: "tested", robot: &robot, effects: &effects, known, before: None, causes: &[] };
+        model.export(engine).expect("a model")
+    };
+    let drag = "T_right = -0.5 [N m] * bump(omega, 5) * wave(t, 2, 0) * rise(t, 4)";
+    let numbers = [("constant", -0.75), ("a of bump(omega)", 3.0), ("w of wave(t)", 2.5), ("phase of wave(t)", 0.25)];
+    for engine in Engine::ALL {
+        let text = exported(drag, &numbers, engine);
+        assert!(text.text.contains("my-law") && !text.text.contains('{'), "{}", text.text);
+        assert!(is_well_formed(&text.text), "{}", text.text);
+        assert!(text.notes.iter().any(|note| note == "my-law: it has no such law"), "{:?}", text.notes);
+        let lines = text.residual.unwrap_or(text.text);
+        let expected = "torque[1] += (-0.75) * (exp(-min((w[1] / 3) ** 2, 60.0))) * (cos(2.5 * t + 0.25)) * \
+            (1.0 - exp(-min(max(t, 0.0) / 4, 60.0)))";
+        assert!(lines.contains(expected), "{lines}");
+    }
+    let slope = exported("slope_x = 0.1 [rad]; slope_y = 0.1 [rad]", &[("constant of slope_y", 0.05)], Engine::Mjcf);
+    let python = slope.residual.expect("a residual");
+    let weight = crate::number::number(robot.mass * robot.gravity);
+    assert!(python.contains(&format!("rise = (0.05)\n        force[0] -= {weight} * rise * sh")), "{python}");
+    let wheels = exported("radius_left = 0.01 [m]", &[("constant", 0.002)], Engine::Sdf);
+    assert!(wheels.text.contains("Add it by its law: radius_left = 0.01 [m]"), "{}", wheels.text);
 }

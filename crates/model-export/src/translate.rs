@@ -22,7 +22,7 @@ pub fn way(engine: Engine, effect: &str) -> Option<Way> {
 
 /// Sorts the effects of a model for an engine.
 pub(crate) fn vehicle(model: &Model<'_>, engine: Engine) -> Result<Vehicle, ExportError> {
-    let effects = model.effects.iter().map(At::new).collect::<Result<Vec<_>, _>>()?;
+    let effects = model.effects.iter().map(|of| At::new(of, model.known)).collect::<Result<Vec<_>, _>>()?;
     let mut v = Vehicle {
         robot: *model.robot,
         coefficients: model.robot.coefficients(),
@@ -131,7 +131,7 @@ fn added(at: &At<'_>, why: &str, v: &Vehicle) -> Option<Residual> {
 /// What stands for what in the lines of an effect, see [`Lines`].
 fn placeholders(at: &At<'_>, v: &Vehicle) -> Vec<(&'static str, String)> {
     let list = |values: &[f64]| values.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
-    let [a, b, c, d, ..] = at.values().map(number);
+    let [a, b, c, d, e] = at.values().map(number);
 
     // What the law adds at rest, the heading along the world's x.
     let bare = v.robot.coefficients();
@@ -147,6 +147,7 @@ fn placeholders(at: &At<'_>, v: &Vehicle) -> Vec<(&'static str, String)> {
         ("{1}", b),
         ("{2}", c),
         ("{3}", d),
+        ("{4}", e),
         ("{sides}", at.sides_text().to_owned()),
         ("{side}", at.side_name().unwrap_or("left and right").to_owned()),
         ("{place}", list(&at.place().unwrap_or_default())),
@@ -154,6 +155,9 @@ fn placeholders(at: &At<'_>, v: &Vehicle) -> Vec<(&'static str, String)> {
         ("{force y}", number(force[1])),
         ("{moment}", number(with.moment)),
         ("{rolling}", list(&rolling)),
+        ("{rim}", number(v.robot.wheel_radius)),
+        ("{half track}", number(v.robot.half_track)),
+        ("{weight}", number(v.robot.mass * v.robot.gravity)),
         ("{law}", at.spec().law.to_owned()),
     ]
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use inference::KnownEffects;
 use model_export::{Engine, Model};
 use robot_model::effects::catalogue;
 use robot_model::{Plant, Robot, State, paper};
@@ -52,7 +53,7 @@ print(float(model.body_mass.sum()), *speeds, float(data.qvel[5]))
 fn driven(python: &Path, robot: &Robot<f64>, effects: &[EffectAt], torque: [f64; 2]) -> [f64; 4] {
     let folder = tempfile::tempdir().expect("a folder");
     let (xml, residual) = (folder.path().join("robot.xml"), folder.path().join("robot.residual.py"));
-    let model = Model { name: "tested", robot, effects, before: None, causes: &[] };
+    let model = Model { name: "tested", robot, effects, known: KnownEffects::default(), before: None, causes: &[] };
     let exported = model.export(Engine::Mjcf).expect("a model");
     std::fs::write(&xml, exported.text).expect("writes");
     if let Some(text) = exported.residual {

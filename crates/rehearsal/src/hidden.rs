@@ -1,8 +1,10 @@
 //! An effect of a given size, in the form in which a replica has it.
 
+use inference::KnownEffects;
 use inference::hypothesis::{Dose, Place, Sizes, Variant};
+use law::OwnEffect;
 use robot_model::effect::export::Way;
-use robot_model::{Effect, EffectSpec, effects};
+use robot_model::{Effect, EffectSpec};
 
 use crate::random::{Purpose, Stream};
 
@@ -22,9 +24,12 @@ pub(crate) struct Hidden {
 }
 
 impl Hidden {
-    /// Every effect of the catalogue on this scale of sizes, or why it cannot be hidden.
-    pub(crate) fn all(sizes: Sizes) -> impl Iterator<Item = Result<Self, (&'static EffectSpec, &'static str)>> {
-        effects::catalogue::<f64>().into_iter().map(move |effect| {
+    /// Every effect that is known on this scale of sizes, or why it cannot be hidden.
+    pub(crate) fn all(
+        known: KnownEffects,
+        sizes: Sizes,
+    ) -> impl Iterator<Item = Result<Self, (&'static EffectSpec, &'static str)>> {
+        known.all().map(move |effect| {
             let spec = effect.spec();
             if spec.export.robot_file == Way::ON_SAMPLES {
                 Err((spec, ON_SAMPLES))
@@ -69,7 +74,10 @@ impl Hidden {
         free.truncate(strengths);
 
         let direction: Vec<f64> = if strengths == 1 {
-            vec![if spec.signed && (replica / 2) % 2 == 1 { -1.0 } else { 1.0 }]
+            // A law of one's own has the sign of its file: friction is not to push.
+            let (is_own, usual) =
+                (OwnEffect::of(self.effect).is_some(), free.first().map_or(1.0, |f| f.usual.signum()));
+            vec![if spec.signed && !is_own && (replica / 2) % 2 == 1 { -usual } else { usual }]
         } else {
             let mut stream = Stream::new(seed, Purpose::Direction, &[replica]);
             let drawn: Vec<f64> = (0..strengths).map(|_| stream.normal()).collect();
@@ -93,12 +101,19 @@ mod tests {
 
     fn hidden(id: &str) -> Hidden {
         let sizes = Sizes { largest_torque: 5.0, robot: Some(testing::robot()) };
-        Hidden::all(sizes).filter_map(Result::ok).find(|h| h.spec().id == id).expect("can be hidden")
+        Hidden::all(KnownEffects::default(), sizes)
+            .filter_map(Result::ok)
+            .find(|h| h.spec().id == id)
+            .expect("can be hidden")
     }
 
     #[test]
     fn a_dose_has_the_size_that_was_asked_for_in_every_replica() {
-        for hidden in Hidden::all(Sizes { largest_torque: 5.0, robot: Some(testing::robot()) }).filter_map(Result::ok) {
+        let sizes = Sizes { largest_torque: 5.0, robot: Some(testing::robot()) };
+        let law = "T_right = -0.5 [N m] * sgn(omega, 0.3)".parse().expect("a law");
+        let known = KnownEffects::with(vec![OwnEffect::new("my-law", law).expect("an effect")]);
+        assert!(Hidden::all(known, sizes).filter_map(Result::ok).any(|hidden| hidden.spec().id == "my-law"));
+        for hidden in Hidden::all(known, sizes).filter_map(Result::ok) {
             for replica in 0..4 {
                 let Some(dose) = hidden.dose(1.0, 3, replica) else { panic!("{}: no dose", hidden.spec().id) };
                 let strengths: Vec<usize> = hidden.spec().strengths().collect();
@@ -128,7 +143,9 @@ mod tests {
     #[test]
     fn what_cannot_be_hidden_has_its_reason() {
         let why = |id: &str| {
-            let refused = Hidden::all(Sizes::default()).filter_map(Result::err).find(|(spec, _)| spec.id == id);
+            let refused = Hidden::all(KnownEffects::default(), Sizes::default())
+                .filter_map(Result::err)
+                .find(|(spec, _)| spec.id == id);
             refused.map(|(_, why)| why)
         };
         assert_eq!(why("clock_drift"), Some(ON_SAMPLES));

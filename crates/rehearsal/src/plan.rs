@@ -1,8 +1,8 @@
 //! What is to be rehearsed.
 
+use inference::KnownEffects;
 use inference::hypothesis::Sizes;
 use recordings::suggest;
-use robot_model::effects;
 use verdict::NotRehearsed;
 
 use crate::error::RehearsalError;
@@ -53,7 +53,7 @@ impl Plan {
     ///
     /// # Errors
     /// Numbers with which nothing can be simulated, and names that are no effect's.
-    pub fn checked(&self) -> Result<Self, RehearsalError> {
+    pub fn checked(&self, known: KnownEffects) -> Result<Self, RehearsalError> {
         if let Some(size) = self.sizes.iter().find(|size| !(size.is_finite() && **size > 0.0)) {
             return Err(RehearsalError::Size { size: *size });
         }
@@ -70,7 +70,7 @@ impl Plan {
         if self.seconds.is_nan() || self.seconds <= 0.0 {
             return Err(RehearsalError::Length { seconds: self.seconds });
         }
-        let known: Vec<&str> = effects::catalogue::<f64>().into_iter().map(|effect| effect.spec().id).collect();
+        let known: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
         if let Some(name) = self.effects.iter().find(|name| !known.contains(&name.as_str())) {
             let hint = suggest::hint(name, &known);
             return Err(RehearsalError::UnknownEffect { name: name.clone(), hint });
@@ -88,9 +88,9 @@ impl Plan {
     }
 
     /// The effects that were asked for and can be hidden, and those that cannot, with the reason.
-    pub(crate) fn effects(&self, sizes: Sizes) -> (Vec<Hidden>, Vec<NotRehearsed>) {
+    pub(crate) fn effects(&self, known: KnownEffects, sizes: Sizes) -> (Vec<Hidden>, Vec<NotRehearsed>) {
         let (mut hidden, mut left_out) = (Vec::new(), Vec::new());
-        for effect in Hidden::all(sizes) {
+        for effect in Hidden::all(known, sizes) {
             match effect {
                 Ok(effect) if self.wants(effect.spec().id) => hidden.push(effect),
                 Err((spec, why)) if self.wants(spec.id) => {
@@ -110,7 +110,7 @@ mod tests {
     fn refused(change: impl FnOnce(&mut Plan)) -> String {
         let mut plan = Plan::default();
         change(&mut plan);
-        let refused = plan.checked().expect_err("refused");
+        let refused = plan.checked(KnownEffects::default()).expect_err("refused");
         assert!(refused.is_of_plan());
         refused.to_string()
     }
@@ -128,14 +128,15 @@ mod tests {
 
     #[test]
     fn sizes_rise_and_stand_once() {
-        let plan = Plan { sizes: vec![2.0, 0.5, 2.0], replicas: 40, ..Plan::default() }.checked().expect("a plan");
+        let plan = Plan { sizes: vec![2.0, 0.5, 2.0], replicas: 40, ..Plan::default() };
+        let plan = plan.checked(KnownEffects::default()).expect("a plan");
         assert_eq!((plan.sizes, plan.fault_free), (vec![0.5, 2.0], 40));
     }
 
     #[test]
     fn only_what_was_asked_for_is_hidden_or_left_out() {
         let plan = Plan { effects: vec!["payload".to_owned(), "clock_drift".to_owned()], ..Plan::default() };
-        let (hidden, left_out) = plan.effects(Sizes::default());
+        let (hidden, left_out) = plan.effects(KnownEffects::default(), Sizes::default());
         assert_eq!(hidden.iter().map(|h| h.spec().id).collect::<Vec<_>>(), ["payload"]);
         assert_eq!(left_out.iter().map(|l| l.effect.as_str()).collect::<Vec<_>>(), ["clock_drift"]);
     }

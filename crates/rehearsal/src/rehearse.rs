@@ -57,7 +57,7 @@ impl<'a> Rehearsing<'a> {
     /// # Errors
     /// A plan with which nothing can be simulated, a case without recordings, recordings that are too short.
     pub fn new(case: &'a Case, plan: &Plan, options: &'a Options) -> Result<Self, RehearsalError> {
-        let plan = plan.checked()?;
+        let plan = plan.checked(options.known)?;
         case.robot.checked().map_err(DiagnosisError::from)?;
         if case.recordings.is_empty() {
             return Err(DiagnosisError::Empty { what: "recording" }.into());
@@ -84,7 +84,7 @@ impl<'a> Rehearsing<'a> {
             largest_torque: largest_torque.fold(0.0, |most: f64, torque| most.max(torque.abs())),
             robot: Some(case.robot),
         };
-        let (all, mut left_out) = plan.effects(sizes);
+        let (all, mut left_out) = plan.effects(options.known, sizes);
         let mut effects = Vec::new();
         for hidden in all {
             match unseen(&common, &plan, &hidden) {

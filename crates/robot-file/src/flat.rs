@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use inference::KnownEffects;
 use recordings::Spot;
 use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
@@ -178,7 +179,7 @@ impl FlatRobot {
     }
 
     /// The robot of this file.
-    pub(crate) fn spec(self, source: RobotText<'_>) -> Result<RobotSpec, RobotFileError> {
+    pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let values = self.values();
         let constants: Vec<(&'static str, f64)> = values.iter().map(|v| (v.constant, v.value * v.times)).collect();
         let robot = Robot::from_constants(&constants).map_err(|error| refusal(error, &values, source))?;
@@ -191,6 +192,7 @@ impl FlatRobot {
             causality: Causality::TorqueDriven,
             robot,
             effects: Vec::new(),
+            known,
             response: None,
             sources: BTreeMap::new(),
             torque_per_current: None,

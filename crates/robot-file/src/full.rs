@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use inference::KnownEffects;
 use recordings::{Spot, parse_unit, suggest};
 use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
@@ -94,7 +95,7 @@ impl<'de> Deserialize<'de> for Parameters {
 
 impl File {
     /// The robot of this file.
-    pub(crate) fn spec(self, source: RobotText<'_>) -> Result<RobotSpec, RobotFileError> {
+    pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let given = self.parameters.0.iter().map(|p| in_key_unit(p, source)).collect::<Result<Vec<_>, _>>()?;
         let robot = robot(&given, source)?;
         let beside = |key: &str| given.iter().find(|g| g.key == key);
@@ -105,13 +106,15 @@ impl File {
         }
 
         for (n, effect) in self.effects.iter().enumerate() {
-            inference::active(effect, "")
-                .map_err(|error| RobotFileError::Effect { place: source.at_effect(n), message: nearest(&error) })?;
+            known.active(effect, "").map_err(|error| RobotFileError::Effect {
+                place: source.at_effect(n),
+                message: nearest(&error, known),
+            })?;
         }
         if let Some(response) = &self.response {
             response.checked().map_err(|error| RobotFileError::Effect {
                 place: source.at("response"),
-                message: nearest(&error.into()),
+                message: nearest(&error.into(), known),
             })?;
         }
 
@@ -130,6 +133,7 @@ impl File {
             description: self.description,
             causality: self.causality,
             effects: self.effects,
+            known,
             response: self.response,
         })
     }
@@ -193,13 +197,16 @@ fn factor(unit: &str, expected: &str) -> Option<f64> {
 }
 
 /// What is wrong with an effect, with the nearest name.
-fn nearest(error: &DiagnosisError) -> String {
+fn nearest(error: &DiagnosisError, known: KnownEffects) -> String {
     match error {
         DiagnosisError::NoSuchEffect { id } => {
-            let known: Vec<&str> = robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec().id).collect();
+            let known: Vec<&str> = known.all().map(|e| e.spec().id).collect();
             match suggest::nearest(id, known) {
                 Some(name) => format!("there is no effect `{id}`; did you mean `{name}`?"),
-                None => format!("there is no effect `{id}`; `lacuna effects` lists them"),
+                None => format!(
+                    "there is no effect `{id}`; `lacuna effects` lists them, and one of a law file is there with --effects \
+                     {id}.toml"
+                ),
             }
         }
         DiagnosisError::NoSuchParameter { effect, name, known } => {

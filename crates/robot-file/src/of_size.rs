@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use inference::KnownEffects;
 use robot_model::tunable::{USUAL_POSE_SIGMA, usual_sigma};
 use robot_model::{ModelError, Robot};
 
@@ -66,6 +67,7 @@ impl RobotSpec {
             causality: Causality::TorqueDriven,
             robot,
             effects: Vec::new(),
+            known: KnownEffects::default(),
             response: None,
             sources: BTreeMap::new(),
             sigma: usual_sigma(),

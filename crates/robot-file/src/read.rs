@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use inference::KnownEffects;
 use recordings::{Spot, suggest};
 
 use crate::flat::FlatRobot;
@@ -38,6 +39,14 @@ impl RobotSpec {
     /// # Errors
     /// Syntax, unknown keys, units and values, each with file and place.
     pub fn parse(file: &str, text: &str) -> Result<Self, RobotFileError> {
+        Self::parse_with(KnownEffects::default(), file, text)
+    }
+
+    /// The same of a file whose effects may be some of one's own.
+    ///
+    /// # Errors
+    /// As [`RobotSpec::parse`].
+    pub fn parse_with(known: KnownEffects, file: &str, text: &str) -> Result<Self, RobotFileError> {
         let source = RobotText { file, text };
         if text.trim().is_empty() {
             return Err(RobotFileError::Empty { place: Spot::file(file) });
@@ -45,17 +54,17 @@ impl RobotSpec {
         let json = Path::new(file).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
         if !json {
             let parsed: File = toml::from_str(text).map_err(|e| source.toml(&e))?;
-            return parsed.spec(source);
+            return parsed.spec(source, known);
         }
 
         let value: serde_json::Value = serde_json::from_str(text).map_err(|e| source.json(&e))?;
         let full = ["parameters", "name", "causality"].iter().any(|key| value.get(key).is_some());
         if full {
             let parsed: File = serde_json::from_str(text).map_err(|e| source.json(&e))?;
-            parsed.spec(source)
+            parsed.spec(source, known)
         } else {
             let flat: FlatRobot = serde_json::from_str(text).map_err(|e| source.json(&e))?;
-            flat.spec(source)
+            flat.spec(source, known)
         }
     }
 }

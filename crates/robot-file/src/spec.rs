@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use inference::DiagnosisError;
+use inference::{DiagnosisError, KnownEffects};
 use robot_model::{Active, Robot};
 use serde::{Deserialize, Serialize};
 use verdict::EffectAt;
@@ -44,6 +44,8 @@ pub struct RobotSpec {
     pub robot: Robot<f64>,
     /// What its simulation is given beside these constants.
     pub effects: Vec<EffectAt>,
+    /// The effects that may be among them: the catalogue's, and those of one's own.
+    pub known: KnownEffects,
     /// Response to commands, of a command-driven robot; without one, the wheels do what is commanded.
     pub response: Option<ResponseModel>,
     /// Where each parameter comes from, by its name in robot files.
@@ -62,8 +64,8 @@ impl RobotSpec {
     /// Its effects for the plant of a drive.
     ///
     /// # Errors
-    /// As [`inference::active`].
+    /// As [`KnownEffects::active`].
     pub fn active(&self, drive: &str) -> Result<Vec<Active<f64>>, DiagnosisError> {
-        self.effects.iter().map(|e| inference::active(e, drive)).collect()
+        self.effects.iter().map(|e| self.known.active(e, drive)).collect()
     }
 }

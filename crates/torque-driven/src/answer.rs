@@ -17,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
 use crate::settings::fit;
-use crate::{locate, retuned, stand_in, visit, words};
+use crate::{locate, own_effects, retuned, stand_in, visit, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -249,6 +249,7 @@ impl Judged<'_> {
         let located = locate::locate(self, &calibrated, fitted, &forecasts, unexplained, &ranked);
         let mut limits = self.limits();
         limits.extend(retuned::moved_by_visit(p, fitted, &self.case.recordings));
+        limits.extend(own_effects::beyond_range(p, retuned, &ranked));
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
@@ -284,6 +285,7 @@ impl Judged<'_> {
             response: None,
             next: None,
             law: None,
+            own_effects: p.known.told(),
             coverage: BTreeMap::new(),
             predictions,
         };

@@ -144,6 +144,7 @@ pub(crate) fn calibrate_on(
             step: options.step,
             largest_torque,
             same_robot: options.same_robot,
+            known: options.known,
             without: options.without,
             drives: Drives::default(),
         },
@@ -335,6 +336,7 @@ pub(crate) fn problem<'a>(
         step: options.step,
         largest_torque,
         same_robot: options.same_robot,
+        known: options.known,
         without: options.without,
         drives: Drives::default(),
     }

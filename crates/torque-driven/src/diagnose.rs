@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::decide::{Decision, decide, evidence};
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::judged::Judged;
+use crate::own_effects::Runaway;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
 use crate::search::{retune, search};
@@ -16,10 +17,10 @@ use crate::simulator::{Simulator, check_inputs};
 use crate::trial::{SearchResult, Trial};
 use crate::visit::{Visit, VisitNumbers, visits_of};
 use crate::windows::{Cut, CutOptions, cut};
-use inference::{DiagnosisError, Options};
+use inference::{DiagnosisError, KnownEffects, Options};
 use verdict::Diagnosis;
 
-use crate::{next, unnamed};
+use crate::{next, own_effects, unnamed};
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
 const PRICES: Prices = decision::SETTINGS.prices;
@@ -33,6 +34,8 @@ pub struct Calibrated {
     visits: Vec<Option<Visit>>,
     calibration: Calibration,
     largest_torque: f64,
+    /// Effects of one's own that no free run of the references can hold.
+    runaways: Vec<Runaway>,
 }
 
 impl Calibrated {
@@ -56,20 +59,25 @@ impl Calibrated {
         } else {
             let logs: Vec<Run> = logs.iter().map(Run::as_recorded).collect();
             let logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
-            Some(Simulator::new(case, &robot, &logs, largest_torque, options)?)
+            // What a simulator believes are constants.
+            let of_constants = Options { known: KnownEffects::default(), ..*options };
+            Some(Simulator::new(case, &robot, &logs, largest_torque, &of_constants)?)
         };
         if references.is_empty() {
             let mut calibration = Calibration::by_file();
             if let Some(simulator) = &simulator {
                 calibration.theta = simulator.theta;
             }
-            return Ok(Self { simulator, references: Vec::new(), visits: Vec::new(), calibration, largest_torque });
+            let (references, visits, runaways) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Self { simulator, references, visits, calibration, largest_torque, runaways });
         }
         let visits = visits_of(&references);
         let mut references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
         number(&mut references, &VisitNumbers::new(&visits, &[]).references);
+        let runaways = own_effects::runaways(options.known, &robot, &references, options.step);
+        let options = &own_effects::without(options, &runaways);
         let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
-        Ok(Self { simulator, references, visits, calibration, largest_torque })
+        Ok(Self { simulator, references, visits, calibration, largest_torque, runaways })
     }
 
     /// Diagnoses the recordings of a case with the same robot and references. `progress` is called
@@ -95,6 +103,10 @@ impl Calibrated {
         let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
         let mut recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
         number(&mut recordings, &visits.recordings);
+        let known = own_effects::without(options, &self.runaways).known;
+        let runaways =
+            [self.runaways.clone(), own_effects::runaways(known, &robot, &recordings, options.step)].concat();
+        let options = &own_effects::without(options, &runaways);
         let largest = largest_torque(&case.recordings).max(self.largest_torque);
         let taught = if largest > self.largest_torque && !self.references.is_empty() {
             calibrate(&robot, &case.sigma, &self.references, largest, options)?
@@ -149,6 +161,7 @@ impl Calibrated {
             simulator: self.simulator.as_ref(),
         };
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
+        out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
             progress("looking for a law without a name");
             out.law = Some(unnamed::tell(&answer, &found.retuned, &out));

@@ -20,8 +20,9 @@ use crate::settings::fit::{Fit, SETTINGS};
 use crate::simulate::{Body, Response, RunResponse, free_run};
 use crate::unnamed::Acting;
 use crate::windows::Cut;
+use inference::KnownEffects;
 use inference::hypothesis::{Dose, Sizes};
-use inference::hypothesis::{Free, Variant, variants};
+use inference::hypothesis::{Free, Variant, variants_of};
 use verdict::Correction;
 
 /// Cost of a response that is not finite.
@@ -60,6 +61,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) largest_torque: f64,
     /// Whether nobody changed the robot: what needs a hand on it is not weighed.
     pub(crate) same_robot: bool,
+    /// The effects that are weighed: the catalogue's, and those of one's own.
+    pub(crate) known: KnownEffects,
     /// An effect that is weighed as little as if the catalogue did not hold it.
     pub(crate) without: Option<&'static str>,
     pub(crate) drives: Drives,
@@ -110,7 +113,7 @@ impl Problem<'_> {
     pub(crate) fn variants(&self) -> Vec<Variant> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
-        let mut all = variants(segments().any(|s| s.shows(Channel::ForwardVelocity)));
+        let mut all = variants_of(self.known, segments().any(|s| s.shows(Channel::ForwardVelocity)));
         all.retain(|v| self.without != Some(v.spec().id));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all

@@ -229,7 +229,7 @@ mod tests {
     use recordings::Signal;
 
     use super::{simulate, simulate_at_speed};
-    use inference::{Corrected as _, DiagnosisError, Options};
+    use inference::{Corrected as _, DiagnosisError, KnownEffects, Options};
     use testing::{recording, robot, samples};
     use verdict::{Correction, EffectAt};
 
@@ -268,8 +268,8 @@ mod tests {
                 effects: vec![EffectAt { effect: effect.to_owned(), values, ..EffectAt::default() }],
                 ..Correction::default()
             };
-            simulate(&robot(), &correction.active("d").expect("known"), &torques(), &Options::default())
-                .expect("a drive")
+            let active = correction.active(KnownEffects::default(), "d").expect("known");
+            simulate(&robot(), &active, &torques(), &Options::default()).expect("a drive")
         };
         let plain = simulate(&robot(), &[], &torques(), &Options::default()).expect("a drive");
         let biased = with("gyro_bias", 0.05);

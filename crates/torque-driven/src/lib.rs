@@ -26,6 +26,7 @@
 //! * `next/*`: which drive would tell the rivals apart.
 //! * `output_error/*`: constants of a robot from recordings in free run.
 //! * `unnamed/*`: a law for what has no name in the catalogue.
+//! * `own_effects`: effects of one's own: those that no free run can hold, drives beyond their range.
 //! * `settings/*`: every tuned number, stage by stage.
 
 mod answer;
@@ -54,6 +55,7 @@ mod normal;
 mod null_scores;
 mod onset;
 pub mod output_error;
+mod own_effects;
 mod predict;
 mod redundancy;
 mod retuned;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use law::OwnEffect;
 use robot_model::EffectSpec;
 
 use crate::candidate::Candidate;
@@ -41,6 +42,7 @@ fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
 }
 
 /// Finalists: alternately from both rankings until their places are taken, with a second form of an effect that has one close by.
+/// An effect of one's own is always one of them: somebody asked for it.
 fn finalists(first: &[Candidate], second: &[Candidate], places: [usize; 2]) -> Vec<Candidate> {
     let (a, b) = (by_id(first), by_id(second));
     let mut ids: Vec<&'static str> = Vec::new();
@@ -50,7 +52,7 @@ fn finalists(first: &[Candidate], second: &[Candidate], places: [usize; 2]) -> V
         for list in [&a, &b] {
             if let Some(c) = list.get(i)
                 && !ids.contains(&c.variant.spec().id)
-                && places.take(c.variant.spec())
+                && (OwnEffect::of(c.variant.effect).is_some() || places.take(c.variant.spec()))
             {
                 ids.push(c.variant.spec().id);
                 out.push((*c).clone());

@@ -4,6 +4,7 @@ use std::array::from_fn;
 use std::convert::Infallible;
 
 use inference::hypothesis::Dose;
+use law::OwnEffect;
 use rayon::prelude::*;
 use robot_model::presence::Presence;
 use robot_model::{Active, Disturbance, Lanes, Plant, Robot, Scalar, State};
@@ -94,7 +95,11 @@ impl Stretch<'_> {
 fn wide_dose(stretches: &[Stretch<'_>; WIDTH], d: usize, part: Option<usize>) -> Option<Active<Wide>> {
     let doses: [&Dose; WIDTH] = from_fn(|i| &stretches[i].body.doses[d]);
     let values = doses.map(|d| d.values.as_slice());
-    lanes::effect(doses[0].effect, values, from_fn(|i| stretches[i].presence(doses[i], part)))
+    let presence = from_fn(|i| stretches[i].presence(doses[i], part));
+    match OwnEffect::of(doses[0].effect) {
+        Some(own) => Some(lanes::effect_of(own, values, presence)),
+        None => lanes::effect(doses[0].effect, values, presence),
+    }
 }
 
 /// Runs up to eight stretches of one shape; the last one fills what is left over.
@@ -105,7 +110,7 @@ fn side_by_side(group: &[Stretch<'_>], part: Option<usize>) -> RunResponse {
     let active: Vec<Active<Wide>> =
         (0..count).filter_map(|d| wide_dose(&stretches, d, part.filter(|_| d + 1 == count))).collect();
     let robot = lanes::robots(stretches.map(|s| &s.body.robot));
-    let acting = stretches[0].body.acting.as_ref().map(|a| a.side_by_side(&stretches.map(Stretch::at), &robot));
+    let acting = stretches[0].body.acting.as_ref().map(|a| a.side_by_side(&stretches.map(Stretch::at)));
     let plant = Plant::new(&robot, &active, Lanes::real(grid.step()))
         .disturbed(acting.as_ref().map(|a| a as &dyn Disturbance<Wide>));
 

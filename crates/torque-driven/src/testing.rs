@@ -145,6 +145,7 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         step: options.step,
         largest_torque: 5.0,
         same_robot: false,
+        known: options.known,
         without: None,
         drives: Drives::default(),
     }

@@ -5,10 +5,15 @@ use inference::words::{probability, quantity};
 
 use crate::locate;
 use crate::settings::decision::SETTINGS;
-use verdict::{Cause, Diagnosis, SimulatorConstants, Verdict};
+use verdict::{Cause, Diagnosis, LawOfFile, SimulatorConstants, Verdict};
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
 const SENTENCES: usize = 4;
+
+/// Whether a cause is this effect, and likely.
+fn is_likely(cause: &Cause, effect: &str) -> bool {
+    cause.effect == effect && cause.probability > SETTINGS.answer.likely
+}
 
 /// The answer in sentences, the most important one first.
 ///
@@ -58,6 +63,13 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
     }
+    let is_named = |law: &&LawOfFile| d.verdict == Verdict::Explained && causes.iter().any(|c| is_likely(c, &law.name));
+    out.extend(
+        d.own_effects
+            .iter()
+            .filter(is_named)
+            .map(|law| format!("{} is the law of a file, with these numbers there: {}.", law.name, law.formula)),
+    );
     out.extend(d.simulator.iter().flat_map(SimulatorConstants::sentences));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
         let farthest = d.retuned.iter().take(SENTENCES);

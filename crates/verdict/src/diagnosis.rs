@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, Loads, Located, Prediction, Response, Retuned,
-    SimulatorConstants, Trace, Trial, UnnamedCause,
+    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, LawOfFile, Loads, Located, Prediction, Response,
+    Retuned, SimulatorConstants, Trace, Trial, UnnamedCause,
 };
 
 /// Version of the JSON of a diagnosis.
@@ -83,6 +83,9 @@ pub struct Diagnosis {
     /// What was found of a cause without a name, if it was looked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub law: Option<UnnamedCause>,
+    /// Laws of files that were weighed as effects of one's own: other commands need these files to simulate what is named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub own_effects: Vec<LawOfFile>,
     /// Of long recordings and references, the stretches that this rests on, by the part that they play.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub coverage: BTreeMap<String, Coverage>,
@@ -119,6 +122,7 @@ impl Diagnosis {
             response: None,
             next: None,
             law: None,
+            own_effects: Vec::new(),
             coverage: BTreeMap::new(),
             predictions: Vec::new(),
         }

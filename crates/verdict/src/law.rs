@@ -106,6 +106,17 @@ pub struct LawFreeRun {
     pub shifted: f64,
 }
 
+/// A law of a file under whose name a verdict may name a cause.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawOfFile {
+    /// The name of its effect.
+    pub name: String,
+    /// The formula with its units, at the numbers of the file, as `law::Law` reads it.
+    pub formula: String,
+    /// Range in which each variable was seen, by its symbol in the formula; beyond, it is held at its end.
+    pub seen: BTreeMap<String, [f64; 2]>,
+}
+
 impl FoundLaw {
     /// Error of a quantity with the law over that with re-tuned constants, over all recordings that were left out; `None`
     /// where none was.

@@ -46,11 +46,18 @@ def diagnose(
     reading: _Reading = "normal",
     same_robot: bool = False,
     visit: list[str] | None = None,
+    effects: _Path | Iterable[_Path] | None = None,
     next: bool = False,
     progress: Callable[[str], object] | None = None,
 ) -> Diagnosis: ...
 def effects() -> list[dict[str, Any]]: ...
-def simulate(robot: _Path | dict[str, Any], inputs: _Path | _Arrays, *, mapping: _Path | None = None) -> dict[str, _Floats]: ...
+def simulate(
+    robot: _Path | dict[str, Any],
+    inputs: _Path | _Arrays,
+    *,
+    mapping: _Path | None = None,
+    effects: _Path | Iterable[_Path] | None = None,
+) -> dict[str, _Floats]: ...
 
 @final
 class Diagnosis:

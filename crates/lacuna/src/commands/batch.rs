@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use anyhow::{Result, bail, ensure};
 use case_files::envelope::Program;
 use case_files::long::Budget;
+use case_files::{case_folder, own_effects};
 use clap::Args as ClapArgs;
 use fleet::{Defaults, Event, FolderContents, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
+use inference::KnownEffects;
 use serde_json::json;
 
 use super::diagnose::minutes;
-use super::{Outcome, Reading, Usage, listed, overview, report};
+use super::{Outcome, OwnEffects, Reading, Usage, listed, overview, report};
 use crate::console::{Counted, emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -61,6 +63,8 @@ pub(crate) struct Args {
     /// Recorded time that a diagnosis rests on at most, as in diagnose; 0 takes everything.
     #[arg(long, value_name = "MINUTES", value_parser = minutes)]
     budget: Option<f64>,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Work on the I-th of N parts, from 1/N to N/N; ids decide which.
     #[arg(long, value_name = "I/N", default_value_t)]
     shard: Shard,
@@ -80,12 +84,13 @@ pub(crate) struct Args {
 
 /// Diagnoses a fleet.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
-    let FolderContents { units, unread } = find(args)?;
+    let known = args.effects.known()?;
+    let FolderContents { units, unread } = find(args, known)?;
     let all = units.len();
     let units: Vec<_> = units.into_iter().filter(|unit| args.shard.holds(&unit.id)).collect();
     let mine = units.len();
     let settings = Settings {
-        options: inference::Options::default(),
+        options: inference::Options { known, ..inference::Options::default() },
         reading: args.reading.options(),
         reading_name: args.reading.name().to_owned(),
         budget: args.budget.map(Budget::of_minutes).unwrap_or_default(),
@@ -153,7 +158,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 }
 
 /// The recordings that the arguments name.
-fn find(args: &Args) -> Result<FolderContents> {
+fn find(args: &Args, known: KnownEffects) -> Result<FolderContents> {
     let shown = args.input.display();
     if args.threads == Some(0) || args.limit == Some(0) {
         bail!(Usage("--threads and --limit take a number from 1 on".to_owned()));
@@ -171,8 +176,9 @@ fn find(args: &Args) -> Result<FolderContents> {
     let defaults =
         Defaults { robot: args.robot.clone(), reference: args.reference.clone(), mapping: args.mapping.clone() };
     // What holds for all is looked at before any work is done.
-    defaults.robot.as_deref().map(case_files::case_folder::robot).transpose()?;
-    defaults.mapping.as_deref().map(case_files::case_folder::mapping).transpose()?;
+    let robot = defaults.robot.as_deref().map(|name| case_folder::robot_with(known, name)).transpose()?;
+    robot.as_ref().map_or(Ok(()), own_effects::ensure_torque_driven)?;
+    defaults.mapping.as_deref().map(case_folder::mapping).transpose()?;
     if args.input.is_file() {
         return Ok(FolderContents { units: fleet::manifest(&args.input, &defaults)?, unread: Vec::new() });
     }

@@ -5,19 +5,19 @@ use robot_file::RobotSpec;
 use std::path::PathBuf;
 
 use ::report::diagnosis_text;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
 use case_files::report_page::{page, page_of_columns};
 use case_files::visits::GivenVisit;
-use case_files::{kind, predictions, which_mapping};
+use case_files::{kind, own_effects, predictions, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
-use inference::{Options, SearchForLaw};
+use inference::{KnownEffects, Options, SearchForLaw};
 use recordings::Mapping;
 use verdict::{Diagnosis, Verdict};
 
-use super::{Outcome, Reading, odometry, report};
+use super::{Outcome, OwnEffects, Reading, odometry, report};
 use crate::console::{Progress, Stages, emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -26,6 +26,7 @@ Examples:
   lacuna diagnose case/ --json verdict.json --predictions out/
   lacuna diagnose case/ --fail-on mismatch        guards a simulator in CI
   lacuna diagnose case/ --report page.html
+  lacuna diagnose case/ --effects my-law.toml     weighs a law of your own too
   lacuna diagnose --robot robot.toml --mapping my-robot.toml \\
          --reference monday/ --recordings tuesday/run_3.csv tuesday/run_4.csv
   lacuna diagnose case/ --visit 'today=*'         references and recordings are of
@@ -163,6 +164,8 @@ pub(crate) struct Args {
     /// is unknown or the best name leaves much of the mismatch, always, or never.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t)]
     law: LawWhen,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Weigh this effect of the motion as little as if the catalogue did not hold it: shows what would be said of a cause
     /// without a name.
     #[arg(long, value_name = "EFFECT", value_parser = effect)]
@@ -215,9 +218,11 @@ fn outcome(verdict: Verdict, fail_on: Option<FailOn>, lost: &[String]) -> Outcom
 
 /// Diagnoses a case.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
+    let known = args.effects.known()?;
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
     if let Some(case) = odometry::case(&args.input)? {
+        ensure!(known.own().is_empty(), own_effects::refused(known, case.kind()));
         return verdict_of_columns(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
@@ -226,9 +231,10 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         same_robot: args.input.same_robot,
         law: args.law.into(),
         without: args.without,
+        known,
         ..Options::default()
     };
-    let (case, mapping) = read(&args.input)?;
+    let (case, mapping) = read(&args.input, known)?;
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
 
@@ -301,23 +307,25 @@ pub(crate) struct Located {
     pub(crate) mapping: Mapping,
 }
 
-/// What the arguments name.
-pub(crate) fn located(args: &Input) -> Result<Located> {
+/// What the arguments name, the robot with effects that are known.
+pub(crate) fn located(args: &Input, known: KnownEffects) -> Result<Located> {
     let (robot, paths) = match (&args.case, &args.robot) {
-        (Some(folder), robot) => case_folder::located(folder, robot.as_deref())?,
-        (None, Some(robot)) => {
-            (case_folder::robot(robot)?, [&args.reference, &args.recordings, &args.heldout].map(Clone::clone))
-        }
+        (Some(folder), robot) => case_folder::located(known, folder, robot.as_deref())?,
+        (None, Some(robot)) => (
+            case_folder::robot_with(known, robot)?,
+            [&args.reference, &args.recordings, &args.heldout].map(Clone::clone),
+        ),
         (None, None) => bail!("no robot was named; do so with --robot"),
     };
+    own_effects::ensure_torque_driven(&robot)?;
     let mapping = which_mapping::of_case(args.mapping.as_deref(), args.case.as_deref(), &paths.concat())?;
     Ok(Located { robot, paths, mapping })
 }
 
 /// The case that the arguments name, and the name of the mapping that read it.
-pub(crate) fn read(args: &Input) -> Result<(CaseFolder, String)> {
+pub(crate) fn read(args: &Input, known: KnownEffects) -> Result<(CaseFolder, String)> {
     let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
-    let Located { robot, paths: [reference, recordings, heldout], mapping } = located(args)?;
+    let Located { robot, paths: [reference, recordings, heldout], mapping } = located(args, known)?;
     let in_folder = args.case.as_deref().map(case_folder::simulation_of).unwrap_or_default();
     let simulation = [args.simulation.clone(), in_folder].concat();
     let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?

@@ -7,11 +7,12 @@ use anyhow::{Context, Result, ensure};
 use case_files::case_folder;
 use case_files::envelope::Envelope;
 use case_files::kind;
+use case_files::own_effects;
 use clap::{Args as ClapArgs, ValueEnum};
 use model_export::{Engine, Model};
 use verdict::{Cause, Diagnosis, EffectAt, Verdict};
 
-use super::{Outcome, Usage};
+use super::{Outcome, OwnEffects, Usage};
 use crate::console::{emit, warning};
 
 const EXAMPLES: &str = "\
@@ -21,6 +22,8 @@ Examples:
   lacuna export verdict.json --to toml -o robot.toml   for simulate and predict
   lacuna export verdict.json --to sdf --retuned        re-tuned, no effects
   lacuna export robot.toml --to urdf                   with the file's effects
+  lacuna export verdict.json --to mjcf -o robot.xml --effects my-law.toml
+                                                       it names a law of a file
 
 Laws that an engine has become values of its model, with comments that say
 where they come from. What an engine cannot hold is listed in the model as
@@ -47,6 +50,8 @@ pub(crate) struct Args {
     /// The robot with its constants as re-tuned together with the effects, but without these.
     #[arg(long)]
     retuned: bool,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Write over a file that is there.
     #[arg(long)]
     force: bool,
@@ -96,6 +101,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         name: &name,
         robot: &robot.robot,
         effects: &robot.effects,
+        known: robot.known,
         before: before.as_ref().map(|b| &b.robot),
         causes: &causes,
     };
@@ -107,16 +113,25 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 }
 
 fn source(args: &Args) -> Result<Source> {
+    let known = args.effects.known()?;
     let toml = args.from.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     if toml {
-        let whole = case_folder::robot(&args.from.display().to_string())?;
+        let whole = case_folder::robot_with(known, &args.from.display().to_string())?;
+        own_effects::ensure_torque_driven(&whole)?;
+        for sentence in own_effects::unused(&whole) {
+            warning(&sentence);
+        }
         let robot = if args.nominal || args.retuned { RobotSpec { effects: Vec::new(), ..whole } } else { whole };
         return Ok(Source { robot, before: None, causes: Vec::new() });
     }
     let envelope = Envelope::open(&args.from)?;
-    let nominal = envelope.robot()?;
+    let nominal = envelope.robot_with(known)?;
+    own_effects::ensure_torque_driven(&nominal)?;
     if args.nominal {
         return Ok(Source { robot: nominal, before: None, causes: Vec::new() });
+    }
+    if !args.retuned {
+        envelope.ensure_known(known)?;
     }
     for doubt in doubts(&envelope.diagnosis) {
         warning(&doubt);

@@ -1,6 +1,6 @@
 //! `lacuna law`: the law that a diagnosis found, as a file of one's own.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use case_files::envelope::Envelope;
@@ -17,6 +17,7 @@ Examples:
   lacuna diagnose case/ --json verdict.json
   lacuna law verdict.json
   lacuna law verdict.json --save my-law.toml
+  lacuna diagnose other-case/ --effects my-law.toml
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
@@ -27,7 +28,8 @@ pub(crate) struct Args {
     /// What `lacuna diagnose ... --json VERDICT.json` wrote.
     #[arg(value_name = "VERDICT.json")]
     verdict: PathBuf,
-    /// Write the law to a file: formula, numbers with intervals, range seen.
+    /// Write the law to a file: a name, formula, numbers with intervals, range seen. `--effects FILE.toml` of other commands
+    /// takes it as an effect of your own.
     #[arg(long, value_name = "FILE.toml")]
     save: Option<PathBuf>,
 }
@@ -35,6 +37,8 @@ pub(crate) struct Args {
 /// A law as a file.
 #[derive(Serialize)]
 struct Card<'a> {
+    /// Its name as an effect of one's own.
+    name: String,
     /// Where it acts.
     place: &'a str,
     /// Share of the excess cost that it leaves.
@@ -58,11 +62,26 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     emit(&format!("{law}\n"))?;
     if let Some(target) = &args.save {
         let verdict = args.verdict.to_string_lossy().into_owned();
-        let card = Card { place: &found.place, left: found.left, verdict, law, numbers: &found.numbers };
+        let card = Card {
+            name: name_of(target),
+            place: &found.place,
+            left: found.left,
+            verdict,
+            law,
+            numbers: &found.numbers,
+        };
         std::fs::write(target, toml::to_string(&card)?)
             .with_context(|| format!("cannot write '{}'", target.display()))?;
     }
     Ok(Outcome::Done)
+}
+
+/// The name of an effect that a file's name gives: small letters, digits, '-' and '_', a letter first.
+fn name_of(file: &Path) -> String {
+    let stem = file.file_stem().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let plain = |c: char| if c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' { c } else { '-' };
+    let name: String = stem.chars().map(plain).collect();
+    if name.starts_with(|c: char| c.is_ascii_lowercase()) { name } else { format!("law-{name}") }
 }
 
 /// The law with the ranges in which it was seen.

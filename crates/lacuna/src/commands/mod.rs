@@ -7,8 +7,9 @@ use anyhow::{Result, bail};
 use case_files::case_folder::file_names;
 use case_files::envelope::SourceFile;
 use case_files::inputs::Loaded;
-use case_files::{inputs, which_mapping};
+use case_files::{inputs, own_effects, which_mapping};
 use clap::{Args as ClapArgs, ValueEnum};
+use inference::KnownEffects;
 use recordings::{Mapping, Policy, Read, ReadOptions, Source};
 
 pub(crate) mod batch;
@@ -93,6 +94,22 @@ impl Reading {
             Self::Normal => "normal",
             Self::Tolerant => "tolerant",
         }
+    }
+}
+
+/// Effects of one's own.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct OwnEffects {
+    /// Law files, as `lacuna law --save` writes them: each is an effect of your own beside those of the catalogue, under
+    /// the name that it gives (torque-driven robots).
+    #[arg(long = "effects", value_name = "LAW.toml", value_delimiter = ',')]
+    files: Vec<PathBuf>,
+}
+
+impl OwnEffects {
+    /// The catalogue with these.
+    pub(crate) fn known(&self) -> Result<KnownEffects> {
+        own_effects::read(&self.files)
     }
 }
 

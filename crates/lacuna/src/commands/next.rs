@@ -16,7 +16,7 @@ use verdict::Advice;
 use verdict::{Manoeuvre, WIDENING, wheel_speeds};
 
 use super::diagnose::{self, Input, NEXT_LENGTH};
-use super::{Outcome, Usage, listed};
+use super::{Outcome, OwnEffects, Usage, listed};
 use crate::console::{Progress, emit, emit_json, heading};
 
 const EXAMPLES: &str = "\
@@ -60,6 +60,8 @@ pub(crate) struct Args {
     /// Draw the profile and the expected bits of all drives as SVG.
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Write the advice as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
     json: Option<String>,
@@ -67,10 +69,11 @@ pub(crate) struct Args {
 
 /// Advises on the next drive of a case.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
+    let known = args.effects.known()?;
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
-    let (case, _) = diagnose::read(&args.input)?;
-    let options = Options { next: Some(args.seconds), same_robot: args.input.same_robot, ..Options::default() };
+    let (case, _) = diagnose::read(&args.input, known)?;
+    let options = Options { next: Some(args.seconds), same_robot: args.input.same_robot, known, ..Options::default() };
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
     let Some(advice) = &diagnosis.next else {

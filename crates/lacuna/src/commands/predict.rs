@@ -8,18 +8,20 @@ use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
 use case_files::kind::{self, Kind};
+use case_files::own_effects;
 use case_files::predictions;
 use clap::Args as ClapArgs;
 use recordings::Read;
 use serde_json::{Value, json};
 
-use super::{Outcome, Reader, Usage, sources};
-use crate::console::{emit, emit_json};
+use super::{Outcome, OwnEffects, Reader, Usage, sources};
+use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna predict robot.toml --drives heldout/ --out predicted/
   lacuna predict robot.toml corrected.toml --drives run_7.csv run_8.csv
+  lacuna predict corrected.toml --drives heldout/ --effects my-law.toml
 
 Several robot files are compared on the same drives. The simulation runs freely
 and is set to the recorded state at rows that hold all of it (pose, body
@@ -42,6 +44,8 @@ pub(crate) struct Args {
     drives: Vec<PathBuf>,
     #[command(flatten)]
     reader: Reader,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Least time between two restarts from the recorded state, s.
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = seconds)]
     restart: f64,
@@ -71,7 +75,14 @@ struct Errors {
 
 /// Predicts drives.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let robots: Vec<RobotSpec> = args.robot.iter().map(|name| case_folder::robot(name)).collect::<Result<_>>()?;
+    let known = args.effects.known()?;
+    let robots: Vec<RobotSpec> =
+        args.robot.iter().map(|name| case_folder::robot_with(known, name)).collect::<Result<_>>()?;
+    robots.iter().try_for_each(own_effects::ensure_torque_driven)?;
+    // With and without a law may be what is to be compared.
+    for sentence in robots.iter().map(own_effects::unused).min_by_key(Vec::len).unwrap_or_default() {
+        warning(&sentence);
+    }
     let causality = robots[0].causality;
     for robot in &robots {
         ensure!(
@@ -114,6 +125,9 @@ fn forecast(args: &Args, kind: &dyn Kind, robots: &[RobotSpec], read: &Read) -> 
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
         let forecast = kind.forecast(robot, &read.recording, args.restart)?;
+        for sentence in forecast.prediction.iter().flat_map(|p| own_effects::beyond_seen_in_forecast(robot, p)) {
+            warning(&sentence);
+        }
         out.push(forecast.errors);
         if let (Some(dir), Some(prediction)) = (&args.out, &forecast.prediction) {
             let dir = if robots.len() > 1 { dir.join(stem(name)?) } else { dir.clone() };

@@ -1,14 +1,14 @@
 //! `lacuna rehearse`: which effects a diagnosis would find on a robot's own inputs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail, ensure};
 use case_files::envelope::Program;
-use case_files::kind;
+use case_files::{kind, own_effects};
 use clap::Args as ClapArgs;
-use inference::Options;
+use inference::{KnownEffects, Options};
 use rehearsal::{Plan, RehearsalError, Rehearsing};
 use serde_json::json;
 
@@ -21,6 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   lacuna rehearse case/
   lacuna rehearse case/ --effects payload,grade --size 0.5,1,2 --replicas 10
+  lacuna rehearse case/ --effects my-law.toml     a law of your own
   lacuna rehearse case/ --references 0            what references are worth
   lacuna rehearse case/ --html page.html --json rehearsal.json
 
@@ -53,7 +54,8 @@ pub(crate) struct Args {
     /// Sizes to simulate, in multiples of each effect's size of interest [default: 0.5,1,2,4].
     #[arg(long, value_name = "X,Y", value_delimiter = ',')]
     size: Vec<f64>,
-    /// Effects to hide, as `lacuna effects` lists them [default: all that the plant can have].
+    /// Effects to hide, as `lacuna effects` lists them; law files (LAW.toml) are effects of your own [default: all that the
+    /// plant can have].
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     effects: Vec<String>,
     /// References of a replica, on the inputs of the recordings: what one more is worth; 0 is none
@@ -98,11 +100,21 @@ fn drives(text: &str) -> Result<usize, String> {
 }
 
 impl Args {
-    fn plan(&self) -> Plan {
+    /// The effects to hide, law files apart from names.
+    fn files_and_names(&self) -> (Vec<PathBuf>, Vec<&str>) {
+        let is_file = |given: &&str| Path::new(given).extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+        let (files, names): (Vec<&str>, Vec<&str>) = self.effects.iter().map(|given| given.trim()).partition(is_file);
+        (files.into_iter().map(PathBuf::from).collect(), names)
+    }
+
+    fn plan(&self, known: KnownEffects) -> Plan {
+        let (_, names) = self.files_and_names();
+        let of_catalogue = names.into_iter().map(|name| name.to_lowercase().replace(['-', ' '], "_"));
+        let own = known.own().iter().map(|own| own.name().to_owned());
         let usual = Plan::default();
         Plan {
             sizes: if self.size.is_empty() { usual.sizes } else { self.size.clone() },
-            effects: self.effects.iter().map(|name| name.trim().to_lowercase().replace(['-', ' '], "_")).collect(),
+            effects: of_catalogue.chain(own).collect(),
             references: self.references,
             replicas: self.replicas,
             fault_free: self.fault_free.unwrap_or(usual.fault_free),
@@ -115,20 +127,21 @@ impl Args {
 
 /// Rehearses a case.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
-    let plan = args.plan();
-    plan.checked().map_err(told)?;
+    let known = own_effects::read(&args.files_and_names().0)?;
+    let plan = args.plan(known);
+    plan.checked(known).map_err(told)?;
     for target in [&args.json, &args.html].into_iter().flatten() {
         is_writable(target)?;
     }
 
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
-    let robot = diagnose::located(&args.input)?.robot;
+    let robot = diagnose::located(&args.input, known)?.robot;
     if let Some(why) = kind::of(robot.causality).no_rehearsal() {
         bail!("robot '{}' is {}; {why}", robot.name, robot.causality.name());
     }
-    let (folder, mapping) = diagnose::read(&args.input)?;
-    let (case, options) = (folder.torque_driven()?, Options::default());
+    let (folder, mapping) = diagnose::read(&args.input, known)?;
+    let (case, options) = (folder.torque_driven()?, Options { known, ..Options::default() });
     progress.stage("looking which effects these inputs can show");
     let rehearsing = Rehearsing::new(&case, &plan, &options).map_err(told)?;
     drop(progress);

@@ -5,6 +5,7 @@ use case_files::envelope::Program;
 use case_files::long::{Budget, Screened};
 use clap::Args as ClapArgs;
 use diagnosis::long::Screen;
+use inference::KnownEffects;
 use pages::text_table::TextTable;
 use report::sections::heading;
 use report::sections::listed;
@@ -53,7 +54,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
              `lacuna diagnose` takes"
         );
     }
-    let Located { robot, paths: [reference, recordings, _], mapping } = located(&args.input)?;
+    let Located { robot, paths: [reference, recordings, _], mapping } = located(&args.input, KnownEffects::default())?;
     let budget = args.input.budget.map(Budget::of_minutes).unwrap_or_default();
     let screened = budget.screen(&robot, [&reference, &recordings], &mapping, &args.input.reading.options())?;
     drop(progress);

@@ -5,18 +5,20 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
+use case_files::own_effects;
 use case_files::simulated::simulated;
 use clap::Args as ClapArgs;
 use recordings::write_csv;
 use serde_json::json;
 
-use super::{Outcome, Reader, only, sources};
-use crate::console::{emit, emit_json};
+use super::{Outcome, OwnEffects, Reader, only, sources};
+use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
 Examples:
   lacuna simulate robot.toml run_1.csv > simulated.csv
   lacuna simulate corrected.toml run_1.csv -o simulated.csv
+  lacuna simulate corrected.toml run_1.csv --effects my-law.toml
   lacuna simulate husky-a200 FLOORING/pro_01.csv --mapping husky-open -o s.csv
 
 The robot file may hold effects: `lacuna export verdict.json --to toml` writes
@@ -40,6 +42,8 @@ pub(crate) struct Args {
     recording: Vec<PathBuf>,
     #[command(flatten)]
     reader: Reader,
+    #[command(flatten)]
+    effects: OwnEffects,
     /// Write the simulated drive as CSV to a file; `-` is standard output.
     #[arg(short, long, value_name = "FILE|-", default_value = "-")]
     out: String,
@@ -50,10 +54,17 @@ pub(crate) struct Args {
 
 /// Simulates a drive.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let robot = case_folder::robot(&args.robot)?;
+    let robot = case_folder::robot_with(args.effects.known()?, &args.robot)?;
+    own_effects::ensure_torque_driven(&robot)?;
+    for sentence in own_effects::unused(&robot) {
+        warning(&sentence);
+    }
     let (loaded, _) = args.reader.load(&args.recording)?;
     let read = only(&loaded)?;
     let simulated = simulated(&robot, &read.recording).with_context(|| file_names(read))?;
+    for sentence in own_effects::beyond_seen(&robot, &simulated) {
+        warning(&sentence);
+    }
     if let Some(target) = &args.json {
         let columns = simulated.channels().iter().map(|c| (c.signal().column_name(), json!(c.values())));
         let stamps = simulated.channels().first().map(|c| c.t_ns().to_vec());

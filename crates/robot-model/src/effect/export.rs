@@ -86,17 +86,18 @@ pub enum Carrier {
 
 /// What is added where an engine does not hold an effect.
 ///
-/// Lines are Python over `w`, `v`, `T`, `t`, `angle`, `ch`, `sh`, `sign`, `share` (the legend in every exported model).
+/// Lines are Python over `w`, `v`, `r`, `T`, `t`, `angle`, `at`, `heading`, `ch`, `sh`, `sign`, `share` (the legend in every exported model).
 /// In lines and sentences stand for numbers at the exported values:
 ///
 /// | written | stands for |
 /// |---|---|
-/// | `{0}` to `{3}` | value of a parameter, in the order of the specification |
+/// | `{0}` to `{4}` | value of a parameter, in the order of the specification |
 /// | `{sides}` | indices of the sides that have the effect, as a Python tuple |
 /// | `{side}` | "left", "right", or "left and right" |
 /// | `{place}` | x, y and radius of its disc on the ground, m |
 /// | `{force x}`, `{force y}`, `{moment}` | what the law adds to the force (gravity's part included) and the moment at rest at heading 0, N, N m |
 /// | `{rolling}` | torque that the law adds to the rolling resistance of each wheel at rest, four numbers, N m |
+/// | `{rim}`, `{half track}`, `{weight}` | the wheels' radius, half the track, m, and the weight, N |
 /// | `{law}` | the law as a formula |
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residual {

@@ -1,5 +1,7 @@
 //! What an effect is: a specification, and up to three places in which it changes the plant.
 
+use core::any::Any;
+
 use crate::robot::{Robot, UNLIMITED};
 use crate::scalar::{Scalar, real};
 
@@ -12,8 +14,9 @@ pub use spec::{EffectSpec, Kind, LoadTerm, Parameter, Redundancy, Role, Scale, S
 /// One physical phenomenon, or one fault of a sensor, that a simulation may lack.
 ///
 /// At the neutral value of its strengths an effect changes nothing, bit for bit.
-/// `values` are in the order of the specification's parameters.
-pub trait Effect<T: Scalar>: Sync {
+/// `values` are in the order of the specification's parameters. An effect is [`Any`], so that one that is none of the
+/// catalogue's can be found for another scalar.
+pub trait Effect<T: Scalar>: Any + Sync {
     /// What people, the diagnosis and the exporters need to know about it.
     fn spec(&self) -> &'static EffectSpec;
     /// Changes constants of the robot.

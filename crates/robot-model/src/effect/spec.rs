@@ -64,12 +64,14 @@ pub struct Parameter {
     pub probes: &'static [f64],
     /// Probes and bounds count in this quantity of the recordings instead of one.
     pub scale: Scale,
+    /// Size of a usual change of it in a fit, where that is not its probe: of a shape that may be zero.
+    pub step: Option<f64>,
 }
 
 impl Parameter {
     /// A strength: zero is neutral; `probes` is one medium size.
     pub const fn strength(name: &'static str, unit: &'static str, bounds: [f64; 2], probes: &'static [f64]) -> Self {
-        Self { name, unit, role: Role::Strength, bounds, neutral: 0.0, probes, scale: Scale::Own }
+        Self { name, unit, role: Role::Strength, bounds, neutral: 0.0, probes, scale: Scale::Own, step: None }
     }
 
     /// A strength whose response has a shape of its own: several probes.

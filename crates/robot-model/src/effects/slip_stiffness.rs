@@ -2,7 +2,7 @@
 
 use crate::effect::export::{Section, Way};
 use crate::effect::{
-    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Role, Scale, Values,
+    Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values,
 };
 use crate::scalar::Scalar;
 
@@ -15,15 +15,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     name: "slip stiffness of the tyres",
     law: "λp (1 + q)",
     seen: "Slips more (less) for the same force: the effective track grows, odometry runs ahead.",
-    parameters: &[Parameter {
-        name: "q",
-        unit: "-",
-        role: Role::Strength,
-        bounds: [-0.9, 20.0],
-        neutral: 0.0,
-        probes: &[1.0],
-        scale: Scale::Own,
-    }],
+    parameters: &[Parameter::strength("q", "-", [-0.9, 20.0], &[1.0])],
     signed: true,
     interest: 1.0,
     revealed_by: "arcs and spins with a gyro or a pose",

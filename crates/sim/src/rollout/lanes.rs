@@ -22,6 +22,15 @@ pub fn effect<const N: usize>(
 ) -> Option<Active<Lanes<N>>> {
     let id = effect.spec().id;
     let law = effects::catalogue::<Lanes<N>>().into_iter().find(|e| e.spec().id == id)?;
+    Some(effect_of(law, values, presence))
+}
+
+/// The same of an effect that is given for lanes, whether the catalogue holds it or not.
+pub fn effect_of<const N: usize>(
+    law: &'static dyn Effect<Lanes<N>>,
+    values: [&[f64]; N],
+    presence: [Presence<f64>; N],
+) -> Active<Lanes<N>> {
     let values: Vec<Lanes<N>> = (0..values[0].len()).map(|v| Lanes(values.map(|lane| lane[v]))).collect();
 
     let disc = presence[0].disc.map(|first| {
@@ -34,7 +43,7 @@ pub fn effect<const N: usize>(
         disc,
         side: presence[0].side,
     };
-    Some(Active::new(law, &values, presence))
+    Active::new(law, &values, presence)
 }
 
 /// States as one.

@@ -58,10 +58,14 @@
         moves: usize = 12, "1", "the prototype";
         /// Largest constant, in usual sizes.
         most: f64 = 50.0, "1", "guess";
-        /// Least share of a wheel's grip or radius that a law leaves.
-        least_share: f64 = 0.05, "1", "numerical guard";
         /// Saturation of outliers in the last fit of the winner.
         outlier_scale: f64 = 30.0, "1", "the prototype: with 3 strong laws come out 15 % too small";
+    }
+
+    /// Effects of one's own.
+    own: Own {
+        /// Wheel speed of a free run, in the fastest that was recorded, from which on an effect makes the plant run away.
+        runaway: f64 = 20.0, "1", "guess: far beyond what a law of a wrong size does";
     }
 
     /// What a law pays for what it is made of.

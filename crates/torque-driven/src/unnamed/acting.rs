@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use inference::hypothesis::Free;
 use law::{Action, Input, Law, Motion};
-use robot_model::{Coefficients, Disturbance, Lanes, OperatingPoint, Robot, Scalar, real};
+use robot_model::{Coefficients, Disturbance, Lanes, OperatingPoint};
 
 use crate::settings::law::SETTINGS;
 use crate::simulate::{WIDTH, Wide};
@@ -72,8 +72,8 @@ impl Acting {
     }
 
     /// As a disturbance of robots side by side.
-    pub(crate) fn side_by_side<'a>(&'a self, at: &[InRecording; WIDTH], robot: &Robot<Wide>) -> SideBySide<'a> {
-        SideBySide { acting: self, at: *at, half_track: robot.half_track }
+    pub(crate) fn side_by_side<'a>(&'a self, at: &[InRecording; WIDTH]) -> SideBySide<'a> {
+        SideBySide { acting: self, at: *at }
     }
 }
 
@@ -81,16 +81,15 @@ impl Acting {
 pub(crate) struct SideBySide<'a> {
     acting: &'a Acting,
     at: [InRecording; WIDTH],
-    half_track: Wide,
 }
 
 impl Disturbance<Wide> for SideBySide<'_> {
     fn act(&self, at: &OperatingPoint<Wide>, c: &mut Coefficients<Wide>) {
         let action = match self.acting {
-            Acting::Law { law, .. } => law.act(&motion(at, c, self.half_track), &[]),
+            Acting::Law { law, .. } => law.act(&Motion::seen_at(at, c), &[]),
             Acting::Given { inputs, times, .. } => self.given(inputs, *times, at.time),
         };
-        apply(&action, at, c);
+        action.change(at, c);
     }
 }
 
@@ -106,42 +105,4 @@ impl SideBySide<'_> {
         }
         out
     }
-}
-
-/// What a law sees of an operating point.
-#[inline(always)]
-fn motion<T: Scalar>(at: &OperatingPoint<T>, c: &Coefficients<T>, half_track: T) -> Motion<T> {
-    let rim = [at.wheel_speed[0] * c.radius[2], at.wheel_speed[1] * c.radius[3]];
-    let turning = at.yaw_rate * half_track;
-    Motion {
-        time: at.time,
-        position: at.position,
-        heading: at.heading,
-        velocity: at.velocity,
-        yaw_rate: at.yaw_rate,
-        wheel_speed: at.wheel_speed,
-        wheel_angle: at.wheel_angle,
-        torque: at.torque,
-        slip: [rim[0] - at.velocity[0] + turning, rim[1] - at.velocity[0] - turning],
-    }
-}
-
-/// Adds an action to the coefficients of an instant; a slope is positive where the ground rises along its axis.
-#[inline(always)]
-fn apply<T: Scalar>(action: &Action<T>, at: &OperatingPoint<T>, c: &mut Coefficients<T>) {
-    let share = |x: T| (T::one() + x).max(real(SETTINGS.refit.least_share));
-    for i in 0..4 {
-        let j = i % 2;
-        c.adhesion[i] *= share(action.grip[j]);
-        c.lateral[i] *= share(action.lateral_grip);
-        c.radius[i] = (c.radius[i] + action.radius[j]).max(c.radius[i] * real(SETTINGS.refit.least_share));
-    }
-    for j in 0..2 {
-        c.torque[j] += action.torque[j];
-        c.force[j] += action.force[j];
-    }
-    c.moment += action.moment;
-    let ([cos, sin], [x, y]) = (at.heading, action.slope);
-    c.tilt[0] -= at.gravity * (x * cos + y * sin);
-    c.tilt[1] -= at.gravity * (y * cos - x * sin);
 }

@@ -19,4 +19,5 @@ mod tests;
 mod told;
 
 pub(crate) use acting::{Acting, InRecording};
+pub(crate) use signals::Signals;
 pub(crate) use told::{Asked, tell};

@@ -49,6 +49,15 @@ impl Signals {
         })
     }
 
+    /// Least and largest value of a variable; of angles and time, which only repeat or pass, none.
+    pub(crate) fn range(&self, v: Variable) -> Option<[f64; 2]> {
+        let wider = |range: Option<[f64; 2]>, x: f64| {
+            let [low, high] = range.unwrap_or([x; 2]);
+            Some([low.min(x), high.max(x)])
+        };
+        if v.is_amount() { self.values(v).filter(|x| x.is_finite()).fold(None, wider) } else { None }
+    }
+
     /// Usual sizes, for the grammar.
     pub(crate) fn scales(&self, spots: Vec<[f64; 2]>) -> Scales {
         let usual = |v| robust::rms(self.values(v)).map(|size| (v, size));

@@ -1,0 +1,141 @@
+//! The effects that may be named: those of the catalogue, and those of one's own.
+
+use std::fmt;
+
+use law::OwnEffect;
+use robot_model::effect::MAX_PARAMETERS;
+use robot_model::presence::{Disc, Presence};
+use robot_model::{Active, Effect, effects};
+use verdict::{EffectAt, LawOfFile};
+
+use crate::DiagnosisError;
+
+/// The effects of the catalogue, and after them those of one's own.
+#[derive(Clone, Copy, Default)]
+pub struct KnownEffects {
+    own: &'static [&'static OwnEffect],
+}
+
+impl fmt::Debug for KnownEffects {
+    /// The laws of one's own: what answers depend on beside the catalogue.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.own).finish()
+    }
+}
+
+impl PartialEq for KnownEffects {
+    /// Of the same laws under the same names.
+    fn eq(&self, other: &Self) -> bool {
+        let told = |of: &Self| format!("{of:?}");
+        told(self) == told(other)
+    }
+}
+
+impl KnownEffects {
+    /// The catalogue with these, each of which has a name of its own. The list is kept until the program ends, as its
+    /// effects are.
+    pub fn with(own: Vec<&'static OwnEffect>) -> Self {
+        Self { own: Box::leak(own.into_boxed_slice()) }
+    }
+
+    /// Those of one's own.
+    pub fn own(self) -> &'static [&'static OwnEffect] {
+        self.own
+    }
+
+    /// The same without those of one's own that have one of these names.
+    #[must_use]
+    pub fn without(self, names: &[&str]) -> Self {
+        if self.own.iter().all(|own| !names.contains(&own.name())) {
+            return self;
+        }
+        Self::with(self.own.iter().copied().filter(|own| !names.contains(&own.name())).collect())
+    }
+
+    /// All of them.
+    pub fn all(self) -> impl Iterator<Item = &'static dyn Effect<f64>> {
+        effects::catalogue::<f64>().into_iter().chain(self.own.iter().copied().map(OwnEffect::as_effect))
+    }
+
+    /// The effect of a name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find(self, id: &str) -> Result<&'static dyn Effect<f64>, DiagnosisError> {
+        self.all().find(|e| e.spec().id == id).ok_or_else(|| DiagnosisError::NoSuchEffect { id: id.to_owned() })
+    }
+
+    /// The effect for the plant of a drive.
+    ///
+    /// # Errors
+    /// When the effect or a parameter is not known, or a value is not finite.
+    pub fn active(self, at: &EffectAt, drive: &str) -> Result<Active<f64>, DiagnosisError> {
+        let effect = self.find(&at.effect)?;
+        let parameters = effect.spec().parameters;
+        let mut values: Vec<f64> = parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
+        for (name, value) in &at.values {
+            let index = parameters.iter().position(|p| p.name == name).filter(|_| value.is_finite());
+            let index = index.ok_or_else(|| DiagnosisError::NoSuchParameter {
+                effect: at.effect.clone(),
+                name: name.clone(),
+                known: parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", "),
+            })?;
+            values[index] = *value;
+        }
+        let mut presence = Presence { side: at.side.map(|s| s as usize), ..Presence::default() };
+        if let Some([x, y, radius]) = at.place {
+            presence.disc = Some(Disc { centre: [x, y], radius });
+        }
+        if let Some(from) = at.from.get(drive) {
+            presence.from = *from;
+        } else if at.absent.iter().any(|name| name == drive) {
+            presence.from = f64::MAX;
+        }
+        Ok(Active::new(effect, &values, presence))
+    }
+
+    /// Those of one's own for a verdict.
+    pub fn told(self) -> Vec<LawOfFile> {
+        let of = |own: &&OwnEffect| LawOfFile {
+            name: own.name().to_owned(),
+            formula: own.law().to_string(),
+            seen: own.law().seen().iter().map(|(v, range)| (v.symbol().to_owned(), *range)).collect(),
+        };
+        self.own.iter().map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(names: &[&str]) -> KnownEffects {
+        let law: law::Law = "T_right = -0.5 [N m] * sgn(omega, 0.3)".parse().expect("a law");
+        KnownEffects::with(names.iter().map(|name| OwnEffect::new(name, law.clone()).expect("an effect")).collect())
+    }
+
+    #[test]
+    fn effects_of_ones_own_follow_those_of_the_catalogue_and_are_found_by_name() {
+        let known = known(&["a", "b"]);
+        let ids: Vec<&str> = known.all().map(|e| e.spec().id).collect();
+        assert_eq!(ids.len(), effects::COUNT + 2);
+        assert!(ids.ends_with(&["a", "b"]));
+        assert!(known.find("a").is_ok() && known.find("payload").is_ok());
+        assert!(matches!(KnownEffects::default().find("a"), Err(DiagnosisError::NoSuchEffect { .. })));
+        assert_eq!(known.without(&["a"]).own().iter().map(|e| e.name()).collect::<Vec<_>>(), ["b"]);
+        assert_eq!((known, known.without(&["c"])), (self::known(&["a", "b"]), known));
+        assert!(format!("{known:?}").contains("a: T_right = -0.5 [N m] * sgn(omega, 0.3)"));
+    }
+
+    #[test]
+    fn its_numbers_are_set_by_name_and_others_are_refused() {
+        let known = known(&["a"]);
+        let at = |name: &str| EffectAt {
+            effect: "a".to_owned(),
+            values: [(name.to_owned(), -0.7)].into(),
+            ..EffectAt::default()
+        };
+        assert!(known.active(&at("constant"), "drive").is_ok());
+        assert!(matches!(known.active(&at("Tb"), "drive"), Err(DiagnosisError::NoSuchParameter { .. })));
+    }
+}
