@@ -7,12 +7,11 @@ use crate::case::Case;
 use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::{Data, Prior};
+use crate::fit::Prior;
 use crate::left_out::{Table, left_out_of};
-use crate::rows::Kind;
 use crate::settings::SETTINGS;
 use crate::solve::{Solved, solve};
-use inference::robust::{NINETY, rms};
+use inference::robust::NINETY;
 use verdict::Trace;
 
 /// What the drives of a case say.
@@ -75,26 +74,13 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
     Ok((findings(case, &solved), left_out_of(&solved, progress)))
 }
 
-/// Root mean square error of the rows in motion, each over the size of what it measures.
-fn share(data: &Data<'_>, theta: &[f64]) -> f64 {
-    let errors = data.errors(&vec![theta.to_vec(); data.shown.len()]);
-    let (mut ways, mut sizes) = (Vec::new(), Vec::new());
-    for (shown, errors) in data.shown.iter().zip(&errors) {
-        let kind = if shown.drive.has_pose() { Kind::Pose } else { Kind::Encoder };
-        let moving = shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
-        ways.extend(moving.map(|(_, e)| *e));
-        sizes.extend(shown.sizes());
-    }
-    rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
-}
-
 fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
     let Solved { data, causes, prior, fit, named } = solved;
     let estimates = |posterior: &Posterior| -> Vec<Estimate> {
         data.constants.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
     };
     let (all, retuned) = (estimates(&named.posterior), estimates(&named.retuned));
-    let shares = [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|theta| share(data, theta.as_slice()));
+    let shares = [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|theta| data.share(theta.as_slice()));
     let of_cause = |weighed: &Weighed| {
         let cause = &causes[weighed.cause];
         NamedCause {
@@ -150,12 +136,13 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
 fn estimate(constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
     let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
     let value = constant.value(posterior.mean[k]);
+    let sd_of_value = sd * if constant.is_factor { value.abs() } else { 1.0 };
     Estimate {
         name: constant.name.to_owned(),
         unit: constant.unit,
         given: constant.value(prior.mean[k]),
         value,
-        half_width: NINETY * sd * if constant.is_factor { value.abs() } else { 1.0 },
+        half_width: NINETY * sd_of_value.hypot(constant.of_another_law(value)),
         sigmas: (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt(),
     }
 }

@@ -9,7 +9,8 @@ use odometry::weighing::{Evidence, Session};
 use rayon::prelude::*;
 
 use crate::car::Car;
-use crate::constants::{Constant, constants};
+use crate::constant_table::constants;
+use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
 use crate::model::Laws;
@@ -76,6 +77,19 @@ impl<'a> Data<'a> {
             let cut = 2.0 * rules.quantile_sigmas * limit;
             rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0).max(rules.floor[kind as usize])
         })
+    }
+
+    /// Root mean square error of the rows in motion over the size of what they measure.
+    pub(crate) fn share(&self, theta: &[f64]) -> f64 {
+        let errors = self.errors(&vec![theta.to_vec(); self.shown.len()]);
+        let (mut ways, mut sizes) = (Vec::new(), Vec::new());
+        for (shown, errors) in self.shown.iter().zip(&errors) {
+            let kind = if shown.drive.has_pose() { Kind::Pose } else { Kind::Encoder };
+            let moving = shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
+            ways.extend(moving.map(|(_, e)| *e));
+            sizes.extend(shown.sizes());
+        }
+        rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
     }
 
     /// One sigma by which drives differ.

@@ -147,6 +147,7 @@ impl<'a> Shown<'a> {
         if self.drive.has_pose() {
             let (a, b) = (self.drive.pose[window.from], self.drive.pose[window.from + window.steps]);
             let is_moving = (b[0] - a[0]).hypot(b[1] - a[1]) > RULES.moving;
+            let weight = RULES.shared * weight;
             self.rows.extend([Row { kind: Kind::Pose, time, is_moving, weight }; 6]);
             return;
         }

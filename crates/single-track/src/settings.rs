@@ -40,6 +40,8 @@
         length: f64 = 1.0, "s", "guess; half of the forecasts, several lags of usual servos";
         /// Distance of their beginnings.
         every: f64 = 0.5, "s", "guess; half a window";
+        /// Weight of a row of the pose beside the others of its window.
+        shared: f64 = 0.5, "1", "guess; middle and end of a window share the errors of its start";
         /// Metres that a heading error of one radian costs.
         lever: f64 = 1.0, "m/rad", "guess; the way in a second at 1 m/s";
         /// Errors farther off than this many sigmas count less.
@@ -97,9 +99,9 @@
         /// Distances.
         distance: f64 = 0.01, "share", "a tape measure";
         /// Tyre compliance: slip angle for a sideways acceleration.
-        compliance: f64 = 1e-3, "rad s²/m", "guess; a tenth of usual tyres'";
+        compliance: f64 = 1.5e-3, "rad s²/m", "guess; less than a tenth of usual tyres'";
         /// Inverse of the largest sideways acceleration.
-        inverse_grip: f64 = 0.01, "s²/m", "guess; a tenth of usual tyres'";
+        inverse_grip: f64 = 0.02, "s²/m", "guess; less than a fifth of usual tyres'";
         /// Yaw inertia over mass times the square of the wheelbase.
         gyration: f64 = 0.104, "1", "a uniform rectangle half as wide as long: 1.25 / 12";
         /// Yaw inertia.
@@ -140,11 +142,25 @@
         /// Times of steering, drive and sensors.
         time: f64 = 0.012, "s", "guess; a servo of second order and one with a lag agree to a part of their times";
         /// Acceleration at full throttle.
-        drive_gain: f64 = 0.12, "share", "guess; a motor's push is no straight line over throttle and speed";
+        drive_gain: f64 = 0.08, "share", "guess; a motor's push is no straight line over throttle and speed";
         /// Dead zone of the throttle.
-        dead_zone: f64 = 0.02, "1", "guess; dry friction is part of what an owner finds";
+        dead_zone: f64 = 0.012, "1", "guess; dry friction is part of what an owner finds";
         /// Steering angle at full command.
         full: f64 = 0.02, "share", "guess; linkages, and axles that steer with load";
+    }
+
+    /// The same of a number that is told, whose interval is wider by it.
+    told: Told {
+        /// Times of steering, drive and sensors.
+        time: f64 = 0.006, "s", "half of what an owner's number may differ by";
+        /// The same, of the time itself; and of the play, the largest rate and the drive.
+        share: f64 = 0.05, "share", "guess; a lag before a servo is no lag";
+        /// Compliance of tyres and the inverse of their grip.
+        tyre: f64 = 0.15, "share", "guess; brush tyres give way by 1.1 to 1.3 times their compliance at half of their grip";
+        /// Scales of gyro and encoder.
+        scale: f64 = 0.005, "share", "guess; a parabola cuts the tops of fast turns";
+        /// Place of the tracked point.
+        point: f64 = 1e-3, "m", "guess; slip of tyres looks like another place";
     }
 
     /// Usual sizes of causes: one sigma about none.
@@ -162,7 +178,7 @@
         /// Play of the steering.
         play: f64 = 0.05, "rad", "guess";
         /// Distances.
-        distance: f64 = 0.05, "share", "guess; a tape measure read at the wrong end";
+        distance: f64 = 0.1, "share", "guess; a tape measure read at the wrong end, another body of the same car";
         /// Place of the centre of mass.
         centre_of_mass: f64 = 0.01, "share", "guess; axle loads tell it, drives hardly do";
         /// Tyre compliance.
@@ -256,6 +272,8 @@
 
     /// When something is left that no cause accounts for.
     naming: Naming {
+        /// Remaining error of windows over their way, beyond which fits begin from another place, too.
+        near_share: f64 = 0.04, "1", "guess; twice what a good answer leaves";
         /// Fits with what was named before, at most.
         rounds: usize = 4, "1", "guess; two are usual";
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.

@@ -57,34 +57,62 @@ impl Solved<'_> {
     }
 }
 
-/// Fits what is known, weighs the causes about that fit, and fits anew with what they name, until the same are named.
-///
-/// A fit in which every cause is free would say the same by many of them at once, each a little.
+/// A fit with what its equations name.
+struct Answered {
+    fit: Fit,
+    named: Named,
+    /// Causes with which it was fitted, in order.
+    set: Vec<usize>,
+}
+
+/// Fits constants and names causes from what is known; where much is left, also from where every cause is free, and takes what
+/// is more probable.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
-    let mut about = fit(data, prior, start)?;
-    let mut named = named_about(data, prior, causes, &about)?;
-    let mut tried: Vec<Vec<usize>> = Vec::new();
-    for _ in 0..SETTINGS.naming.rounds {
-        let mut set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
-        set.sort_unstable();
-        if set.is_empty() || tried.contains(&set) {
-            break;
-        }
-        let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
-        about = fit(data, &narrow, about.theta)?;
-        named = named_about(data, prior, causes, &about)?;
-        tried.push(set);
-    }
+    let near = settled(data, prior, causes, fit(data, prior, start.clone())?)?;
+    let best = if data.share(&near.fit.theta) > SETTINGS.naming.near_share {
+        let every: Vec<usize> = (0..causes.len()).collect();
+        let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
+        let far = settled(data, prior, causes, fit(data, &wide, start)?)?;
+        // Errors count in the same sigmas, those of the fit that leaves less.
+        let scales = [0, 1, 2].map(|kind| near.fit.scales[kind].min(far.fit.scales[kind]));
+        let score = |of: &Answered| {
+            let sessions = sessions(data, &of.fit.theta, scales);
+            let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
+            let known = covariance(&prior.covariance, causes, &of.set);
+            evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)
+        };
+        if score(&far) > score(&near) { far } else { near }
+    } else {
+        near
+    };
+    let Answered { fit, mut named, set } = best;
     // About where it stands the fit is what it was fitted to be.
-    if tried
-        .last()
-        .is_some_and(|set| named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)))
-    {
-        named.posterior.mean = DVector::from_column_slice(&about.theta);
+    if named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)) {
+        named.posterior.mean = DVector::from_column_slice(&fit.theta);
     }
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);
-    Some((about, named))
+    Some((fit, named))
+}
+
+/// Weighs the causes about a fit, and fits anew with what they name, until the same are named.
+fn settled(data: &Data<'_>, prior: &Prior, causes: &[Cause], from: Fit) -> Option<Answered> {
+    let named = named_about(data, prior, causes, &from)?;
+    let mut out = Answered { fit: from, named, set: Vec::new() };
+    let mut tried = vec![Vec::new()];
+    for _ in 0..SETTINGS.naming.rounds {
+        let mut set: Vec<usize> = out.named.chosen.iter().map(|w| w.cause).collect();
+        set.sort_unstable();
+        if tried.contains(&set) {
+            break;
+        }
+        let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+        let fit = fit(data, &narrow, out.fit.theta)?;
+        let named = named_about(data, prior, causes, &fit)?;
+        tried.push(set.clone());
+        out = Answered { fit, named, set };
+    }
+    Some(out)
 }
 
 /// A cause whose constants are all where they were known to be, by their 90 % intervals, is none.
