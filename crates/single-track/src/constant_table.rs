@@ -11,6 +11,8 @@ use crate::settings::SETTINGS;
 pub fn constants(car: &Car) -> Vec<Constant> {
     use Quantity as Q;
     let (known, usual, scatter, form) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter, SETTINGS.form);
+    // Of a drive of which nothing is stated nothing can be wrong; finer laws only make its numbers uncertain.
+    let states_drive = car.drive_gain.is_stated || car.dead_zone.is_stated;
     let mut out = Vec::new();
     let mut add = |quantity, name, unit, is_factor: bool, stated: Stated, usual, scatter, cause| {
         let sigma = if is_factor { stated.share() } else { stated.sigma };
@@ -214,26 +216,28 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         scatter.viscous,
         &spec::DRIVE_FRICTION,
     );
-    add(
-        Q::MotorBraking,
-        "acceleration lost per speed while there is throttle",
-        "1/s",
-        false,
-        flat(known.motor_braking),
-        usual.motor_braking,
-        scatter.viscous,
-        &spec::TOP_SPEED,
-    );
-    add(
-        Q::Drag,
-        "deceleration per square of the speed",
-        "1/m",
-        false,
-        flat(known.drag),
-        usual.drag,
-        scatter.drag,
-        &spec::DRIVE_FRICTION,
-    );
+    if states_drive {
+        add(
+            Q::MotorBraking,
+            "acceleration lost per speed while there is throttle",
+            "1/s",
+            false,
+            flat(known.motor_braking),
+            usual.motor_braking,
+            scatter.viscous,
+            &spec::TOP_SPEED,
+        );
+        add(
+            Q::Drag,
+            "deceleration per square of the speed",
+            "1/m",
+            false,
+            flat(known.drag),
+            usual.drag,
+            scatter.drag,
+            &spec::DRIVE_FRICTION,
+        );
+    }
     add(
         Q::DriveLag,
         "time constant of the drive",
@@ -244,16 +248,18 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         scatter.delay,
         &spec::DRIVE_LAG,
     );
-    add(
-        Q::DriveDelay,
-        "dead time of the drive",
-        "s",
-        false,
-        flat(known.drive_delay),
-        usual.drive_delay,
-        scatter.delay,
-        &spec::DRIVE_LAG,
-    );
+    if states_drive {
+        add(
+            Q::DriveDelay,
+            "dead time of the drive",
+            "s",
+            false,
+            flat(known.drive_delay),
+            usual.drive_delay,
+            scatter.delay,
+            &spec::DRIVE_LAG,
+        );
+    }
     add(
         Q::PointX,
         "place of the tracked point, forward",
