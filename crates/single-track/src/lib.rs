@@ -2,7 +2,7 @@
 //!
 //! # Files
 //!
-//! * `car`, `constants`, `laws`: a car as its owner states it, and the constants on which its motion depends.
+//! * `car`, `constants`, `constant_table`, `laws`: a car as its owner states it, and the constants on which its motion depends.
 //! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
 //! * `model`: steering, drive, tyres and motion of the single-track car.
 //! * `rows`: windows of the pose and reports of the car against the model.

@@ -306,7 +306,7 @@ fn sheet(whole: &Whole, every: usize, s: &mut Stream) -> String {
         let time = STEP * k as f64;
         // What the car says in this row is of so long ago; the pose is of now.
         let command = given[{
-            let then = (k as i64 - back(sensors.clock)).max(0) as usize;
+            let then = (k as i64 - back(sensors.clock)).clamp(0, steps as i64 - 1) as usize;
             then - then % every
         }];
         let now = &motions[k];

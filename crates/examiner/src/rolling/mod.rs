@@ -211,8 +211,8 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_that_a_kind_can_have() {
-        let all = RollingPlan::set(1, 240);
-        assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 60);
+        let all = RollingPlan::set(1, 480);
+        assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 120);
         for (chassis, hidden) in Chassis::ALL.into_iter().flat_map(|c| Hidden::ALL.map(|h| (c, h))) {
             let cases = all.iter().filter(|p| p.chassis == chassis && p.hidden == Some(hidden)).count();
             assert_eq!(cases > 2, hidden.is_of(chassis), "{chassis:?} {hidden:?} {cases}");
