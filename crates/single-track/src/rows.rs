@@ -188,35 +188,12 @@ impl<'a> Shown<'a> {
     fn start(&self, laws: &Laws, inputs: &Inputs, from: usize) -> State {
         if self.drive.has_pose() {
             let mut out = laws.state(self.drive.pose[from], self.rates[from]);
-            out.speed -= self.smoothed_too_fast(laws, inputs, from, out.speed);
+            out.speed -= smoothed_too_fast(laws, inputs, from, out.speed);
             return out;
         }
         let [encoder, gyro] = self.report_at(STEP * from as f64 + laws.clock).unwrap_or_default();
         let rate = (gyro - laws.gyro_bias) / laws.gyro_scale;
         State { place: [0.0; 2], yaw: 0.0, speed: encoder / laws.encoder_scale, side: laws.rear * rate, rate }
-    }
-
-    /// By how much the parabola about a step shows another speed than that of the step where the push changes about it, m/s: the
-    /// same parabola through the way of the model. Without this every change of the throttle seems to come late.
-    fn smoothed_too_fast(&self, laws: &Laws, inputs: &Inputs, from: usize, speed: f64) -> f64 {
-        let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
-        let Some(efforts) = from.checked_sub(half).and_then(|first| inputs.throttle.get(first..from + half)) else {
-            return 0.0;
-        };
-        // Speed and way of a straight drive with these pushes; only how they change matters.
-        let (mut v, mut way, mut at) = (speed, 0.0, speed);
-        let mut ways = Vec::with_capacity(2 * half + 1);
-        ways.push(way);
-        for (k, effort) in efforts.iter().enumerate() {
-            if k == half {
-                at = v;
-            }
-            let next = laws.speed_after(v, *effort, 0.0);
-            way += 0.5 * STEP * (v + next);
-            v = next;
-            ways.push(way);
-        }
-        parabola(ways.into_iter(), Some(half)) - at
     }
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
@@ -285,6 +262,29 @@ impl<'a> Shown<'a> {
         };
         (0..theta.len()).map(of).collect()
     }
+}
+
+/// By how much the parabola about a step shows another speed than that of the step where the push changes about it, m/s: the
+/// same parabola through the way of the model. Without this every change of the throttle seems to come late.
+fn smoothed_too_fast(laws: &Laws, inputs: &Inputs, from: usize, speed: f64) -> f64 {
+    let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
+    let Some(efforts) = from.checked_sub(half).and_then(|first| inputs.throttle.get(first..from + half)) else {
+        return 0.0;
+    };
+    // Speed and way of a straight drive with these pushes; only how they change matters.
+    let (mut v, mut way, mut at) = (speed, 0.0, speed);
+    let mut ways = Vec::with_capacity(2 * half + 1);
+    ways.push(way);
+    for (k, effort) in efforts.iter().enumerate() {
+        if k == half {
+            at = v;
+        }
+        let next = laws.speed_after(v, *effort, 0.0);
+        way += 0.5 * STEP * (v + next);
+        v = next;
+        ways.push(way);
+    }
+    parabola(ways.into_iter(), Some(half)) - at
 }
 
 /// Error of a pose in m: ahead and to the side of the measured one, and heading by its lever.

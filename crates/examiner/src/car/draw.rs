@@ -300,15 +300,14 @@ fn sheet(whole: &Whole, every: usize, s: &mut Stream) -> String {
     }
 
     let mut out = String::from("time_s,duty,servo,x_m,y_m,yaw_rad,gyro_z,speed\n");
-    let back = |delay: f64| (delay / STEP).round() as i64;
-    let at = |k: usize, delay: f64| &motions[(k as i64 - back(delay)).clamp(0, steps as i64 - 1) as usize];
+    let before =
+        |k: usize, delay: f64| (k as f64 - delay / STEP).round().clamp(0.0, steps.saturating_sub(1) as f64) as usize;
+    let at = |k: usize, delay: f64| &motions[before(k, delay)];
     for k in (0..steps).step_by(every) {
         let time = STEP * k as f64;
         // What the car says in this row is of so long ago; the pose is of now.
-        let command = given[{
-            let then = (k as i64 - back(sensors.clock)).clamp(0, steps as i64 - 1) as usize;
-            then - then % every
-        }];
+        let then = before(k, sensors.clock);
+        let command = given[then - then % every];
         let now = &motions[k];
         let (sin, cos) = now.yaw.sin_cos();
         let [px, py] = sensors.point;
