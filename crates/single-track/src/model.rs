@@ -219,3 +219,26 @@ impl Laws {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::car::{Car, Stated};
+    use crate::constant_table::constants;
+
+    #[test]
+    fn a_motor_brakes_only_while_there_is_throttle_and_only_where_its_drive_is_stated() {
+        let mut car = Car::new("drawn", 0.25);
+        let laws = |car: &Car| {
+            let all = constants(car);
+            Laws::at(&all, &vec![0.0; all.len()])
+        };
+        assert_eq!((laws(&car).motor_braking, laws(&car).drag, laws(&car).drive_delay), (0.0, 0.0, 0.0));
+        car.drive_gain = Stated::of(10.0, 0.5);
+        let laws = laws(&car);
+        assert!(laws.motor_braking > 0.0 && laws.drag > 0.0);
+        let lost = |effort: f64| 2.0 + STEP * laws.gain * effort - laws.speed_after(2.0, effort, 0.0);
+        let more = lost(RULES.throttle_on) - lost(0.0);
+        assert!((more - 2.0 * STEP * laws.motor_braking).abs() < 0.1 * more, "{more}");
+    }
+}

@@ -321,3 +321,66 @@ impl Shown<'_> {
         self.windows.iter().flat_map(of).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::car::Car;
+    use crate::constant_table::constants;
+    use crate::drive::Table;
+
+    fn laws() -> Laws {
+        let all = constants(&Car::new("drawn", 0.25));
+        Laws::at(&all, &vec![0.0; all.len()])
+    }
+
+    #[test]
+    fn a_fast_turn_is_not_slower_for_being_smoothed() {
+        let (speed, rate): (f64, f64) = (1.5, 5.0);
+        let at = |k: i32| {
+            let yaw = rate * STEP * f64::from(k);
+            [speed / rate * yaw.sin(), -speed / rate * yaw.cos(), yaw]
+        };
+        let pose: Vec<[f64; 3]> = (0..11).map(at).collect();
+        let found = slope(&pose, 0, 10, 5).expect("a slope");
+        assert!((found[0].hypot(found[1]) - speed).abs() < 2e-3 * speed, "{found:?}");
+        assert!((found[2] - rate).abs() < 1e-9 && (found[1].atan2(found[0]) - pose[5][2]).abs() < 1e-3, "{found:?}");
+    }
+
+    #[test]
+    fn a_step_of_the_throttle_is_not_anticipated_by_smoothing() {
+        let laws = laws();
+        let inputs =
+            Inputs { steering: vec![0.0; 100], throttle: (0..100).map(|k| if k < 50 { 0.1 } else { 0.5 }).collect() };
+        let start = State { place: [0.0; 2], yaw: 0.0, speed: 1.0, side: 0.0, rate: 0.0 };
+        let states = laws.run(start, &inputs, 0, 100);
+        // State k is that after k steps.
+        let pose: Vec<[f64; 3]> = std::iter::once(&start).chain(&states).map(|s| laws.tracked(s)).collect();
+        let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
+        for k in 45..=55 {
+            let rates = slope(&pose, k - half, k + half, k).expect("a slope");
+            let (shown, truth) = (rates[0].hypot(rates[1]), states[k - 1].speed);
+            let corrected = shown - smoothed_too_fast(&laws, &inputs, k, shown);
+            assert!((corrected - truth).abs() < 2e-3, "step {k}: {corrected} for {truth}");
+            assert!(k != 50 || shown - truth > 0.03, "there is nothing to correct: {shown} for {truth}");
+        }
+    }
+
+    #[test]
+    fn messages_within_one_smoothing_count_once() {
+        let rows: Vec<f64> = (0..1000).map(f64::from).collect();
+        let table = Table {
+            time: rows.iter().map(|k| 0.005 * k).collect(),
+            pose: rows.iter().map(|k| [0.005 * k, 0.0, 0.0]).collect(),
+            throttle: vec![0.2; 1000],
+            steering: vec![0.0; 1000],
+            gyro: vec![0.0; 1000],
+            ..Table::default()
+        };
+        let drive = Drive::new("drawn", &table).expect("a drive");
+        let shown = Shown::new(&drive, 0.0);
+        let weight: f64 = shown.rows.iter().filter(|r| r.kind == Kind::Gyro).map(|r| r.weight).sum();
+        let once = 5.0 / (2.0 * SETTINGS.grid.smoothing);
+        assert!((weight - once).abs() < 0.02 * once, "{weight} for {once}");
+    }
+}

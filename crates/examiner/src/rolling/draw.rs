@@ -147,6 +147,7 @@ fn scale_places(robot: &mut Robot, factor: f64) {
 
 /// Hides something in the robot, and notes its numbers.
 fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTruth, s: &mut Stream) {
+    let chassis = truth.chassis;
     let mut note = |name: &str, value: f64| {
         truth.numbers.insert(name.to_owned(), value);
     };
@@ -164,7 +165,7 @@ fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTrut
             scale_places(robot, 1.0 + s.sign() * s.uniform(0.08, 0.2));
             let [x, y] = robot.wheels[0].place;
             // Track and wheelbase of a mecanum robot show as their sum only.
-            if robot.wheels[0].roller.tan().abs() > 2.0 || robot.wheels[0].roller == 0.0 {
+            if chassis != Chassis::Mecanum4 {
                 note("distance", if robot.wheels.len() == 2 { 2.0 * y } else { x.hypot(y) });
             }
         }

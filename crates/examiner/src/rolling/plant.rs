@@ -65,8 +65,8 @@ impl Robot {
             let [a, b] = at(wheel.place);
             let (sin, cos) = wheel.direction.sin_cos();
             let (ahead, across) = (a * cos + b * sin, b * cos - a * sin);
-            // Mecanum: rollers roll off what is across them, so that both shares make the wheel turn.
-            let of_rollers = if wheel.roller.abs() < 1.0 { across * wheel.roller.tan() } else { 0.0 };
+            // Nothing slides along the axles of the rollers, which stand across an omni wheel.
+            let of_rollers = if wheel.roller == 0.0 { 0.0 } else { across / wheel.roller.tan() };
             (ahead - of_rollers) / wheel.radius
         };
         (self.wheels.iter().map(rate).collect(), 0.0)

@@ -16,6 +16,7 @@ use rayon::ThreadPool;
 use crate::{binary, output};
 
 mod car;
+mod causes;
 mod command;
 mod diagnose;
 mod draw;

@@ -64,11 +64,6 @@ pub(super) fn id_of(label: &str) -> (&str, Option<&str>) {
     label.split_once(" (").map_or((label, None), |(id, of)| (id, Some(of.trim_end_matches(')'))))
 }
 
-/// Whether a verdict tells a cause or "unknown".
-pub(super) fn is_answered(verdict: &str) -> bool {
-    matches!(verdict, "explained" | "unknown")
-}
-
 fn likely(d: &Value) -> impl Iterator<Item = &Value> {
     list(d, "ranked").iter().filter(|c| c["probability"].as_f64().is_some_and(|p| p > LIKELY))
 }

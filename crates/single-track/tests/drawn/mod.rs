@@ -11,6 +11,8 @@ pub(crate) struct Hidden {
     pub(crate) gyro_scale: f64,
     pub(crate) gyro_bias: f64,
     pub(crate) lag: f64,
+    /// Time of the steering for a radian at its largest rate, s.
+    pub(crate) slowness: f64,
 }
 
 /// The car as its owner states it.
@@ -51,7 +53,9 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
         let t = 1e-3 * f64::from(k);
         let (throttle, steering) = command(t);
         let wanted = hidden.centre + 0.4 * (1.0 + hidden.gain) * steering;
-        angle += (wanted - angle) * if hidden.lag > 0.0 { 1e-3 / hidden.lag } else { 1.0 };
+        let turned = (wanted - angle) * if hidden.lag > 0.0 { 1e-3 / hidden.lag } else { 1.0 };
+        let most = if hidden.slowness > 0.0 { 1e-3 / hidden.slowness } else { f64::INFINITY };
+        angle += turned.clamp(-most, most);
         let rate = v * angle.tan() / 0.25;
         v += 1e-3 * (8.0 * (throttle - 0.05) - 0.6 * v - 0.4);
         v = v.max(0.0);

@@ -5,12 +5,18 @@ use std::path::PathBuf;
 use examiner::car::{CarPlan, CarTruth};
 use serde_json::Value;
 
+use super::causes::{self, Asks};
 use super::drawn::Subject;
 use crate::document::Section;
 use crate::output::Figure;
 
-mod figures;
 mod score;
+
+const ASKS: Asks = Asks {
+    named: "hidden: named, or its class",
+    held: [0.87, 0.93],
+    forecast: "position after 2 s, left out: corrected over stated, median",
+};
 
 /// Cars of which commands and a pose are known.
 pub(super) struct Cars;
@@ -40,10 +46,10 @@ impl Subject for Cars {
     }
 
     fn figures(rows: &[score::Row]) -> Vec<Figure> {
-        figures::figures(rows)
+        causes::figures(rows, &ASKS)
     }
 
     fn tables(rows: &[score::Row]) -> Vec<Section> {
-        figures::tables(rows)
+        causes::tables(rows)
     }
 }

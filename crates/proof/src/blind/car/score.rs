@@ -1,38 +1,13 @@
 //! One answer against what was hidden, in the program's own words.
 
 use examiner::car::{CarHidden, CarTruth};
-use serde::Serialize;
 use serde_json::Value;
 
-use crate::blind::said::{self, Said, id_of};
+use crate::blind::causes;
+use crate::blind::said::{Said, id_of};
 
 /// What came of a case.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::blind) struct Row {
-    pub(super) case: String,
-    pub(super) hidden: Vec<CarHidden>,
-    /// As the verdict says it; "refused" without one.
-    pub(super) verdict: String,
-    pub(super) headline: String,
-    /// Causes that are named.
-    pub(super) named: Vec<String>,
-    /// Whether each hidden thing is named, or is of the class of what is named.
-    pub(super) found: Vec<bool>,
-    /// Named causes that were not hidden.
-    pub(super) invented: Vec<String>,
-    /// Numbers that were hidden and are told: name, error over half of the 90 % interval.
-    pub(super) errors: Vec<(String, f64)>,
-    /// Position left out over 2 s, median: corrected over the error as stated.
-    pub(super) forecast: Option<f64>,
-    pub(super) processor_seconds: Option<f64>,
-}
-
-impl Row {
-    /// Whether a cause or "unknown" is told.
-    pub(super) fn is_answered(&self) -> bool {
-        said::is_answered(&self.verdict)
-    }
-}
+pub(in crate::blind) type Row = causes::Row<CarHidden>;
 
 /// The cause that something hidden is.
 fn cause(hidden: CarHidden) -> &'static str {
@@ -98,6 +73,7 @@ pub(super) fn row(truth: &CarTruth, d: &Value, processor_seconds: Option<f64>) -
     };
     Row {
         case: truth.case.clone(),
+        chassis: None,
         hidden: truth.hidden.clone(),
         verdict: said.verdict(),
         headline: said.headline(),

@@ -5,12 +5,18 @@ use std::path::PathBuf;
 use examiner::command::{CommandPlan, CommandTruth};
 use serde_json::Value;
 
+use super::causes::{self, Asks};
 use super::drawn::Subject;
 use crate::document::Section;
 use crate::output::Figure;
 
-mod figures;
 mod score;
+
+const ASKS: Asks = Asks {
+    named: "hidden: named",
+    held: [0.86, 0.94],
+    forecast: "position after 2 s, left out: corrected over simulated, median",
+};
 
 /// Command-driven robots.
 pub(super) struct CommandDriven;
@@ -40,10 +46,10 @@ impl Subject for CommandDriven {
     }
 
     fn figures(rows: &[score::Row]) -> Vec<Figure> {
-        figures::figures(rows)
+        causes::figures(rows, &ASKS)
     }
 
     fn tables(rows: &[score::Row]) -> Vec<Section> {
-        figures::tables(rows)
+        causes::tables(rows)
     }
 }

@@ -1,39 +1,15 @@
 //! One answer against what was hidden, in the program's own words.
 
 use examiner::command::{CommandTruth, Hidden};
-use serde::Serialize;
 use serde_json::Value;
+
+use crate::blind::causes;
 
 /// Above this probability a cause is named: this kind has no classes.
 const LIKELY: f64 = 0.5;
 
 /// What came of a case.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::blind) struct Row {
-    pub(super) case: String,
-    pub(super) hidden: Vec<Hidden>,
-    /// As the verdict says it; "refused" without one.
-    pub(super) verdict: String,
-    pub(super) headline: String,
-    /// Causes that are named.
-    pub(super) named: Vec<String>,
-    /// Whether each hidden thing is named.
-    pub(super) found: Vec<bool>,
-    /// Named causes that were not hidden.
-    pub(super) invented: Vec<String>,
-    /// Numbers that were hidden and are told: name, error over half of the 90 % interval.
-    pub(super) errors: Vec<(String, f64)>,
-    /// Position left out over 2 s: error as simulated, and corrected, over it.
-    pub(super) forecast: Option<f64>,
-    pub(super) processor_seconds: Option<f64>,
-}
-
-impl Row {
-    /// Whether a cause or "unknown" is told.
-    pub(super) fn is_answered(&self) -> bool {
-        matches!(self.verdict.as_str(), "explained" | "unknown")
-    }
-}
+pub(in crate::blind) type Row = causes::Row<Hidden>;
 
 /// The name of the cause that something hidden is.
 fn cause(hidden: Hidden) -> &'static str {
@@ -70,6 +46,7 @@ pub(super) fn row(truth: &CommandTruth, d: &Value, processor_seconds: Option<f64
         .find(|f| f["quantity"].as_str().is_some_and(|q| q.starts_with("position (rms)")));
     Row {
         case: truth.case.clone(),
+        chassis: None,
         hidden: truth.hidden.clone(),
         verdict: d["verdict"].as_str().unwrap_or("refused").to_owned(),
         headline: list(d, &["sentences"]).first().map(text).unwrap_or_default(),

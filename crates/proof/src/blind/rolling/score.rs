@@ -1,39 +1,13 @@
 //! One answer against what was hidden, in the program's own words.
 
 use examiner::rolling::{Chassis, Hidden, RollingTruth};
-use serde::Serialize;
 use serde_json::Value;
 
-use crate::blind::said::{self, Said, id_of};
+use crate::blind::causes;
+use crate::blind::said::{Said, id_of};
 
 /// What came of a case.
-#[derive(Debug, Clone, Serialize)]
-pub(in crate::blind) struct Row {
-    pub(super) case: String,
-    pub(super) chassis: Chassis,
-    pub(super) hidden: Vec<Hidden>,
-    /// As the verdict says it; "refused" without one.
-    pub(super) verdict: String,
-    pub(super) headline: String,
-    /// Causes that are named, with the wheel that they are about.
-    pub(super) named: Vec<String>,
-    /// Whether each hidden thing is named, or is of the class of what is named.
-    pub(super) found: Vec<bool>,
-    /// Named causes that were not hidden.
-    pub(super) invented: Vec<String>,
-    /// Numbers that were hidden and are told: name, error over half of the 90 % interval.
-    pub(super) errors: Vec<(String, f64)>,
-    /// Position left out over 10 s, median: corrected over the error as stated.
-    pub(super) forecast: Option<f64>,
-    pub(super) processor_seconds: Option<f64>,
-}
-
-impl Row {
-    /// Whether a cause or "unknown" is told.
-    pub(super) fn is_answered(&self) -> bool {
-        said::is_answered(&self.verdict)
-    }
-}
+pub(in crate::blind) type Row = causes::Row<Hidden>;
 
 /// The label of the cause that something hidden is, without the wheel or distance that it is about.
 fn cause(hidden: Hidden) -> &'static str {
@@ -92,7 +66,7 @@ pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64
     };
     Row {
         case: truth.case.clone(),
-        chassis: truth.chassis,
+        chassis: Some(truth.chassis),
         hidden: truth.hidden.clone(),
         verdict: said.verdict(),
         headline: said.headline(),
