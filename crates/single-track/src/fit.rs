@@ -105,31 +105,22 @@ impl<'a> Data<'a> {
     }
 }
 
-/// Normal equations of rows whose errors and columns are known, each with a weight of its own beside that of the loss.
-pub(crate) fn equations(
-    shown: &Shown<'_>,
-    (errors, columns): (&[f64], &[Vec<f64>]),
-    scales: Scales,
-    own: impl Fn(usize) -> f64,
-) -> Session {
+/// Normal equations of rows whose errors and columns are known.
+pub(crate) fn equations(shown: &Shown<'_>, (errors, columns): (&[f64], &[Vec<f64>]), scales: Scales) -> Session {
     let n = columns.len();
     let mut out = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
     let outlier = SETTINGS.windows.outlier;
     let mut row = DVector::zeros(n);
     for (i, r) in shown.rows.iter().enumerate() {
-        let own = r.weight * own(i);
-        if own == 0.0 {
-            continue;
-        }
         let scale = scales[r.kind as usize];
         let error = errors[i] / scale;
         let root = (1.0 + (error / outlier).powi(2)).sqrt();
-        out.cost += own * outlier.powi(2) * (root - 1.0);
+        out.cost += r.weight * outlier.powi(2) * (root - 1.0);
         for k in 0..n {
             row[k] = columns[k][i] / scale;
         }
-        out.curvature.ger(own / root, &row, &row, 1.0);
-        out.slope.axpy(own / root * error, &row, 1.0);
+        out.curvature.ger(r.weight / root, &row, &row, 1.0);
+        out.slope.axpy(r.weight / root * error, &row, 1.0);
     }
     out
 }
@@ -138,7 +129,7 @@ pub(crate) fn equations(
 pub(crate) fn sessions(data: &Data<'_>, theta: &[f64], scales: Scales) -> Vec<Session> {
     let of = |s: &Shown<'_>| {
         let errors = s.errors(&Laws::at(&data.constants, theta));
-        equations(s, (&errors, &s.columns(&data.constants, theta)), scales, |_| 1.0)
+        equations(s, (&errors, &s.columns(&data.constants, theta)), scales)
     };
     data.shown.par_iter().map(of).collect()
 }

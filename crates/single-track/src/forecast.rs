@@ -10,7 +10,8 @@ use odometry::weighing::Session;
 use crate::constants::Constant;
 use crate::fit::{Scales, equations};
 use crate::model::{Inputs, Laws, STEP, State};
-use crate::rows::{Shown, end};
+use crate::rates::end;
+use crate::rows::Shown;
 use crate::settings::{Forecast, SETTINGS};
 use inference::robust::median;
 
@@ -47,10 +48,8 @@ pub type ByLength = [Errors; 3];
 /// How much the past of a drive is listened to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Habit {
-    /// Past over which velocities are taken, s.
-    pub(crate) past: f64,
-    /// Time after which what the drive said of itself has faded, s; none: it is not listened to.
-    pub(crate) fading: Option<f64>,
+    /// Time after which what the drive said of itself has faded, s.
+    pub(crate) fading: f64,
     /// Factor on the scatter of drives.
     pub(crate) freedom: f64,
 }
@@ -126,60 +125,134 @@ pub(crate) fn of_twist(shown: &Shown<'_>, past: f64) -> Vec<[[f64; 2]; 3]> {
     beginnings(shown).into_iter().filter_map(of).collect()
 }
 
-/// What a drive says of itself, row by row, at the constants of a fit.
-pub(crate) struct Said<'s, 'a> {
-    shown: &'s Shown<'a>,
-    errors: Vec<f64>,
-    columns: Vec<Vec<f64>>,
-}
-
-impl<'s, 'a> Said<'s, 'a> {
-    pub(crate) fn new(constants: &[Constant], shown: &'s Shown<'a>, theta: &[f64]) -> Self {
-        let errors = shown.errors(&Laws::at(constants, theta));
-        Self { shown, errors, columns: shown.columns(constants, theta) }
-    }
-
-    /// What the rows known between two instants say.
-    fn between(&self, from: f64, until: f64, scales: Scales) -> Session {
-        let weight = |row: usize| {
-            let time = self.shown.rows[row].time;
-            f64::from(u8::from(time > from && time <= until))
-        };
-        equations(self.shown, (&self.errors, &self.columns), scales, weight)
-    }
-}
-
-/// Forecasts of fitted constants that follow the drive's own past.
+/// Constants that follow what a drive says of itself, as they are at each beginning of a forecast: an extended Kalman filter in
+/// information form, about deviations `δ ~ N(0, S²)` of the drive from the fit. Every row is linearised once, where the drive was
+/// thought to be when the row became known, and fades by `exp(−Δt/τ)` (Ljung, System Identification, 11.2: forgetting).
 pub(crate) fn following(
     constants: &[Constant],
     scatter: &DVector<f64>,
-    said: &Said<'_, '_>,
+    shown: &Shown<'_>,
     (theta, scales): (&[f64], Scales),
     habit: Habit,
-) -> Vec<[[f64; 2]; 3]> {
-    let Some(fading) = habit.fading else { return of_laws(said.shown, &Laws::at(constants, theta), habit.past) };
+) -> Vec<(usize, Vec<f64>)> {
     let scatter = scatter * habit.freedom;
+    let about = DVector::from_column_slice(theta);
     let n = theta.len();
     let mut so_far = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let mut own = theta.to_vec();
     let mut last = f64::NEG_INFINITY;
-    let warm = (RULES.warm / STEP) as usize;
-    let ahead = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
     let of = |from: usize| {
         let now = STEP * from as f64;
-        let kept = ((last - now) / fading).exp();
-        let new = said.between(last, now, scales);
+        let part = shown.part(last, now, RULES.warm);
+        let (errors, columns) = (part.errors(&Laws::at(constants, &own)), part.columns(constants, &own));
+        let new = equations(&part, (&errors, &columns), scales);
+
+        // Said about where the drive was thought to be; kept about the fit.
+        let moved = DVector::from_column_slice(&own) - &about;
+        let kept = ((last - now) / habit.fading).exp();
+        so_far.slope = &so_far.slope * kept + new.slope - &new.curvature * moved;
         so_far.curvature = &so_far.curvature * kept + new.curvature;
-        so_far.slope = &so_far.slope * kept + new.slope;
         last = now;
+
         let deviation = so_far.deviation(&scatter)?;
-        let own = |((t, d), c): ((&f64, &f64), &Constant)| {
+        for ((value, c), (t, d)) in own.iter_mut().zip(constants).zip(theta.iter().zip(deviation.iter())) {
             let [least, most] = c.bounds();
-            (t + d).clamp(least, most)
-        };
-        let moved: Vec<f64> = theta.iter().zip(deviation.iter()).zip(constants).map(own).collect();
-        let laws = Laws::at(constants, &moved);
-        let inputs = laws.inputs_between(said.shown.drive, from.saturating_sub(warm), from + ahead + 1);
-        one(said.shown, &laws, &inputs, from, habit.past)
+            *value = (t + d).clamp(least, most);
+        }
+        Some((from, own.clone()))
     };
-    beginnings(said.shown).into_iter().filter_map(of).collect()
+    beginnings(shown).into_iter().filter_map(of).collect()
+}
+
+/// Forecasts of constants that follow the drive's own past, from velocities of so much past.
+pub(crate) fn of_followed(
+    constants: &[Constant],
+    shown: &Shown<'_>,
+    followed: &[(usize, Vec<f64>)],
+    past: f64,
+) -> Vec<[[f64; 2]; 3]> {
+    let warm = (RULES.warm / STEP) as usize;
+    let ahead = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
+    let of = |(from, theta): &(usize, Vec<f64>)| {
+        let laws = Laws::at(constants, theta);
+        let inputs = laws.inputs_between(shown.drive, from.saturating_sub(warm), from + ahead + 1);
+        one(shown, &laws, &inputs, *from, past)
+    };
+    followed.iter().filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::car::Car;
+    use crate::constant_table::constants;
+    use crate::constants::Quantity;
+    use crate::drive::{Drive, Table};
+
+    /// A drive of laws in circles and eights at changing speeds, 40 s.
+    fn drive(laws: &Laws) -> Drive {
+        let steps = (40.0 / STEP) as usize;
+        let time: Vec<f64> = (0..=steps).map(|k| STEP * k as f64).collect();
+        let steering: Vec<f64> = time.iter().map(|t| 0.5 * (0.9 * t).sin() + 0.3 * (0.23 * t).sin()).collect();
+        let throttle: Vec<f64> = time.iter().map(|t| 0.4 + 0.1 * (0.4 * t).sin()).collect();
+        let table = Table {
+            pose: vec![[0.0; 3]; time.len()],
+            gyro: vec![0.0; time.len()],
+            time,
+            throttle,
+            steering,
+            ..Table::default()
+        };
+        let inputs = laws.inputs(&Drive::new("drawn", &table).expect("commands"));
+        let start = State { place: [0.0; 2], yaw: 0.0, speed: 1.0, side: 0.0, rate: 0.0 };
+        let states = laws.run(start, &inputs, 0, steps);
+        let pose = std::iter::once(&start).chain(&states).map(|s| laws.tracked(s)).collect();
+        Drive::new("drawn", &Table { pose, gyro: Vec::new(), ..table }).expect("a drive")
+    }
+
+    #[test]
+    fn a_drive_far_from_the_fit_is_followed_although_its_motion_is_no_line_in_its_constants() {
+        let all = constants(&Car::new("drawn", 0.25));
+        let mut truth = vec![0.0; all.len()];
+        let place = |q: Quantity| all.iter().position(|c| c.quantity == q).expect("a constant");
+        truth[place(Quantity::FullSteering)] = -0.5;
+        truth[place(Quantity::FrontCompliance)] = 0.03;
+        truth[place(Quantity::RearCompliance)] = 0.015;
+        let drive = drive(&Laws::at(&all, &truth));
+        let shown = Shown::new(&drive, 0.0);
+
+        let scatter = DVector::from_iterator(all.len(), all.iter().map(|c| c.scatter));
+        let theta = vec![0.0; all.len()];
+        let habit = Habit { fading: 5.0, freedom: 10.0 };
+        let followed = following(&all, &scatter, &shown, (&theta, [0.01; 3]), habit);
+        let last = |errors: Vec<[[f64; 2]; 3]>| median(errors.iter().rev().take(20).map(|e| e[2][0])).expect("errors");
+        let own = last(of_followed(&all, &shown, &followed, 0.2));
+        let fitted = last(of_laws(&shown, &Laws::at(&all, &theta), 0.2));
+        assert!(fitted > 1.0 && own < 0.03 * fitted, "{own} m beside {fitted} m");
+    }
+
+    #[test]
+    fn what_follows_a_drive_knows_its_past_alone() {
+        let all = constants(&Car::new("drawn", 0.25));
+        let laws = |full: f64| {
+            let mut theta = vec![0.0; all.len()];
+            theta[all.iter().position(|c| c.quantity == Quantity::FullSteering).expect("a constant")] = full;
+            Laws::at(&all, &theta)
+        };
+        let whole = drive(&laws(-0.2));
+        let mut cut = whole.clone();
+        let half = whole.pose.len() / 2;
+        for pose in &mut cut.pose[half..] {
+            pose[1] *= 1.5;
+        }
+        let scatter = DVector::from_iterator(all.len(), all.iter().map(|c| c.scatter));
+        let of = |drive: &Drive| {
+            let shown = Shown::new(drive, 0.0);
+            following(&all, &scatter, &shown, (&vec![0.0; all.len()], [0.01; 3]), Habit { fading: 5.0, freedom: 3.0 })
+        };
+        let (one, other) = (of(&whole), of(&cut));
+        let before = |f: &[(usize, Vec<f64>)]| -> Vec<_> { f.iter().filter(|(k, _)| *k < half).cloned().collect() };
+        assert!(!before(&one).is_empty() && before(&one) == before(&other));
+        assert!(one.last() != other.last());
+    }
 }

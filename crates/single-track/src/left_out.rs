@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::forecast::{ByLength, Habit, LENGTHS, Said, collected, following, of_laws, of_twist};
+use crate::forecast::{ByLength, Habit, LENGTHS, collected, following, of_followed, of_laws, of_twist};
 use crate::model::Laws;
 use crate::rivals::RIVALS;
 use crate::settings::{Forecast, SETTINGS};
@@ -85,18 +85,15 @@ impl Fold {
     }
 }
 
-/// Habits of following at one past of the start.
-fn habits(past: f64) -> Vec<Habit> {
-    let follow = RULES
-        .fading
-        .into_iter()
-        .flat_map(|fading| RULES.freedom.into_iter().map(move |freedom| Habit { past, fading: Some(fading), freedom }));
-    follow.collect()
+/// Habits of following, of which one is chosen.
+fn habits() -> Vec<Habit> {
+    let of = |fading| RULES.freedom.into_iter().map(move |freedom| Habit { fading, freedom });
+    RULES.fading.into_iter().flat_map(of).collect()
 }
 
 /// The past and the habit that forecast other drives best: median error of position at the longest length.
 fn chosen(others: &[&Fold]) -> [usize; 2] {
-    let pairs = (0..RULES.past.len()).flat_map(|p| (0..habits(RULES.past[p]).len()).map(move |h| [p, h]));
+    let pairs = (0..RULES.past.len()).flat_map(|p| (0..habits().len()).map(move |h| [p, h]));
     let score = |[p, h]: [usize; 2]| {
         let each = others.iter().flat_map(|f| f.following[p][h][LENGTHS.len() - 1].position.iter().copied());
         median(each).unwrap_or(f64::INFINITY)
@@ -121,14 +118,18 @@ fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
         let of = |laws: &Option<Laws>| laws.map(|l| collected(of_laws(own, &l, past))).unwrap_or_default();
         models.iter().map(of).chain([collected(of_twist(own, past))]).collect()
     };
-    let said = Said::new(constants, own, best);
     let scatter = solved.data.scatter(solved.fit.factor);
-    let follow = |habit: Habit| collected(following(constants, &scatter, &said, (best, solved.fit.scales), habit));
+    let follow = |habit: Habit| following(constants, &scatter, own, (best, solved.fit.scales), habit);
+    let followed: Vec<_> = habits().into_iter().map(follow).collect();
+    let forecast = |past: f64| {
+        let of = |f: &Vec<(usize, Vec<f64>)>| collected(of_followed(constants, own, f, past));
+        followed.iter().map(of).collect()
+    };
     Some(Fold {
         name: own.drive.name.clone(),
         named: solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect(),
         plain: RULES.past.into_iter().map(plain).collect(),
-        following: RULES.past.into_iter().map(|past| habits(past).into_iter().map(follow).collect()).collect(),
+        following: RULES.past.into_iter().map(forecast).collect(),
         trace: solved.trace(own, true),
     })
 }

@@ -5,6 +5,7 @@
 //! * `car`, `constants`, `constant_table`, `laws`: a car as its owner states it, and the constants on which its motion depends.
 //! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
 //! * `model`: steering, drive, tyres and motion of the single-track car.
+//! * `rates`: velocities from poses.
 //! * `rows`: windows of the pose and reports of the car against the model.
 //! * `fit`, `cause`, `solve`: constants with a deviation of each drive, and the causes that the drives ask for.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
@@ -28,6 +29,7 @@ mod forecast;
 mod laws;
 mod left_out;
 mod model;
+mod rates;
 mod rivals;
 mod rows;
 mod settings;

@@ -1,8 +1,12 @@
 //! What a drive shows, row by row: windows of its pose against the model, and the car's reports against pose or model.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use crate::constants::{Constant, Quantity};
 use crate::drive::{Drive, Message};
 use crate::model::{Inputs, Laws, STEP, State};
+use crate::rates::{parabola, slope};
 use crate::settings::{SETTINGS, Windows};
 
 const RULES: Windows = SETTINGS.windows;
@@ -43,51 +47,13 @@ pub(crate) struct Shown<'a> {
     pub(crate) drive: &'a Drive,
     pub(crate) windows: Vec<Window>,
     /// World velocities and yaw rate of the tracked point at each step, from poses about it.
-    pub(crate) rates: Vec<[f64; 3]>,
+    pub(crate) rates: Arc<[[f64; 3]]>,
     pub(crate) rows: Vec<Row>,
+    /// The messages that are compared with the pose.
+    messages: Range<usize>,
+    /// Steps of which steering and drive are needed.
+    span: Range<usize>,
     encoder_window: f64,
-}
-
-/// Rates at a step by a parabola through the steps from `first` to `last`: slope at the step. The way is added up in the axes
-/// of the car, so that a turn does not shorten it.
-pub(crate) fn slope(pose: &[[f64; 3]], first: usize, last: usize, at: usize) -> Option<[f64; 3]> {
-    let mut way = Vec::with_capacity(last.saturating_sub(first) + 1);
-    let mut sum = [0.0; 3];
-    way.push(sum);
-    for k in first..last {
-        let (a, b) = (pose.get(k)?, pose.get(k + 1)?);
-        let (sin, cos) = (0.5 * (a[2] + b[2])).sin_cos();
-        let d = [b[0] - a[0], b[1] - a[1]];
-        sum = [sum[0] + d[0] * cos + d[1] * sin, sum[1] + d[1] * cos - d[0] * sin, sum[2] + b[2] - a[2]];
-        way.push(sum);
-    }
-    let [ahead, left, turning] = [0, 1, 2].map(|axis| parabola(way.iter().map(|w| w[axis]), at.checked_sub(first)));
-    let (sin, cos) = pose.get(at)?[2].sin_cos();
-    let out = [ahead * cos - left * sin, ahead * sin + left * cos, turning];
-    out.iter().all(|r| r.is_finite()).then_some(out)
-}
-
-/// Slope, per second, at a step of the parabola through values of steps.
-fn parabola(values: impl ExactSizeIterator<Item = f64>, at: Option<usize>) -> f64 {
-    let n = values.len() as f64;
-    let x = |k: usize| k as f64 - 0.5 * (n - 1.0);
-    let (mut s2, mut s4, mut sum, mut sx, mut sxx) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (k, y) in values.enumerate() {
-        s2 += x(k).powi(2);
-        s4 += x(k).powi(4);
-        sum += y;
-        sx += x(k) * y;
-        sxx += x(k).powi(2) * y;
-    }
-    let bend = s4 - s2 * s2 / n;
-    let second = if n > 3.0 { (sxx - s2 * sum / n) / bend } else { 0.0 };
-    at.map_or(f64::NAN, |at| (sx / s2 + 2.0 * second * x(at)) / STEP)
-}
-
-/// Smoothed pose and rates at the end of the steps from `first` to `last`.
-pub(crate) fn end(pose: &[[f64; 3]], last: usize, past: f64) -> Option<([f64; 3], [f64; 3])> {
-    let first = last.checked_sub((past / STEP).round() as usize)?;
-    Some((pose[last], slope(pose, first, last, last)?))
 }
 
 impl<'a> Shown<'a> {
@@ -98,8 +64,16 @@ impl<'a> Shown<'a> {
             let inside = k >= half && k + half < steps;
             inside.then(|| slope(&drive.pose, k - half, k + half, k)).flatten().unwrap_or([f64::NAN; 3])
         };
-        let rates: Vec<[f64; 3]> = if drive.has_pose() { (0..steps).map(rate).collect() } else { Vec::new() };
-        let mut out = Self { drive, windows: Vec::new(), rates, rows: Vec::new(), encoder_window };
+        let rates = (0..if drive.has_pose() { steps } else { 0 }).map(rate).collect();
+        let mut out = Self {
+            drive,
+            windows: Vec::new(),
+            rates,
+            rows: Vec::new(),
+            messages: if drive.has_pose() { 0..drive.messages.len() } else { 0..0 },
+            span: 0..steps,
+            encoder_window,
+        };
         let (length, every) = ((RULES.length / STEP).round() as usize, (RULES.every / STEP).round() as usize);
         let mut from = half;
         while from + length + half < steps {
@@ -119,12 +93,38 @@ impl<'a> Shown<'a> {
                 for (kind, there) in [(Kind::Gyro, message.gyro), (Kind::Encoder, message.encoder)] {
                     if there.is_some() {
                         let moving = out.rate_at(message.time).is_some_and(|r| r[0].hypot(r[1]) > RULES.moving);
-                        out.rows.push(Row { kind, time: message.time, is_moving: moving, weight });
+                        let time = message.time + SETTINGS.grid.smoothing;
+                        out.rows.push(Row { kind, time, is_moving: moving, weight });
                     }
                 }
             }
         }
         out
+    }
+
+    /// What becomes known of a drive with a pose after one instant and until another, s, by a model that has run so long before.
+    pub(crate) fn part(&self, after: f64, until: f64, warm: f64) -> Self {
+        let is_in = |time: f64| time > after && time <= until;
+        let end = |w: &Window| STEP * (w.from + w.steps) as f64;
+        let windows: Vec<Window> = self.windows.iter().copied().filter(|w| is_in(end(w))).collect();
+        let messages = self.first_unknown(after)..self.first_unknown(until);
+        let (first, last) = (windows.first().map_or(0, |w| w.from), windows.last().map_or(0, |w| w.from + w.steps));
+        let span = first.saturating_sub((warm / STEP) as usize)..last + 1;
+        let rows = self.rows.iter().copied().filter(|r| is_in(r.time)).collect();
+        Self {
+            drive: self.drive,
+            windows,
+            rates: Arc::clone(&self.rates),
+            rows,
+            messages,
+            span,
+            encoder_window: self.encoder_window,
+        }
+    }
+
+    /// The first message that cannot be compared with the pose yet, because poses after it are not there.
+    fn first_unknown(&self, now: f64) -> usize {
+        self.drive.messages.partition_point(|m| m.time + SETTINGS.grid.smoothing <= now)
     }
 
     fn is_usable(&self, window: Window) -> bool {
@@ -198,7 +198,7 @@ impl<'a> Shown<'a> {
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
     pub(crate) fn errors(&self, laws: &Laws) -> Vec<f64> {
-        let inputs = laws.inputs(self.drive);
+        let inputs = laws.inputs_between(self.drive, self.span.start, self.span.end);
         let mut out = Vec::with_capacity(self.rows.len());
         for &window in &self.windows {
             let states = laws.run(self.start(laws, &inputs, window.from), &inputs, window.from, window.steps);
@@ -222,20 +222,18 @@ impl<'a> Shown<'a> {
                 }
             }
         }
-        if self.drive.has_pose() {
-            for message in &self.drive.messages {
-                let at = |delay: f64| self.rate_at(message.time - laws.clock - delay);
-                if let Some(gyro) = message.gyro {
-                    out.push(at(laws.gyro_delay).map_or(0.0, |r| laws.gyro_scale * r[2] + laws.gyro_bias - gyro));
-                }
-                if let Some(encoder) = message.encoder {
-                    let delay = laws.encoder_delay + 0.5 * self.encoder_window;
-                    let speed = |r: [f64; 3]| {
-                        let k = (((message.time - laws.clock - delay) / STEP) as usize).min(self.drive.pose.len() - 1);
-                        laws.encoder_scale * laws.state(self.drive.pose[k], r).speed - encoder
-                    };
-                    out.push(at(delay).map_or(0.0, speed));
-                }
+        for message in &self.drive.messages[self.messages.clone()] {
+            let at = |delay: f64| self.rate_at(message.time - laws.clock - delay);
+            if let Some(gyro) = message.gyro {
+                out.push(at(laws.gyro_delay).map_or(0.0, |r| laws.gyro_scale * r[2] + laws.gyro_bias - gyro));
+            }
+            if let Some(encoder) = message.encoder {
+                let delay = laws.encoder_delay + 0.5 * self.encoder_window;
+                let speed = |r: [f64; 3]| {
+                    let k = (((message.time - laws.clock - delay) / STEP) as usize).min(self.drive.pose.len() - 1);
+                    laws.encoder_scale * laws.state(self.drive.pose[k], r).speed - encoder
+                };
+                out.push(at(delay).map_or(0.0, speed));
             }
         }
         // A law that runs away is as wrong as can be, and still a number.
@@ -332,19 +330,6 @@ mod tests {
     fn laws() -> Laws {
         let all = constants(&Car::new("drawn", 0.25));
         Laws::at(&all, &vec![0.0; all.len()])
-    }
-
-    #[test]
-    fn a_fast_turn_is_not_slower_for_being_smoothed() {
-        let (speed, rate): (f64, f64) = (1.5, 5.0);
-        let at = |k: i32| {
-            let yaw = rate * STEP * f64::from(k);
-            [speed / rate * yaw.sin(), -speed / rate * yaw.cos(), yaw]
-        };
-        let pose: Vec<[f64; 3]> = (0..11).map(at).collect();
-        let found = slope(&pose, 0, 10, 5).expect("a slope");
-        assert!((found[0].hypot(found[1]) - speed).abs() < 2e-3 * speed, "{found:?}");
-        assert!((found[2] - rate).abs() < 1e-9 && (found[1].atan2(found[0]) - pose[5][2]).abs() < 1e-3, "{found:?}");
     }
 
     #[test]

@@ -4,7 +4,8 @@ use odometry::traces::Beside;
 use verdict::Trace;
 
 use crate::model::{Laws, STEP};
-use crate::rows::{Shown, end};
+use crate::rates::end;
+use crate::rows::Shown;
 use crate::settings::{SETTINGS, Traces};
 use crate::solve::Solved;
 
