@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
 use bags::{LARGEST_RECORD, ReadSeek, cannot_read};
+use memchr::memrchr;
 use sha2::{Digest, Sha256};
 
 use crate::error::RecordingError;
@@ -73,7 +74,9 @@ impl<'s> Blocks<'s> {
             if self.ended {
                 break;
             }
-            if let Some(end) = last_line_end(&block) {
+            // What was there before holds no end of a line, unless its last byte is one.
+            let new = have.saturating_sub(1);
+            if let Some(end) = last_line_end(&block[new..]).map(|end| new + end) {
                 self.carry = block.split_off(end);
                 return Ok(Some(block));
             }
@@ -153,7 +156,7 @@ fn serve<T>(asked: &Mutex<Receiver<(Block, SyncSender<T>)>>, parse: &impl Fn(&Bl
 
 /// Where the last whole line ends; a `\r` at the very end may be half of `\r\n`.
 fn last_line_end(bytes: &[u8]) -> Option<usize> {
-    let last = |end: u8, bytes: &[u8]| bytes.iter().rposition(|&byte| byte == end).map(|at| at + 1);
+    let last = |end: u8, bytes: &[u8]| memrchr(end, bytes).map(|at| at + 1);
     last(b'\n', bytes).or_else(|| last(b'\r', &bytes[..bytes.len() - 1]))
 }
 
