@@ -231,11 +231,7 @@ impl Judged<'_> {
             })
             .collect();
         let fault_free = fault_free_cost(p, &self.calibration.regimes.scatter);
-        let best = winner.map_or(retuned.cost, |w| w.trial.fitted.cost);
-        let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| {
-            let before = p.misfit(&calibrated) - fault_free;
-            ((best - fault_free) / before.max(1.0)).clamp(0.0, 1.0)
-        });
+        let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| self.decision.level.share());
         let standing = Standing::new(&forecasts.free_runs).filter(|_| verdict == Verdict::Explained);
         let as_good = forecasts.placebo.as_ref().filter(|_| standing.is_some_and(|s| s.is_matched_by_placebo()));
         let indistinguishable = self.rivals(&ranked, verdict, as_good);
@@ -253,6 +249,14 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
+        if verdict == Verdict::Unknown && !p.has_references {
+            limits.push(
+                "without references it is not known how much a tuned simulation of this robot leaves: a robot whose tyres or \
+                 drives follow other laws than the model's looks the same as a cause that is not in the catalogue; a \
+                 fault-free drive tells them apart"
+                    .to_owned(),
+            );
+        }
         if winner.is_some() && !worthwhile {
             limits.push(
                 "the correction does not improve the forecasts of recordings left out of the fit: \
@@ -289,7 +293,7 @@ impl Judged<'_> {
             coverage: BTreeMap::new(),
             predictions,
         };
-        out.sentences = words::sentences(&out, p.has_references);
+        out.sentences = words::sentences(&out, self);
         out
     }
 

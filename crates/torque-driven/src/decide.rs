@@ -26,15 +26,39 @@ pub(crate) struct Scored {
 }
 
 /// The decision.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Decision {
     pub(crate) scored: Vec<Scored>,
     pub(crate) none: f64,
     pub(crate) unknown: f64,
-    /// Probability that the cause is not in the catalogue by how much the best hypothesis leaves.
-    pub(crate) by_level: f64,
-    /// The same by the form of what it leaves.
-    pub(crate) by_form: f64,
+    pub(crate) level: Level,
+    /// The form of what the best hypothesis leaves, where the noise was learnt from the recordings.
+    pub(crate) form: Option<Structure>,
+}
+
+/// How much is left of a mismatch.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Level {
+    /// Cost of the simulation before anything is re-tuned, nats.
+    as_it_is: f64,
+    /// The same of the simulation that is told: with the best hypothesis, or re-tuned alone.
+    fitted: f64,
+    /// The same of drives in which nothing is missing.
+    fault_free: f64,
+    /// Probability, by this, that the cause is not in the catalogue.
+    pub(crate) is_unknown: f64,
+}
+
+impl Level {
+    /// Share of the mismatch that is left.
+    pub(crate) fn share(self) -> f64 {
+        ((self.fitted - self.fault_free) / (self.as_it_is - self.fault_free).max(1.0)).clamp(0.0, 1.0)
+    }
+
+    /// How many times as large, by its rms, what is left is as in drives in which nothing is missing.
+    pub(crate) fn times(self) -> f64 {
+        (self.fitted / self.fault_free.max(1.0)).max(0.0).sqrt()
+    }
 }
 
 impl Decision {
@@ -43,13 +67,32 @@ impl Decision {
         self.none >= self.unknown + self.scored.iter().map(|s| s.probability).sum::<f64>()
     }
 
-    /// The same with another probability, by how much is left, that the cause is not in the catalogue.
-    pub(crate) fn with_level(mut self, by_level: f64) -> Self {
-        let unknown = 1.0 - none_of([by_level, self.by_form]);
+    /// Probability that the cause is not in the catalogue by the form of what is left.
+    fn by_form(&self) -> f64 {
+        self.form.map_or(0.0, Structure::is_no_noise)
+    }
+
+    /// Why the cause is taken for one that is not in the catalogue, as a sentence; `what`: the simulation that is judged.
+    pub(crate) fn why_unknown(&self, what: &str, has_references: bool) -> String {
+        match self.form {
+            Some(form) if self.by_form() > self.level.is_unknown => {
+                format!("{what} leaves a mismatch that {}, which noise does not.", form.habit())
+            }
+            _ => {
+                let usual =
+                    if has_references { "in the references" } else { "a tuned simulation of a robot usually is" };
+                format!("{what} is off by {:.1} times as much (rms) as {usual}.", self.level.times())
+            }
+        }
+    }
+
+    /// The same by how much is left in another fit.
+    pub(crate) fn with_level(mut self, level: Level) -> Self {
+        let unknown = 1.0 - none_of([level.is_unknown, self.by_form()]);
         let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
         self.none *= factor;
         self.scored.iter_mut().for_each(|s| s.probability *= factor);
-        Self { unknown, by_level, ..self }
+        Self { unknown, level, ..self }
     }
 }
 
@@ -176,12 +219,9 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
     let by_level = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
-    let by_form = if problem.has_references {
-        0.0
-    } else {
-        Structure::of(problem, &scored.first().map_or(base, |s| &s.trial.fitted).response).is_no_noise()
-    };
-    let unknown = 1.0 - none_of([by_level, by_form]);
+    let nearest = scored.first().map_or(base, |s| &s.trial.fitted);
+    let form = (!problem.has_references).then(|| Structure::of(problem, &nearest.response));
+    let unknown = 1.0 - none_of([by_level, form.map_or(0.0, Structure::is_no_noise)]);
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
     let owners: Vec<(Option<usize>, f64)> = std::iter::once((None, none))
         .chain(scored.iter().enumerate().map(|(i, s)| (Some(i), s.score)))
@@ -195,7 +235,10 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             None => nothing += (1.0 - unknown) * share,
         }
     }
-    Decision { scored, none: nothing, unknown, by_level, by_form }
+    let named: f64 = scored.iter().map(|s| s.probability).sum();
+    let told = scored.first().filter(|_| named > nothing).map_or(base, |s| &s.trial.fitted);
+    let level = Level { as_it_is: found.as_it_is, fitted: told.cost, fault_free, is_unknown: by_level };
+    Decision { scored, none: nothing, unknown, level, form }
 }
 
 /// Hypotheses in which a constant that moved since the references stands for one of the effects: whose probability they add
@@ -238,7 +281,13 @@ mod tests {
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let problem = problem(&robot, &cuts);
         let retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
-        let found = SearchResult { retuned, singles: Vec::new(), several: Vec::new(), screened: Vec::new() };
+        let found = SearchResult {
+            as_it_is: retuned.cost,
+            retuned,
+            singles: Vec::new(),
+            several: Vec::new(),
+            screened: Vec::new(),
+        };
         let decision = decide(&problem, &found, &[1.0], 0.0);
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
@@ -265,7 +314,13 @@ mod tests {
         retuned.cost += 100.0;
         // No constant stands for either.
         let singles = ["quadratic_drag", "constant_pull"].map(|id| gained(&problem, &retuned, id, 24.0));
-        let found = SearchResult { retuned, singles: singles.to_vec(), several: Vec::new(), screened: Vec::new() };
+        let found = SearchResult {
+            as_it_is: retuned.cost,
+            retuned,
+            singles: singles.to_vec(),
+            several: Vec::new(),
+            screened: Vec::new(),
+        };
         let decision = decide(&problem, &found, &[1.0], 0.0);
 
         let named: f64 = decision.scored.iter().map(|s| s.probability).sum();
@@ -274,6 +329,13 @@ mod tests {
             let odds = ((s.score - PRICES.none) / PRICES.temperature).exp();
             approx::assert_relative_eq!(s.probability / decision.none, odds, epsilon = 1e-9);
         }
+        // What is left is a share of what there was, and says why the cause is unknown.
+        let level = Level { as_it_is: 500.0, fitted: 140.0, fault_free: 100.0, is_unknown: 0.8 };
+        let told = Decision { level, ..decision.clone() }.with_level(level);
+        assert!((level.share() - 0.1).abs() < 1e-12 && (level.times() - 1.4_f64.sqrt()).abs() < 1e-12);
+        assert!(
+            (told.unknown - 0.8).abs() < 1e-12 && told.why_unknown("It", true).starts_with("It is off by 1.2 times")
+        );
         // The score that fault-free drives reach is the least that names anything.
         let strict = decide(&problem, &found, &[1.0], 100.0);
         assert!(strict.none > 0.99 * (1.0 - strict.unknown), "{}", strict.none);
@@ -290,7 +352,13 @@ mod tests {
             let mut single = gained(&problem, &retuned, "torque_constant", 60.0);
             single.fitted.point.effects = vec![size];
             let several = Vec::new();
-            let found = SearchResult { retuned: retuned.clone(), singles: vec![single], several, screened: Vec::new() };
+            let found = SearchResult {
+                as_it_is: retuned.cost,
+                retuned: retuned.clone(),
+                singles: vec![single],
+                several,
+                screened: Vec::new(),
+            };
             decide(&problem, &found, &[1.0], 0.0).scored[0].probability
         };
         assert!(named(0.012) < 0.5, "{}", named(0.012));
@@ -311,7 +379,8 @@ mod tests {
             let mut single = gained(&problem, &retuned, id, 0.5 * sigmas * sigmas);
             single.fitted.point.theta = problem.origin().theta;
             let several = Vec::new();
-            let found = SearchResult { retuned, singles: vec![single], several, screened: Vec::new() };
+            let found =
+                SearchResult { as_it_is: retuned.cost, retuned, singles: vec![single], several, screened: Vec::new() };
             let decision = decide(&problem, &found, &[1.0], 0.0);
             decision.scored[0].probability > decision.none
         };

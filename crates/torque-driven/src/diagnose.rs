@@ -124,7 +124,7 @@ impl Calibrated {
             (found, decision)
         };
         let (mut found, mut decision) = weigh(&calibration, Vec::new());
-        let by_level = decision.by_level;
+        let level = decision.level;
         // References of another visit, or several visits: what is found may be constants that moved between them.
         if calibration.moves.may_have_been(!self.references.is_empty()) && !decision.finds_nothing() {
             let moved = calibration.clone().on_another_visit();
@@ -145,7 +145,7 @@ impl Calibrated {
             }
             (found, decision) = weigh(&calibration, Vec::new());
             // Noise that is learnt from what is left cannot say that too much is left.
-            decision = decision.with_level(by_level);
+            decision = decision.with_level(level);
         }
         let problem = problem(&robot, case, &recordings, &calibration, largest, options);
         progress("comparing on data that was not fitted");

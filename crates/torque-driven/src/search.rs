@@ -174,7 +174,7 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
             s.1 = s.1.max(c.evidence);
         }
     }
-    SearchResult { retuned, singles, several, screened }
+    SearchResult { as_it_is: origin.cost, retuned, singles, several, screened }
 }
 
 /// Adds effects that may hide in a constant which was re-tuned far beside `h`, each in the better of both fits.

@@ -31,9 +31,24 @@ pub(crate) struct Structure {
 impl Structure {
     /// Probability that a cause which is not in the catalogue left this.
     pub(crate) fn is_no_noise(self) -> f64 {
+        1.0 - none_of(self.is_above())
+    }
+
+    /// The same by its harmonics and by its correlation alone.
+    fn is_above(self) -> [f64; 2] {
         let repeats = UNKNOWN.harmonic_slope * (self.harmonic.max(f64::MIN_POSITIVE) / UNKNOWN.harmonic_centre).ln();
         let follows = UNKNOWN.correlation_slope * (self.correlation - UNKNOWN.correlation_centre);
-        1.0 - none_of([repeats, follows].map(logistic))
+        [repeats, follows].map(logistic)
+    }
+
+    /// What it does that noise does not: the likelier of both.
+    pub(crate) fn habit(self) -> &'static str {
+        let [repeats, follows] = self.is_above();
+        if repeats > follows {
+            "repeats two to four times in a turn of a wheel"
+        } else {
+            "follows itself from one window to the next in an acceleration"
+        }
     }
 
     /// Of a response's residuals.
@@ -165,6 +180,7 @@ mod tests {
         assert!(plain.is_no_noise() < 0.05, "{plain:?}");
         let shaken = of(|t| 0.5 * noise(t) + 0.5 * (5.0 * t).sin());
         assert!(shaken.correlation > 0.6 && shaken.is_no_noise() > 0.9, "{shaken:?}");
+        assert!(shaken.habit().starts_with("follows itself"), "{shaken:?}");
 
         let turned = |speed: f64, cogging: f64| {
             let value = |k: i32| {
@@ -176,6 +192,7 @@ mod tests {
         let of_harmonic = |harmonic| Structure { harmonic, correlation: 0.0 }.is_no_noise();
         assert!(turned(2.9, 0.0).is_some_and(|ratio| of_harmonic(ratio) < 0.05), "{:?}", turned(2.9, 0.0));
         assert!(turned(2.9, 0.05).is_some_and(|ratio| of_harmonic(ratio) > 0.9), "{:?}", turned(2.9, 0.05));
+        assert!(Structure { harmonic: 90.0, correlation: 0.0 }.habit().starts_with("repeats"));
         assert_eq!(turned(20.0, 0.05), None, "in a window the wheel turns farther than a harmonic is long");
     }
 }

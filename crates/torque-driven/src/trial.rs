@@ -12,6 +12,8 @@ pub(crate) struct Trial {
 
 /// All that the search found.
 pub(crate) struct SearchResult {
+    /// Cost of the simulation before anything is re-tuned, nats.
+    pub(crate) as_it_is: f64,
     pub(crate) retuned: Fitted,
     pub(crate) singles: Vec<Trial>,
     /// Two or three effects together.
@@ -56,6 +58,7 @@ mod tests {
             Trial { hypothesis: Hypothesis { parts, acting: None }, fitted: Fitted { cost, ..retuned.clone() } }
         };
         let mut found = SearchResult {
+            as_it_is: retuned.cost,
             retuned: retuned.clone(),
             singles: vec![trial(&["payload"], 5.0)],
             several: Vec::new(),

@@ -3,6 +3,7 @@
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::words::{probability, quantity};
 
+use crate::judged::Judged;
 use crate::locate;
 use crate::settings::decision::SETTINGS;
 use verdict::{Cause, Diagnosis, LawOfFile, SimulatorConstants, Verdict};
@@ -17,9 +18,9 @@ fn is_likely(cause: &Cause, effect: &str) -> bool {
 
 /// The answer in sentences, the most important one first.
 ///
-/// `calibrated`: whether references taught the constants of the robot.
-pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
+pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
     let mut out = Vec::new();
+    let calibrated = judged.problem.has_references;
     let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
         Verdict::NoMismatch if d.retuned.is_empty() && calibrated => {
@@ -39,13 +40,10 @@ pub(crate) fn sentences(d: &Diagnosis, calibrated: bool) -> Vec<String> {
                  catalogue explains these recordings."
                     .to_owned(),
             );
-            if let Some(c) = causes.first() {
-                out.push(format!(
-                    "The nearest effect is {} ({}), but most of the mismatch remains with it.",
-                    c.name,
-                    quantity(c)
-                ));
-            }
+            let nearest = causes.first().filter(|_| judged.winner().is_some());
+            out.extend(nearest.map(|c| format!("The nearest effect is {} ({}).", c.name, quantity(c))));
+            let what = nearest.map_or("The re-tuned simulation", |_| "With it the simulation");
+            out.push(judged.decision.why_unknown(what, calibrated));
         }
         Verdict::Explained => {
             for c in causes.iter().filter(|c| c.probability > SETTINGS.answer.likely) {
