@@ -241,6 +241,15 @@ impl Calibration {
         }
     }
 
+    /// The same where a constant may have moved since the references, by so many of its sigmas usually.
+    pub(crate) fn with_free(mut self, place: usize, usual: f64) -> Self {
+        if let Some(mut covariance) = inverse_spd(&self.information) {
+            covariance[(place, place)] += usual * usual;
+            self.information = inverse_spd(&covariance).unwrap_or(self.information);
+        }
+        self
+    }
+
     /// Raises the variance of each channel to what the best hypothesis leaves of it, never below the usual; whether any
     /// changed so much that the hypotheses must be weighed again.
     pub(crate) fn learn_noise(&mut self, problem: &Problem<'_>, best: &Fitted) -> bool {

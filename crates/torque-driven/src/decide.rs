@@ -5,6 +5,7 @@ use inference::algebra::solve_spd;
 use inference::evidence::{logistic, none_of, penalty_of_smallness, probabilities};
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
+use crate::level::Level;
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::stand_in::StandIn;
 use crate::structure::Structure;
@@ -34,31 +35,9 @@ pub(crate) struct Decision {
     pub(crate) level: Level,
     /// The form of what the best hypothesis leaves, where the noise was learnt from the recordings.
     pub(crate) form: Option<Structure>,
-}
-
-/// How much is left of a mismatch.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Level {
-    /// Cost of the simulation before anything is re-tuned, nats.
-    as_it_is: f64,
-    /// The same of the simulation that is told: with the best hypothesis, or re-tuned alone.
-    fitted: f64,
-    /// The same of drives in which nothing is missing.
-    fault_free: f64,
-    /// Probability, by this, that the cause is not in the catalogue.
-    pub(crate) is_unknown: f64,
-}
-
-impl Level {
-    /// Share of the mismatch that is left.
-    pub(crate) fn share(self) -> f64 {
-        ((self.fitted - self.fault_free) / (self.as_it_is - self.fault_free).max(1.0)).clamp(0.0, 1.0)
-    }
-
-    /// How many times as large, by its rms, what is left is as in drives in which nothing is missing.
-    pub(crate) fn times(self) -> f64 {
-        (self.fitted / self.fault_free.max(1.0)).max(0.0).sqrt()
-    }
+    /// The fit whose only effect is likeliest a constant that moved since the references, where that is likelier than that
+    /// nothing moved.
+    pub(crate) moved: Option<Trial>,
 }
 
 impl Decision {
@@ -223,9 +202,12 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let form = (!problem.has_references).then(|| Structure::of(problem, &nearest.response));
     let unknown = 1.0 - none_of([by_level, form.map_or(0.0, Structure::is_no_noise)]);
     // "Unknown" is weighed first: what is left is shared among "nothing" and the hypotheses.
+    let instead = moved_instead(problem, &scored);
+    let alone = instead.iter().filter(|i| i.owner.is_none() && i.score > none);
+    let moved = alone.max_by(|a, b| a.score.total_cmp(&b.score)).map(|i| scored[i.trial].trial.clone());
     let owners: Vec<(Option<usize>, f64)> = std::iter::once((None, none))
         .chain(scored.iter().enumerate().map(|(i, s)| (Some(i), s.score)))
-        .chain(moved_instead(problem, &scored))
+        .chain(instead.iter().map(|i| (i.owner, i.score)))
         .collect();
     let scores: Vec<f64> = owners.iter().map(|(_, score)| *score).collect();
     let mut nothing = 0.0;
@@ -238,18 +220,25 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let named: f64 = scored.iter().map(|s| s.probability).sum();
     let told = scored.first().filter(|_| named > nothing).map_or(base, |s| &s.trial.fitted);
     let level = Level { as_it_is: found.as_it_is, fitted: told.cost, fault_free, is_unknown: by_level };
-    Decision { scored, none: nothing, unknown, level, form }
+    Decision { scored, none: nothing, unknown, level, form, moved }
 }
 
-/// Hypotheses in which a constant that moved since the references stands for one of the effects: whose probability they add
-/// to (that of the remaining effects; `None` for "nothing is missing"), and their scores.
-fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<(Option<usize>, f64)> {
+/// A hypothesis in which a constant that moved since the references stands for one of the effects of a fit.
+struct Instead {
+    /// The fit, by its place.
+    trial: usize,
+    /// The fit with the remaining effects, whose probability this adds to; `None` for "nothing is missing".
+    owner: Option<usize>,
+    score: f64,
+}
+
+fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<Instead> {
     if !problem.has_references {
         return Vec::new();
     }
     let labels = |h: &Hypothesis| h.variants().map(Variant::label).collect::<Vec<_>>();
     let mut out = Vec::new();
-    for s in scored {
+    for (trial, s) in scored.iter().enumerate() {
         let own = penalties(&s.trial.hypothesis, &s.trial.fitted.point.effects, &problem.sizes());
         for (part, price) in stand_in::instead(problem, &s.trial) {
             let mut rest = s.trial.hypothesis.clone();
@@ -258,10 +247,11 @@ fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<(Option<usize>
             let second = if part == 0 && !rest.parts.is_empty() { PRICES.second } else { 0.0 };
             let score = s.score + own[part] + second - price;
             if rest.parts.is_empty() {
-                out.push((None, score));
+                out.push(Instead { trial, owner: None, score });
             } else {
                 let rest = labels(&rest);
-                out.extend(scored.iter().position(|o| labels(&o.trial.hypothesis) == rest).map(|i| (Some(i), score)));
+                let owner = scored.iter().position(|o| labels(&o.trial.hypothesis) == rest);
+                out.extend(owner.map(|i| Instead { trial, owner: Some(i), score }));
             }
         }
     }
@@ -329,10 +319,9 @@ mod tests {
             let odds = ((s.score - PRICES.none) / PRICES.temperature).exp();
             approx::assert_relative_eq!(s.probability / decision.none, odds, epsilon = 1e-9);
         }
-        // What is left is a share of what there was, and says why the cause is unknown.
+        // How much is left says why the cause is unknown.
         let level = Level { as_it_is: 500.0, fitted: 140.0, fault_free: 100.0, is_unknown: 0.8 };
         let told = Decision { level, ..decision.clone() }.with_level(level);
-        assert!((level.share() - 0.1).abs() < 1e-12 && (level.times() - 1.4_f64.sqrt()).abs() < 1e-12);
         assert!(
             (told.unknown - 0.8).abs() < 1e-12 && told.why_unknown("It", true).starts_with("It is off by 1.2 times")
         );

@@ -20,7 +20,7 @@ use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, KnownEffects, Options};
 use verdict::Diagnosis;
 
-use crate::{next, own_effects, unnamed};
+use crate::{next, own_effects, stand_in, unnamed};
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
 const PRICES: Prices = decision::SETTINGS.prices;
@@ -146,6 +146,15 @@ impl Calibrated {
             (found, decision) = weigh(&calibration, Vec::new());
             // Noise that is learnt from what is left cannot say that too much is left.
             decision = decision.with_level(level);
+        }
+        // What is likeliest a constant that moved is told as that constant, and as no other.
+        let before = problem(&robot, case, &recordings, &calibration, largest, options);
+        let moved = decision.moved.as_ref().filter(|_| decision.finds_nothing());
+        if let Some((place, usual, point)) = moved.and_then(|trial| stand_in::as_constant(&before, trial)) {
+            calibration = calibration.with_free(place, usual);
+            let free = problem(&robot, case, &recordings, &calibration, largest, options);
+            let none = Hypothesis::default();
+            found.retuned = retune(&free, &none, free.begin(&none, point, None));
         }
         let problem = problem(&robot, case, &recordings, &calibration, largest, options);
         progress("comparing on data that was not fitted");

@@ -3,7 +3,7 @@
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
-use crate::fit::Problem;
+use crate::fit::{Point, Problem};
 use crate::run_numbers::constant;
 use crate::trial::Trial;
 use inference::hypothesis::{Place, Variant, variants};
@@ -126,10 +126,21 @@ pub(crate) fn instead(problem: &Problem<'_>, trial: &Trial) -> Vec<(usize, f64)>
     out
 }
 
+/// A fit whose only effect is a constant that moved: the constant's place, how far it moves usually, in its sigmas, and the
+/// same motion with the constant moved and no effect.
+pub(crate) fn as_constant(problem: &Problem<'_>, trial: &Trial) -> Option<(usize, f64, Point)> {
+    let [(variant, _)] = trial.hypothesis.parts.as_slice() else { return None };
+    let constant = StandIn::of(variant, problem.robot)?;
+    let sigma = problem.sigma[constant.place];
+    let mut point = Point { effects: Vec::new(), ..trial.fitted.point.clone() };
+    point.theta[constant.place] += constant.moved(*trial.fitted.point.effects.first()?)? / sigma;
+    Some((constant.place, spread(problem, constant.place)? / sigma, point))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::{Hypothesis, Point};
+    use crate::fit::Hypothesis;
     use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
     use testing::robot;
@@ -160,6 +171,35 @@ mod tests {
         approx::assert_relative_eq!(of_size("torque_constant", 0.2), 1.2 * sigma, epsilon = 1e-12);
         assert_eq!(of_size("grade", 0.05), 0.0);
         assert_eq!(priced("torque_constant", -1.5), None, "no factor is negative");
+    }
+
+    #[test]
+    fn a_fit_of_an_effect_that_is_a_constant_moves_as_that_constant_does() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let fit = |id: &str, effects: Vec<f64>| {
+            let form = problem.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
+            let hypothesis = Hypothesis::single(form, Vec::new());
+            let fitted = problem.begin(&hypothesis, Point { effects, ..problem.origin() }, None);
+            Trial { hypothesis, fitted }
+        };
+        for (id, size) in [("viscous_friction", 0.02), ("payload", 0.5), ("torque_constant", -0.02)] {
+            let trial = fit(id, vec![size]);
+            let (place, usual, point) = as_constant(&problem, &trial).expect("a constant stands for it");
+            let tunable = tunables::<f64>()[place];
+            approx::assert_relative_eq!(usual, tunable.between_visits * problem.moves, epsilon = 1e-12);
+            assert!(point.effects.is_empty());
+            let moved = problem.begin(&Hypothesis::default(), point, None);
+            let still = problem.begin(&Hypothesis::default(), problem.origin(), None);
+            let [by_effect, by_constant] = [&trial.fitted, &moved].map(|f| problem.misfit(&f.response));
+            let nothing = problem.misfit(&still.response);
+            assert!(
+                (by_effect - by_constant).abs() < 0.1 * (by_effect - nothing).abs(),
+                "{id}: {by_effect} {by_constant}"
+            );
+        }
+        assert!(as_constant(&problem, &fit("grade", vec![0.02, 0.0])).is_none());
     }
 
     #[test]

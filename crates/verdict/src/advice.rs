@@ -103,3 +103,39 @@ impl Advice {
         self.manoeuvres.iter().find(|m| m.joins)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drive(name: &str, torque_free: Vec<[f64; 2]>) -> Manoeuvre {
+        let points = vec![[0.0, 0.0, 0.0], [2.0, 0.8, -0.6], [6.0, 0.8, -0.6], [7.0, 0.0, 0.0]];
+        Manoeuvre::new(name, Course { points, torque_free }, [1.0, 2.0, 0.5])
+    }
+
+    #[test]
+    fn a_drive_wants_the_speeds_of_its_course_and_lasts_as_long() {
+        let coasting = drive("coasting", vec![[5.0, 6.5]]);
+        assert_eq!(coasting.length(), 7.0);
+        assert_eq!(coasting.wanted(1.0), [0.4, -0.3]);
+        assert_eq!(coasting.wanted(4.0), [0.8, -0.6]);
+        assert_eq!([4.9, 5.0, 6.4, 6.5].map(|t| coasting.is_torque_free(t)), [false, true, true, false]);
+        assert!(!drive("driven throughout", Vec::new()).is_torque_free(5.5));
+    }
+
+    #[test]
+    fn the_best_drive_is_the_first_whose_recording_joins_the_others() {
+        let heavier = Manoeuvre { joins: false, ..drive("with a mass on top", Vec::new()) };
+        let mut advice = Advice { manoeuvres: vec![heavier], ..Advice::default() };
+        assert_eq!(advice.best(), None);
+        advice.manoeuvres.extend([drive("circles", Vec::new()), drive("spins", Vec::new())]);
+        assert_eq!(advice.best().map(|m| m.name.as_str()), Some("circles"));
+    }
+
+    #[test]
+    fn withheld_advice_says_why_and_nothing_else() {
+        let advice = Advice::withheld("no rival is left");
+        assert_eq!(advice.withheld.as_deref(), Some("no rival is left"));
+        assert!(advice.rivals.is_empty() && advice.manoeuvres.is_empty() && advice.limits.is_empty(), "{advice:?}");
+    }
+}

@@ -64,3 +64,18 @@ impl Cause {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cause_is_at_its_bound_as_soon_as_one_of_its_numbers_is() {
+        let mut cause = Cause::plain("grade", "slope", 0.8);
+        assert!(!cause.is_at_bound());
+        for (name, at_bound, whole) in [("angle", false, false), ("heading", true, true), ("onset", false, true)] {
+            cause.parameters.insert(name.to_owned(), Estimate { value: 0.1, sigma: None, at_bound });
+            assert_eq!(cause.is_at_bound(), whole, "{name}");
+        }
+    }
+}

@@ -59,3 +59,14 @@ impl Side {
         if index == 0 { Self::Left } else { Self::Right }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_two_sides_is_the_left_one_in_files_too() {
+        assert_eq!([0, 1].map(Side::of), [Side::Left, Side::Right]);
+        assert_eq!(serde_json::to_string(&[0, 1].map(Side::of)).expect("plain data"), r#"["left","right"]"#);
+    }
+}

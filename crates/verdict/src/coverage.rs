@@ -99,3 +99,56 @@ impl Coverage {
 fn minutes(seconds: f64) -> String {
     if seconds < 5400.0 { format!("{:.1} min", seconds / 60.0) } else { format!("{:.1} h", seconds / 3600.0) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chosen(why: Why, unlike: Option<f64>) -> Chosen {
+        Chosen { name: "a".to_owned(), recording: "r".to_owned(), interval: [0.0, 30.0], why, unlike }
+    }
+
+    fn coverage(chosen: Vec<Chosen>) -> Coverage {
+        Coverage {
+            screened: 7200.0,
+            diagnosed: 1230.0,
+            compared_with: ComparedWith::References,
+            chosen,
+            left_out: 40,
+            unlike: [None; 5],
+            unlike_left_out: [Some(1.06), Some(2.5)],
+        }
+    }
+
+    #[test]
+    fn a_diagnosis_of_stretches_says_how_many_were_chosen_for_which_reason() {
+        let why = [Why::Spread, Why::Spread, Why::Spread, Why::Telling, Why::Unlike, Why::Unlike];
+        let mut of = coverage(why.map(|why| chosen(why, None)).to_vec());
+        let text = "Of 2.0 h of the recordings, all screened, 20.5 min were diagnosed in full: 6 stretches (3 spread \
+                    evenly, 1 with the most informative driving, 2 least like the references).";
+        assert_eq!(of.sentence("the recordings"), text);
+        of.compared_with = ComparedWith::Beginning;
+        assert!(of.sentence("the recordings").ends_with(", 2 least like the beginning)."));
+        of.compared_with = ComparedWith::Nothing;
+        assert!(of.sentence("the recordings").ends_with(", 2 others)."));
+    }
+
+    #[test]
+    fn what_was_left_out_is_told_with_how_unlike_it_is_beside_what_was_taken() {
+        let unlike = [Some(1.5), None, Some(3.25), Some(2.0)];
+        let mut of = coverage(unlike.map(|unlike| chosen(Why::Spread, unlike)).to_vec());
+        let text = "40 stretches of the references were screened but not diagnosed: the relations among signals fit \
+                    them with a mean squared residual of 1.06 (median) to 2.50 (largest) times the usual; in the \
+                    stretches that were diagnosed it is up to 3.25";
+        assert_eq!(of.limit("the references"), text);
+        of.unlike_left_out = [None; 2];
+        let text = "40 stretches of the references were screened but not diagnosed: how much they deviate is \
+                    unknown, since they lack the signals to compare";
+        assert_eq!(of.limit("the references"), text);
+    }
+
+    #[test]
+    fn times_are_told_in_minutes_and_from_an_hour_and_a_half_on_in_hours() {
+        assert_eq!([90.0, 5394.0, 5400.0, 9000.0].map(minutes), ["1.5 min", "89.9 min", "1.5 h", "2.5 h"]);
+    }
+}

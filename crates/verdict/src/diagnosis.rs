@@ -137,3 +137,35 @@ impl Diagnosis {
         self.coverage.clone_from(coverage);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_diagnosis_of_long_recordings_says_of_each_part_what_it_rests_on_and_what_was_left_out() {
+        let coverage = |screened: f64, left_out: usize| Coverage {
+            screened,
+            diagnosed: 600.0,
+            compared_with: crate::ComparedWith::References,
+            chosen: Vec::new(),
+            left_out,
+            unlike: [None; 5],
+            unlike_left_out: [None; 2],
+        };
+        let parts = [("the recordings", coverage(7200.0, 40)), ("the references", coverage(3600.0, 20))];
+        let parts = BTreeMap::from(parts.map(|(part, coverage)| (part.to_owned(), coverage)));
+        let mut diagnosis = Diagnosis::withheld();
+        diagnosis.sentences.push("Left brake drags.".to_owned());
+        diagnosis.rest_on(&parts);
+
+        let [verdict, recordings, references] = &diagnosis.sentences[..] else { panic!("{:?}", diagnosis.sentences) };
+        assert_eq!(verdict, "Left brake drags.");
+        assert!(recordings.starts_with("Of 2.0 h of the recordings, all screened, 10.0 min were"), "{recordings}");
+        assert!(references.starts_with("Of 60.0 min of the references, all screened, 10.0 min were"), "{references}");
+        let [recordings, references] = &diagnosis.limits[..] else { panic!("{:?}", diagnosis.limits) };
+        assert!(recordings.starts_with("40 stretches of the recordings were screened but not"), "{recordings}");
+        assert!(references.starts_with("20 stretches of the references were screened but not"), "{references}");
+        assert_eq!(diagnosis.coverage, parts);
+    }
+}

@@ -127,3 +127,44 @@ impl FoundLaw {
         (retuned > 0.0).then(|| (of(|r| r.law) / retuned).sqrt())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left_out(quantity: &str, retuned: f64, law: f64) -> LawFreeRun {
+        let (recording, quantity) = ("a".to_owned(), quantity.to_owned());
+        LawFreeRun { recording, quantity, nominal: 100.0, retuned, named: Some(50.0), law, shifted: 70.0 }
+    }
+
+    #[test]
+    fn a_law_is_weighed_by_the_mean_squares_of_its_errors_over_all_recordings_left_out() {
+        let law = FoundLaw {
+            place: "left drive".to_owned(),
+            places_alike: Vec::new(),
+            formula: "c".to_owned(),
+            factors: Vec::new(),
+            numbers: Vec::new(),
+            seen: BTreeMap::new(),
+            alike: Vec::new(),
+            next_place: None,
+            nearest_name: None,
+            gain: 20.0,
+            score: 12.0,
+            gains: BTreeMap::new(),
+            left: 0.1,
+            in_references: None,
+            free_runs: vec![
+                left_out("yaw rate, rad/s", 6.0, 3.0),
+                left_out("forward speed, m/s", 2.0, 3.0),
+                left_out("yaw rate, rad/s", 8.0, 4.0),
+                left_out("wheel speed, rad/s", 0.0, 1.0),
+            ],
+        };
+        // Of right triangles: 3, 4, 5 over 6, 8, 10.
+        assert_eq!(law.error_over_retuned("yaw rate, rad/s"), Some(0.5));
+        assert_eq!(law.error_over_retuned("forward speed, m/s"), Some(1.5));
+        assert_eq!(law.error_over_retuned("wheel speed, rad/s"), None, "over nothing");
+        assert_eq!(law.error_over_retuned("position, m"), None, "not left out");
+    }
+}

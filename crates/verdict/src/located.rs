@@ -161,3 +161,19 @@ pub struct Cell {
     /// Whether it stands out, with 5 % of false discoveries over all cells (Benjamini and Yekutieli).
     pub significant: bool,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// JSON knows no infinity.
+    #[test]
+    fn the_fastest_range_of_driving_is_written_without_an_end_and_read_back_so() {
+        for (range, text) in [([0.5, f64::INFINITY], "[0.5,null]"), ([0.25, 0.5], "[0.25,0.5]")] {
+            let regime = Regime { by: "speed".into(), unit: "m/s".into(), range, share: 0.7, time: 0.2 };
+            let json = serde_json::to_string(&regime).expect("plain data");
+            assert!(json.contains(&format!(r#""range":{text}"#)), "{json}");
+            assert_eq!(serde_json::from_str::<Regime>(&json).expect("as written"), regime);
+        }
+    }
+}

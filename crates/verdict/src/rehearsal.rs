@@ -163,3 +163,26 @@ pub struct NotRehearsed {
     /// Why.
     pub why: Word,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_names_the_hidden_effect_is_found_and_what_names_or_suspects_anything_is_an_alarm() {
+        let answers = Answers {
+            replicas: 41,
+            first: 5,
+            in_set: 3,
+            unknown: 2,
+            nothing: 11,
+            wrong: 7,
+            withheld: 13,
+            ..Answers::default()
+        };
+        assert_eq!(answers.found(), 8);
+        assert_eq!(answers.alarmed(), 17);
+        // All but these were told that nothing is missing, or nothing at all.
+        assert_eq!(answers.replicas - answers.alarmed(), answers.nothing + answers.withheld);
+    }
+}

@@ -186,3 +186,51 @@ pub struct Response {
     /// Free constants of the corrected simulation and of the placebo.
     pub constants: [usize; 2],
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_from_the_command_to_the_wheel_is_of_the_drive_and_all_after_it_of_the_ground() {
+        use Element::{
+            BodyLag, DeadTime, ForwardLimit, Gain, Lag, Offset, Radius, Ramp, SideGain, SideRadius, Track, TurnLimit,
+            TurnSlip, WheelLimit,
+        };
+        for element in [DeadTime, Gain, TurnLimit, ForwardLimit, WheelLimit, Ramp, Lag, SideGain] {
+            assert!(element.is_drive(), "{element:?}");
+        }
+        for element in [Radius, Track, Offset, TurnSlip, BodyLag, SideRadius] {
+            assert!(!element.is_drive(), "{element:?}");
+        }
+    }
+
+    /// Sides are forward speed less and plus turning.
+    #[test]
+    fn every_way_of_scaling_keeps_both_sides_within_the_limit_and_what_its_words_say() {
+        // Asked with sides of 2 and 10, 10 and 2, -2 and -10; then a turn that alone is beyond the limit.
+        let asked = [[6.0, 4.0], [6.0, -4.0], [-6.0, -4.0], [4.0, 8.0]];
+        let held = |way: Scaling| asked.map(|pair| way.hold(pair, 6.0));
+        assert_eq!(held(Scaling::EachSide), [[4.0, 2.0], [4.0, -2.0], [-4.0, -2.0], [1.0, 5.0]]);
+        assert_eq!(held(Scaling::TurnFirst), [[2.0, 4.0], [2.0, -4.0], [-2.0, -4.0], [0.0, 6.0]]);
+        assert_eq!(held(Scaling::ForwardFirst), [[6.0, 0.0], [6.0, 0.0], [-6.0, 0.0], [4.0, 2.0]]);
+        for ([v, d], [forward, turn]) in asked.into_iter().zip(held(Scaling::Proportional)) {
+            assert!((forward.abs() + turn.abs() - 6.0).abs() < 1e-12, "the faster side drives at the limit");
+            assert!((forward * d - turn * v).abs() < 1e-12 && forward * v > 0.0, "the path keeps its curvature");
+        }
+        for way in Scaling::ALL {
+            for pair in [[1.0, 2.0], [-1.0, 3.0], [0.0, 0.0]] {
+                assert_eq!(way.hold(pair, 6.0), pair, "{way:?} within the limit");
+                assert_eq!(way.hold(pair, f64::INFINITY), pair, "{way:?} without a limit");
+            }
+        }
+    }
+
+    #[test]
+    fn each_way_of_scaling_is_told_by_what_it_keeps_and_what_it_gives() {
+        assert!(Scaling::EachSide.words().contains("on its own"));
+        assert!(Scaling::Proportional.words().contains("in proportion"));
+        assert_eq!(Scaling::TurnFirst.words(), "turning is kept and forward speed gives way");
+        assert_eq!(Scaling::ForwardFirst.words(), "forward speed is kept and turning gives way");
+    }
+}

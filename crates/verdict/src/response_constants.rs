@@ -102,3 +102,40 @@ impl ResponseModel {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checked(name: &str, value: f64) -> Result<(), ResponseError> {
+        ResponseModel { constants: [(name.to_owned(), value)].into(), ..ResponseModel::default() }.checked()
+    }
+
+    #[test]
+    fn a_difference_of_the_sides_and_an_offset_may_point_either_way() {
+        for (name, most) in [("side_gain", 0.5), ("centre_offset", 1.0), ("side_radius", 0.3)] {
+            for value in [-most, -0.02, 0.0, 0.02, most] {
+                assert_eq!(checked(name, value), Ok(()), "{name} {value}");
+            }
+            for value in [-1.01 * most, 1.01 * most] {
+                assert!(checked(name, value).is_err(), "{name} {value}");
+            }
+        }
+        // What does nothing is sensible, of every constant that can be neutral with a number.
+        for constant in DRIVE_CONSTANTS.iter().chain(&GROUND_CONSTANTS).filter(|c| c.neutral.is_finite()) {
+            assert_eq!(checked(constant.id, constant.neutral), Ok(()), "{}", constant.id);
+        }
+    }
+
+    #[test]
+    fn a_response_with_a_constant_that_cannot_be_is_refused_with_what_could_be() {
+        let text = |refused: Result<(), ResponseError>| refused.expect_err("cannot be").to_string();
+        assert_eq!(text(checked("dead_time", -0.1)), "`dead_time` is -0.1, but must lie between 0 and 1; correct it");
+        assert_eq!(text(checked("lag", 4.0)), "`lag` is 4, but must lie between 0 and 3; correct it");
+        assert!(checked("track_factor", f64::NAN).is_err());
+        let unknown = text(checked("dead_tim", 0.1));
+        assert!(unknown.ends_with("but 'dead_tim' is none of these"), "{unknown}");
+        assert!(unknown.contains("dead_time, forward_gain,") && unknown.contains(", turn_slip_linear,"), "{unknown}");
+        assert_eq!(ResponseModel::default().checked(), Ok(()));
+    }
+}

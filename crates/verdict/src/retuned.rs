@@ -96,4 +96,19 @@ mod tests {
                     file, or the simulator";
         assert_eq!(mass.of_simulator(), text);
     }
+
+    #[test]
+    fn a_constant_that_is_not_known_by_itself_is_told_without_an_interval() {
+        let mut track = Retuned {
+            constant: "half_track".to_owned(),
+            unit: "m".to_owned(),
+            from: 0.2,
+            to: 0.2468,
+            half_width: 0.03,
+            sigmas: 3.0,
+        };
+        assert_eq!(track.values(), "half track from 0.200 m to 0.247 m");
+        track.unit = "-".to_owned();
+        assert_eq!(track.values(), "half track from 0.200 to 0.247");
+    }
 }

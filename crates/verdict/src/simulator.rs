@@ -75,4 +75,18 @@ mod tests {
         assert!(only.contains("Together these behave like it") && !only.contains("correct the file"), "{only}");
         assert!(SimulatorConstants::default().sentences().is_empty());
     }
+
+    #[test]
+    fn of_constants_that_only_explain_together_four_are_named_and_the_rest_is_counted() {
+        let told = |names: &[&str]| {
+            let constants = names.iter().map(|name| constant(name, 1.0, 2.0)).collect();
+            let together = SimulatorConstants { constants, or: Vec::new(), only_together: true };
+            together.sentences().concat()
+        };
+        let four = told(&["mass", "adhesion", "lag", "backlash"]);
+        let list = ["mass", "adhesion", "lag", "backlash"].map(|name| format!("{name} from 1.00 to 2.00")).join("; ");
+        assert!(four.ends_with(&format!(": {list}.")), "{four}");
+        let six = told(&["mass", "adhesion", "lag", "backlash", "voltage", "radius"]);
+        assert!(six.ends_with(&format!(": {list}; and 2 more.")), "{six}");
+    }
 }

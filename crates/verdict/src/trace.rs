@@ -64,3 +64,17 @@ pub struct Compared {
     /// One sigma by which fault-free drives differ from their simulation, where that is known.
     pub usual: Option<f64>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_get_five_digits_of_a_value_and_a_tenth_of_a_millisecond_of_a_time() {
+        assert_eq!([123_456.0, 1.234_56, 0.012_345_6].map(rounded), [123_460.0, 1.2346, 0.012_346]);
+        assert_eq!([-123_454.0, -0.999_994, 10.0].map(rounded), [-123_450.0, -0.999_99, 10.0]);
+        assert_eq!([0.0, f64::INFINITY, f64::NEG_INFINITY].map(rounded), [0.0, f64::INFINITY, f64::NEG_INFINITY]);
+        assert!(rounded(f64::NAN).is_nan());
+        assert_eq!([12.345_67, 0.000_04, -2.000_06].map(instant), [12.3457, 0.0, -2.0001]);
+    }
+}
