@@ -281,7 +281,10 @@ impl Judged<'_> {
             null_scores: self.calibration.null_scores.of_references.clone(),
             screened,
             tuning,
-            retuned: retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
+            // Constants that make up for what nobody knows are not what the robot has.
+            retuned: (verdict != Verdict::Unknown)
+                .then(|| retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted))
+                .unwrap_or_default(),
             simulator: self.simulator.map(|s| s.told.clone()),
             correction,
             traces: located.traces,

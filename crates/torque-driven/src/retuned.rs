@@ -23,7 +23,13 @@ const ANSWER: Answer = SETTINGS.answer;
 pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
-    moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance])
+    let mut out = moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance]);
+    // Where a simulation of this form is best is not quite what a robot of another form has.
+    for constant in &mut out {
+        let sigma = ((constant.to - constant.from) / constant.sigmas).abs();
+        constant.half_width = constant.half_width.hypot(NINETY * RETUNE.form * sigma);
+    }
+    out
 }
 
 /// Constants of a robot that lie elsewhere at the second tuning than at the first, by more than either is uncertain: with
@@ -141,6 +147,8 @@ mod tests {
         assert_eq!(first.constant, "rolling_resistance", "{found:?}");
         assert!((first.to - moved.rolling_resistance).abs() < 2.0 * first.half_width, "{first:?}");
         approx::assert_relative_eq!(first.from, robot.rolling_resistance, epsilon = 1e-12);
+        let sigma = (first.to - first.from) / first.sigmas;
+        assert!(first.half_width > NINETY * RETUNE.form * sigma, "a robot has other laws than the plant: {first:?}");
 
         let at_rest = p.begin(&none, p.origin(), None);
         assert!(retuned(&p, &none, &at_rest).is_empty());
