@@ -63,6 +63,9 @@ pub(crate) struct Args {
     /// Recorded time that a diagnosis rests on at most, as in diagnose; 0 takes everything.
     #[arg(long, value_name = "MINUTES", value_parser = minutes)]
     budget: Option<f64>,
+    /// Nobody changed a robot since it was right: no cause is weighed that needs a hand on it, as in diagnose.
+    #[arg(long)]
+    same_robot: bool,
     #[command(flatten)]
     effects: OwnEffects,
     /// Work on the I-th of N parts, from 1/N to N/N; ids decide which.
@@ -90,7 +93,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let units: Vec<_> = units.into_iter().filter(|unit| args.shard.holds(&unit.id)).collect();
     let mine = units.len();
     let settings = Settings {
-        options: inference::Options { known, ..inference::Options::default() },
+        options: inference::Options { known, same_robot: args.same_robot, ..inference::Options::default() },
         reading: args.reading.options(),
         reading_name: args.reading.name().to_owned(),
         budget: args.budget.map(Budget::of_minutes).unwrap_or_default(),

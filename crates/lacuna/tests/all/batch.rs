@@ -243,6 +243,14 @@ fn what_changed_is_done_again_and_a_new_label_is_only_written() {
     let fourth = bench.run(&["batch", "list.csv", "-o", "out"]);
     assert!(fourth.out().starts_with("2 recordings: 1 done before, 1 to do\n"), "{}", fourth.out());
     assert_eq!(names(&bench, "out/json").len(), 2, "the answer of the old bytes is gone");
+
+    // An answer for a robot that nobody changed is another one: no mass, motor or wheel is weighed.
+    let fifth = bench.run(&["batch", "list.csv", "-o", "out", "--same-robot"]);
+    assert!(fifth.out().starts_with("2 recordings: 0 done before, 2 to do\n"), "{}", fifth.out());
+    for name in names(&bench, "out/json") {
+        let answer = bench.read(&format!("out/json/{name}"));
+        assert!(!answer.contains("\"payload\"") && answer.contains("viscous_friction"), "{name}");
+    }
 }
 
 #[test]
