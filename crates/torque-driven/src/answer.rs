@@ -281,10 +281,7 @@ impl Judged<'_> {
             null_scores: self.calibration.null_scores.of_references.clone(),
             screened,
             tuning,
-            // Constants that make up for what nobody knows are not what the robot has.
-            retuned: (verdict != Verdict::Unknown)
-                .then(|| retuned::retuned(p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted))
-                .unwrap_or_default(),
+            retuned: retuned::of_answer(verdict, p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
             simulator: self.simulator.map(|s| s.told.clone()),
             correction,
             traces: located.traces,

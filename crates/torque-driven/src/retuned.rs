@@ -6,7 +6,7 @@ use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::constants::Constant;
 use robot_model::tunable::{COUNT as NUISANCES, Tunable, tunables, tuned};
-use verdict::Retuned;
+use verdict::{Retuned, Verdict};
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::run::Run;
@@ -20,7 +20,7 @@ const ANSWER: Answer = SETTINGS.answer;
 ///
 /// What stands for a law that the plant lacks is not among them, since nobody can measure it on a robot, unless an effect of
 /// the catalogue is it under another name.
-pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
+fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
     let mut out = moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance]);
@@ -30,6 +30,11 @@ pub(crate) fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<R
         constant.half_width = constant.half_width.hypot(NINETY * RETUNE.form * sigma);
     }
     out
+}
+
+/// The same as part of an answer: constants that make up for what nobody knows are not what the robot has.
+pub(crate) fn of_answer(verdict: Verdict, p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
+    if verdict == Verdict::Unknown { Vec::new() } else { retuned(p, h, fitted) }
 }
 
 /// Constants of a robot that lie elsewhere at the second tuning than at the first, by more than either is uncertain: with
@@ -150,6 +155,8 @@ mod tests {
         let sigma = (first.to - first.from) / first.sigmas;
         assert!(first.half_width > NINETY * RETUNE.form * sigma, "a robot has other laws than the plant: {first:?}");
 
+        assert!(of_answer(Verdict::Unknown, &p, &none, &fitted).is_empty());
+        assert_eq!(of_answer(Verdict::NoMismatch, &p, &none, &fitted), found);
         let at_rest = p.begin(&none, p.origin(), None);
         assert!(retuned(&p, &none, &at_rest).is_empty());
     }
