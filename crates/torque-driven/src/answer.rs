@@ -281,7 +281,7 @@ impl Judged<'_> {
             null_scores: self.calibration.null_scores.of_references.clone(),
             screened,
             tuning,
-            retuned: retuned::of_answer(verdict, p, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
+            retuned: self.retuned(verdict, winner.map_or(&none, |w| &w.trial.hypothesis), fitted),
             simulator: self.simulator.map(|s| s.told.clone()),
             correction,
             traces: located.traces,

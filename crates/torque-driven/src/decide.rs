@@ -65,6 +65,12 @@ impl Decision {
         }
     }
 
+    /// The constant that is likelier moved than that anything is missing, by its place.
+    pub(crate) fn moved_constant(&self, problem: &Problem<'_>) -> Option<usize> {
+        let moved = self.moved.as_ref().filter(|_| self.finds_nothing())?;
+        stand_in::as_constant(problem, moved).map(|(place, ..)| place)
+    }
+
     /// The same by how much is left in another fit.
     pub(crate) fn with_level(mut self, level: Level) -> Self {
         let unknown = 1.0 - none_of([level.is_unknown, self.by_form()]);

@@ -9,6 +9,7 @@ use robot_model::tunable::{COUNT as NUISANCES, Tunable, tunables, tuned};
 use verdict::{Retuned, Verdict};
 
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
+use crate::judged::Judged;
 use crate::run::Run;
 use crate::settings::decision::{Answer, Retune, SETTINGS};
 use crate::stand_in;
@@ -20,10 +21,10 @@ const ANSWER: Answer = SETTINGS.answer;
 ///
 /// What stands for a law that the plant lacks is not among them, since nobody can measure it on a robot, unless an effect of
 /// the catalogue is it under another name.
-fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
+fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted, likely: Option<usize>) -> Vec<Retuned> {
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
-    let mut out = moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance]);
+    let mut out = moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance], likely);
     // Where a simulation of this form is best is not quite what a robot of another form has.
     for constant in &mut out {
         let sigma = ((constant.to - constant.from) / constant.sigmas).abs();
@@ -32,9 +33,15 @@ fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
     out
 }
 
-/// The same as part of an answer: constants that make up for what nobody knows are not what the robot has.
-pub(crate) fn of_answer(verdict: Verdict, p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
-    if verdict == Verdict::Unknown { Vec::new() } else { retuned(p, h, fitted) }
+impl Judged<'_> {
+    /// The same as part of an answer: constants that make up for what nobody knows are not what the robot has; a constant that
+    /// is likelier moved than not is told however far.
+    pub(crate) fn retuned(&self, verdict: Verdict, h: &Hypothesis, fitted: &Fitted) -> Vec<Retuned> {
+        if verdict == Verdict::Unknown {
+            return Vec::new();
+        }
+        retuned(self.problem, h, fitted, self.decision.moved_constant(self.problem))
+    }
 }
 
 /// Constants of a robot that lie elsewhere at the second tuning than at the first, by more than either is uncertain: with
@@ -44,6 +51,7 @@ pub(crate) fn moved(
     sigma_of: &[f64; NUISANCES],
     [first, last]: [&[f64; NUISANCES]; 2],
     [prior, known]: [&Mat<f64>; 2],
+    likely: Option<usize>,
 ) -> Vec<Retuned> {
     let of = |(k, tunable): (usize, &Tunable<f64>)| {
         let moved = last[k] - first[k];
@@ -51,7 +59,8 @@ pub(crate) fn moved(
         let known = ANSWER.curvature * sigma(known);
         let is_measurable = tunable.between_visits >= RETUNE.measurable;
         let least = if is_measurable { RETUNE.least_sigmas } else { RETUNE.least_of_form };
-        let far = least.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
+        let far = least.max(RETUNE.least_prior * sigma(prior));
+        let far = if likely == Some(k) { 0.0 } else { far }.max(RETUNE.least_known * known);
         if moved.abs() < far || !(is_measurable || stand_in::is_an_effect(k, robot)) {
             return None;
         }
@@ -147,7 +156,7 @@ mod tests {
 
         let none = Hypothesis::default();
         let fitted = p.refine(&none, p.begin(&none, p.origin(), None), 6, Some(2));
-        let found = retuned(&p, &none, &fitted);
+        let found = retuned(&p, &none, &fitted, None);
         let first = found.first().unwrap_or_else(|| panic!("at {:?}", fitted.point.theta));
         assert_eq!(first.constant, "rolling_resistance", "{found:?}");
         assert!((first.to - moved.rolling_resistance).abs() < 2.0 * first.half_width, "{first:?}");
@@ -155,10 +164,8 @@ mod tests {
         let sigma = (first.to - first.from) / first.sigmas;
         assert!(first.half_width > NINETY * RETUNE.form * sigma, "a robot has other laws than the plant: {first:?}");
 
-        assert!(of_answer(Verdict::Unknown, &p, &none, &fitted).is_empty());
-        assert_eq!(of_answer(Verdict::NoMismatch, &p, &none, &fitted), found);
         let at_rest = p.begin(&none, p.origin(), None);
-        assert!(retuned(&p, &none, &at_rest).is_empty());
+        assert!(retuned(&p, &none, &at_rest, None).is_empty());
     }
 
     #[test]
@@ -168,8 +175,10 @@ mod tests {
         let told = |id: &str, sigmas: f64| {
             let mut theta = [0.0; NUISANCES];
             theta[crate::run_numbers::constant(id)] = sigmas;
-            let found = moved(&robot, &usual_sigma(), [&[0.0; NUISANCES], &theta], [&little, &little]);
-            found.into_iter().map(|r| r.constant).collect::<Vec<_>>()
+            let place = crate::run_numbers::constant(id);
+            let found = |likely| moved(&robot, &usual_sigma(), [&[0.0; NUISANCES], &theta], [&little, &little], likely);
+            assert!(found(Some(place)).len() >= found(None).len());
+            found(None).into_iter().map(|r| r.constant).collect::<Vec<_>>()
         };
         assert_eq!(told("lateral_factor", -3.7), ["lateral_factor"]);
         assert!(told("lateral_factor", -1.5).is_empty(), "fault-free robots are that far off");
