@@ -59,8 +59,8 @@ pub(crate) fn moved(
         let known = ANSWER.curvature * sigma(known);
         let is_measurable = tunable.between_visits >= RETUNE.measurable;
         let least = if is_measurable { RETUNE.least_sigmas } else { RETUNE.least_of_form };
-        let far = least.max(RETUNE.least_prior * sigma(prior));
-        let far = if likely == Some(k) { 0.0 } else { far }.max(RETUNE.least_known * known);
+        let far = least.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
+        let far = if likely == Some(k) { 0.0 } else { far };
         if moved.abs() < far || !(is_measurable || stand_in::is_an_effect(k, robot)) {
             return None;
         }
