@@ -71,7 +71,7 @@ impl Decision {
         stand_in::as_constant(problem, moved).map(|(place, ..)| place)
     }
 
-    /// The same by how much is left in another fit.
+    /// The decision where how much is left is that of another fit.
     pub(crate) fn with_level(mut self, level: Level) -> Self {
         let unknown = 1.0 - none_of([level.is_unknown, self.by_form()]);
         let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
@@ -238,6 +238,7 @@ struct Instead {
     score: f64,
 }
 
+/// Every hypothesis in which a constant that may have moved takes the place of an effect; none without references.
 fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<Instead> {
     if !problem.has_references {
         return Vec::new();

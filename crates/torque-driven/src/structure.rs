@@ -47,7 +47,7 @@ impl Structure {
         if repeats > follows {
             "repeats two to four times in a turn of a wheel"
         } else {
-            "follows itself from one window to the next in an acceleration"
+            "is correlated from one window to the next in an acceleration"
         }
     }
 
@@ -180,7 +180,7 @@ mod tests {
         assert!(plain.is_no_noise() < 0.05, "{plain:?}");
         let shaken = of(|t| 0.5 * noise(t) + 0.5 * (5.0 * t).sin());
         assert!(shaken.correlation > 0.6 && shaken.is_no_noise() > 0.9, "{shaken:?}");
-        assert!(shaken.habit().starts_with("follows itself"), "{shaken:?}");
+        assert!(shaken.habit().starts_with("is correlated"), "{shaken:?}");
 
         let turned = |speed: f64, cogging: f64| {
             let value = |k: i32| {
