@@ -30,6 +30,13 @@ pub struct Entry {
     pub cause: Option<&'static CauseSpec>,
 }
 
+impl Entry {
+    /// What people call it.
+    pub fn label(&self) -> &'static str {
+        self.effect.map(|effect| effect.name).or(self.cause.map(|cause| cause.name)).unwrap_or(self.id)
+    }
+}
+
 /// The effects of the plants, by their ids.
 pub fn effects() -> impl Iterator<Item = &'static EffectSpec> {
     catalogue::<f64>().into_iter().map(Effect::spec)

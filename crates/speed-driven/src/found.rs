@@ -10,7 +10,7 @@ use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
 use robot_model::effects::coulomb_side;
 use statrs::distribution::{ContinuousCDF, Normal};
-use verdict::{Cause, Diagnosis, Loads, Quantity, Ratio, Standstill, Verdict};
+use verdict::{Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, TurningChange, Verdict};
 
 use crate::cause::cause;
 use crate::compare::{Judgement, judgement, reported, sigmas};
@@ -30,7 +30,7 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
         for difference in strongest(loads) {
             match difference.quantity {
                 Quantity::EffectiveTrack => insert(out, tracks(difference)),
-                _ => fitting(out, naming),
+                _ => insert_fitting(out, naming),
             }
         }
         if out.verdict != Verdict::Explained {
@@ -87,8 +87,8 @@ fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
     out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
 }
 
-/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three are its class.
-fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
+/// Effects that fit a difference of the loads, though none is likely enough to be named: the best three, the likeliest first.
+pub(crate) fn fitting(naming: Option<&Naming>) -> Vec<&Named> {
     let singles = || naming.into_iter().flat_map(|n| &n.effects).filter(|e| e.causes() == 1);
     let most = singles().map(|e| e.gain).fold(0.0, f64::max);
     let mut class: Vec<&Named> = Vec::new();
@@ -97,6 +97,12 @@ fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
             class.push(e);
         }
     }
+    class
+}
+
+/// Ranks the class of what fits a difference of the loads.
+fn insert_fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
+    let class = fitting(naming);
     if class.is_empty() {
         // Whatever it is, no law of the catalogue makes it.
         out.verdict = Verdict::Unknown;
@@ -110,12 +116,23 @@ fn fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
 /// Classes of causes of what changes inside recordings.
 fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     let known = |id: &str, of: usize| {
-        let name = catalogue::find(id).and_then(|e| e.effect).map_or(id, |e| e.name);
+        let name = catalogue::find(id).map_or(id, |entry| entry.label());
         Cause::plain(id, name, ANSWER.changed / of as f64)
     };
     let mut classes: Vec<Vec<Cause>> = Vec::new();
-    let found = &loads.changes.found;
-    for change in found {
+    for (k, ground) in loads.grounds.iter().enumerate() {
+        let alike = |other: &&OtherGround| other.causes == ground.causes;
+        if ground.causes.is_empty() || loads.grounds[..k].iter().any(|other| alike(&other)) {
+            continue;
+        }
+        let intervals = by_recording(loads.grounds.iter().filter(alike).map(|g| (g.recording.as_str(), g.interval)));
+        let cause = |id: &String| Cause { intervals: Some(intervals.clone()), ..known(id, ground.causes.len()) };
+        classes.push(ground.causes.iter().map(cause).collect());
+    }
+    let is_alone = |recording: &str, interval| !loads.grounds.iter().any(|g| g.holds(recording, interval));
+    let found: Vec<&LoadChange> =
+        loads.changes.found.iter().filter(|c| is_alone(&c.recording, c.interval) || c.causes == [GRADE]).collect();
+    for change in &found {
         if classes
             .iter()
             .any(|class| class.iter().map(|c| c.effect.as_str()).eq(change.causes.iter().map(AsRef::as_ref)))
@@ -137,10 +154,12 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         };
         classes.push(change.causes.iter().map(cause).collect());
     }
-    if !loads.turning_changes.is_empty() {
-        let intervals = by_recording(loads.turning_changes.iter().map(|c| (c.recording.as_str(), c.interval)));
+    let turning: Vec<&TurningChange> =
+        loads.turning_changes.iter().filter(|c| is_alone(&c.recording, c.interval)).collect();
+    if !turning.is_empty() {
+        let intervals = by_recording(turning.iter().map(|c| (c.recording.as_str(), c.interval)));
         // Turns one way only do not tell the ground from a side that drags.
-        let one_way = loads.turning_changes.iter().all(|c| c.one_way.is_some());
+        let one_way = turning.iter().all(|c| c.one_way.is_some());
         let ids = [catalogue::of_load_term(LoadTerm::Turning), coulomb_side::SPEC.id];
         let ids = if one_way { &ids[..] } else { &ids[..1] };
         let cause = |id: &&str| Cause { intervals: Some(intervals.clone()), ..known(id, ids.len()) };

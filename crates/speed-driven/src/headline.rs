@@ -11,7 +11,7 @@ use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{longest, strongest};
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
-use crate::words::{change, compared, how_it_stands, recordings, turning_change};
+use crate::words::{any_of, change, compared, how_it_stands, other_ground, recordings, turning_change};
 
 const SENTENCES: Sentences = NAMING.sentences;
 const ANSWER: Answer = NAMING.answer;
@@ -25,14 +25,14 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
         Verdict::Unknown => unknown(loads, theirs),
         Verdict::NoMismatch | Verdict::Withheld => {
             let differences = differences(d, loads, theirs);
-            if differences.is_empty() { changes(of_loads, loads, leads) } else { differences }
+            if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
         }
     };
     [standing, rest].concat()
 }
 
 /// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.
-fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
+fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> Vec<String> {
     let whole = match of_loads {
         Verdict::Withheld if leads => too_little(loads),
         Verdict::Withheld => "The other rows hold too little steady driving to compare any load.".to_owned(),
@@ -42,6 +42,20 @@ fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
         }
         _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
     };
+    let rest = match of_loads {
+        Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
+        _ => "Apart from that the simulation explains the loads; nothing else needs to be added to it.",
+    };
+    if let Some(longest) = loads.grounds.first() {
+        let how_many = match loads.grounds.len() {
+            1 => String::new(),
+            n => format!(": {n} stretches of other ground, of which this is the longest"),
+        };
+        return vec![
+            format!("The ground changes inside a recording{how_many}. {}", other_ground(longest, theirs)),
+            rest.to_owned(),
+        ];
+    }
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
     let largest = turning.iter().max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()));
@@ -50,10 +64,6 @@ fn changes(of_loads: Verdict, loads: &Loads, leads: bool) -> Vec<String> {
     };
     let count = straight.len() + turning.len();
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
-    let rest = match of_loads {
-        Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
-        _ => "Apart from that the simulation explains the loads; nothing else needs to be added to it.",
-    };
     vec![format!("Change inside a recording{how_many}. {clearest}"), rest.to_owned()]
 }
 
@@ -158,14 +168,6 @@ fn named(d: &Diagnosis) -> Vec<String> {
         out.extend(apart(class));
     }
     out
-}
-
-/// "a", "a or b", "a, b or c".
-fn any_of(names: &[String]) -> String {
-    match names {
-        [rest @ .., last] if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-        _ => names.concat(),
-    }
 }
 
 fn names(d: &Diagnosis, class: &[String]) -> Vec<String> {

@@ -18,6 +18,7 @@
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
+//! * `grounds`, `ground`: several grounds in one recording, soft ground as one cause.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
 //! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
@@ -33,6 +34,7 @@ mod extract;
 mod forecast;
 mod found;
 mod ground;
+mod grounds;
 mod guesses;
 mod heading;
 mod headline;
@@ -181,7 +183,9 @@ pub fn diagnose_steady(
 
     progress("looking into the recordings");
     let known_loads = (refs.as_slice(), reference_loads);
-    let loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
+    let mut loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
+    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
+    loads.grounds = grounds::grounds(&case.recordings, &loads, &usual);
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
 
     // The loads alone give a verdict; what was measured beside them may lead over it.
@@ -278,6 +282,7 @@ fn within(
         withheld,
         changes: Changes::default(),
         turning_changes: Vec::new(),
+        grounds: Vec::new(),
         turning: Vec::new(),
         standstills: Vec::new(),
         forecasts: Vec::new(),

@@ -4,7 +4,7 @@ use verdict::{Diagnosis, Loads, Ratio, Verdict};
 
 use crate::compare::reported;
 use crate::headline::headline;
-use crate::words::{change, hidden, load, recordings, standstill, tentative, turning, turning_change};
+use crate::words::{change, hidden, load, other_ground, recordings, standstill, tentative, turning, turning_change};
 
 /// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
 pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
@@ -21,8 +21,9 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
     if loads.standstills.len() > 1 {
         out.extend(loads.standstills.iter().map(standstill));
     }
+    let grounds = loads.grounds.iter().map(|g| other_ground(g, theirs));
     let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
-    let more: Vec<String> = changes.filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
+    let more: Vec<String> = grounds.chain(changes).filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
     out.extend(more);
     out.extend(tentative(&loads.changes.tentative));
     out.extend(hidden(&loads.changes.hidden));

@@ -4,7 +4,7 @@ use crate::Alignment;
 use crate::compare::{Judgement, judgement, no_difference};
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
-use verdict::{ClockError, Hidden, LoadChange, Quantity, Ratio, Standstill, Turning, TurningChange, Way};
+use verdict::{ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, Standstill, Turning, TurningChange, Way};
 
 const SENTENCES: Sentences = NAMING.sentences;
 
@@ -167,6 +167,33 @@ pub(crate) fn tentative(tilts: &[LoadChange]) -> Option<String> {
          decides nothing here; drive straight there, or record an accelerometer.",
         when.join(", ")
     ))
+}
+
+/// A stretch on other ground, without its recording: how it compares with `theirs`, and what fits.
+pub(crate) fn other_ground(g: &OtherGround, theirs: &str) -> String {
+    let [from, until] = g.interval;
+    let differs = g.ratios.iter().filter(|r| judgement(r) == Judgement::Differs);
+    let loads: Vec<String> = differs.map(|r| format!("the {} is {}", r.quantity.name(), compared(r, theirs))).collect();
+    let name = |id: &String| catalogue::find(id).map_or(id.clone(), |entry| entry.label().to_owned());
+    let names: Vec<String> = g.causes.iter().map(name).collect();
+    let causes = match names.len() {
+        0 => "No effect of the catalogue fits these loads".to_owned(),
+        1 => format!("What fits these loads best is {}", any_of(&names)),
+        _ => format!("What fits these loads best is {}; they do not tell which", any_of(&names)),
+    };
+    format!(
+        "{}, from {from:.1} s until {until:.1} s, other ground: {}. {causes}.",
+        titled(&g.recording),
+        loads.join(", ")
+    )
+}
+
+/// "a", "a or b", "a, b or c".
+pub(crate) fn any_of(names: &[String]) -> String {
+    match names {
+        [rest @ .., last] if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
+    }
 }
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {

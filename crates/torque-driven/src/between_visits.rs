@@ -68,6 +68,8 @@ pub(crate) struct Moves {
     pub(crate) of_recordings: f64,
     /// Their visits that may have moved each by itself: two or more, or one beside visits of the references.
     pub(crate) apart: Vec<usize>,
+    /// Whether a fit of them takes constants to have moved.
+    pub(crate) are_loose: bool,
 }
 
 impl Default for Moves {
@@ -80,6 +82,7 @@ impl Default for Moves {
             visits: Vec::new(),
             of_recordings: 1.0,
             apart: Vec::new(),
+            are_loose: false,
         }
     }
 }
@@ -133,6 +136,7 @@ impl Calibration {
     /// The same where constants may have moved since the references.
     pub(crate) fn on_another_visit(mut self) -> Self {
         let factor = self.moves.of_recordings;
+        self.moves.are_loose = true;
         if !self.moves.apart.is_empty() {
             let Moves { visits, apart, .. } = &mut self.moves;
             for &visit in apart.iter() {

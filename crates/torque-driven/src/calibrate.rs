@@ -132,6 +132,7 @@ pub(crate) fn calibrate_on(
             sigma: *sigma,
             cuts,
             has_references: true,
+            constants_are_loose: false,
             variance: Channels::all(0.0),
             regime: Vec::new(),
             information: Mat::identity(NUISANCES, NUISANCES),
@@ -328,11 +329,13 @@ pub(crate) fn problem<'a>(
     largest_torque: f64,
     options: &Options,
 ) -> Problem<'a> {
+    let has_references = !case.references.iter().all(Run::is_noise_free);
     Problem {
         robot,
         sigma: case.sigma,
         cuts,
-        has_references: !case.references.iter().all(Run::is_noise_free),
+        has_references,
+        constants_are_loose: !has_references || calibration.moves.are_loose,
         variance: calibration.variance,
         regime: calibration.regimes.of(cuts),
         information: calibration.information.clone(),

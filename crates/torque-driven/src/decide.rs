@@ -132,13 +132,14 @@ fn penalty_of_form(h: &Hypothesis, effects: &[f64], sizes: &Sizes) -> f64 {
     h.variants().map(of).sum()
 }
 
-/// What an effect that is a constant under another name gets back of its price without references, nats: all but `½ z²` at
-/// the sigmas `z` from which on it is named.
+/// What an effect that is a constant under another name gets back of its price where constants are loose, nats: all but
+/// `½ z²` at the sigmas `z` from which on it is named. A single effect does so without references only, since "nothing" has
+/// its own constants that moved otherwise.
 ///
 /// What the motion gains is less than it seems, since residuals are correlated and the plant's laws are not the robot's;
 /// hence the price. What a constant gains that may stay where the robot file has it is as much as the file says.
 fn relief_counts(problem: &Problem<'_>, found: &SearchResult, trial: &Trial) -> f64 {
-    if problem.has_references {
+    if !problem.constants_are_loose {
         return 0.0;
     }
     let named_at = 0.5 * PRICES.named_from.powi(2);
@@ -147,18 +148,22 @@ fn relief_counts(problem: &Problem<'_>, found: &SearchResult, trial: &Trial) -> 
         relief > PRICES.most * (without.cost - trial.fitted.cost)
     };
     let is_constant = |v: &Variant| StandIn::of(v, problem.robot).is_some();
-    match trial.hypothesis.parts.as_slice() {
-        [(variant, _)] if is_constant(variant) && is_most(&found.retuned) => PRICES.none + PRICES.per_effect - named_at,
-        [first, second] => {
-            let alone =
-                |v: &Variant| found.singles.iter().find(|t| t.hypothesis.variants().all(|o| o.label() == v.label()));
-            let relieved = [(first, second), (second, first)].into_iter().any(|((effect, _), (other, _))| {
-                is_constant(effect) && alone(other).is_some_and(|t| is_most(&t.fitted))
-            });
-            if relieved { PRICES.second + PRICES.per_effect - named_at } else { 0.0 }
-        }
-        _ => 0.0,
+    let parts = trial.hypothesis.parts.as_slice();
+    if let [(variant, _)] = parts {
+        let counts = !problem.has_references && is_constant(variant) && is_most(&found.retuned);
+        return if counts { PRICES.none + PRICES.per_effect - named_at } else { 0.0 };
     }
+    let effects = &trial.fitted.point.effects;
+    let without = |part: &Variant| {
+        let is_rest = |t: &&Trial| {
+            t.hypothesis.parts.len() + 1 == parts.len()
+                && trial.hypothesis.values_of(&t.hypothesis, effects).is_some()
+                && t.hypothesis.variants().all(|other| other.label() != part.label())
+        };
+        found.singles.iter().chain(&found.several).find(is_rest)
+    };
+    let is_relieved = |part: &Variant| is_constant(part) && without(part).is_some_and(|rest| is_most(&rest.fitted));
+    if trial.hypothesis.variants().any(is_relieved) { PRICES.second + PRICES.per_effect - named_at } else { 0.0 }
 }
 
 /// Cost that a fault-free drive of these segments would have: each as far from its expectation as
@@ -255,7 +260,8 @@ fn moved_instead(problem: &Problem<'_>, scored: &[Scored]) -> Vec<Instead> {
             let score = s.score + own[part] + second - price;
             if rest.parts.is_empty() {
                 out.push(Instead { trial, owner: None, score });
-            } else {
+            } else if !problem.constants_are_loose {
+                // Loose constants have moved in the fit of the rest already.
                 let rest = labels(&rest);
                 let owner = scored.iter().position(|o| labels(&o.trial.hypothesis) == rest);
                 out.extend(owner.map(|i| Instead { trial, owner: Some(i), score }));

@@ -114,16 +114,13 @@ impl Calibrated {
             self.calibration.clone()
         };
         let mut calibration = taught.for_visits(&visits);
-        let weigh = |calibration: &Calibration, known: Vec<Trial>| {
+        let weigh = |calibration: &Calibration, known: &[Trial]| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
-            let mut found = search(&problem, progress);
-            for trial in known {
-                found.include(trial);
-            }
+            let found = search(&problem, known, progress);
             let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.null_scores.highest());
             (found, decision)
         };
-        let (mut found, mut decision) = weigh(&calibration, Vec::new());
+        let (mut found, mut decision) = weigh(&calibration, &[]);
         let level = decision.level;
         // References of another visit, or several visits: what is found may be constants that moved between them.
         if calibration.moves.may_have_been(!self.references.is_empty()) && !decision.finds_nothing() {
@@ -132,7 +129,7 @@ impl Calibrated {
                 [&calibration, &moved].map(|c| problem(&robot, case, &recordings, c, largest, options));
             if let Some(known) = constants_moved(&before, &after, &found, &decision) {
                 calibration = moved;
-                (found, decision) = weigh(&calibration, known);
+                (found, decision) = weigh(&calibration, &known);
             }
         }
         // Without references, and with one, the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
@@ -143,7 +140,7 @@ impl Calibrated {
             if !calibration.learn_noise(&before, best.map_or(&found.retuned, |s| &s.trial.fitted)) {
                 break;
             }
-            (found, decision) = weigh(&calibration, Vec::new());
+            (found, decision) = weigh(&calibration, &[]);
             // Noise that is learnt from what is left cannot say that too much is left.
             decision = decision.with_level(level);
         }

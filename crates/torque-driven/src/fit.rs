@@ -38,6 +38,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) cuts: &'a [Cut],
     /// Whether drives in which the simulation was right taught constants and noise; otherwise the robot file did.
     pub(crate) has_references: bool,
+    /// Whether constants are as unsure as they are before a drive of that visit: an effect may then hide in one.
+    pub(crate) constants_are_loose: bool,
     /// Mean squared residual of each channel on the references.
     pub(crate) variance: Channels<f64>,
     /// Expected q/D of each segment's regime.

@@ -129,7 +129,7 @@ mod tests {
         let cuts = [12.0, 16.0].map(|seconds| cut(&driven(&robot, &doses, seconds), &cutting()));
         let known = KnownEffects::with(vec![waving]);
         let p = Problem { known, ..problem(&robot, &cuts) };
-        let found = search(&p, &|_| {});
+        let found = search(&p, &[], &|_| {});
         let decision = decide(&p, &found, &[1.0], 0.0);
         let best = &decision.scored[0];
         assert_eq!(best.trial.hypothesis.ids(), ["waving"]);
@@ -138,7 +138,7 @@ mod tests {
             assert!((value - expected).abs() < 0.05, "{value} instead of {expected}");
         }
         // Without the file another name is the best, and much is left.
-        let without = search(&problem(&robot, &cuts), &|_| {});
+        let without = search(&problem(&robot, &cuts), &[], &|_| {});
         let left = without.singles.iter().chain(&without.several).map(|t| t.fitted.cost).fold(f64::MAX, f64::min);
         assert!(left > 3.0 * best.trial.fitted.cost, "{left} against {}", best.trial.fitted.cost);
     }

@@ -60,7 +60,7 @@ pub(crate) fn moved(
         let is_measurable = tunable.between_visits >= RETUNE.measurable;
         let least = if is_measurable { RETUNE.least_sigmas } else { RETUNE.least_of_form };
         let far = least.max(RETUNE.least_known * known).max(RETUNE.least_prior * sigma(prior));
-        let far = if likely == Some(k) { 0.0 } else { far };
+        let far = if likely == Some(k) { RETUNE.least_likely } else { far };
         if moved.abs() < far || !(is_measurable || stand_in::is_an_effect(k, robot)) {
             return None;
         }

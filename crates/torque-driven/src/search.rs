@@ -97,8 +97,8 @@ pub(crate) fn retune(problem: &Problem<'_>, h: &Hypothesis, start: Fitted) -> Fi
     problem.refine(h, retuned, RETUNING.second_steps, Some(0))
 }
 
-/// Runs the whole search on the recordings.
-pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchResult {
+/// Runs the whole search on the recordings. `known`: fits of single effects that were found elsewhere.
+pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&str)) -> SearchResult {
     let none = Hypothesis::default();
     let all = problem.variants();
     progress("screening every effect");
@@ -128,9 +128,10 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
             trial
         })
         .collect();
-    if !problem.has_references {
+    if problem.constants_are_loose {
         include_handed_over(problem, &none, &retuned, &mut singles);
     }
+    known.iter().for_each(|trial| include(&mut singles, trial.clone()));
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
     let close = singles.iter_mut().filter(|t| t.fitted.cost < best + FINALISTS.close);
@@ -160,9 +161,15 @@ pub(crate) fn search(problem: &Problem<'_>, progress: &dyn Fn(&str)) -> SearchRe
     if let Some(best) = several.first() {
         converge_members(problem, best, &mut singles);
     }
-    let three = thirds(problem, &singles, &several, &origin, progress);
+    if let Some(best) = singles.first() {
+        converge_wholes(problem, best, &mut several);
+    }
+    let mut three = thirds(problem, &singles, &several, &origin, progress);
     if let Some(best) = three.first() {
         converge_members(problem, best, &mut several);
+    }
+    if let Some(best) = several.first().filter(|_| !three.is_empty()) {
+        converge_wholes(problem, best, &mut three);
     }
     several.extend(three);
     best_first(&mut several);
@@ -204,6 +211,26 @@ fn converge_members(problem: &Problem<'_>, whole: &Trial, members: &mut [Trial])
     best_first(members);
 }
 
+/// Fits hypotheses that hold all of `part`, and more, again from its tuning where they fit no better than it alone: these
+/// cannot have converged.
+fn converge_wholes(problem: &Problem<'_>, part: &Trial, wholes: &mut Vec<Trial>) {
+    for whole in wholes.iter_mut().filter(|whole| whole.fitted.cost > part.fitted.cost) {
+        let effects = &whole.fitted.point.effects;
+        if whole.hypothesis.values_of(&part.hypothesis, effects).is_none() {
+            continue;
+        }
+        let start = begin(problem, &whole.hypothesis, &part.fitted.point, effects, &part.fitted);
+        let again = problem.refine(&whole.hypothesis, start, FINALISTS.more_steps, Some(2));
+        if again.cost < whole.fitted.cost {
+            whole.fitted = again;
+        }
+    }
+    if problem.constants_are_loose {
+        include_handed_over(problem, &part.hypothesis, &part.fitted, wholes);
+    }
+    best_first(wholes);
+}
+
 fn best_first(trials: &mut [Trial]) {
     trials.sort_by(|a, b| a.fitted.cost.total_cmp(&b.fitted.cost));
 }
@@ -226,8 +253,8 @@ fn pairs(problem: &Problem<'_>, singles: &[Trial], origin: &Fitted) -> Vec<Trial
         let base = begin(problem, h1, &origin.point, e1, origin);
         let mut partners = screen_beside(problem, &base, first);
         let mut places = Places(PAIRS.partners);
-        if !problem.has_references {
-            // What the robot file's constants hide shows beside re-tuned ones, and the other way round.
+        if problem.constants_are_loose {
+            // What constants hide shows beside re-tuned ones, and the other way round.
             partners = in_turn(&partners, &screen_beside(problem, &first.fitted, first));
             places = Places(PAIRS.partners_by_file);
             include_handed_over(problem, h1, &first.fitted, &mut out);

@@ -133,6 +133,7 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         sigma: usual_sigma(),
         cuts,
         has_references: true,
+        constants_are_loose: false,
         variance: Channels::from(SETTINGS.calibration.first_sigma).map(|s| s * s),
         regime: cuts.iter().map(|c| vec![1.0; c.segments.len()]).collect(),
         information: Mat::identity(NUISANCES, NUISANCES),

@@ -22,13 +22,6 @@ pub(crate) struct SearchResult {
     pub(crate) screened: Vec<(String, f64)>,
 }
 
-impl SearchResult {
-    /// Takes a fit that was found elsewhere, unless the same hypothesis was fitted better here.
-    pub(crate) fn include(&mut self, trial: Trial) {
-        include(if trial.hypothesis.parts.len() > 1 { &mut self.several } else { &mut self.singles }, trial);
-    }
-}
-
 /// Adds a fit to others; of two fits of one hypothesis the better stays.
 pub(crate) fn include(list: &mut Vec<Trial>, trial: Trial) {
     let labels = |t: &Trial| t.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
@@ -57,27 +50,21 @@ mod tests {
             let parts = parts.iter().map(|id| (of(id), Vec::new())).collect();
             Trial { hypothesis: Hypothesis { parts, acting: None }, fitted: Fitted { cost, ..retuned.clone() } }
         };
-        let mut found = SearchResult {
-            as_it_is: retuned.cost,
-            retuned: retuned.clone(),
-            singles: vec![trial(&["payload"], 5.0)],
-            several: Vec::new(),
-            screened: Vec::new(),
-        };
-        found.include(trial(&["payload"], 7.0));
-        assert_eq!((found.singles.len(), found.singles[0].fitted.cost), (1, 5.0));
-        found.include(trial(&["payload"], 3.0));
-        assert_eq!((found.singles.len(), found.singles[0].fitted.cost), (1, 3.0));
-        found.include(trial(&["viscous_friction"], 9.0));
-        found.include(trial(&["payload", "viscous_friction"], 2.0));
-        assert_eq!((found.singles.len(), found.several.len()), (2, 1));
+        let mut found = vec![trial(&["payload"], 5.0)];
+        include(&mut found, trial(&["payload"], 7.0));
+        assert_eq!((found.len(), found[0].fitted.cost), (1, 5.0));
+        include(&mut found, trial(&["payload"], 3.0));
+        assert_eq!((found.len(), found[0].fitted.cost), (1, 3.0));
+        include(&mut found, trial(&["viscous_friction"], 9.0));
+        include(&mut found, trial(&["payload", "viscous_friction"], 2.0));
+        assert_eq!(found.len(), 3);
 
-        let pair = &found.several[0].hypothesis;
+        let pair = &found[2].hypothesis;
         let alone = pair.each_alone(&[2.0, 0.1]);
         let ids: Vec<Vec<&str>> = alone.iter().map(|(h, _)| h.ids()).collect();
         assert_eq!(ids, [["payload"], ["viscous_friction"]]);
         assert_eq!([&*alone[0].1, &*alone[1].1], [&[2.0][..], &[0.1]]);
-        assert!(found.singles[0].hypothesis.each_alone(&[2.0]).is_empty());
+        assert!(found[0].hypothesis.each_alone(&[2.0]).is_empty());
         assert_eq!(pair.values_of(&alone[1].0, &[2.0, 0.1]), Some(vec![0.1]));
         let swapped = Hypothesis { parts: pair.parts.iter().rev().cloned().collect(), acting: None };
         assert_eq!(pair.values_of(&swapped, &[2.0, 0.1]), Some(vec![0.1, 2.0]));

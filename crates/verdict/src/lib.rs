@@ -48,7 +48,7 @@ pub use diagnosis::{Diagnosis, FORMAT, Verdict};
 pub use free_run::FreeRun;
 pub use law::{Claim, CommonLaw, FoundLaw, LawFreeRun, LawNumber, LawOfFile, UnnamedCause};
 pub use loads::{
-    Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, Quantity, Ratio, Standstill, Turning,
+    Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Turning,
     TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};

@@ -19,6 +19,9 @@ pub struct Loads {
     pub changes: Changes,
     /// When inside a recording turning begins or ceases to cost another torque.
     pub turning_changes: Vec<TurningChange>,
+    /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grounds: Vec<OtherGround>,
     /// Turning inferred from the loads, where neither a gyro nor a difference of the speeds is known.
     pub turning: Vec<Turning>,
     /// Wheels that were commanded to turn a body that did not.
@@ -207,6 +210,26 @@ pub struct Hidden {
     pub recording: String,
     /// From, until, s.
     pub interval: [f64; 2],
+}
+
+/// A stretch of a recording on other ground: changes of the straight load and of what turning costs that belong together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OtherGround {
+    /// Name of the recording.
+    pub recording: String,
+    /// From the first to the last row that shows it, s on the clock of the loads.
+    pub interval: [f64; 2],
+    /// Its loads and its effective track over those of the references.
+    pub ratios: Vec<Ratio>,
+    /// Ids of the causes that fit these loads best, the likeliest first; none where no effect of the catalogue does.
+    pub causes: Vec<String>,
+}
+
+impl OtherGround {
+    /// Whether a stretch of a recording lies on it, in part at least.
+    pub fn holds(&self, recording: &str, [from, until]: [f64; 2]) -> bool {
+        self.recording == recording && from <= self.interval[1] && until >= self.interval[0]
+    }
 }
 
 /// A change of what turning costs inside a recording. Times in s on the clock of the loads.

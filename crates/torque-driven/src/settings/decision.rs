@@ -30,8 +30,8 @@
         size_width: f64 = 0.35, "1", "guess";
         /// Without references: sizes below so many times the error of the plant's form are not told from it.
         form_errors: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
-        /// Without references: an effect that is a constant of the robot under another name is named from so many sigmas of
-        /// the robot file on, where most of its gain is that the constant may stay where the file has it.
+        /// Without references, or where constants may have moved since: an effect that is a constant of the robot under another
+        /// name is named from so many sigmas of the robot file on, where most of its gain is that the constant may stay.
         named_from: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
         /// Share of a gain that is most of it.
         most: f64 = 0.5, "1", "definition";
@@ -120,6 +120,8 @@
         least_known: f64 = 2.0, "1", "guess";
         /// Least move, in sigmas of what was known of the constant before.
         least_prior: f64 = 1.5, "1", "guess";
+        /// Least move, in the sigmas that the robot file states, of a constant that is likelier moved than not.
+        least_likely: f64 = 0.3, "1", "guess: less changes nothing that a drive would show";
         /// Least move, in the sigmas that the robot file states, of a constant that makes up for the form of the plant's laws
         /// and is an effect under another name.
         least_of_form: f64 = 2.0, "1", "guess: such constants are 2 of their sigmas off on fault-free robots";

@@ -88,7 +88,7 @@
         starts: usize = 3, "1", "guess";
     }
 
-    /// Without references: effects that hide in a constant.
+    /// Without references, or where constants may have moved since: effects that hide in a constant.
     handed_over: HandedOver {
         /// Move of a constant, in sigmas of the robot file, from which on the effect that it may stand for is fitted from
         /// that move.
@@ -101,7 +101,7 @@
         firsts: [usize; 2] = [2, 1], "1", "guess";
         /// Partners of a first effect that are tried, common and rare.
         partners: [usize; 2] = [4, 1], "1", "guess";
-        /// The same without references, where what is missing hides in constants.
+        /// The same without references, or where constants may have moved since: what is missing hides in constants.
         partners_by_file: [usize; 2] = [6, 1], "1", "a look at the 72 development cases without their references";
         /// Evidence that a partner must exceed.
         partner_evidence: f64 = 3.0, "nats", "guess";

@@ -1,0 +1,143 @@
+//! Several grounds in one recording: each with its loads over those of the references, and what could make them.
+//!
+//! What changes the straight load without being a slope, and what changes the cost of turning, is one ground where the one may
+//! have begun before the other ended. Its loads are then measured as if nothing else had been recorded, and named like those of
+//! a recording, by causes that need no hand on the robot: nobody touches it on the way.
+
+use robot_model::Robot;
+use robot_model::tunable::COUNT as NUISANCES;
+use verdict::{LoadChange, Loads, OtherGround, Ratio};
+
+use crate::compare::{Judgement, Reference, judgement, ratios};
+use crate::differences;
+use crate::extract::extract;
+use crate::found::fitting;
+use crate::model::Tuned;
+use crate::name::{Comparison, Named, Open, name};
+use crate::pieces::GRADE;
+use crate::run::SpeedRun;
+
+/// What grounds are compared with.
+pub(crate) struct Usual<'a> {
+    pub(crate) references: &'a [Reference],
+    pub(crate) robot: &'a Robot<f64>,
+    pub(crate) sigma: &'a [f64; NUISANCES],
+    pub(crate) calibrated: &'a Tuned,
+}
+
+/// A stretch that may be other ground: what shows it, and how far it may reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stretch {
+    interval: [f64; 2],
+    reach: [f64; 2],
+    /// Whether no slope can do all of it.
+    is_ground: bool,
+}
+
+/// Grounds inside these recordings, the longest first.
+pub(crate) fn grounds(runs: &[SpeedRun], loads: &Loads, usual: &Usual<'_>) -> Vec<OtherGround> {
+    let of_run = |run: &SpeedRun| -> Vec<OtherGround> {
+        stretches(&run.name, loads).into_iter().filter_map(|interval| usual.ground(run, interval)).collect()
+    };
+    let mut out: Vec<OtherGround> = runs.iter().flat_map(of_run).collect();
+    let seconds = |g: &OtherGround| g.interval[1] - g.interval[0];
+    out.sort_by(|a, b| seconds(b).total_cmp(&seconds(a)));
+    out
+}
+
+/// Changes of a recording that may be one ground, joined.
+fn stretches(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
+    let may_be = |c: &&LoadChange| c.recording == recording && !c.bound && c.causes != [GRADE];
+    let straight = loads.changes.found.iter().filter(may_be).map(|c| Stretch {
+        interval: c.interval,
+        reach: [c.onset[0], c.end[1]],
+        is_ground: !c.causes.contains(&GRADE),
+    });
+    let turning = loads.turning_changes.iter().filter(|c| c.recording == recording && c.one_way.is_none());
+    let turning = turning.map(|c| Stretch { interval: c.interval, reach: [c.onset[0], c.end[1]], is_ground: true });
+    let mut all: Vec<Stretch> = straight.chain(turning).collect();
+    all.sort_by(|a, b| a.interval[0].total_cmp(&b.interval[0]));
+
+    let mut out: Vec<Stretch> = Vec::new();
+    for next in all {
+        match out.last_mut() {
+            Some(last) if next.reach[0] <= last.reach[1] => {
+                last.interval[1] = last.interval[1].max(next.interval[1]);
+                last.reach[1] = last.reach[1].max(next.reach[1]);
+                last.is_ground |= next.is_ground;
+            }
+            _ => out.push(next),
+        }
+    }
+    out.into_iter().filter(|s| s.is_ground).map(|s| s.interval).collect()
+}
+
+impl Usual<'_> {
+    /// The ground of a stretch; `None` where no load differs from the references'.
+    fn ground(&self, run: &SpeedRun, interval: [f64; 2]) -> Option<OtherGround> {
+        let (loads, _) = extract(&only(run, interval));
+        let (ratios, _) = ratios(&loads, self.references);
+        if !ratios.iter().any(|r: &Ratio| judgement(r) == Judgement::Differs) {
+            return None;
+        }
+        let differences = differences(&loads, self.references);
+        let comparison = Comparison::new(&differences, self.robot, self.sigma, self.calibrated);
+        let naming = comparison.and_then(|c| name(&c, Open { same_robot: true, one_slope: false }));
+        let causes = fitting(naming.as_ref()).into_iter().flat_map(Named::ids).map(str::to_owned).collect();
+        Some(OtherGround { recording: run.name.clone(), interval, ratios, causes })
+    }
+}
+
+/// The same recording as if only these rows said anything.
+fn only(run: &SpeedRun, [from, until]: [f64; 2]) -> SpeedRun {
+    let mut out = run.clone();
+    out.changed.fill(false);
+    for (left_out, t) in out.standing.iter_mut().zip(&run.time) {
+        *left_out |= *t < from || *t > until;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use verdict::{Diagnosis, Verdict};
+
+    use crate::testing::{Leg, STRAIGHT, diagnosis, rounds};
+
+    /// Rounds on a ground: the straight load and the couple of turning, in those of the references.
+    fn on(straight: f64, scrub: f64, n: usize) -> Vec<Leg> {
+        let harder = |leg: Leg| Leg { straight: straight * leg.straight, scrub: scrub * leg.scrub, ..leg };
+        rounds(n).into_iter().map(harder).collect()
+    }
+
+    fn grounds(d: &Diagnosis) -> Vec<([f64; 2], Vec<String>)> {
+        let loads = d.steady.as_ref().expect("loads");
+        loads.grounds.iter().map(|g| (g.interval, g.causes.clone())).collect()
+    }
+
+    #[test]
+    fn two_grounds_of_one_recording_are_two_findings() {
+        // A round takes 40 s: hard ground, soft ground, hard ground, ground on which turning costs half.
+        let legs = [on(1.0, 1.0, 2), on(2.2, 1.0, 1), on(1.0, 1.0, 3), on(1.0, 0.4, 2), on(1.0, 1.0, 2)].concat();
+        let d = diagnosis(&[&legs]);
+        let found = grounds(&d);
+        assert_eq!((d.verdict, found.len()), (Verdict::Explained, 2), "{:?}", d.sentences);
+        let [(slippery, _), (soft, _)] = &found[..] else { panic!("{found:?}") };
+        assert!(soft[0] > 78.0 && soft[1] < 122.0, "{found:?}");
+        assert!(slippery[0] > 238.0 && slippery[1] < 322.0, "{found:?}");
+        assert!(found[1].1.iter().any(|id| id == "rolling_resistance"), "{found:?}");
+        assert!(found[0].1.iter().any(|id| id == "turning_resistance"), "{found:?}");
+        assert!(d.sentences[0].contains("2 stretches"), "{:?}", d.sentences);
+        let told = d.sentences.iter().filter(|s| s.contains("other ground")).count();
+        assert_eq!(told, 2, "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn one_ground_and_what_may_be_a_slope_are_no_other_ground() {
+        assert_eq!(grounds(&diagnosis(&[&on(1.0, 1.0, 3)])), []);
+        let climb = [Leg::straight(30.0), Leg::straight(20.0).slope(3.0), Leg::straight(30.0)];
+        let d = diagnosis(&[&climb]);
+        assert_eq!(grounds(&d), [], "{:?}", d.sentences);
+        assert!(STRAIGHT > 0.0 && d.sentences[0].starts_with("Change inside"), "{:?}", d.sentences);
+    }
+}
