@@ -181,11 +181,21 @@ pub(crate) fn fault_free_cost(problem: &Problem<'_>, scatter: &[f64]) -> f64 {
     f
 }
 
+/// What gains are divided by: how much more the best hypothesis leaves than a fault-free drive would, where it is more. What no
+/// hypothesis explains is no noise of the size that the references showed, and what little one gains beside it says little
+/// (dispersion of a quasi-likelihood: McCullagh and Nelder, *Generalized Linear Models*, 9.2; in metrology Birge's ratio).
+fn dispersion(best: f64, fault_free: f64) -> f64 {
+    (best / fault_free.max(1e-9)).max(1.0)
+}
+
 /// Weighs all hypotheses.
 ///
 /// `scatter`: of the references' segments about their regimes; `null_scores`: the highest score of a fault-free drive.
 pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64], null_score: f64) -> Decision {
     let base: &Fitted = &found.retuned;
+    let fault_free = fault_free_cost(problem, scatter);
+    let best = found.singles.iter().chain(&found.several).map(|t| t.fitted.cost).fold(base.cost, f64::min);
+    let dispersion = dispersion(best, fault_free);
     let mut scored: Vec<Scored> = found
         .singles
         .iter()
@@ -197,14 +207,12 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             let form =
                 if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &problem.sizes()) };
             let price = penalty(&t.hypothesis, effects, &problem.sizes()) + once + form;
-            let score = base.cost - t.fitted.cost - price + relief_counts(problem, found, t);
+            let score = (base.cost - t.fitted.cost) / dispersion - price + relief_counts(problem, found, t);
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
     let none = PRICES.none.max(null_score);
-    let fault_free = fault_free_cost(problem, scatter);
-    let best = scored.iter().map(|s| s.trial.fitted.cost).fold(base.cost, f64::min);
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
@@ -306,6 +314,12 @@ mod tests {
         fitted.point.effects = effects;
         fitted.cost -= gain;
         Trial { hypothesis, fitted }
+    }
+
+    #[test]
+    fn what_is_gained_beside_much_that_stays_counts_less() {
+        assert_eq!(dispersion(80.0, 100.0), 1.0, "less than usual is left: gains count as they are");
+        assert_eq!(dispersion(250.0, 100.0), 2.5);
     }
 
     #[test]

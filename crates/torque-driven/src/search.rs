@@ -131,7 +131,9 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
     if problem.constants_are_loose {
         include_handed_over(problem, &none, &retuned, &mut singles);
     }
-    known.iter().for_each(|trial| include(&mut singles, trial.clone()));
+    for trial in known {
+        include(&mut singles, trial.clone());
+    }
     best_first(&mut singles);
     let best = singles.first().map_or(f64::MAX, |t| t.fitted.cost);
     let close = singles.iter_mut().filter(|t| t.fitted.cost < best + FINALISTS.close);

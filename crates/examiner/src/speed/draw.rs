@@ -12,6 +12,9 @@ use crate::random::Stream;
 /// Length of references and of recordings, s.
 const LENGTH: f64 = 150.0;
 const REFERENCES: usize = 3;
+/// Length of a drive over several grounds, s, and legs of a round, in which every manoeuvre is driven once.
+const LONG: f64 = 400.0;
+const ROUND: usize = 6;
 
 /// The case of a plan.
 pub(super) fn case(plan: &SpeedPlan) -> SpeedCase {
@@ -46,7 +49,7 @@ pub(super) fn case(plan: &SpeedPlan) -> SpeedCase {
         SpeedKind::FaultFree => {}
         SpeedKind::SoftGround => ground = soft(&mut s),
         SpeedKind::SlipperyGround => {
-            ground = Ground { rolling: 1.0, scrub: s.uniform(0.25, 0.6), track: s.uniform(1.0, 1.15) };
+            ground = slippery(&mut s);
         }
         SpeedKind::Payload => here.mass *= s.uniform(1.3, 1.8),
         SpeedKind::DraggingSide => {
@@ -62,6 +65,15 @@ pub(super) fn case(plan: &SpeedPlan) -> SpeedCase {
             let middle = legs.len() / 2;
             events.push(happens(kinds[0], &mut legs, 0..middle, &mut s));
             events.push(happens(kinds[1], &mut legs, middle + 1..usize::MAX, &mut s));
+        }
+        SpeedKind::Grounds => {
+            legs = course(&robot, LONG, &mut stream("drive"));
+            let rounds = (legs.len() - 2) / ROUND;
+            let most = (rounds - 1) / 2;
+            for k in 0..2 + s.index(most.min(3) - 1) {
+                let at = 1 + ROUND * (1 + 2 * k);
+                events.push(other_ground(&mut legs, at..at + ROUND, &mut s));
+            }
         }
     }
     for leg in &mut legs {
@@ -109,6 +121,18 @@ fn robot(s: &mut Stream) -> Robot {
 fn warmth(s: &mut Stream) -> Warmth {
     let cold = if s.unit() < 0.35 { s.uniform(0.1, 0.5) } else { 0.0 };
     Warmth { cold, day: (s.normal(0.05)).exp() }
+}
+
+fn slippery(s: &mut Stream) -> Ground {
+    Ground { rolling: 1.0, scrub: s.uniform(0.25, 0.6), track: s.uniform(1.0, 1.15) }
+}
+
+/// Puts these legs on soft or slippery ground.
+fn other_ground(legs: &mut [Leg], within: Range<usize>, s: &mut Stream) -> Happening {
+    let kind = if s.index(2) == 0 { SpeedKind::SoftGround } else { SpeedKind::SlipperyGround };
+    let ground = if kind == SpeedKind::SoftGround { soft(s) } else { slippery(s) };
+    legs[within.clone()].iter_mut().for_each(|leg| leg.ground = ground);
+    (within, Event { kind, interval: [0.0; 2], degrees: None })
 }
 
 fn soft(s: &mut Stream) -> Ground {

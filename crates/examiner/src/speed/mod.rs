@@ -37,11 +37,13 @@ pub enum SpeedKind {
     Crossing,
     /// Two of standing, slope and crossing in one drive.
     Several,
+    /// Two or three stretches of other ground in one long drive, each soft or slippery.
+    Grounds,
 }
 
 impl SpeedKind {
-    /// All, with how many of two hundred cases are of each.
-    pub const SHARES: [(Self, usize); 9] = [
+    /// All, with how many of 220 cases are of each.
+    pub const SHARES: [(Self, usize); 10] = [
         (Self::FaultFree, 50),
         (Self::Standing, 30),
         (Self::Slope, 30),
@@ -51,6 +53,7 @@ impl SpeedKind {
         (Self::DraggingSide, 10),
         (Self::Crossing, 15),
         (Self::Several, 30),
+        (Self::Grounds, 20),
     ];
 
     /// Name for people.
@@ -65,6 +68,7 @@ impl SpeedKind {
             Self::DraggingSide => "dragging side",
             Self::Crossing => "crossing",
             Self::Several => "two events",
+            Self::Grounds => "several grounds",
         }
     }
 }
@@ -176,17 +180,17 @@ mod tests {
 
     #[test]
     fn a_set_has_each_kind_in_its_share_and_a_small_one_each_once() {
-        let all = SpeedPlan::set(1, 200);
+        let all = SpeedPlan::set(1, 220);
         for (kind, share) in SpeedKind::SHARES {
             assert_eq!(all.iter().filter(|p| p.kind == kind).count(), share, "{kind:?}");
         }
-        let few = SpeedPlan::set(1, 9);
+        let few = SpeedPlan::set(1, 10);
         assert!(SpeedKind::SHARES.iter().all(|(kind, _)| few.iter().any(|p| p.kind == *kind)), "{few:?}");
     }
 
     #[test]
     fn a_case_is_the_same_twice_and_holds_what_its_truth_says() {
-        for plan in SpeedPlan::set(5, 9) {
+        for plan in SpeedPlan::set(5, 10) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             let names: Vec<String> = case.files.iter().map(|(p, _)| p.display().to_string()).collect();
@@ -194,11 +198,12 @@ mod tests {
             assert_eq!(names.iter().filter(|n| n.starts_with("recordings")).count(), 2, "{names:?}");
             let events = case.truth.events.len();
             let expected = match plan.kind {
-                SpeedKind::Standing | SpeedKind::Slope | SpeedKind::Crossing => 1,
-                SpeedKind::Several => 2,
-                _ => 0,
+                SpeedKind::Standing | SpeedKind::Slope | SpeedKind::Crossing => 1..=1,
+                SpeedKind::Several => 2..=2,
+                SpeedKind::Grounds => 2..=3,
+                _ => 0..=0,
             };
-            assert_eq!(events, expected, "{:?}", plan.kind);
+            assert!(expected.contains(&events), "{:?}: {events}", plan.kind);
             assert!(case.truth.events.iter().all(|e| e.interval[1] > e.interval[0] + 5.0), "{:?}", case.truth);
         }
     }

@@ -52,6 +52,10 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
     list.share("crossing: found", None, crossed().map(|(_, e)| e.is_found));
     let on_time = |(_, e): (&Row, &EventScore)| e.onset.is_some_and(|o| o.abs() <= 2.5);
     list.share("crossing: found within 2.5 s", Some(AtLeast(0.9)), crossed().map(on_time));
+    let grounds = || rows.iter().flat_map(|r| r.events.iter().filter_map(|e| e.ground));
+    list.share("several grounds: each a finding of its own", None, grounds().map(|[found, _]| found));
+    let told = || grounds().filter(|[found, _]| *found);
+    list.share("several grounds, found: cause in its class", Some(AtLeast(0.9)), told().map(|[_, right]| right));
     let minutes = 2.6 * rows.len() as f64;
     let invented: usize = rows.iter().map(|r| r.invented).sum();
     list.value("invented changes per 30 min", Some(30.0 * invented as f64 / minutes.max(1.0)), "", AtMost(1.0));

@@ -51,6 +51,8 @@ pub(super) struct EventScore {
     pub(super) degrees: Option<f64>,
     /// Of a slope: told uphill instead of downhill, or the other way round.
     pub(super) wrong_sign: bool,
+    /// Of a stretch of other ground: whether it is a finding of its own, and whether its class holds the cause.
+    pub(super) ground: Option<[bool; 2]>,
 }
 
 /// Names of causes that are what was hidden.
@@ -64,7 +66,7 @@ fn names(kind: SpeedKind) -> &'static [&'static str] {
         SpeedKind::DraggingSide => &["coulomb_side"],
         // A stretch of another ground: which cause it has is not asked.
         SpeedKind::Crossing => &["rolling_resistance", "soft_ground", "turning_resistance"],
-        SpeedKind::FaultFree | SpeedKind::Several => &[],
+        SpeedKind::FaultFree | SpeedKind::Several | SpeedKind::Grounds => &[],
     }
 }
 
@@ -114,7 +116,21 @@ fn is_of(told: &Told, event: &Event) -> bool {
         && (common > COVERS * (b - a) || common > beyond)
 }
 
-fn found(all: &[Told], event: &Event) -> EventScore {
+/// Whether a stretch of other ground is told, and whether its class holds the cause.
+fn ground(d: &Value, event: &Event) -> Option<[bool; 2]> {
+    matches!(event.kind, SpeedKind::SoftGround | SpeedKind::SlipperyGround).then(|| {
+        let all = list(d, &["steady", "grounds"]);
+        let stretch =
+            |g: &Value| Told { interval: interval(&g["interval"]), slope: None, is_angle: false, standing: false };
+        let own: Vec<&Value> = all.iter().filter(|g| is_of(&stretch(g), event)).collect();
+        let holds = |g: &&Value| {
+            list(g, &["causes"]).iter().any(|id| id.as_str().is_some_and(|id| names(event.kind).contains(&id)))
+        };
+        [!own.is_empty(), own.iter().any(holds)]
+    })
+}
+
+fn found(d: &Value, all: &[Told], event: &Event) -> EventScore {
     let nearest = all.iter().filter(|t| is_of(t, event)).min_by(|x, y| {
         let off = |t: &Told| (t.interval[0] - event.interval[0]).abs();
         off(x).total_cmp(&off(y))
@@ -131,6 +147,7 @@ fn found(all: &[Told], event: &Event) -> EventScore {
         onset: nearest.map(|t| t.interval[0] - event.interval[0]),
         degrees: degrees.filter(|_| longest.is_some_and(|t| t.is_angle)).map(|[truth, told]| told - truth),
         wrong_sign: degrees.is_some_and(|[truth, told]| truth * told < 0.0),
+        ground: ground(d, event),
     }
 }
 
@@ -145,7 +162,7 @@ pub(super) fn row(truth: &SpeedTruth, d: &Value, processor_seconds: Option<f64>)
     let sentences: Vec<String> = list(d, &["sentences"]).iter().map(text).collect();
     let headline = sentences.first().cloned().unwrap_or_default();
     let hidden: Vec<&str> = match truth.kind {
-        SpeedKind::Several => truth.events.iter().flat_map(|e| names(e.kind)).copied().collect(),
+        SpeedKind::Several | SpeedKind::Grounds => truth.events.iter().flat_map(|e| names(e.kind)).copied().collect(),
         kind => names(kind).to_vec(),
     };
     let leads = |class: &Vec<String>| class.iter().any(|id| hidden.contains(&id.as_str()));
@@ -165,7 +182,7 @@ pub(super) fn row(truth: &SpeedTruth, d: &Value, processor_seconds: Option<f64>)
         verdict,
         headline,
         classes,
-        events: truth.events.iter().map(|e| found(&all, e)).collect(),
+        events: truth.events.iter().map(|e| found(d, &all, e)).collect(),
         invented: all.iter().filter(|t| away(t)).count(),
         held: held(truth, d),
         processor_seconds,
