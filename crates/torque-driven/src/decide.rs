@@ -385,13 +385,14 @@ mod tests {
     fn without_references_an_effect_that_is_a_constant_is_named_from_so_many_of_its_sigmas_on() {
         let robot = robot();
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
-        let problem = Problem { has_references: false, ..problem(&robot, &cuts) };
+        let problem = Problem { has_references: false, constants_are_loose: true, ..problem(&robot, &cuts) };
         let at = crate::run_numbers::constant("viscous");
         let named = |id: &str, sigmas: f64| {
             let mut point = problem.origin();
             point.theta[at] += sigmas;
-            let retuned = problem.begin(&Hypothesis::default(), point, None);
-            // The motion is the same with the constant where the file has it and the effect beside it.
+            let mut retuned = problem.begin(&Hypothesis::default(), point, None);
+            // The motion is the same with the constant where the file has it and the effect beside it: nothing else is left.
+            retuned.cost = 0.5 * sigmas * sigmas;
             let mut single = gained(&problem, &retuned, id, 0.5 * sigmas * sigmas);
             single.fitted.point.theta = problem.origin().theta;
             let several = Vec::new();

@@ -344,3 +344,53 @@ fn screen_beside(problem: &Problem<'_>, base: &Fitted, first: &Trial) -> Vec<Can
     let list = screen(problem, base, &others, &first.hypothesis);
     by_id(&list).into_iter().cloned().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_model::tunable::tunables;
+    use testing::robot;
+
+    use super::*;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use inference::hypothesis::{Dose, Place, Variant};
+
+    #[test]
+    fn two_effects_that_fit_worse_than_one_of_them_are_fitted_again_and_a_loose_constant_becomes_its_effect() {
+        let robot = robot();
+        let blank = problem(&robot, &[]);
+        let of = |id: &str| -> Variant {
+            let is_whole = |v: &Variant| v.spec().id == id && v.place == Place::Whole;
+            blank.variants().into_iter().find(is_whole).expect("in the catalogue")
+        };
+        let (drag, viscous) = (of("quadratic_drag"), of("viscous_friction"));
+        let size = |v: &Variant| v.free(&blank.sizes())[0].usual;
+        let doses: Vec<Dose> = vec![drag.dose(&[size(&drag)], None), viscous.dose(&[size(&viscous)], None)];
+        let cuts = [16.0, 20.0].map(|seconds| cut(&driven(&robot, &doses, seconds), &cutting()));
+        let loose = Problem { constants_are_loose: true, ..problem(&robot, &cuts) };
+
+        // One effect, beside which the constant of the other has moved.
+        let single = Hypothesis::single(drag, Vec::new());
+        let start = loose.begin(&single, Point { effects: vec![size(&drag)], ..loose.origin() }, None);
+        let single = Trial { fitted: retune(&loose, &single, start), hypothesis: single };
+        let viscous_at = tunables::<f64>().iter().position(|t| t.id == "viscous").expect("tunable");
+        assert!(single.fitted.point.theta[viscous_at] > 1.6, "{:?}", single.fitted.point.theta);
+
+        // Both, as a fit that went astray left them.
+        let both = Hypothesis { parts: vec![(drag, Vec::new()), (viscous, Vec::new())], acting: None };
+        let astray = loose.begin(&both, Point { effects: vec![0.0, 0.0], ..loose.origin() }, None);
+        assert!(astray.cost > single.fitted.cost);
+        let mut wholes = vec![Trial { hypothesis: both, fitted: astray }];
+        converge_wholes(&loose, &single, &mut wholes);
+        assert!(wholes[0].fitted.cost <= single.fitted.cost, "{} {}", wholes[0].fitted.cost, single.fitted.cost);
+
+        // The same pair is found where nobody tried it, and not where constants are known.
+        let mut none = Vec::new();
+        converge_wholes(&loose, &single, &mut none);
+        let found: Vec<_> = none.iter().map(|t| t.hypothesis.ids()).collect();
+        assert!(found.contains(&vec!["quadratic_drag", "viscous_friction"]), "{found:?}");
+        let mut none = Vec::new();
+        converge_wholes(&problem(&robot, &cuts), &single, &mut none);
+        assert!(none.is_empty());
+    }
+}

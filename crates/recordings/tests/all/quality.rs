@@ -149,6 +149,8 @@ proptest! {
     fn a_stuck_value_is_found(seed in 0..1000_u64, at in 100..1900_usize, held in 12..90_usize) {
         let (t_ns, mut values) = clean(seed);
         let value = values[at];
+        // What is held where the signal turns back is clipped, for all that anyone can tell.
+        prop_assume!((value - 3.0).abs() < 1.8);
         values[at..at + held].fill(value);
         let findings = Quality::measure(&t_ns, &values).findings("m/s");
         prop_assert_eq!(findings.len(), 1);

@@ -59,7 +59,11 @@ fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
         let what = "turns or stops, in which no change could have been seen".to_owned();
         (c.recording.as_str(), "straight load", c.interval, Role::Placebo, what)
     });
-    let all = straight.chain(turning).chain(standing).chain(hidden);
+    let grounds = loads.grounds.iter().map(|g| {
+        let what = if g.causes.is_empty() { "no effect of the catalogue fits".to_owned() } else { g.causes.join(", ") };
+        (g.recording.as_str(), "other ground", g.interval, Role::Before, what)
+    });
+    let all = grounds.chain(straight).chain(turning).chain(standing).chain(hidden);
     all.map(|(recording, signal, interval, role, what)| {
         (recording, signal, marked(interval, role, text(recording, interval, &what)))
     })
