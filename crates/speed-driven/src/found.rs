@@ -129,7 +129,9 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         let cause = |id: &String| Cause { intervals: Some(intervals.clone()), ..known(id, ground.causes.len()) };
         classes.push(ground.causes.iter().map(cause).collect());
     }
-    let is_alone = |recording: &str, interval| !loads.grounds.iter().any(|g| g.holds(recording, interval));
+    // What no effect makes as one ground stays what its changes are by themselves.
+    let named = || loads.grounds.iter().filter(|g| !g.causes.is_empty());
+    let is_alone = |recording: &str, interval| !named().any(|g| g.holds(recording, interval));
     let found: Vec<&LoadChange> =
         loads.changes.found.iter().filter(|c| is_alone(&c.recording, c.interval) || c.causes == [GRADE]).collect();
     for change in &found {

@@ -88,7 +88,7 @@ impl Usual<'_> {
     }
 }
 
-/// The same recording as if only these rows said anything.
+/// The same recording as if only these rows said anything: all others are left out like those in which a body stands.
 fn only(run: &SpeedRun, [from, until]: [f64; 2]) -> SpeedRun {
     let mut out = run.clone();
     out.changed.fill(false);
@@ -102,7 +102,7 @@ fn only(run: &SpeedRun, [from, until]: [f64; 2]) -> SpeedRun {
 mod tests {
     use verdict::{Diagnosis, Verdict};
 
-    use crate::testing::{Leg, STRAIGHT, diagnosis, rounds};
+    use crate::testing::{Leg, diagnosis, rounds};
 
     /// Rounds on a ground: the straight load and the couple of turning, in those of the references.
     fn on(straight: f64, scrub: f64, n: usize) -> Vec<Leg> {
@@ -138,6 +138,6 @@ mod tests {
         let climb = [Leg::straight(30.0), Leg::straight(20.0).slope(3.0), Leg::straight(30.0)];
         let d = diagnosis(&[&climb]);
         assert_eq!(grounds(&d), [], "{:?}", d.sentences);
-        assert!(STRAIGHT > 0.0 && d.sentences[0].starts_with("Change inside"), "{:?}", d.sentences);
+        assert!(d.sentences[0].starts_with("Change inside"), "{:?}", d.sentences);
     }
 }

@@ -179,7 +179,7 @@ pub(crate) fn other_ground(g: &OtherGround, theirs: &str) -> String {
     let causes = match names.len() {
         0 => "No effect of the catalogue fits these loads".to_owned(),
         1 => format!("What fits these loads best is {}", any_of(&names)),
-        _ => format!("What fits these loads best is {}; they do not tell which", any_of(&names)),
+        _ => format!("What fits these loads best is {}; these loads do not tell which", any_of(&names)),
     };
     format!(
         "{}, from {from:.1} s until {until:.1} s, other ground: {}. {causes}.",

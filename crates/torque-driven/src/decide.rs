@@ -318,8 +318,20 @@ mod tests {
 
     #[test]
     fn what_is_gained_beside_much_that_stays_counts_less() {
-        assert_eq!(dispersion(80.0, 100.0), 1.0, "less than usual is left: gains count as they are");
-        assert_eq!(dispersion(250.0, 100.0), 2.5);
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let usual = fault_free_cost(&problem, &[1.0]);
+        let score = |left: f64| {
+            let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+            retuned.cost = left + 24.0;
+            let singles = vec![gained(&problem, &retuned, "quadratic_drag", 24.0)];
+            let (as_it_is, several, screened) = (retuned.cost, Vec::new(), Vec::new());
+            decide(&problem, &SearchResult { as_it_is, retuned, singles, several, screened }, &[1.0], 0.0).scored[0]
+                .score
+        };
+        approx::assert_relative_eq!(score(0.5 * usual), score(usual), epsilon = 1e-9);
+        approx::assert_relative_eq!(score(usual) - score(3.0 * usual), 24.0 - 8.0, epsilon = 1e-9);
     }
 
     #[test]

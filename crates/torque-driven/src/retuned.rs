@@ -180,6 +180,13 @@ mod tests {
             assert!(found(Some(place)).len() >= found(None).len());
             found(None).into_iter().map(|r| r.constant).collect::<Vec<_>>()
         };
+        let place = crate::run_numbers::constant("viscous");
+        let likely = |sigmas: f64| {
+            let mut theta = [0.0; NUISANCES];
+            theta[place] = sigmas;
+            moved(&robot, &usual_sigma(), [&[0.0; NUISANCES], &theta], [&little, &little], Some(place)).len()
+        };
+        assert_eq!([likely(0.5), likely(0.1)], [1, 0], "likelier moved, but not at all where it is");
         assert_eq!(told("lateral_factor", -3.7), ["lateral_factor"]);
         assert!(told("lateral_factor", -1.5).is_empty(), "fault-free robots are that far off");
         assert!(told("sliding_share", 3.7).is_empty(), "no effect of the catalogue is a share in sliding");

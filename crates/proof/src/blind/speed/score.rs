@@ -238,6 +238,19 @@ mod tests {
     }
 
     #[test]
+    fn a_stretch_of_other_ground_is_a_finding_with_its_cause_or_with_another() {
+        let event = Event { kind: SpeedKind::SoftGround, interval: [50.0, 110.0], degrees: None };
+        let say = |cause: &str, at: [f64; 2]| {
+            let d = json!({ "verdict": "explained", "sentences": ["The ground changes"], "indistinguishable": [[cause]],
+                "steady": { "grounds": [{ "interval": at, "causes": [cause] }] } });
+            row(&truth(SpeedKind::Grounds, vec![event.clone()]), &d, None).events[0].ground
+        };
+        assert_eq!(say("soft_ground", [55.0, 108.0]), Some([true, true]));
+        assert_eq!(say("turning_resistance", [55.0, 108.0]), Some([true, false]));
+        assert_eq!(say("soft_ground", [150.0, 190.0]), Some([false, false]));
+    }
+
+    #[test]
     fn a_class_is_right_with_its_member_in_it_and_a_headline_may_not_contradict() {
         let verdict = |class: &[&str]| {
             json!({ "verdict": "explained", "sentences": ["Missing: x"], "indistinguishable": [class],
