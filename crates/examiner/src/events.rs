@@ -35,6 +35,8 @@ pub(crate) struct Events {
     pub lifted: Vec<Interval>,
     /// When a drive delivers nothing, by side.
     pub dropout: [Vec<Interval>; 2],
+    /// When a brake touches.
+    pub touch: Vec<Interval>,
     /// Starts and values of the changing delay.
     delays: Vec<[f64; 2]>,
     /// Frequency, phase and share of each wave of the gusts, by world axis.
@@ -53,6 +55,9 @@ impl Events {
             events.dropout =
                 ["drop left", "drop right"].map(|n| bursts(&mut stream(n), foreign.dropout, [0.08, 0.3], duration));
         }
+        if foreign.touch.is_some() {
+            events.touch = bursts(&mut stream("touch"), 0.12, [0.1, 0.5], duration);
+        }
         if foreign.jitter > 0.0 {
             let mut s = stream("jitter");
             let mut t = 0.0;
@@ -69,6 +74,17 @@ impl Events {
             }
         }
         events
+    }
+
+    /// Short events of a run with what they act on.
+    pub(crate) fn short(&self, foreign: &Foreign) -> Vec<(String, Vec<Interval>)> {
+        let side = |k: usize| ["left", "right"][k.min(1)];
+        let drops = self.dropout.iter().enumerate().map(|(k, times)| (format!("drive_{}", side(k)), times));
+        // Wheels are front and rear left, then right.
+        let lifted = foreign.lifted.map(|wheel| (format!("wheels_{}", side(wheel / 2)), &self.lifted));
+        let touching = foreign.touch.map(|(k, _)| (format!("drive_{}", side(k)), &self.touch));
+        let all = drops.chain(lifted).chain(touching).filter(|(_, times)| !times.is_empty());
+        all.map(|(of, times)| (of, times.clone())).collect()
     }
 
     /// The changing delay at an instant.

@@ -160,6 +160,8 @@ pub(crate) struct Foreign {
     pub grain_direction: f64,
     /// Torque dropouts of the drives, share of the time.
     pub dropout: f64,
+    /// Side whose brake touches now and then, and its torque, N m.
+    pub touch: Option<(usize, f64)>,
     /// Elastic cable: stiffness, anchor and slack length.
     pub cable: Option<(f64, [f64; 2], f64)>,
     /// Extra dry friction per side when rolling backwards.

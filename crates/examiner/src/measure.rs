@@ -25,7 +25,7 @@ impl Draw<'_> {
             let err = |h: &Hidden| error(&real, &predict(&self.robot, h, run, &starts, self.row));
             let bare = err(&none);
             let full = if causes.is_empty() { bare } else { err(h) };
-            let mut intervals = BTreeMap::new();
+            let mut intervals: BTreeMap<String, Vec<[f64; 2]>> = run.events.short(&h.foreign).into_iter().collect();
             for (j, cause) in causes.iter().enumerate() {
                 let lacking = match (causes.len(), cause) {
                     (2, Cause::Effect(id)) => err(&lacks(h, *id)),

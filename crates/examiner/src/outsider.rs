@@ -38,6 +38,8 @@ pub enum Outsider {
     Cable,
     /// Friction of the drivetrain in one sense of rotation only.
     Ratchet,
+    /// A brake of one side that touches for short times.
+    TouchingBrake,
     /// Artefact: friction is bounded along and across apart, as in a simulator with a box for the cone.
     FrictionBox,
     /// Artefact: the motion goes on in coarse explicit steps.
@@ -59,6 +61,9 @@ impl Outsider {
         Self::Cable,
         Self::Ratchet,
     ];
+
+    /// Short, irregular events: sets draw them only when asked for.
+    pub const EVENTS: [Self; 3] = [Self::TouchingBrake, Self::TorqueDropouts, Self::ContactLoss];
 
     /// Artefacts of a simulator: only drawn when asked for.
     pub const ARTEFACTS: [Self; 2] = [Self::FrictionBox, Self::ExplicitSteps];
@@ -101,6 +106,7 @@ pub(crate) fn hide(kind: Outsider, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidde
             f.cable = Some((0.04 * size * weight, anchor, s.uniform(0.2, 0.6)));
         }
         Outsider::Ratchet => f.ratchet = 0.16 * size * scale,
+        Outsider::TouchingBrake => f.touch = Some((s.index(2), 0.6 * size * scale)),
         Outsider::FrictionBox => f.friction_box = true,
         Outsider::ExplicitSteps => f.explicit_step = EXPLICIT_STEP,
     }

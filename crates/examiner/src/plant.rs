@@ -33,6 +33,8 @@ pub(crate) struct Moment {
     pub rolling: f64,
     pub gust: [f64; 2],
     pub lifted: Option<usize>,
+    /// Dry friction of a brake that touches, by side.
+    pub touch: [f64; 2],
 }
 
 /// A robot with everything that does not change during a run worked out.
@@ -91,6 +93,9 @@ impl Plant {
             m.gust = events.gust(t).map(|g| g * f.gust);
         }
         m.lifted = f.lifted.filter(|_| inside(&events.lifted, t));
+        if let Some((side, torque)) = f.touch.filter(|_| inside(&events.touch, t)) {
+            m.touch[side] = torque;
+        }
         if f.sag > 0.0 {
             let power: f64 = (0..2).map(|i| (torque[i] * s[SPEED + 1 + 2 * i]).max(0.0)).sum();
             let left = (1.0 - f.sag * power / f.sag_power).max(0.3);
@@ -147,6 +152,7 @@ impl Plant {
             if omega[i] < 0.0 {
                 dry += 0.5 * f.ratchet;
             }
+            dry += 0.5 * m.touch[side];
             dry += rolling[i] * loads[i] * radius[i];
             let share = s[DRY + i];
             d[DRY + i] = (omega[i] - omega[i].abs() * share) * self.per_presliding;

@@ -93,7 +93,7 @@ impl EffectTruth {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RecordingTruth {
-    /// When a local effect was present.
+    /// When a local effect was present; of short events outside the vocabulary, what they act on and when.
     pub intervals_s: BTreeMap<String, Vec<[f64; 2]>>,
     /// Kinds of drive, in order.
     pub kinds: Vec<String>,

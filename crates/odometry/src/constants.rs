@@ -30,6 +30,8 @@ pub enum Quantity {
     RollerSlip,
     /// Share of the way that is lost in turns.
     TurnSlip,
+    /// Logarithm of the factor on the turning rate at which slip in turns has half its size.
+    TurnSlipRate,
     /// Share of turning that is lost, per turning rate, s/rad.
     RateSlip,
     /// Share of the way that is lost, per speed, s/m.
@@ -53,7 +55,7 @@ pub struct Constant {
     pub quantity: Quantity,
     /// Its name in answers.
     pub name: String,
-    /// Unit of its value.
+    /// Unit in which it is told; sigmas of what is kept as the logarithm of a factor are relative.
     pub unit: &'static str,
     /// One sigma of what is known before any drive.
     pub sigma: f64,
@@ -75,16 +77,16 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
     for (k, &wheel) in robot.measured().iter().enumerate() {
         let name = format!("radius of {}", robot.wheels[wheel].name);
         let sigma = sigmas.radius.unwrap_or(known.radius);
-        add(Quantity::Radius(k), &name, "1", sigma, usual.radius, scatter.radius);
+        add(Quantity::Radius(k), &name, "m", sigma, usual.radius, scatter.radius);
     }
     let across = sigmas.across.unwrap_or(known.distance);
     let along = sigmas.along.unwrap_or(known.distance);
     if robot.is_omni() {
         let sigma = across.min(along);
-        add(Quantity::Reach, "distance from centre to wheels", "1", sigma, usual.distance, scatter.distance);
+        add(Quantity::Reach, "distance from centre to wheels", "m", sigma, usual.distance, scatter.distance);
     } else {
-        add(Quantity::Across, "track", "1", across, usual.distance, scatter.distance);
-        add(Quantity::Along, "wheelbase", "1", along, usual.distance, scatter.distance);
+        add(Quantity::Across, "track", "m", across, usual.distance, scatter.distance);
+        add(Quantity::Along, "wheelbase", "m", along, usual.distance, scatter.distance);
     }
     if robot.is_steered() {
         let sigma = sigmas.steering.unwrap_or(known.steering);
@@ -102,6 +104,8 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
         add(Quantity::RollerSlip, "slip of the rollers sideways", "1", known.slip, usual.slip, scatter.slip);
     }
     add(Quantity::TurnSlip, "slip in turns", "1", known.slip, usual.slip, scatter.slip);
+    let name = "turning rate of half the slip in turns";
+    add(Quantity::TurnSlipRate, name, "rad/s", known.slip_rate, usual.slip_rate, scatter.slip_rate);
     add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.growing, usual.turning, scatter.growing);
     add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.growing, usual.speed, scatter.growing);
     let cornering = [

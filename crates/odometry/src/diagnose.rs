@@ -379,21 +379,22 @@ fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior:
     let sigmas = (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt();
     let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);
     let extent = |axis: usize| places(axis).fold(f64::MIN, f64::max) - places(axis).fold(f64::MAX, f64::min);
-    let length = match constant.quantity {
+    // What is kept as the logarithm of a factor is told as what it multiplies.
+    let multiplied = match constant.quantity {
         Quantity::Radius(wheel) => Some(robot.wheels[robot.measured()[wheel]].radius),
         Quantity::Across => Some(extent(1)),
         Quantity::Along => Some(extent(0)),
         Quantity::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
         Quantity::SteeringGain => Some(1.0),
+        Quantity::TurnSlipRate => Some(SETTINGS.slip.turning),
         _ => None,
     };
-    let (given, value, half_width) = match length {
-        Some(length) => {
-            let value = length * posterior.mean[k].exp();
-            (length * prior.mean[k].exp(), value, NINETY * sd * value.abs())
+    let (given, value, half_width) = match multiplied {
+        Some(of) => {
+            let value = of * posterior.mean[k].exp();
+            (of * prior.mean[k].exp(), value, NINETY * sd * value.abs())
         }
         None => (prior.mean[k], posterior.mean[k], NINETY * sd),
     };
-    let unit = if length.is_some() && constant.quantity != Quantity::SteeringGain { "m" } else { constant.unit };
-    Estimate { name: constant.name.clone(), unit, given, value, half_width, sigmas }
+    Estimate { name: constant.name.clone(), unit: constant.unit, given, value, half_width, sigmas }
 }

@@ -76,9 +76,9 @@
         same_scale: f64 = 0.01, "1", "guess; a hundredth";
     }
 
-    /// Turning and speed at which slip is half of what it becomes.
+    /// Turning at which slip is half of what it becomes.
     slip: Slip {
-        /// Turning rate at which slip in turns has half its size.
+        /// Turning rate at which slip in turns has half its size, as long as no drive says otherwise.
         turning: f64 = 0.05, "rad/s", "guess; dry friction does not grow with the rate";
     }
 
@@ -100,6 +100,8 @@
         slip: f64 = 0.001, "1", "guess";
         /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.
         growing: f64 = 2e-4, "s/rad; s/m; s", "guess; a fifth of the share";
+        /// Logarithm of the turning rate at which slip in turns has half its size: known only as part of such a slip.
+        slip_rate: f64 = 1e-3, "1", "guess; without such a slip it changes nothing";
         /// Clock of the counts against that of the pose.
         offset: f64 = 0.02, "s", "guess; a few periods of usual logs";
         /// Rate of the clocks.
@@ -122,6 +124,8 @@
         origin: f64 = 0.05, "m", "guess";
         /// Share of the way that is lost.
         slip: f64 = 0.05, "1", "guess";
+        /// Logarithm of the turning rate at which slip in turns has half its size.
+        slip_rate: f64 = 1.0, "1", "guess; a factor of e";
         /// Share of turning that is lost, per rad/s.
         turning: f64 = 0.1, "s/rad", "guess";
         /// Share of the way that is lost, per m/s.
@@ -145,6 +149,8 @@
         slip: f64 = 1e-3, "1", "guess; floors differ";
         /// Slips that grow with a rate, a speed or an acceleration: less, or they would scatter with slip once more.
         growing: f64 = 2e-4, "s/rad; s/m; s", "guess; floors differ";
+        /// Logarithm of the turning rate at which slip in turns has half its size.
+        slip_rate: f64 = 1e-3, "1", "guess; less than the slip itself";
         /// Radius, relative.
         radius: f64 = 4e-4, "1", "guess; temperature and wear";
         /// Distances between wheels, relative.

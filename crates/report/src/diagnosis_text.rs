@@ -71,6 +71,7 @@ fn law(d: &Diagnosis) -> String {
     let Some(cause) = &d.law else { return String::new() };
     let title = match cause.claim {
         Claim::Law => "Not in the catalogue: a law that fits",
+        Claim::Events => "Not in the catalogue: events",
         Claim::Place => "Not in the catalogue: where it acts",
         Claim::Nothing => "Not in the catalogue",
     };

@@ -1,10 +1,13 @@
 //! A law for what has no name, in the words of the field.
 
-use verdict::{Claim, FoundLaw, LawFreeRun, UnnamedCause};
+use verdict::{Claim, Event, FoundEvents, FoundLaw, LawFreeRun, Shared, UnnamedCause};
 
 /// What is told of a cause without a name: a label and a text for each line; empty where nothing was found.
 pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
     let mut out = Vec::new();
+    if let Some(events) = &cause.events {
+        return of_events(events).into_iter().chain(in_every_drive(cause)).collect();
+    }
     match (&cause.claim, &cause.law) {
         (Claim::Law, Some(law)) => out.extend(of_law(law)),
         (Claim::Place, Some(law)) => {
@@ -16,14 +19,76 @@ pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
         }
         _ => out.push(("law", "none was found that fits".to_owned())),
     }
-    if let Some(common) = &cause.in_every_drive {
-        let text = format!(
-            "{}: {} (references {:.2} of the recordings'); it is not what differs",
-            common.place, common.formula, common.in_references
-        );
-        out.push(("lacks in every drive", text));
-    }
+    out.extend(in_every_drive(cause));
     out
+}
+
+fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
+    let common = cause.in_every_drive.as_ref()?;
+    let text = format!(
+        "{}: {} (references {:.2} of the recordings'); it is not what differs",
+        common.place, common.formula, common.in_references
+    );
+    Some(("lacks in every drive", text))
+}
+
+/// Events that are listed one by one; of more, a line tells how many there are.
+const LISTED: usize = 12;
+
+fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
+    let mut place = found.place.clone();
+    if !found.places_alike.is_empty() {
+        place = format!("{place}, or {}", found.places_alike.join(", or "));
+    }
+    let mut recordings: Vec<&str> = found.events.iter().map(|e| e.recording.as_str()).collect();
+    recordings.dedup();
+    let lengths = found.events.iter().map(|e| e.until - e.from);
+    let (shortest, longest) = lengths.fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    let mut out = vec![
+        ("where", place),
+        (
+            "events",
+            format!(
+                "{} in {} recordings, of {shortest:.1} to {longest:.1} s, in {:.0} % of the time (references: {:.1} %); \
+                 free runs with them leave {:.0} % of what re-tuning leaves unexplained",
+                found.events.len(),
+                recordings.len(),
+                100.0 * found.filled,
+                100.0 * found.filled * found.in_references,
+                100.0 * found.left.max(0.0)
+            ),
+        ),
+    ];
+    out.extend(found.events.iter().take(LISTED).map(|e| ("when", of_event(e))));
+    if found.events.len() > LISTED {
+        out.push(("when", format!("and {} more (--json lists all)", found.events.len() - LISTED)));
+    }
+    out.extend(found.shared.iter().map(|s| ("in common", in_common(s))));
+    if found.shared.is_empty() {
+        out.push(("in common", "nothing in the measured signals".to_owned()));
+    }
+    out.push(("law", "none in the measured signals predicts them, so that no forecast is offered".to_owned()));
+    out
+}
+
+fn of_event(e: &Event) -> String {
+    let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
+    format!(
+        "{}, {:.1} to {:.1} s: {} {:+.2} \u{b1} {:.2}{unit} (90 %) against the simulation",
+        e.recording, e.from, e.until, e.input, e.size, e.half
+    )
+}
+
+fn in_common(s: &Shared) -> String {
+    let unit = if s.unit == "1" { String::new() } else { format!(" {}", s.unit) };
+    format!(
+        "{:.0} % of them begin with an amount of {} {} {:.2}{unit}, as {:.0} % of all other windows have",
+        100.0 * s.of_events,
+        s.variable,
+        if s.above { "above" } else { "below" },
+        s.bound,
+        100.0 * s.elsewhere
+    )
 }
 
 fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {

@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 pub enum Claim {
     /// A law that fits: place and formula.
     Law,
+    /// When and where something acts, for short times; no law in the measured signals predicts it.
+    Events,
     /// Where it acts; no law in the measured signals predicts enough of it.
     Place,
     /// Neither.
@@ -23,6 +25,9 @@ pub struct UnnamedCause {
     pub claim: Claim,
     /// The best law; of a place alone, what the place was told by.
     pub law: Option<FoundLaw>,
+    /// A list of events where no law fits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub events: Option<FoundEvents>,
     /// A law that references and recordings have alike: the simulation lacks it in every drive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_every_drive: Option<CommonLaw>,
@@ -61,6 +66,63 @@ pub struct FoundLaw {
     pub in_references: Option<f64>,
     /// Free runs on recordings left out of its fit.
     pub free_runs: Vec<LawFreeRun>,
+}
+
+/// Short times in which something acts on the robot that no law in the measured signals predicts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundEvents {
+    /// Where they act, for people.
+    pub place: String,
+    /// Places that cannot be told from it.
+    pub places_alike: Vec<String>,
+    /// The events, by recording and time.
+    pub events: Vec<Event>,
+    /// What they have in common, the clearest first.
+    pub shared: Vec<Shared>,
+    /// Share of the windows in which one is.
+    pub filled: f64,
+    /// The same share of the references, over that of the recordings.
+    pub in_references: f64,
+    /// Share of the excess cost that free runs with them leave.
+    pub left: f64,
+    /// Evidence of them less what choosing their windows costs, nats.
+    pub score: f64,
+}
+
+/// One event.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Event {
+    /// Its recording.
+    pub recording: String,
+    /// When it begins, s; windows of 0.1 s.
+    pub from: f64,
+    /// When it ends, s.
+    pub until: f64,
+    /// What acts, and on which side.
+    pub input: String,
+    /// How strongly, on average, against the simulation.
+    pub size: f64,
+    /// Half width of the size's 90 % interval.
+    pub half: f64,
+    /// Unit of the size.
+    pub unit: String,
+}
+
+/// A variable whose amount is other at events than elsewhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Shared {
+    /// The variable, for people.
+    pub variable: String,
+    /// Its unit.
+    pub unit: String,
+    /// Whether it is larger at events.
+    pub above: bool,
+    /// The amount above, or below, which most events begin.
+    pub bound: f64,
+    /// Share of the events that do.
+    pub of_events: f64,
+    /// Share of all other windows that do.
+    pub elsewhere: f64,
 }
 
 /// A number of a law.

@@ -2,6 +2,8 @@
 
 use examiner::Truth;
 use serde::Serialize;
+
+use super::events::{EventScore, score};
 use verdict::{Claim, Diagnosis, LawFreeRun};
 
 /// Effects that are laws: id, symbols of right places, names of right factors (any of them).
@@ -24,6 +26,9 @@ const LAWS: [(&str, &[&str], &[&str]); 14] = [
     ("turning_resistance", &["M_z", "T_both", "grip_lateral"], &["yaw_rate"]),
 ];
 
+/// The id under which truths hold what is outside the vocabulary.
+pub(super) const OUTSIDE: &str = "out_of_library";
+
 /// Whether an effect is a law.
 pub(super) fn is_law(id: &str) -> bool {
     LAWS.iter().any(|(known, ..)| *known == id)
@@ -40,6 +45,8 @@ pub(super) struct Judged {
     pub(super) kind_right: bool,
     /// Share of the gap to the truth that is closed, wheel speed and yaw rate: by the law, the best other name, re-tuning.
     pub(super) closed: Option<[[f64; 2]; 3]>,
+    /// Short events that are hidden, with what was told of them.
+    pub(super) events: Option<EventScore>,
 }
 
 /// Judges a diagnosis.
@@ -55,7 +62,8 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
         place && side.is_none_or(own)
     });
     Judged {
-        hidden: hidden.map(|e| e.id.clone()),
+        hidden: hidden.map(|e| e.kind.clone().filter(|_| e.id == OUTSIDE).unwrap_or_else(|| e.id.clone())),
+        events: hidden.filter(|e| e.id == OUTSIDE).map(|_| score(truth, d)),
         claim: d.law.as_ref().map(|l| l.claim),
         kind_right: place_right && known.is_some_and(|(.., factors)| factors.iter().any(|f| formula.contains(f))),
         place_right,

@@ -2,13 +2,14 @@
 //!
 //! ```text
 //! drawn robot with a hidden effect --> diagnosis whose catalogue does not hold it --> law, place, or nothing
+//! drawn robot with short events    --> diagnosis                                  --> events, or anything else
 //! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
 //! ```
 
 use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use clap::Args as ClapArgs;
-use examiner::{Mix, Plan, Settings};
+use examiner::{Content, Mix, Outsider, Plan, Settings};
 use inference::{Options, SearchForLaw};
 use rayon::prelude::*;
 use recordings::ReadOptions;
@@ -16,6 +17,7 @@ use recordings::ReadOptions;
 use crate::document::to_text;
 use crate::output;
 
+mod events;
 mod judge;
 mod tables;
 
@@ -30,6 +32,10 @@ pub(crate) struct Args {
     /// Number of robots that lack nothing.
     #[arg(long, default_value_t = 20)]
     fault_free: usize,
+    /// Number of robots with short events that no law predicts: a brake that touches, drives that deliver nothing, a wheel that
+    /// leaves the ground, in turn.
+    #[arg(long, default_value_t = 18)]
+    events: usize,
     /// Seed of the draws.
     #[arg(long, default_value_t = 4107)]
     seed: u64,
@@ -46,7 +52,9 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let settings = Settings::default();
     let mut plans = examiner::set(args.seed, args.count, single, &settings);
     plans.extend(examiner::set(args.seed + 1, args.fault_free, null, &settings));
-    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count or --fault-free");
+    let outside = Mix { outsider: 1.0, single: 0.0, ..single };
+    plans.extend(examiner::set(args.seed + 2, args.events, outside, &settings).into_iter().enumerate().map(with_events));
+    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events or --fault-free");
 
     let bar = output::progress(plans.len() as u64, "robots")?;
     let one = |(i, plan): (usize, &Plan)| {
@@ -75,12 +83,19 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     Ok(failed == 0 && figures.iter().all(|f| f.pass != Some(false)))
 }
 
+/// The plan with short events as what is hidden, their kinds in turn.
+fn with_events((i, mut plan): (usize, Plan)) -> Plan {
+    plan.settings.content = Content::Outsider(Outsider::EVENTS[i % Outsider::EVENTS.len()]);
+    plan
+}
+
 /// Draws and diagnoses a case; `None` where its effect is no law, or is not asked for.
 fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option<Judged>> {
     let drawn = plan.draw()?;
     let hidden = drawn.truth.effects.first().cloned();
     let id = hidden.as_ref().map(|e| e.id.as_str());
     let is_asked = match id {
+        Some(judge::OUTSIDE) => true,
         Some(id) => judge::is_law(id) && (only.is_empty() || only.iter().any(|o| o == id)),
         None => true,
     };

@@ -3,6 +3,7 @@
 use inference::robust::median;
 use verdict::Claim;
 
+use super::events::EventScore;
 use super::judge::Judged;
 use crate::blind::Rate;
 use crate::document::Section;
@@ -14,8 +15,12 @@ const PLACE: f64 = 0.85;
 const CLOSED: [f64; 2] = [0.90, 0.88];
 const FALSE_LAWS: f64 = 0.01;
 
+const SIDE_OF_EVENTS: f64 = 0.95;
+const RECALL: f64 = 0.6;
+const PRECISION: f64 = 0.75;
+
 fn hidden(all: &[Judged]) -> impl Iterator<Item = &Judged> {
-    all.iter().filter(|j| j.hidden.is_some())
+    all.iter().filter(|j| j.hidden.is_some() && j.events.is_none())
 }
 
 fn told(all: &[Judged]) -> impl Iterator<Item = &Judged> {
@@ -30,6 +35,7 @@ fn share(rate: Rate) -> f64 {
 pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
     let of = |name: &str, rate: Rate| Figure::free(name, share(rate), "");
     let is_told = |j: &Judged| matches!(j.claim, Some(Claim::Law));
+    let are_events = |j: &Judged| matches!(j.claim, Some(Claim::Events));
     let claimed = |j: &&Judged| matches!(j.claim, Some(Claim::Law | Claim::Place));
     let lack_nothing = || all.iter().filter(|j| j.hidden.is_none());
     let mut out = vec![
@@ -53,6 +59,23 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
     out.push(
         of("told a law that lack nothing", lack_nothing().map(is_told).collect()).asked(Asked::AtMost(FALSE_LAWS)),
     );
+    out.push(
+        of("told events that lack nothing", lack_nothing().map(are_events).collect()).asked(Asked::AtMost(FALSE_LAWS)),
+    );
+    out.push(Figure::free("told events where a name was left out", share(hidden(all).map(are_events).collect()), ""));
+
+    let events: Vec<&EventScore> = all.iter().filter_map(|j| j.events.as_ref()).collect();
+    let told = || events.iter().filter(|e| e.told);
+    let sum = |k: usize| told().map(|e| e.windows[k]).sum::<usize>() as f64;
+    out.extend([
+        Figure::free("robots with short events", events.len() as f64, ""),
+        of("events are told", events.iter().map(|e| e.told).collect()),
+        of("side right, of events told", told().map(|e| e.side_right).collect()).asked(Asked::AtLeast(SIDE_OF_EVENTS)),
+        Figure::free("windows of 0.1 s with an event that are found", sum(2) / sum(0).max(1.0), "")
+            .asked(Asked::AtLeast(RECALL)),
+        Figure::free("windows of 0.1 s told that have an event", sum(2) / sum(1).max(1.0), "")
+            .asked(Asked::AtLeast(PRECISION)),
+    ]);
     out
 }
 
@@ -73,6 +96,7 @@ pub(super) fn all(all: &[Judged], figures: &[Figure]) -> Vec<Section> {
             j.claim
                 .map_or("not asked", |c| match c {
                     Claim::Law => "law",
+                    Claim::Events => "events",
                     Claim::Place => "place",
                     Claim::Nothing => "nothing",
                 })

@@ -102,6 +102,28 @@
         evidence_in_references: f64 = 10.0, "nats", "guess";
     }
 
+    /// Events: instants at which something acts, where no law fits.
+    events: Events {
+        /// Sizes of an arbitrary input that are tried, in what is usual at its place.
+        sizes: [f64; 3] = [0.3, 1.0, 3.0], "1", "guess: a third of a law of usual size to three times that";
+        /// Sigmas from which the input of a window stands out.
+        sigmas: f64 = 3.0, "1", "the prototype";
+        /// Solutions one after another, each with the windows that stood out in the one before.
+        rounds: usize = 3, "1", "guess";
+        /// Events below which there is no list.
+        least: usize = 3, "1", "guess: what happened twice may be chance";
+        /// Share of the windows from which on it is no event.
+        filled: f64 = 0.3, "1", "the prototype";
+        /// Share of the excess cost that may be left.
+        left: f64 = 0.6, "1", "guess: between a law's and a place's";
+        /// Things in common that are told.
+        shared: usize = 2, "1", "guess";
+        /// Probability that an amount at an event is larger, or smaller, than one elsewhere, from which on it is told.
+        clear: f64 = 0.8, "1", "guess";
+        /// Share of the events whose amounts are told.
+        most_of_them: f64 = 0.8, "1", "guess";
+    }
+
     /// Proof on what was not used.
     proof: Proof {
         /// Gauss–Newton steps of a fit to the other recordings.

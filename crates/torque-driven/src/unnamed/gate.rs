@@ -57,11 +57,16 @@ impl Standing {
         let name = judged.decision.scored.first().map_or(0.0, |s| s.score);
         Self {
             gains: runs.map(|run| of(retuned, run) - of(&law.fitted, run)).collect(),
-            left: (law.fitted.cost - fault_free) / (retuned.cost - fault_free).max(1.0),
+            left: Self::left_of(law.fitted.cost, retuned.cost, fault_free),
             in_references: references.and_then(|r| r.coefficient(&law.law, &law.units)),
             above_name: law.score - name.max(0.0),
             misfit: (law.fitted.cost / fault_free.max(1.0)).max(1.0),
         }
+    }
+
+    /// Share of the excess cost of re-tuning that a cost leaves.
+    pub(crate) fn left_of(cost: f64, retuned: f64, fault_free: f64) -> f64 {
+        (cost - fault_free) / (retuned - fault_free).max(1.0)
     }
 
     /// Whether drives in which nothing is missing have the law too.
@@ -99,8 +104,8 @@ impl Standing {
 
 /// The references as a problem of their own, fitted without any effect.
 pub(crate) struct References<'a> {
-    problem: Problem<'a>,
-    base: Fitted,
+    pub(super) problem: Problem<'a>,
+    pub(super) base: Fitted,
 }
 
 impl<'a> References<'a> {

@@ -6,13 +6,19 @@
 //! * `rank`: every candidate of the grammar by its evidence.
 //! * `refit`: finalists in free run, moves, prices.
 //! * `gate`: what must hold before a law is told.
+//! * `series`: what an arbitrary input would have been, window by window.
+//! * `events`: instants at which something acts, where no law fits.
+//! * `shared`: what such events have in common.
 //! * `told`: the law as plain data of the verdict.
 
 mod acting;
+mod events;
 mod gate;
 mod operator;
 mod rank;
 mod refit;
+mod series;
+mod shared;
 mod signals;
 #[cfg(test)]
 mod tests;

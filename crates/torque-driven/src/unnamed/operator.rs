@@ -16,8 +16,8 @@ use crate::simulate::Response;
 
 /// Responses to a unit of each input in each window of the segments.
 pub(crate) struct Operator {
-    /// By input in the order of [`Input::ALL`], then by window of a segment.
-    pulses: Vec<Vec<Response>>,
+    /// By input, then by window of a segment.
+    pulses: Vec<(Input, Vec<Response>)>,
     /// First window of each segment in its recording.
     first: Vec<Vec<usize>>,
 }
@@ -37,13 +37,18 @@ pub(crate) fn usual(problem: &Problem<'_>, input: Input) -> f64 {
 }
 
 impl Operator {
-    /// At a point without any effect.
+    /// Of all inputs, at a point without any effect.
     pub(crate) fn new(problem: &Problem<'_>, base: &Fitted) -> Self {
+        Self::of(problem, base, &Input::ALL)
+    }
+
+    /// Of some inputs.
+    pub(crate) fn of(problem: &Problem<'_>, base: &Fitted, inputs: &[Input]) -> Self {
         let per_window = |c: &crate::windows::Cut| c.segments.iter().map(|s| s.row / c.rows_per_window).collect();
         let first: Vec<Vec<usize>> = problem.cuts.iter().map(per_window).collect();
         let longest = problem.cuts.iter().flat_map(|c| &c.segments).map(|s| s.windows).max().unwrap_or(0);
         let none = |_: usize| Vec::new();
-        let pulses = Input::ALL.map(|input| {
+        let pulses = |&input: &Input| {
             let size = SETTINGS.operator.pulse * usual(problem, input);
             let lanes: Vec<Lane<'_>> = (0..longest)
                 .map(|j| {
@@ -53,9 +58,19 @@ impl Operator {
                 })
                 .collect();
             let out = problem.lanes(&lanes);
-            out.iter().map(|y| difference(y, &base.response, 1.0 / size)).collect()
-        });
-        Self { pulses: pulses.into(), first }
+            (input, out.iter().map(|y| difference(y, &base.response, 1.0 / size)).collect())
+        };
+        Self { pulses: inputs.iter().map(pulses).collect(), first }
+    }
+
+    /// Responses to a unit of an input in each window of the segments.
+    pub(crate) fn pulses(&self, input: Input) -> Option<&[Response]> {
+        self.pulses.iter().find(|(of, _)| *of == input).map(|(_, pulses)| pulses.as_slice())
+    }
+
+    /// First window of a segment in its recording.
+    pub(crate) fn first(&self, run: usize, segment: usize) -> usize {
+        self.first[run][segment]
     }
 
     /// The column of inputs given window by window.
@@ -65,10 +80,10 @@ impl Operator {
     }
 
     fn segment(&self, inputs: &Inputs, r: usize, s: usize) -> Vec<Channels<f64>> {
-        let windows = self.pulses.first().and_then(|all| all.first()).map_or(0, |y| y[r][s].len());
+        let windows = self.pulses.first().and_then(|(_, all)| all.first()).map_or(0, |y| y[r][s].len());
         let mut y = vec![Channels::all(0.0); windows];
         for (input, runs) in inputs {
-            let Some(pulses) = Input::ALL.iter().position(|i| i == input).map(|i| &self.pulses[i]) else { continue };
+            let Some(pulses) = self.pulses(*input) else { continue };
             for (j, pulse) in pulses.iter().enumerate().take(windows) {
                 let u = runs[r].get(self.first[r][s] + j).copied().unwrap_or_default();
                 // Nothing shows before its window.

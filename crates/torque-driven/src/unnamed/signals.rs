@@ -32,21 +32,17 @@ impl Signals {
 
     /// Values of a variable, of both sides where it has two.
     fn values(&self, v: Variable) -> impl Iterator<Item = f64> + '_ {
-        self.0.iter().flatten().flatten().flat_map(move |m| {
-            let both = match v {
-                Variable::WheelSpeed => m.wheel_speed,
-                Variable::Torque => m.torque,
-                Variable::Power => [m.torque[0] * m.wheel_speed[0], m.torque[1] * m.wheel_speed[1]],
-                Variable::Slip => m.slip,
-                Variable::Velocity => [m.velocity[0]; 2],
-                Variable::LateralVelocity => [m.velocity[1]; 2],
-                Variable::YawRate => [m.yaw_rate; 2],
-                Variable::WheelAngle => m.wheel_angle,
-                Variable::Heading => [m.heading[1].atan2(m.heading[0]); 2],
-                Variable::Time => [m.time; 2],
-            };
-            both.into_iter()
-        })
+        self.0.iter().flatten().flatten().flat_map(move |m| of_sides(m, v))
+    }
+
+    /// Mean amount of a variable in every window of every recording: of a side, or of both.
+    pub(crate) fn amounts(&self, v: Variable, side: Option<usize>) -> Vec<Vec<f64>> {
+        let amount = |m: &Motion<f64>| {
+            let both = of_sides(m, v).map(f64::abs);
+            side.map_or(0.5 * (both[0] + both[1]), |j| both[j])
+        };
+        let window = |parts: &[Motion<f64>; PARTS]| parts.iter().map(amount).sum::<f64>() / PARTS as f64;
+        self.0.iter().map(|run| run.iter().map(window).collect()).collect()
     }
 
     /// Least and largest value of a variable; of angles and time, which only repeat or pass, none.
@@ -85,6 +81,22 @@ impl Signals {
             self.0.iter().map(|run| run.iter().map(window).collect()).collect()
         };
         inputs_of(law).into_iter().map(|input| (input, all(input))).collect()
+    }
+}
+
+/// Values of a variable on the left and on the right.
+fn of_sides(m: &Motion<f64>, v: Variable) -> [f64; 2] {
+    match v {
+        Variable::WheelSpeed => m.wheel_speed,
+        Variable::Torque => m.torque,
+        Variable::Power => [m.torque[0] * m.wheel_speed[0], m.torque[1] * m.wheel_speed[1]],
+        Variable::Slip => m.slip,
+        Variable::Velocity => [m.velocity[0]; 2],
+        Variable::LateralVelocity => [m.velocity[1]; 2],
+        Variable::YawRate => [m.yaw_rate; 2],
+        Variable::WheelAngle => m.wheel_angle,
+        Variable::Heading => [m.heading[1].atan2(m.heading[0]); 2],
+        Variable::Time => [m.time; 2],
     }
 }
 

@@ -12,6 +12,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Claim, CommonLaw, Diagnosis, FoundLaw, FreeRun, LawFreeRun, LawNumber, UnnamedCause, Verdict};
 
 use super::acting::{Acting, Inputs};
+use super::events;
 use super::gate::{References, Standing, holds_elsewhere};
 use super::rank::Ranking;
 use super::refit::{Refitted, Starts, hypothesis, numbers};
@@ -85,7 +86,13 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
     // What does not hold on recordings that its fit did not use is no law of this robot, and its place is none.
     let law = law.filter(|law| holds_elsewhere(&law.free_runs));
     let claim = if law.is_some() { claim } else { Claim::Nothing };
-    UnnamedCause { claim, law, in_every_drive }
+    if claim == Claim::Law {
+        return UnnamedCause { claim, law, events: None, in_every_drive };
+    }
+    // Instants say more than a place alone.
+    let events = events::find(judged, &ranking, retuned, references.as_ref());
+    let claim = if events.is_some() { Claim::Events } else { claim };
+    UnnamedCause { claim, law: law.filter(|_| claim == Claim::Place), events, in_every_drive }
 }
 
 /// The winner with its numbers from a fit that saturates less.
