@@ -1,6 +1,6 @@
 //! A law for what has no name, in the words of the field.
 
-use verdict::{Claim, Event, FoundEvents, FoundLaw, LawFreeRun, Shared, UnnamedCause};
+use verdict::{Claim, Event, FoundEvents, FoundLaw, LawFreeRun, Opposed, Shared, UnnamedCause};
 
 /// What is told of a cause without a name: a label and a text for each line; empty where nothing was found.
 pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
@@ -63,6 +63,7 @@ fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
     if found.events.len() > LISTED {
         out.push(("when", format!("and {} more (--json lists all)", found.events.len() - LISTED)));
     }
+    out.extend(found.opposed.iter().map(|o| ("acts", against(o))));
     out.extend(found.shared.iter().map(|s| ("in common", in_common(s))));
     if found.shared.is_empty() {
         out.push(("in common", "nothing in the measured signals".to_owned()));
@@ -76,6 +77,16 @@ fn of_event(e: &Event) -> String {
     format!(
         "{}, {:.1} to {:.1} s: {} {:+.2} \u{b1} {:.2}{unit} (90 %) against the simulation",
         e.recording, e.from, e.until, e.input, e.size, e.half
+    )
+}
+
+fn against(o: &Opposed) -> String {
+    format!(
+        "against the commanded torque in {:.0} % of the windows of 0.1 s with an event (the drive delivers {:.0} % less, median), \
+         against the wheel's motion in {:.0} %",
+        100.0 * o.torque,
+        100.0 * o.of_torque,
+        100.0 * o.motion
     )
 }
 

@@ -79,6 +79,9 @@ pub struct FoundEvents {
     pub events: Vec<Event>,
     /// What they have in common, the clearest first.
     pub shared: Vec<Shared>,
+    /// Of torques: what they act against.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub opposed: Option<Opposed>,
     /// Share of the windows in which one is.
     pub filled: f64,
     /// The same share of the references, over that of the recordings.
@@ -106,6 +109,17 @@ pub struct Event {
     pub half: f64,
     /// Unit of the size.
     pub unit: String,
+}
+
+/// What torques at events act against.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Opposed {
+    /// Share of the windows with an event in which it acts against the torque that was commanded.
+    pub torque: f64,
+    /// Share of them in which it acts against the wheel's motion.
+    pub motion: f64,
+    /// By which share of the commanded torque it makes the torque smaller, median.
+    pub of_torque: f64,
 }
 
 /// A variable whose amount is other at events than elsewhere.

@@ -55,7 +55,16 @@ struct Card<'a> {
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let file = args.verdict.display();
     let envelope = Envelope::open(&args.verdict)?;
-    let Some(found) = envelope.diagnosis.law.as_ref().and_then(|cause| cause.law.as_ref()) else {
+    let cause = envelope.diagnosis.law.as_ref();
+    let Some(found) = cause.and_then(|cause| cause.law.as_ref()) else {
+        if let Some(events) = cause.and_then(|cause| cause.events.as_ref()) {
+            bail!(
+                "'{file}' holds no law but {} events at the {}, which no law predicts; its JSON lists them in `law.events`, \
+                 and `lacuna report` shows them",
+                events.events.len(),
+                events.place
+            );
+        }
         bail!("'{file}' holds no law; one is looked for where the cause is unknown, or with `diagnose --law always`");
     };
     let law = checked(found).with_context(|| format!("the law in '{file}' cannot be used"))?;

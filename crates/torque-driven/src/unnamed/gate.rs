@@ -32,6 +32,11 @@ pub(crate) struct Standing {
     pub(crate) misfit: f64,
 }
 
+/// Share of the excess cost of re-tuning that a cost leaves.
+pub(super) fn left(cost: f64, retuned: f64, fault_free: f64) -> f64 {
+    (cost - fault_free) / (retuned - fault_free).max(1.0)
+}
+
 /// Whether a law does better than re-tuning on recordings that its fit did not use, and no copy of it shifted in time
 /// does better still; over all quantities, each by the logarithm of its error.
 pub(crate) fn holds_elsewhere(rows: &[LawFreeRun]) -> bool {
@@ -57,16 +62,11 @@ impl Standing {
         let name = judged.decision.scored.first().map_or(0.0, |s| s.score);
         Self {
             gains: runs.map(|run| of(retuned, run) - of(&law.fitted, run)).collect(),
-            left: Self::left_of(law.fitted.cost, retuned.cost, fault_free),
+            left: left(law.fitted.cost, retuned.cost, fault_free),
             in_references: references.and_then(|r| r.coefficient(&law.law, &law.units)),
             above_name: law.score - name.max(0.0),
             misfit: (law.fitted.cost / fault_free.max(1.0)).max(1.0),
         }
-    }
-
-    /// Share of the excess cost of re-tuning that a cost leaves.
-    pub(crate) fn left_of(cost: f64, retuned: f64, fault_free: f64) -> f64 {
-        (cost - fault_free) / (retuned - fault_free).max(1.0)
     }
 
     /// Whether drives in which nothing is missing have the law too.

@@ -79,7 +79,8 @@ impl Operator {
         (0..self.first.len()).map(segments).collect()
     }
 
-    fn segment(&self, inputs: &Inputs, r: usize, s: usize) -> Vec<Channels<f64>> {
+    /// What these inputs do in a segment.
+    pub(crate) fn segment(&self, inputs: &Inputs, r: usize, s: usize) -> Vec<Channels<f64>> {
         let windows = self.pulses.first().and_then(|(_, all)| all.first()).map_or(0, |y| y[r][s].len());
         let mut y = vec![Channels::all(0.0); windows];
         for (input, runs) in inputs {

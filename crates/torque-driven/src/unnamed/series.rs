@@ -10,10 +10,12 @@ use law::Input;
 use rayon::prelude::*;
 use robot_model::tunable::COUNT as NUISANCES;
 
+use super::acting::Inputs;
 use super::operator::{Operator, usual};
 use crate::channel::Channel;
 use crate::fit::{Fitted, Problem};
 use crate::run_numbers::RunNumber;
+use crate::simulate::Response;
 
 /// Normal equations of a segment.
 struct Segment {
@@ -49,14 +51,33 @@ pub(crate) type Kept = Vec<Vec<Vec<usize>>>;
 pub(crate) struct Solved {
     /// Log Bayes factor over no input, nats.
     pub(crate) evidence: f64,
+    /// What is common to all windows of a recording, `x`.
+    own: Vec<Mat<f64>>,
     /// Mean and sigma of each window that may have an input, in the order of [`Kept`], in usual sizes.
     pub(crate) values: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
+/// A free run with inputs in the windows of a series.
+pub(crate) struct Seen<'a> {
+    /// What it shows.
+    pub(crate) response: &'a Response,
+    /// Its inputs.
+    pub(crate) inputs: &'a Inputs,
+}
+
+/// What the equations of a series are made of.
+pub(crate) struct Ground<'a> {
+    pub(crate) problem: &'a Problem<'a>,
+    /// A point without any effect.
+    pub(crate) base: &'a Fitted,
+    pub(crate) operator: &'a Operator,
+}
+
 impl Series {
-    /// About a point without any effect. `None` where its equations have no solution.
-    pub(crate) fn new(problem: &Problem<'_>, base: &Fitted, operator: &Operator, inputs: &[Input]) -> Option<Self> {
-        let of = |run: usize| recording(problem, base, operator, inputs, run);
+    /// About a free run with inputs, or else without any. `None` where its equations have no solution.
+    pub(crate) fn new(ground: &Ground<'_>, inputs: &[Input], seen: Option<&Seen<'_>>) -> Option<Self> {
+        let problem = ground.problem;
+        let of = |run: usize| recording(ground, inputs, seen, run);
         let recordings = (0..problem.cuts.len()).into_par_iter().map(of).collect::<Option<Vec<_>>>()?;
         let windows = problem.cuts.iter().map(|c| c.segments.iter().map(|s| s.windows).collect()).collect();
         Some(Self { recordings, inputs: inputs.len(), windows })
@@ -78,13 +99,49 @@ impl Series {
     pub(crate) fn solve(&self, kept: &Kept, size: f64) -> Option<Solved> {
         let all = self.recordings.par_iter().zip(kept).map(|(r, kept)| r.solve(kept, size));
         let all = all.collect::<Option<Vec<_>>>()?;
-        let evidence = all.iter().map(|(evidence, _)| evidence).sum();
-        Some(Solved { evidence, values: all.into_iter().map(|(_, values)| values).collect() })
+        let evidence = all.iter().map(|(evidence, ..)| evidence).sum();
+        let (own, values) = all.into_iter().map(|(_, own, values)| (own, values)).unzip();
+        Some(Solved { evidence, own, values })
+    }
+
+    /// The windows that earn an input of this usual size, one after another while the best is worth more than `price`, with `x`
+    /// as solved.
+    pub(crate) fn greedy(&self, solved: &Solved, size: f64, price: f64) -> Option<Kept> {
+        let of_recording = |(r, x): (&Recording, &Mat<f64>)| {
+            r.segments.iter().map(|s| s.greedy(x, size.powi(-2), price)).collect::<Option<Vec<_>>>()
+        };
+        self.recordings.iter().zip(&solved.own).map(of_recording).collect()
+    }
+}
+
+impl Segment {
+    fn greedy(&self, x: &Mat<f64>, precision: f64, price: f64) -> Option<Vec<usize>> {
+        let right = &self.right - &self.cross * x;
+        let n = right.nrows();
+        let mut kept: Vec<usize> = Vec::new();
+        while kept.len() < n {
+            let k = kept.len();
+            let own = Mat::from_fn(k, k, |i, j| self.inputs[(kept[i], kept[j])] + if i == j { precision } else { 0.0 });
+            let sides = Mat::from_fn(k, n + 1, |i, j| if j == n { right[(kept[i], 0)] } else { self.inputs[(kept[i], j)] });
+            let solved = if k == 0 { Mat::zeros(0, n + 1) } else { solve_spd(&own, &sides)?.0 };
+            let gain = |j: usize| {
+                let through = |column: usize| (0..k).map(|i| sides[(i, j)] * solved[(i, column)]).sum::<f64>();
+                let stiff = (self.inputs[(j, j)] - through(j)).max(0.0) + precision;
+                let pull = right[(j, 0)] - through(n);
+                0.5 * (pull * pull / stiff - (stiff / precision).ln())
+            };
+            let open = (0..n).filter(|j| !kept.contains(j));
+            let best = open.map(|j| (gain(j), j)).max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, j)) = best.filter(|(gain, _)| *gain > price) else { break };
+            kept.push(j);
+        }
+        kept.sort_unstable();
+        Some(kept)
     }
 }
 
 impl Recording {
-    fn solve(&self, kept: &[Vec<usize>], size: f64) -> Option<(f64, Vec<Vec<[f64; 2]>>)> {
+    fn solve(&self, kept: &[Vec<usize>], size: f64) -> Option<(f64, Mat<f64>, Vec<Vec<[f64; 2]>>)> {
         let (n, precision) = (self.own.nrows(), size.powi(-2));
         let (mut own, mut right) = (self.own.clone(), self.right.clone());
         let mut evidence = -self.none;
@@ -127,18 +184,14 @@ impl Recording {
             };
             (0..x.nrows()).map(value).collect()
         };
-        Some((evidence, solved.iter().map(of_segment).collect()))
+        let values = solved.iter().map(of_segment).collect();
+        Some((evidence, mean, values))
     }
 }
 
 /// Normal equations of one recording.
-fn recording(
-    problem: &Problem<'_>,
-    base: &Fitted,
-    operator: &Operator,
-    inputs: &[Input],
-    run: usize,
-) -> Option<Recording> {
+fn recording(ground: &Ground<'_>, inputs: &[Input], seen: Option<&Seen<'_>>, run: usize) -> Option<Recording> {
+    let &Ground { problem, base, operator } = ground;
     let n = NUISANCES + RunNumber::ALL.len();
     let mut own = Mat::zeros(n, n);
     for i in 0..NUISANCES {
@@ -153,7 +206,10 @@ fn recording(
 
     let mut segments = Vec::new();
     for (s, segment) in problem.cuts[run].segments.iter().enumerate() {
-        let simulated = &base.response[run][s];
+        let simulated = &seen.map_or(&base.response, |seen| seen.response)[run][s];
+        // What the inputs of that free run do, by the responses that the equations hold.
+        let done = seen.map(|seen| operator.segment(seen.inputs, run, s));
+        let done = |w: usize, channel: Channel| done.as_ref().map_or(0.0, |y| y[w][channel]);
         let weight = problem.weight(run, s, problem.q(run, s, simulated)).sqrt();
         let rows: Vec<(usize, Channel)> = (0..segment.windows)
             .flat_map(|w| Channel::ALL.map(|channel| (w, channel)))
@@ -181,7 +237,8 @@ fn recording(
             let of = |j: usize| column(&|w, channel| unit * pulses[j][run][s][w][channel]);
             p.extend((0..segment.windows).map(of));
         }
-        let residual = vec![column(&|w, channel| segment.observed[w][channel] - simulated[w][channel])];
+        let residual = 
+            vec![column(&|w, channel| segment.observed[w][channel] - simulated[w][channel] + done(w, channel))];
 
         let matrix = |all: &[Vec<f64>]| Mat::from_fn(rows.len(), all.len(), |i, j| all[j][i]);
         let (x, p, residual) = (matrix(&x), matrix(&p), matrix(&residual));

@@ -2,7 +2,7 @@
 
 use inference::robust;
 use law::{Input, Variable};
-use verdict::Shared;
+use verdict::{Opposed, Shared};
 
 use super::events::Instant;
 use super::signals::Signals;
@@ -19,13 +19,15 @@ pub(super) fn shared(signals: &Signals, inputs: &[Input], instants: &[Instant]) 
     let mut out: Vec<(f64, Shared)> = Vec::new();
     for variable in Variable::ALL.into_iter().filter(|v| v.is_amount()) {
         let (mut at_events, mut elsewhere) = (Vec::new(), Vec::new());
+        let means = signals.means(variable);
         for (k, input) in inputs.iter().enumerate() {
-            let side = match input {
-                Input::Torque(side) | Input::Grip(side) | Input::Radius(side) => Some(*side),
-                _ => None,
+            let amount = |both: &[f64; 2]| match side(*input) {
+                Some(side) => both[side].abs(),
+                None => 0.5 * (both[0].abs() + both[1].abs()),
             };
-            for (run, windows) in signals.amounts(variable, side).into_iter().enumerate() {
-                for (window, amount) in windows.into_iter().enumerate().filter(|(_, amount)| amount.is_finite()) {
+            for (run, windows) in means.iter().enumerate() {
+                let amounts = windows.iter().map(amount).enumerate();
+                for (window, amount) in amounts.filter(|(_, amount)| amount.is_finite()) {
                     let begins = window == 0 || !is_event(k, run, window - 1);
                     match is_event(k, run, window) {
                         true if begins => at_events.push(amount),
@@ -41,6 +43,31 @@ pub(super) fn shared(signals: &Signals, inputs: &[Input], instants: &[Instant]) 
     }
     out.sort_by(|a, b| b.0.total_cmp(&a.0));
     out.into_iter().take(EVENTS.shared).map(|(_, shared)| shared).collect()
+}
+
+/// The side that an input acts on.
+fn side(input: Input) -> Option<usize> {
+    match input {
+        Input::Torque(side) | Input::Grip(side) | Input::Radius(side) => Some(side),
+        _ => None,
+    }
+}
+
+/// Whether torques at events act against the drive or against the motion; `None` where events are no torques.
+pub(super) fn opposed(signals: &Signals, inputs: &[Input], instants: &[Instant]) -> Option<Opposed> {
+    let [torque, speed] = [Variable::Torque, Variable::WheelSpeed].map(|v| signals.means(v));
+    let (mut of_torque, mut against) = (Vec::new(), [0.0; 2]);
+    for i in instants {
+        let Input::Torque(side) = inputs[i.input] else { return None };
+        let at = |of: &[Vec<[f64; 2]>]| of[i.run].get(i.window).map(|both| both[side]);
+        let (torque, speed) = (at(&torque)?, at(&speed)?);
+        against[0] += f64::from(u8::from(i.size * torque < 0.0));
+        against[1] += f64::from(u8::from(i.size * speed < 0.0));
+        of_torque.push(-i.size / torque);
+    }
+    let n = instants.len().max(1) as f64;
+    let of_torque = robust::median(of_torque.into_iter().filter(|x| x.is_finite()))?;
+    Some(Opposed { torque: against[0] / n, motion: against[1] / n, of_torque })
 }
 
 /// How clearly amounts at events differ from those elsewhere; `None` where they do not.

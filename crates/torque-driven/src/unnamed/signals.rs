@@ -35,13 +35,11 @@ impl Signals {
         self.0.iter().flatten().flatten().flat_map(move |m| of_sides(m, v))
     }
 
-    /// Mean amount of a variable in every window of every recording: of a side, or of both.
-    pub(crate) fn amounts(&self, v: Variable, side: Option<usize>) -> Vec<Vec<f64>> {
-        let amount = |m: &Motion<f64>| {
-            let both = of_sides(m, v).map(f64::abs);
-            side.map_or(0.5 * (both[0] + both[1]), |j| both[j])
+    /// Mean of a variable, left and right, in every window of every recording.
+    pub(crate) fn means(&self, v: Variable) -> Vec<Vec<[f64; 2]>> {
+        let window = |parts: &[Motion<f64>; PARTS]| {
+            [0, 1].map(|side| parts.iter().map(|m| of_sides(m, v)[side]).sum::<f64>() / PARTS as f64)
         };
-        let window = |parts: &[Motion<f64>; PARTS]| parts.iter().map(amount).sum::<f64>() / PARTS as f64;
         self.0.iter().map(|run| run.iter().map(window).collect()).collect()
     }
 
