@@ -15,6 +15,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         others: &findings.others,
         constants: &findings.constants,
         retuned: &findings.retuned,
+        rival: findings.rival.as_deref(),
         shares: findings.shares,
     };
     let of_session = |(session, errors): &(String, Vec<[crate::Errors; 3]>)| {
@@ -23,7 +24,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     let mut out = found.verdict(table.by_session.iter().flat_map(of_session).collect());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &out, has_references);
-    out.sentences.extend(found.causes(RADIUS_OF_ALL_WHEELS.id));
+    out.sentences.extend(found.causes(RADIUS_OF_ALL_WHEELS.id, &out.free_runs));
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));

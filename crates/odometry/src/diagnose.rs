@@ -90,6 +90,8 @@ pub struct Findings {
     pub constants: Vec<Estimate>,
     /// Constants re-tuned within what is known, with no cause.
     pub retuned: Vec<Estimate>,
+    /// The cause that is little less probable than the first.
+    pub rival: Option<String>,
     /// Sigma of a window's error, m.
     pub noise: f64,
     /// Factor on the usual scatter of constants between sessions.
@@ -292,7 +294,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     named_causes.extend(dropouts(case, data, lost));
 
     let rules = SETTINGS.naming;
-    let floor = pose_noise(data).max(SETTINGS.windows.floor);
+    let floor = data.pose_noise().max(SETTINGS.windows.floor);
     let is_left =
         best.1 > rules.left_share && best.0 > rules.left_of_retuned * tuned.0 && best.0 > rules.left_noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
@@ -305,8 +307,8 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     } else {
         Answer::Nothing
     };
-    let mut told: Vec<String> =
-        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
+    let told = case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned());
+    let mut told: Vec<String> = told.collect();
     told.sort();
     told.dedup();
     Findings {
@@ -314,6 +316,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         named: named_causes,
         others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
         constants: all,
+        rival: named.rival.map(|c| causes[c].label()),
         retuned,
         noise: fit.scale,
         scatter: fit.factors[0],
@@ -322,21 +325,6 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         told,
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
     }
-}
-
-/// Noise of a window by neighbouring rows of the pose, m: second differences know no motion.
-fn pose_noise(data: &Data<'_>) -> f64 {
-    let mut second = Vec::new();
-    for drive in &data.drives {
-        for w in drive.pose.windows(3) {
-            let bend = [0, 1].map(|axis| w[2][axis] - 2.0 * w[1][axis] + w[0][axis]);
-            if bend.iter().all(|b| b.is_finite()) {
-                second.push(bend[0].hypot(bend[1]));
-            }
-        }
-    }
-    // Variances of second differences are six times those of samples; two samples bound a window.
-    inference::robust::median(second).unwrap_or(0.0) / 3.0_f64.sqrt()
 }
 
 fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {

@@ -31,6 +31,8 @@ pub struct Named {
     pub retuned: Posterior,
     /// Constants with the best wrong cause in the place of the first.
     pub placebo: Option<(usize, Posterior)>,
+    /// The cause of the placebo, where it is little less probable than the first.
+    pub rival: Option<usize>,
 }
 
 /// Names causes by evidence: one joins while its log odds pass the threshold, and leaves when it no longer earns its place.
@@ -81,15 +83,19 @@ pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Opti
     let placebo = chosen.first().and_then(|first| {
         let rest = less(&set, first.cause);
         let wrong = (0..causes.len()).filter(|c| !set.contains(c) && !first.class.contains(c));
-        let (_, best) = wrong.map(|c| (score(&with(&rest, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some((best, evidence.posterior(&covariance(known, causes, &with(&rest, best)))?))
+        let (score, best) = wrong.map(|c| (score(&with(&rest, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some((score, best, evidence.posterior(&covariance(known, causes, &with(&rest, best)))?))
     });
+    let rival = placebo.as_ref().filter(|(score, ..)| *score > current - rules.near);
+    let rival = rival.map(|(_, cause, _)| *cause);
+    let placebo = placebo.map(|(_, cause, posterior)| (cause, posterior));
     Some(Named {
         posterior: evidence.posterior(&covariance(known, causes, &set))?,
         retuned: evidence.posterior(known)?,
         chosen,
         others,
         placebo,
+        rival,
     })
 }
 

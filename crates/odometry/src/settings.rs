@@ -181,6 +181,10 @@
         most: usize = 7, "1", "guess";
         /// Causes that fit as well within these odds cannot be told apart.
         alike: f64 = 3.0, "nat", "a factor of 20";
+        /// Error of forecasts of left-out drives over that with such a cause in its place, from which on it forecasts as well.
+        near_forecast: f64 = 0.95, "1", "guess; some drives do not tell five per cent";
+        /// Odds within which a cause that forecasts left-out drives as well cannot be told apart either.
+        near: f64 = 12.0, "nat", "guess; linear equations get a change by a fifth wrong by some nats";
         /// Causes below this probability are not listed.
         listed: f64 = 0.05, "1", "guess";
         /// A factor on the radius this near to a familiar one is told as that.

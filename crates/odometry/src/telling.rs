@@ -22,6 +22,8 @@ pub struct Found<'a> {
     pub constants: &'a [Estimate],
     /// Those that re-tuning moved.
     pub retuned: &'a [Estimate],
+    /// Label of the cause that is little less probable than the first, and with which the placebo forecasts.
+    pub rival: Option<&'a str>,
     /// Error as a share of the motion: as stated, re-tuned, with the answer.
     pub shares: [f64; 3],
 }
@@ -36,9 +38,6 @@ impl Found<'_> {
             Answer::Unknown => Verdict::Unknown,
         };
         out.ranked = self.ranked();
-        let classes = self.named.iter().filter(|c| !c.alike.is_empty());
-        out.indistinguishable =
-            classes.map(|c| std::iter::once(c.label.clone()).chain(c.alike.iter().cloned()).collect()).collect();
         let [given, _, best] = self.shares;
         if out.verdict != Verdict::NoMismatch {
             out.unexplained = Some((best / given.max(f64::MIN_POSITIVE)).powi(2).min(1.0));
@@ -49,9 +48,24 @@ impl Found<'_> {
         }
         out.tuning = self.constants.iter().map(|e| (e.name.clone(), e.value)).collect();
         out.free_runs = free_runs;
+        let classes = (0..self.named.len()).map(|k| (&self.named[k], self.alike(k, &out.free_runs)));
+        let classes = classes.filter(|(_, alike)| !alike.is_empty());
+        out.indistinguishable =
+            classes.map(|(c, alike)| std::iter::once(c.label.clone()).chain(alike).collect()).collect();
         if out.verdict == Verdict::Explained {
-            out.limits.extend(Standing::new(&out.free_runs).and_then(|s| s.objection(None)));
+            out.limits.extend(Standing::new(&out.free_runs).and_then(|s| s.objection(self.rival)));
         }
+        out
+    }
+
+    /// Labels of the causes that cannot be told from a named one: by their evidence, and the rival of the first where it
+    /// forecasts what was left out nearly as well.
+    fn alike(&self, named: usize, free_runs: &[FreeRun]) -> Vec<String> {
+        let mut out = self.named[named].alike.clone();
+        let over_rival = Standing::new(free_runs).and_then(|s| s.over_placebo);
+        let forecasts_as_well = over_rival.is_some_and(|ratio| ratio > SETTINGS.naming.near_forecast);
+        let rival = self.rival.filter(|rival| named == 0 && forecasts_as_well && out.iter().all(|a| a != rival));
+        out.extend(rival.map(str::to_owned));
         out
     }
 
@@ -83,16 +97,15 @@ impl Found<'_> {
 
     /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scale`: the effect whose size
     /// is a factor on all counts, of which familiar values are told.
-    pub fn causes<'a>(&'a self, scale: &'a str) -> impl Iterator<Item = String> + 'a {
-        self.named.iter().map(move |named| {
+    pub fn causes<'a>(&'a self, scale: &'a str, free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
+        self.named.iter().enumerate().map(move |(k, named)| {
             let values = named.estimates.iter().map(|e| {
                 let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
                 format!("{} {}{from}", e.name, number(e))
             });
-            let alike = if named.alike.is_empty() {
-                String::new()
-            } else {
-                format!("; these drives cannot tell it from {}", named.alike.join(", "))
+            let alike = match self.alike(k, free_runs) {
+                alike if alike.is_empty() => String::new(),
+                alike => format!("; these drives cannot tell it from {}", alike.join(", ")),
             };
             let familiar = if named.spec.id == scale { familiar(named) } else { String::new() };
             format!("{}: {}{familiar}{alike}.", named.label, values.collect::<Vec<_>>().join("; "))
@@ -193,8 +206,8 @@ mod tests {
             intervals: Vec::new(),
         }];
         for answer in [Answer::Named, Answer::Unknown] {
-            let found =
-                Found { answer, named: &named, others: &[], constants: &[], retuned: &[], shares: [0.3, 0.2, 0.1] };
+            let shares = [0.3, 0.2, 0.1];
+            let found = Found { answer, named: &named, others: &[], constants: &[], retuned: &[], rival: None, shares };
             let told = found.verdict(Vec::new());
             let total: f64 = told.ranked.iter().map(|c| c.probability).sum();
             approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);

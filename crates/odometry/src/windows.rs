@@ -112,6 +112,21 @@ impl<'a> Data<'a> {
         laws(self.robot, self.constants, theta)
     }
 
+    /// Noise of a window by neighbouring rows of the pose, m: second differences know no motion.
+    pub(crate) fn pose_noise(&self) -> f64 {
+        let mut second = Vec::new();
+        for drive in &self.drives {
+            for w in drive.pose.windows(3) {
+                let bend = [0, 1].map(|axis| w[2][axis] - 2.0 * w[1][axis] + w[0][axis]);
+                if bend.iter().all(|b| b.is_finite()) {
+                    second.push(bend[0].hypot(bend[1]));
+                }
+            }
+        }
+        // Variances of second differences are six times those of samples; two samples bound a window.
+        inference::robust::median(second).unwrap_or(0.0) / 3.0_f64.sqrt()
+    }
+
     /// Errors of all windows at these values, by drive.
     pub(crate) fn errors(&self, theta: &[f64]) -> Vec<Vec<[f64; 3]>> {
         self.errors_by_session(&vec![theta.to_vec(); self.sessions.len()])

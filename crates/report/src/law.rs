@@ -1,6 +1,6 @@
 //! A law for what has no name, in the words of the field.
 
-use verdict::{Claim, Event, FoundEvents, FoundLaw, LawFreeRun, Opposed, Shared, UnnamedCause};
+use verdict::{Claim, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, Opposed, Shared, UnnamedCause};
 
 /// What is told of a cause without a name: a label and a text for each line; empty where nothing was found.
 pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
@@ -9,6 +9,7 @@ pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
         return of_events(events).into_iter().chain(in_every_drive(cause)).collect();
     }
     match (&cause.claim, &cause.law) {
+        (Claim::Place, None) => out.extend(cause.place.iter().flat_map(of_place)),
         (Claim::Law, Some(law)) => out.extend(of_law(law)),
         (Claim::Place, Some(law)) => {
             out.push(("where", place(law)));
@@ -36,10 +37,7 @@ fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
 const LISTED: usize = 12;
 
 fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
-    let mut place = found.place.clone();
-    if !found.places_alike.is_empty() {
-        place = format!("{place}, or {}", found.places_alike.join(", or "));
-    }
+    let place = or(&found.place, &found.places_alike);
     let mut recordings: Vec<&str> = found.events.iter().map(|e| e.recording.as_str()).collect();
     recordings.dedup();
     let lengths = found.events.iter().map(|e| e.until - e.from);
@@ -70,6 +68,33 @@ fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
     }
     out.push(("law", "none in the measured signals predicts them, so that no forecast is offered".to_owned()));
     out
+}
+
+fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
+    let mut place = or(&found.place, &found.places_alike);
+    if let Some((next, worse)) = &found.next_place {
+        place = format!("{place} [next place: {next}, {worse:.0} nats worse]");
+    }
+    let unit = if found.unit == "1" { String::new() } else { format!(" {}", found.unit) };
+    vec![
+        ("where", place),
+        (
+            "how much",
+            format!(
+                "{:.2}{unit} rms (references {:.0} % of its power); an input there that is another one every 0.1 s leaves {:.0} % of \
+                 what re-tuning leaves unexplained",
+                found.size,
+                100.0 * found.in_references,
+                100.0 * found.left.max(0.0)
+            ),
+        ),
+        ("law", "none in the measured signals predicts it, so that no forecast is offered".to_owned()),
+    ]
+}
+
+/// A place, or one of those that cannot be told from it.
+fn or(place: &str, alike: &[String]) -> String {
+    if alike.is_empty() { place.to_owned() } else { format!("{place}, or {}", alike.join(", or ")) }
 }
 
 fn of_event(e: &Event) -> String {
@@ -123,10 +148,7 @@ fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {
 }
 
 fn place(law: &FoundLaw) -> String {
-    let mut out = law.place.clone();
-    if !law.places_alike.is_empty() {
-        out = format!("{out}, or {}", law.places_alike.join(", or "));
-    }
+    let mut out = or(&law.place, &law.places_alike);
     if let Some((next, worse)) = &law.next_place {
         out = format!("{out} [next place: {next}, {worse:.0} nats worse]");
     }

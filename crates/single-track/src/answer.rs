@@ -17,6 +17,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         others: &findings.others,
         constants: &findings.constants,
         retuned: &findings.retuned,
+        rival: findings.rival.as_deref(),
         shares: findings.shares,
     };
     let of_drive = |(drive, errors): &(String, Vec<ByLength>)| {
@@ -26,7 +27,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &out, has_references);
-    out.sentences.extend(found.causes(ENCODER_SCALE.id));
+    out.sentences.extend(found.causes(ENCODER_SCALE.id, &out.free_runs));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, table, has_references));
     out

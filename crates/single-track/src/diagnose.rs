@@ -27,6 +27,8 @@ pub struct Findings {
     pub constants: Vec<Estimate>,
     /// Constants re-tuned within what is known, with no cause.
     pub retuned: Vec<Estimate>,
+    /// The cause that is little less probable than the first.
+    pub rival: Option<String>,
     /// Names of constants of which the owner states nothing, so that nothing can be wrong with them.
     pub unstated: Vec<&'static str>,
     /// Sigmas of the errors: windows of the pose, m; gyro, rad/s; encoder, m/s.
@@ -118,8 +120,9 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
         others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
         unstated: data.constants.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
         constants: all,
+        rival: named.rival.map(|c| causes[c].label()),
         retuned,
-        noise: fit.scales,
+        noise: fit.noise.sigma,
         scatter: fit.factor,
         is_scattered,
         shares,

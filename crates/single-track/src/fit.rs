@@ -14,7 +14,7 @@ use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
 use crate::model::Laws;
-use crate::rows::{Kind, Shown};
+use crate::rows::{Kind, POSE_ROWS, Shown};
 use crate::settings::SETTINGS;
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
 use inference::robust::{quantile, rms, sorted};
@@ -26,8 +26,27 @@ pub(crate) struct Data<'a> {
     pub(crate) shown: Vec<Shown<'a>>,
 }
 
-/// Sigmas of the errors of each kind of row.
-pub(crate) type Scales = [f64; 3];
+/// What rows of each kind scatter by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Noise {
+    /// Sigma of a row's error.
+    pub(crate) sigma: [f64; 3],
+    /// Independent rows for each row, at most 1: errors that follow one another say less (effective number of samples).
+    pub(crate) power: [f64; 3],
+}
+
+impl Noise {
+    /// The same with every row for itself.
+    pub(crate) fn of_single_rows(self) -> Self {
+        Self { power: [1.0; 3], ..self }
+    }
+
+    /// The less noisy of two, kind by kind.
+    pub(crate) fn least(self, other: Self) -> Self {
+        let of = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|kind| a[kind].min(b[kind]));
+        Self { sigma: of(self.sigma, other.sigma), power: of(self.power, other.power) }
+    }
+}
 
 /// What is known of the constants before the drives.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +60,7 @@ pub(crate) struct Prior {
 pub(crate) struct Fit {
     pub(crate) theta: Vec<f64>,
     pub(crate) sessions: Vec<Session>,
-    pub(crate) scales: Scales,
+    pub(crate) noise: Noise,
     /// Factor on the scatter of all constants.
     pub(crate) factor: f64,
 }
@@ -49,7 +68,7 @@ pub(crate) struct Fit {
 impl<'a> Data<'a> {
     pub(crate) fn new(car: &Car, drives: &[&'a Drive]) -> Result<Self, CarError> {
         let shown: Vec<Shown<'a>> = drives.iter().map(|d| Shown::new(d, car.encoder_window)).collect();
-        let moving = |s: &Shown<'_>| s.rows.iter().filter(|r| r.is_moving && r.kind == Kind::Pose).count() / 6;
+        let moving = |s: &Shown<'_>| s.rows.iter().filter(|r| r.is_moving && r.kind == Kind::Pose).count() / POSE_ROWS;
         let blind = |s: &Shown<'_>| if s.drive.has_pose() { 0 } else { s.windows.len() };
         let windows: usize = shown.iter().map(|s| moving(s) + blind(s)).sum();
         let (length, needed) = (SETTINGS.windows.length, SETTINGS.windows.least);
@@ -64,8 +83,34 @@ impl<'a> Data<'a> {
         self.shown.par_iter().zip(thetas).map(of).collect()
     }
 
-    /// Sigmas of the errors of rows in motion, by their upper quantile.
-    pub(crate) fn scales(&self, errors: &[Vec<f64>]) -> Scales {
+    /// Of errors of rows in motion: sigmas by their upper quantile, and how many are independent.
+    pub(crate) fn noise(&self, errors: &[Vec<f64>]) -> Noise {
+        let sigma = self.sigmas(errors);
+        let power = [Kind::Pose, Kind::Gyro, Kind::Encoder].map(|kind| {
+            let most = 2.0 * SETTINGS.windows.quantile_sigmas * sigma[kind as usize];
+            let (mut square, mut product) = (0.0, 0.0);
+            for (shown, errors) in self.shown.iter().zip(errors) {
+                let of_kind = || shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind);
+                let held: Vec<Option<f64>> =
+                    of_kind().map(|(r, e)| (r.is_moving && *e != 0.0).then(|| e.clamp(-most, most))).collect();
+                // Rows that the weights take for one are not compared with each other.
+                let Some(weight) = of_kind().map(|(r, _)| r.weight).next() else { continue };
+                let apart = if kind == Kind::Pose { POSE_ROWS } else { weight.recip().ceil() as usize };
+                for (a, b) in held.iter().zip(held.iter().skip(apart)) {
+                    if let (Some(a), Some(b)) = (a, b) {
+                        product += a * b;
+                        square += 0.5 * (a * a + b * b);
+                    }
+                }
+            }
+            // Of a process of first order with this correlation.
+            let correlation = (product / square.max(f64::MIN_POSITIVE)).clamp(0.0, SETTINGS.windows.correlated);
+            (1.0 - correlation) / (1.0 + correlation)
+        });
+        Noise { sigma, power }
+    }
+
+    fn sigmas(&self, errors: &[Vec<f64>]) -> [f64; 3] {
         let rules = SETTINGS.windows;
         [Kind::Pose, Kind::Gyro, Kind::Encoder].map(|kind| {
             let of = |(s, e): (&Shown<'_>, &Vec<f64>)| {
@@ -106,30 +151,30 @@ impl<'a> Data<'a> {
 }
 
 /// Normal equations of rows whose errors and columns are known.
-pub(crate) fn equations(shown: &Shown<'_>, (errors, columns): (&[f64], &[Vec<f64>]), scales: Scales) -> Session {
+pub(crate) fn equations(shown: &Shown<'_>, (errors, columns): (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
     let n = columns.len();
     let mut out = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
     let outlier = SETTINGS.windows.outlier;
     let mut row = DVector::zeros(n);
     for (i, r) in shown.rows.iter().enumerate() {
-        let scale = scales[r.kind as usize];
+        let (scale, weight) = (noise.sigma[r.kind as usize], r.weight * noise.power[r.kind as usize]);
         let error = errors[i] / scale;
         let root = (1.0 + (error / outlier).powi(2)).sqrt();
-        out.cost += r.weight * outlier.powi(2) * (root - 1.0);
+        out.cost += weight * outlier.powi(2) * (root - 1.0);
         for k in 0..n {
             row[k] = columns[k][i] / scale;
         }
-        out.curvature.ger(r.weight / root, &row, &row, 1.0);
-        out.slope.axpy(r.weight / root * error, &row, 1.0);
+        out.curvature.ger(weight / root, &row, &row, 1.0);
+        out.slope.axpy(weight / root * error, &row, 1.0);
     }
     out
 }
 
 /// Normal equations of every drive.
-pub(crate) fn sessions(data: &Data<'_>, theta: &[f64], scales: Scales) -> Vec<Session> {
+pub(crate) fn sessions(data: &Data<'_>, theta: &[f64], noise: Noise) -> Vec<Session> {
     let of = |s: &Shown<'_>| {
         let errors = s.errors(&Laws::at(&data.constants, theta));
-        equations(s, (&errors, &s.columns(&data.constants, theta)), scales)
+        equations(s, (&errors, &s.columns(&data.constants, theta)), noise)
     };
     data.shown.par_iter().map(of).collect()
 }
@@ -139,7 +184,7 @@ struct Driven<'a, 'd> {
     prior: &'a Prior,
     information: DMatrix<f64>,
     scatter: DVector<f64>,
-    scales: Scales,
+    noise: Noise,
 }
 
 struct Point {
@@ -149,7 +194,7 @@ struct Point {
 
 impl Driven<'_, '_> {
     fn at(&self, theta: Vec<f64>) -> Point {
-        let sessions = sessions(self.data, &theta, self.scales);
+        let sessions = sessions(self.data, &theta, self.noise);
         Point { theta, sessions }
     }
 }
@@ -197,12 +242,13 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     let information = prior.covariance.clone().cholesky()?.inverse();
     let settings =
         Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
-    let mut out = Fit { theta: start, sessions: Vec::new(), scales: [0.0; 3], factor: 1.0 };
-    out.scales = data.scales(&data.errors(&vec![out.theta.clone(); data.shown.len()]));
+    let noise = data.noise(&data.errors(&vec![start.clone(); data.shown.len()]));
+    // Before the first fit errors are no noise, and follow one another.
+    let mut out = Fit { theta: start, sessions: Vec::new(), noise: noise.of_single_rows(), factor: 1.0 };
     for _ in 0..rules.rounds {
         let scatter = data.scatter(out.factor);
         let problem =
-            Driven { data, prior, information: information.clone(), scatter: scatter.clone(), scales: out.scales };
+            Driven { data, prior, information: information.clone(), scatter: scatter.clone(), noise: out.noise };
         let at = minimise(&problem, problem.at(out.theta), &settings).at;
         (out.theta, out.sessions) = (at.theta, at.sessions);
         // What a drive has of its own is no noise of its rows.
@@ -211,11 +257,19 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
             None => out.theta.clone(),
         };
         let thetas: Vec<Vec<f64>> = out.sessions.iter().map(own).collect();
-        out.scales = data.scales(&data.errors(&thetas));
+        out.noise = data.noise(&data.errors(&thetas));
         out.factor = scatter_factor(data, prior, &out);
     }
-    out.sessions = sessions(data, &out.theta, out.scales);
+    out.sessions = sessions(data, &out.theta, out.noise);
     Some(out)
+}
+
+/// Of two values of the constants those that are more probable; `None` where a prior is no covariance.
+pub(crate) fn likelier(data: &Data<'_>, prior: &Prior, noise: Noise, both: [Vec<f64>; 2]) -> Option<Vec<f64>> {
+    let information = prior.covariance.clone().cholesky()?.inverse();
+    let problem = Driven { data, prior, information, scatter: data.scatter(1.0), noise };
+    let [a, b] = both.map(|theta| problem.at(theta));
+    Some(if problem.cost(&b) < problem.cost(&a) { b.theta } else { a.theta })
 }
 
 /// A fit without one of its drives: equations and scales of the others, about where it ended.

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use odometry::weighing::Session;
 
 use crate::constants::Constant;
-use crate::fit::{Scales, equations};
+use crate::fit::{Noise, equations};
 use crate::model::{Inputs, Laws, STEP, State};
 use crate::rates::end;
 use crate::rows::Shown;
@@ -132,7 +132,7 @@ pub(crate) fn following(
     constants: &[Constant],
     scatter: &DVector<f64>,
     shown: &Shown<'_>,
-    (theta, scales): (&[f64], Scales),
+    (theta, noise): (&[f64], Noise),
     habit: Habit,
 ) -> Vec<(usize, Vec<f64>)> {
     let scatter = scatter * habit.freedom;
@@ -145,7 +145,7 @@ pub(crate) fn following(
         let now = STEP * from as f64;
         let part = shown.part(last, now, RULES.warm);
         let (errors, columns) = (part.errors(&Laws::at(constants, &own)), part.columns(constants, &own));
-        let new = equations(&part, (&errors, &columns), scales);
+        let new = equations(&part, (&errors, &columns), noise);
 
         // Said about where the drive was thought to be; kept about the fit.
         let moved = DVector::from_column_slice(&own) - &about;

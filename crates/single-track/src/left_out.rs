@@ -119,7 +119,7 @@ fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
         models.iter().map(of).chain([collected(of_twist(own, past))]).collect()
     };
     let scatter = solved.data.scatter(solved.fit.factor);
-    let follow = |habit: Habit| following(constants, &scatter, own, (best, solved.fit.scales), habit);
+    let follow = |habit: Habit| following(constants, &scatter, own, (best, solved.fit.noise.of_single_rows()), habit);
     let followed: Vec<_> = habits().into_iter().map(follow).collect();
     let forecast = |past: f64| {
         let of = |f: &Vec<(usize, Vec<f64>)>| collected(of_followed(constants, own, f, past));

@@ -56,7 +56,7 @@ impl Rival {
             own.iter().zip(values).for_each(|(&k, v)| theta[k] = *v);
             Laws { lateral: self.lateral, ..Laws::at(&data.constants, &theta) }
         };
-        let scale = fit.scales[Kind::Pose as usize];
+        let scale = fit.noise.sigma[Kind::Pose as usize];
         let residuals = |values: &[f64]| -> Vec<f64> {
             let laws = laws(values);
             let of = |s: &crate::rows::Shown<'_>| -> Vec<f64> {

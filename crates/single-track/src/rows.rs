@@ -11,6 +11,9 @@ use crate::settings::{SETTINGS, Windows};
 
 const RULES: Windows = SETTINGS.windows;
 
+/// Rows of the pose in a window: place and heading in its middle and at its end.
+pub(crate) const POSE_ROWS: usize = 6;
+
 /// What a row is about; its errors share a scale with those of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -148,7 +151,7 @@ impl<'a> Shown<'a> {
             let (a, b) = (self.drive.pose[window.from], self.drive.pose[window.from + window.steps]);
             let is_moving = (b[0] - a[0]).hypot(b[1] - a[1]) > RULES.moving;
             let weight = RULES.shared * weight;
-            self.rows.extend([Row { kind: Kind::Pose, time, is_moving, weight }; 6]);
+            self.rows.extend([Row { kind: Kind::Pose, time, is_moving, weight }; POSE_ROWS]);
             return;
         }
         let reports: Vec<&Message> = self.reports(window).collect();

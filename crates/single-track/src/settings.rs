@@ -54,6 +54,8 @@
         quantile_sigmas: f64 = 1.645, "1", "mathematics: the quantile of the normal distribution";
         /// Least sigmas of position and heading, gyro, encoder.
         floor: [f64; 3] = [1e-3, 5e-3, 5e-3], "m; rad/s; m/s", "guess; good motion capture, noise of small sensors";
+        /// Correlation of errors that follow one another, at most.
+        correlated: f64 = 0.9, "1", "guess; a twentieth of the rows then counts";
         /// Way in a window, or speed, below which the car stands.
         moving: f64 = 0.05, "m; m/s", "guess";
         /// Windows in motion below which nothing is fitted.
@@ -156,7 +158,7 @@
         /// The same, of the time itself; and of the play, the largest rate and the drive.
         share: f64 = 0.05, "share", "guess; a lag before a servo is no lag";
         /// Compliance of tyres and the inverse of their grip.
-        tyre: f64 = 0.15, "share", "guess; brush tyres give way by 1.1 to 1.3 times their compliance at half of their grip";
+        tyre: f64 = 0.22, "share", "brush tyres give way by 1.1 to 1.3 times their compliance at half of their grip: root mean square";
         /// Scales of gyro and encoder.
         scale: f64 = 0.005, "share", "guess; a parabola cuts the tops of fast turns";
         /// Place of the tracked point.

@@ -6,9 +6,10 @@ use odometry::weighing::{Evidence, Named, covariance, name};
 
 use crate::car::Car;
 use crate::cause::causes;
+use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::{Data, Fit, Prior, fit, sessions, without};
+use crate::fit::{Data, Fit, Prior, fit, likelier, sessions, without};
 use crate::settings::SETTINGS;
 use inference::robust::NINETY;
 
@@ -49,7 +50,7 @@ impl Solved<'_> {
         let mut first = named_about(&data, &self.prior, &self.causes, &fit)?;
         within(&data, &mut first);
         fit.theta = first.posterior.mean.as_slice().to_vec();
-        fit.sessions = sessions(&data, &fit.theta, fit.scales);
+        fit.sessions = sessions(&data, &fit.theta, fit.noise);
         let mut named = named_about(&data, &self.prior, &self.causes, &fit)?;
         within(&data, &mut named);
         drop_unmoved(&self.causes, &self.prior, &mut named);
@@ -74,9 +75,9 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
         let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
         let far = settled(data, prior, causes, fit(data, &wide, start)?)?;
         // Errors count in the same sigmas, those of the fit that leaves less.
-        let scales = [0, 1, 2].map(|kind| near.fit.scales[kind].min(far.fit.scales[kind]));
+        let noise = near.fit.noise.least(far.fit.noise);
         let score = |of: &Answered| {
-            let sessions = sessions(data, &of.fit.theta, scales);
+            let sessions = sessions(data, &of.fit.theta, noise);
             let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
             let known = covariance(&prior.covariance, causes, &of.set);
             evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)
@@ -107,7 +108,10 @@ fn settled(data: &Data<'_>, prior: &Prior, causes: &[Cause], from: Fit) -> Optio
             break;
         }
         let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
-        let fit = fit(data, &narrow, out.fit.theta)?;
+        // Along a valley that only what is known closes, a fit hardly moves; the equations know where it ends.
+        let ends = within_bounds(data, &out.named.posterior.mean);
+        let start = likelier(data, &narrow, out.fit.noise, [out.fit.theta, ends])?;
+        let fit = fit(data, &narrow, start)?;
         let named = named_about(data, prior, causes, &fit)?;
         tried.push(set.clone());
         out = Answered { fit, named, set };
@@ -129,11 +133,17 @@ fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
 fn within(data: &Data<'_>, named: &mut Named) {
     let Named { posterior, retuned, placebo, .. } = named;
     for posterior in [Some(posterior), Some(retuned), placebo.as_mut().map(|(_, p)| p)].into_iter().flatten() {
-        for (k, c) in data.constants.iter().enumerate() {
-            let [least, most] = c.bounds();
-            posterior.mean[k] = posterior.mean[k].clamp(least, most);
-        }
+        posterior.mean = DVector::from_vec(within_bounds(data, &posterior.mean));
     }
+}
+
+/// Constants within what they can be.
+fn within_bounds(data: &Data<'_>, theta: &DVector<f64>) -> Vec<f64> {
+    let of = |(c, x): (&Constant, &f64)| {
+        let [least, most] = c.bounds();
+        x.clamp(least, most)
+    };
+    data.constants.iter().zip(theta.iter()).map(of).collect()
 }
 
 fn named_about(data: &Data<'_>, prior: &Prior, causes: &[Cause], fit: &Fit) -> Option<Named> {

@@ -28,6 +28,9 @@ pub struct UnnamedCause {
     /// A list of events where no law fits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub events: Option<FoundEvents>,
+    /// A place without law or events, told by an arbitrary input there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub place: Option<FoundPlace>,
     /// A law that references and recordings have alike: the simulation lacks it in every drive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_every_drive: Option<CommonLaw>,
@@ -66,6 +69,25 @@ pub struct FoundLaw {
     pub in_references: Option<f64>,
     /// Free runs on recordings left out of its fit.
     pub free_runs: Vec<LawFreeRun>,
+}
+
+/// Where something acts of which no more is known.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundPlace {
+    /// The place, for people.
+    pub place: String,
+    /// Places that cannot be told from it.
+    pub places_alike: Vec<String>,
+    /// The next place that can, and by how much it is worse, nats.
+    pub next_place: Option<(String, f64)>,
+    /// How strong what acts there is, rms over all windows of 0.1 s.
+    pub size: f64,
+    /// Unit of the size.
+    pub unit: String,
+    /// Share of the excess cost that free runs leave with the input that explains most.
+    pub left: f64,
+    /// Its mean square in the references, over that of the recordings.
+    pub in_references: f64,
 }
 
 /// Short times in which something acts on the robot that no law in the measured signals predicts.

@@ -46,7 +46,10 @@ pub use course::{Course, WIDENING, wheel_speeds};
 pub use coverage::{Chosen, ComparedWith, Coverage, Why};
 pub use diagnosis::{Diagnosis, FORMAT, Verdict};
 pub use free_run::FreeRun;
-pub use law::{Claim, CommonLaw, Event, FoundEvents, FoundLaw, LawFreeRun, LawNumber, LawOfFile, Opposed, Shared, UnnamedCause};
+pub use law::{
+    Claim, CommonLaw, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, LawNumber, LawOfFile, Opposed, Shared,
+    UnnamedCause,
+};
 pub use loads::{
     Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Turning,
     TurningChange, Way, Withheld,

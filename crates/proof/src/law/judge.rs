@@ -1,6 +1,6 @@
 //! What a law is worth beside the truth.
 
-use examiner::Truth;
+use examiner::{EffectTruth, Outsider, Truth};
 use serde::Serialize;
 
 use super::events::{EventScore, score};
@@ -26,6 +26,22 @@ const LAWS: [(&str, &[&str], &[&str]); 14] = [
     ("turning_resistance", &["M_z", "T_both", "grip_lateral"], &["yaw_rate"]),
 ];
 
+/// Where what is outside the vocabulary acts: beginnings of names of right places.
+const OUTSIDE_PLACES: [(&str, &[&str]); 12] = [
+    ("shifting_load", &["yaw moment", "grip", "lateral"]),
+    ("cogging", &["torque"]),
+    ("contact_loss", &["grip", "lateral grip"]),
+    ("voltage_sag", &["torque"]),
+    ("gusts", &["force", "fore-aft force", "lateral force"]),
+    ("delay_jitter", &["torque"]),
+    ("grain", &["grip", "lateral grip"]),
+    ("ripple", &["torque"]),
+    ("torque_dropouts", &["torque"]),
+    ("cable", &["force", "fore-aft force", "lateral force"]),
+    ("ratchet", &["torque"]),
+    ("touching_brake", &["torque"]),
+];
+
 /// The id under which truths hold what is outside the vocabulary.
 pub(super) const OUTSIDE: &str = "out_of_library";
 
@@ -42,11 +58,21 @@ pub(super) struct Judged {
     pub(super) claim: Option<Claim>,
     pub(super) formula: String,
     pub(super) place_right: bool,
+    /// The place that is told: of a law, of events, or alone.
+    pub(super) place: Option<String>,
     pub(super) kind_right: bool,
     /// Share of the gap to the truth that is closed, wheel speed and yaw rate: by the law, the best other name, re-tuning.
     pub(super) closed: Option<[[f64; 2]; 3]>,
+    /// Whether what is hidden is outside the vocabulary.
+    pub(super) is_outside: bool,
     /// Short events that are hidden, with what was told of them.
     pub(super) events: Option<EventScore>,
+}
+
+/// Whether a truth is one of short events.
+fn is_short(e: &EffectTruth) -> bool {
+    let kind = |o: &Outsider| serde_json::to_value(o).ok().and_then(|v| v.as_str().map(str::to_owned));
+    e.id == OUTSIDE && Outsider::EVENTS.iter().any(|o| kind(o) == e.kind)
 }
 
 /// Judges a diagnosis.
@@ -55,18 +81,31 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
     let law = d.law.as_ref().and_then(|l| l.law.as_ref());
     let formula = law.map_or_else(String::new, |l| l.formula.clone());
     let known = hidden.and_then(|e| LAWS.iter().find(|(id, ..)| *id == e.id));
-    let place_right = known.is_some_and(|(_, places, _)| {
-        let place = places.iter().any(|p| formula.starts_with(p));
-        let side = hidden.and_then(|e| e.side.as_deref());
-        let own = |side: &str| !formula.starts_with("T_") || formula.starts_with(&format!("T_{side}"));
-        place && side.is_none_or(own)
+    let outside = hidden.filter(|e| e.id == OUTSIDE).and_then(|e| e.kind.as_deref());
+    let told = d.law.as_ref().and_then(|l| {
+        let of_events = l.events.as_ref().map(|e| &e.place);
+        l.law.as_ref().map(|l| &l.place).or(of_events).or(l.place.as_ref().map(|p| &p.place))
+    });
+    let is_there = |kind: &str| {
+        let places = OUTSIDE_PLACES.iter().find(|(id, _)| *id == kind).map_or(&[][..], |(_, places)| places);
+        told.is_some_and(|told| places.iter().any(|p| told.starts_with(p)))
+    };
+    let place_right = outside.map(is_there).unwrap_or_else(|| {
+        known.is_some_and(|(_, places, _)| {
+            let place = places.iter().any(|p| formula.starts_with(p));
+            let side = hidden.and_then(|e| e.side.as_deref());
+            let own = |side: &str| !formula.starts_with("T_") || formula.starts_with(&format!("T_{side}"));
+            place && side.is_none_or(own)
+        })
     });
     Judged {
         hidden: hidden.map(|e| e.kind.clone().filter(|_| e.id == OUTSIDE).unwrap_or_else(|| e.id.clone())),
-        events: hidden.filter(|e| e.id == OUTSIDE).map(|_| score(truth, d)),
+        events: hidden.filter(|e| is_short(e)).map(|_| score(truth, d)),
+        is_outside: outside.is_some(),
         claim: d.law.as_ref().map(|l| l.claim),
         kind_right: place_right && known.is_some_and(|(.., factors)| factors.iter().any(|f| formula.contains(f))),
         place_right,
+        place: told.cloned(),
         closed: law.and_then(|l| closed(truth, &l.free_runs)),
         formula,
     }

@@ -3,6 +3,7 @@
 //! ```text
 //! drawn robot with a hidden effect --> diagnosis whose catalogue does not hold it --> law, place, or nothing
 //! drawn robot with short events    --> diagnosis                                  --> events, or anything else
+//! drawn robot with another outsider --> diagnosis                                  --> place, law, or nothing
 //! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
 //! ```
 
@@ -36,6 +37,9 @@ pub(crate) struct Args {
     /// leaves the ground, in turn.
     #[arg(long, default_value_t = 18)]
     events: usize,
+    /// Number of robots with a cause outside the vocabulary, all kinds in turn.
+    #[arg(long, default_value_t = 22)]
+    outside: usize,
     /// Seed of the draws.
     #[arg(long, default_value_t = 4107)]
     seed: u64,
@@ -53,8 +57,10 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let mut plans = examiner::set(args.seed, args.count, single, &settings);
     plans.extend(examiner::set(args.seed + 1, args.fault_free, null, &settings));
     let outside = Mix { outsider: 1.0, single: 0.0, ..single };
-    plans.extend(examiner::set(args.seed + 2, args.events, outside, &settings).into_iter().enumerate().map(with_events));
-    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events or --fault-free");
+    plans
+        .extend(examiner::set(args.seed + 2, args.events, outside, &settings).into_iter().enumerate().map(with_events));
+    plans.extend(examiner::set(args.seed + 3, args.outside, outside, &settings));
+    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events, --outside or --fault-free");
 
     let bar = output::progress(plans.len() as u64, "robots")?;
     let one = |(i, plan): (usize, &Plan)| {

@@ -20,7 +20,7 @@ const RECALL: f64 = 0.6;
 const PRECISION: f64 = 0.75;
 
 fn hidden(all: &[Judged]) -> impl Iterator<Item = &Judged> {
-    all.iter().filter(|j| j.hidden.is_some() && j.events.is_none())
+    all.iter().filter(|j| j.hidden.is_some() && !j.is_outside)
 }
 
 fn told(all: &[Judged]) -> impl Iterator<Item = &Judged> {
@@ -64,6 +64,17 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
     );
     out.push(Figure::free("told events where a name was left out", share(hidden(all).map(are_events).collect()), ""));
 
+    let outside = || all.iter().filter(|j| j.is_outside && j.events.is_none());
+    let has_place = |j: &&Judged| j.place.is_some();
+    out.extend([
+        Figure::free("robots with another cause outside the vocabulary", outside().count() as f64, ""),
+        of("a place is told there", outside().map(|j| j.place.is_some()).collect()),
+        of("place right, of places told there", outside().filter(has_place).map(|j| j.place_right).collect())
+            .asked(Asked::AtLeast(PLACE)),
+        of("told a place that lack nothing", lack_nothing().map(|j| j.place.is_some()).collect())
+            .asked(Asked::AtMost(FALSE_LAWS)),
+    ]);
+
     let events: Vec<&EventScore> = all.iter().filter_map(|j| j.events.as_ref()).collect();
     let told = || events.iter().filter(|e| e.told);
     let sum = |k: usize| told().map(|e| e.windows[k]).sum::<usize>() as f64;
@@ -86,7 +97,7 @@ pub(super) fn all(all: &[Judged], figures: &[Figure]) -> Vec<Section> {
     for f in figures {
         summary.rows.push(vec![f.name.as_str().into(), format!("{:.2}", f.value).into()]);
     }
-    let header = ["hidden", "claim", "formula", "place", "kind", "gap closed: law", "name", "re-tuned"];
+    let header = ["hidden", "claim", "told place", "formula", "place", "kind", "gap closed: law", "name", "re-tuned"];
     let mut cases = Section::new("Cases", "Gap closed: wheel speed, yaw rate.", &header);
     for j in all {
         let closed = |m: usize| j.closed.map_or(String::new(), |c| format!("{:.2} {:.2}", c[m][0], c[m][1]));
@@ -101,6 +112,7 @@ pub(super) fn all(all: &[Judged], figures: &[Figure]) -> Vec<Section> {
                     Claim::Nothing => "nothing",
                 })
                 .into(),
+            j.place.as_deref().unwrap_or_default().into(),
             j.formula.as_str().into(),
             mark(j.place_right).into(),
             mark(j.kind_right).into(),

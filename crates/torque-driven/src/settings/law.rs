@@ -92,6 +92,8 @@
         left: f64 = 0.4, "1", "the prototype";
         /// Share of the excess cost that may be left where a place alone is told.
         left_of_place: f64 = 0.7, "1", "guess, after five development outsiders whose laws left 83 to 95 %";
+        /// Share of the excess cost that may be left where an arbitrary input tells a place.
+        left_of_place_alone: f64 = 0.4, "1", "guess: as of a law";
         /// Coefficient of the same law in the references, as a share of that in the recordings, that is refused.
         in_references: f64 = 0.25, "1", "the prototype: without it six of 18 fault-free robots were told a law";
         /// Laws within this cannot be told apart.

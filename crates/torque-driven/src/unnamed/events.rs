@@ -5,66 +5,22 @@
 //! are events. Responses are linear about a free run, so that windows are chosen anew about the free run with what was found, while
 //! its cost falls.
 
-use std::sync::Arc;
-
-use law::{Input, Place};
+use law::Input;
 use statrs::function::factorial::ln_binomial;
 use verdict::{Event, FoundEvents};
 
-use super::acting::{Acting, Inputs};
-use super::gate::{self, References};
-use super::operator::{Operator, usual};
-use super::rank::Ranking;
-use super::series::{Ground, Kept, Seen, Series, Solved};
+use super::acting::Inputs;
+use super::arbitrary::{Acts, Instant, Standing, few, given};
+use super::gate::References;
+use super::series::{Ground, Seen, Series, Solved};
 use super::shared::{opposed, shared};
+use super::signals::Signals;
 use crate::decide::fault_free_cost;
-use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Problem};
 use crate::judged::Judged;
 use crate::settings::law::{Events, SETTINGS};
-use crate::simulate::Response;
-use crate::windows::Cut;
 
 const EVENTS: Events = SETTINGS.events;
-
-/// Where events may act; on both sides, each has a series of its own.
-const PLACES: [Place; 8] = [
-    Place::TorqueLeft,
-    Place::TorqueRight,
-    Place::TorqueBoth,
-    Place::ForceForward,
-    Place::YawMoment,
-    Place::GripLeft,
-    Place::GripRight,
-    Place::GripAll,
-];
-
-/// A window with an input that stands out.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Instant {
-    /// Index among the inputs of its place.
-    pub(super) input: usize,
-    pub(super) run: usize,
-    /// Window in its recording.
-    pub(super) window: usize,
-    /// Mean and sigma, in the unit of the input.
-    pub(super) size: f64,
-    pub(super) sigma: f64,
-}
-
-/// A place with the evidence that something acts there.
-struct Acts {
-    place: Place,
-    inputs: Vec<Input>,
-    /// Usual size of what acts, in what is usual at the place.
-    size: f64,
-    /// Log Bayes factor over none of an input in every window; or, where that is below zero at every place, of an input in few
-    /// windows, less what choosing them costs, nats.
-    evidence: f64,
-    /// The second of these.
-    of_few: f64,
-    series: Series,
-    solved: Solved,
-}
 
 /// Events at a place.
 struct Found {
@@ -77,80 +33,50 @@ struct Found {
     cost: f64,
 }
 
-/// The events of the recordings; `None` where there are none, or too many to be events.
+/// The events of the recordings; `None` where there are none, or too many to be events. `all`: places, the likeliest first.
 pub(super) fn find(
     judged: &Judged<'_>,
-    ranking: &Ranking<'_>,
+    ground: &Ground<'_>,
+    all: &[Acts],
+    signals: &Signals,
     retuned: &Fitted,
-    references: Option<&References<'_>>,
+    references: &References<'_>,
 ) -> Option<FoundEvents> {
-    let references = references?;
-    // What is far off must not count less: events are outliers.
-    let wide = Problem { outlier_scale: SETTINGS.refit.outlier_scale, ..judged.problem.clone() };
-    let ground = Ground { problem: &wide, base: ranking.base, operator: &ranking.operator };
-    let all = Acts::everywhere(&ground);
     let (best, others) = all.split_first()?;
-    let fault_free = fault_free_cost(&wide, &judged.calibration.regimes.scatter);
-    let found = best.events(&ground, fault_free)?;
+    let fault_free = fault_free_cost(ground.problem, &judged.calibration.regimes.scatter);
+    let found = best.events(ground, fault_free)?;
+    let recordings = (0..ground.problem.cuts.len()).filter(|run| found.instants.iter().any(|i| i.run == *run)).count();
+    let events = events(ground.problem, best, &found);
+    if events.len() < EVENTS.least
+        || recordings < SETTINGS.gates.recordings.min(ground.problem.cuts.len())
+        || found.filled > EVENTS.filled
+    {
+        return None;
+    }
 
+    let standing = Standing::new(judged, retuned, &found.inputs);
+    let n = found.instants.len();
+    let score = standing.gain - ln_binomial(found.windows as u64, n as u64) - SETTINGS.prices.shape * n as f64;
     let name = judged.decision.scored.first().map_or(0.0, |s| s.score);
-    let recordings = (0..wide.cuts.len()).filter(|run| found.instants.iter().any(|i| i.run == *run)).count();
-    let events = events(&wide, best, &found);
-    let is_list = events.len() >= EVENTS.least
-        && recordings >= SETTINGS.gates.recordings.min(wide.cuts.len())
-        && found.filled < EVENTS.filled;
-    let Standing { left, misfit, score } = found.standing(judged, retuned);
     let is_better = score > SETTINGS.gates.score && score > name + SETTINGS.gates.above_name;
-    if !is_list || !is_better || left > EVENTS.left {
+    if !is_better || standing.left > EVENTS.left {
         return None;
     }
     let share = references.share(best)?;
-    if share > SETTINGS.gates.in_references * found.filled {
-        return None;
-    }
-
-    let class = SETTINGS.gates.class * misfit;
-    let alike = others.iter().filter(|o| best.evidence - o.evidence < class);
-    Some(FoundEvents {
+    (share <= SETTINGS.gates.in_references * found.filled).then(|| FoundEvents {
         place: best.place.name().to_owned(),
-        places_alike: alike.map(|o| o.place.name().to_owned()).collect(),
-        shared: shared(&ranking.signals, &best.inputs, &found.instants),
+        places_alike: standing.alike(best, others),
+        shared: shared(signals, &best.inputs, &found.instants),
+        opposed: opposed(signals, &best.inputs, &found.instants),
         events,
         filled: found.filled,
-        opposed: opposed(&ranking.signals, &best.inputs, &found.instants),
         in_references: share / found.filled,
-        left,
+        left: standing.left,
         score,
     })
 }
 
 impl Acts {
-    /// With the usual size that has most evidence.
-    fn new(ground: &Ground<'_>, place: Place, sizes: &[f64]) -> Option<Self> {
-        let inputs = inputs_of(place);
-        let series = Series::new(ground, &inputs, None)?;
-        let everywhere = series.everywhere();
-        let with = |size: &f64| {
-            let solved = series.solve(&everywhere, *size)?;
-            let (kept, few) = few(&series, &solved, *size, 1.0)?;
-            let windows = |kept: &Kept| kept.iter().flatten().map(|s| s.len() as u64).sum::<u64>();
-            let of_few = few.evidence - ln_binomial(windows(&everywhere), windows(&kept));
-            Some((solved.evidence.max(of_few), *size, of_few, solved))
-        };
-        let (_, size, of_few, solved) = sizes.iter().filter_map(with).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Self { place, inputs, size, evidence: solved.evidence, of_few, series, solved })
-    }
-
-    /// All places, the likeliest first.
-    fn everywhere(ground: &Ground<'_>) -> Vec<Self> {
-        let mut all: Vec<Self> = PLACES.into_iter().filter_map(|p| Self::new(ground, p, &EVENTS.sizes)).collect();
-        if all.iter().all(|a| a.evidence < 0.0) {
-            all.iter_mut().for_each(|a| a.evidence = a.of_few);
-        }
-        all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-        all
-    }
-
     /// The windows that earn an input, and the free run with it: about that, they are chosen anew while it gets better.
     ///
     /// Where free runs with them still cost more than `fault_free`, intervals are wider by that (dispersion), and what does not
@@ -173,76 +99,21 @@ impl Acts {
         self.chosen(ground, last.as_ref().unwrap_or(&self.series), &best.1, dispersion).map(|(found, _)| found)
     }
 
-    fn chosen(&self, ground: &Ground<'_>, series: &Series, solved: &Solved, dispersion: f64) -> Option<(Found, Solved)> {
-        let p = ground.problem;
+    fn chosen(
+        &self,
+        ground: &Ground<'_>,
+        series: &Series,
+        solved: &Solved,
+        dispersion: f64,
+    ) -> Option<(Found, Solved)> {
         let (kept, solved) = few(series, solved, self.size, dispersion)?;
         let windows: usize = series.everywhere().iter().flatten().map(Vec::len).sum();
-        let mut instants = Vec::new();
-        for (run, segments) in kept.iter().enumerate() {
-            for (s, indices) in segments.iter().enumerate() {
-                for (index, value) in indices.iter().zip(&solved.values[run][s]) {
-                    let (input, window) = series.place(run, s, *index);
-                    let window = ground.operator.first(run, s) + window;
-                    let [size, sigma] = value.map(|v| v * usual(p, self.inputs[input]));
-                    instants.push(Instant { input, run, window, size, sigma: dispersion * sigma });
-                }
-            }
-        }
-        instants.sort_by_key(|i| (i.run, i.input, i.window));
+        let instants = self.instants(ground, &kept, &solved, dispersion);
         let filled = instants.len() as f64 / windows.max(1) as f64;
-        let inputs = self.series_of(p, &instants);
-        let cost = p.misfit(&given(p, ground.base, &inputs));
+        let inputs = self.inputs_at(ground.problem, &instants);
+        let cost = ground.problem.misfit(&given(ground.problem, ground.base, &inputs));
         Some((Found { instants, windows, filled, inputs, cost }, solved))
     }
-
-    /// The inputs of every window, zero but at the instants.
-    fn series_of(&self, p: &Problem<'_>, instants: &[Instant]) -> Inputs {
-        let of = |(k, input): (usize, &Input)| {
-            let windows = |cut: &Cut| cut.torque.len() / cut.rows_per_window.max(1) + 1;
-            let mut out: Vec<Vec<f64>> = p.cuts.iter().map(|cut| vec![0.0; windows(cut)]).collect();
-            for i in instants.iter().filter(|i| i.input == k) {
-                if let Some(u) = out[i.run].get_mut(i.window) {
-                    *u = i.size;
-                }
-            }
-            (*input, out)
-        };
-        self.inputs.iter().enumerate().map(of).collect()
-    }
-}
-
-/// Given inputs as a hypothesis.
-fn hypothesis(inputs: &Inputs) -> Hypothesis {
-    let acting = Some(Acting::Given { inputs: Arc::new(inputs.clone()), times: 1.0, unit: 1.0 });
-    Hypothesis { acting, ..Hypothesis::default() }
-}
-
-/// The free run with given inputs.
-fn given(p: &Problem<'_>, base: &Fitted, inputs: &Inputs) -> Response {
-    p.response(&Point { effects: vec![1.0], ..base.point.clone() }, &hypothesis(inputs))
-}
-
-fn inputs_of(place: Place) -> Vec<Input> {
-    Input::ALL.into_iter().filter(|input| place.acts_on(*input)).collect()
-}
-
-/// Windows that earn an input of this usual size, each standing out of its interval, with the solution that holds these alone.
-fn few(series: &Series, solved: &Solved, size: f64, dispersion: f64) -> Option<(Kept, Solved)> {
-    let windows: usize = series.everywhere().iter().flatten().map(Vec::len).sum();
-    let kept = series.greedy(solved, size, (windows.max(1) as f64).ln())?;
-    let kept = standing_out(&kept, &series.solve(&kept, size)?, dispersion);
-    let solved = series.solve(&kept, size)?;
-    Some((kept, solved))
-}
-
-/// The windows whose input stands out of its interval.
-fn standing_out(kept: &Kept, solved: &Solved, dispersion: f64) -> Kept {
-    let stands = |[mean, sigma]: &[f64; 2]| mean.abs() > EVENTS.sigmas * dispersion * sigma;
-    let of_segment = |(indices, values): (&Vec<usize>, &Vec<[f64; 2]>)| {
-        indices.iter().zip(values).filter(|(_, value)| stands(value)).map(|(index, _)| *index).collect()
-    };
-    let of_run = |(run, values): (&Vec<Vec<usize>>, &Vec<Vec<[f64; 2]>>)| run.iter().zip(values).map(of_segment).collect();
-    kept.iter().zip(&solved.values).map(of_run).collect()
 }
 
 /// Windows that follow one another with one sign, as events, in the order of recordings and times.
@@ -289,50 +160,23 @@ fn words(input: Input) -> &'static str {
     }
 }
 
-/// How events stand in free run.
-struct Standing {
-    /// Share of the excess cost that is left.
-    left: f64,
-    /// How many times what a fault-free drive costs.
-    misfit: f64,
-    /// Fall of the cost below "re-tune only", less what choosing the windows and a number for each cost, nats.
-    score: f64,
-}
-
-impl Found {
-    fn standing(&self, judged: &Judged<'_>, retuned: &Fitted) -> Standing {
-        let p = judged.problem;
-        let h = hypothesis(&self.inputs);
-        let start = p.begin(&h, Point { effects: vec![1.0], ..p.origin() }, None);
-        let fitted = p.refine(&h, start, SETTINGS.refit.steps, None);
-        let fault_free = fault_free_cost(p, &judged.calibration.regimes.scatter);
-        let n = self.instants.len();
-        let price = ln_binomial(self.windows as u64, n as u64) + SETTINGS.prices.shape * n as f64;
-        Standing {
-            left: gate::left(fitted.cost, retuned.cost, fault_free),
-            misfit: (fitted.cost / fault_free.max(1.0)).max(1.0),
-            score: retuned.cost - fitted.cost - price,
-        }
-    }
-}
-
 impl References<'_> {
     /// Share of the windows of the references with such events.
     fn share(&self, like: &Acts) -> Option<f64> {
-        let wide = Problem { outlier_scale: SETTINGS.refit.outlier_scale, ..self.problem.clone() };
-        let operator = Operator::of(&wide, &self.base, &like.inputs);
-        let ground = Ground { problem: &wide, base: &self.base, operator: &operator };
-        Some(Acts::new(&ground, like.place, &[like.size])?.events(&ground, f64::INFINITY)?.filled)
+        self.at(like, |ground, acts| Some(acts.events(ground, f64::INFINITY)?.filled))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use law::Place;
     use testing::robot;
 
+    use super::super::operator::Operator;
     use super::*;
+    use crate::fit::Hypothesis;
     use crate::testing::{cutting, driven, problem};
-    use crate::windows::cut;
+    use crate::windows::{Cut, cut};
 
     /// Windows of each recording in which the right drive is held back, and by how much, N m.
     const HIDDEN: [&[usize]; 2] = [&[12, 13, 47, 71, 72, 73], &[33, 90, 91, 120]];

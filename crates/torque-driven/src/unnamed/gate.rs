@@ -3,7 +3,10 @@
 use law::Law;
 use verdict::LawFreeRun;
 
+use super::arbitrary::{Acts, wide};
+use super::operator::Operator;
 use super::refit::{Refitted, hypothesis, numbers};
+use super::series;
 use crate::calibrate::problem;
 use crate::candidate::{Ground, reduced};
 use crate::decide::fault_free_cost;
@@ -104,8 +107,8 @@ impl Standing {
 
 /// The references as a problem of their own, fitted without any effect.
 pub(crate) struct References<'a> {
-    pub(super) problem: Problem<'a>,
-    pub(super) base: Fitted,
+    problem: Problem<'a>,
+    base: Fitted,
 }
 
 impl<'a> References<'a> {
@@ -124,6 +127,14 @@ impl<'a> References<'a> {
         let begun = problem.begin(&none, point, None);
         let base = problem.refine(&none, begun, SETTINGS.proof.steps, None);
         Some(Self { problem, base })
+    }
+
+    /// What is said of a place of the recordings that is looked at here.
+    pub(super) fn at<T>(&self, like: &Acts, say: impl Fn(&series::Ground<'_>, &Acts) -> Option<T>) -> Option<T> {
+        let problem = wide(&self.problem);
+        let operator = Operator::of(&problem, &self.base, &like.inputs);
+        let ground = series::Ground { problem: &problem, base: &self.base, operator: &operator };
+        say(&ground, &Acts::new(&ground, like.place, &[like.size])?)
     }
 
     /// The coefficient of a law here as a share of what it is, and its evidence.

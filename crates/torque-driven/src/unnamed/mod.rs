@@ -6,15 +6,19 @@
 //! * `rank`: every candidate of the grammar by its evidence.
 //! * `refit`: finalists in free run, moves, prices.
 //! * `gate`: what must hold before a law is told.
+//! * `arbitrary`: how places are told apart by an arbitrary input.
 //! * `series`: what an arbitrary input would have been, window by window.
 //! * `events`: instants at which something acts, where no law fits.
+//! * `place`: where something acts, where neither a law nor events are told.
 //! * `shared`: what such events have in common.
 //! * `told`: the law as plain data of the verdict.
 
 mod acting;
+mod arbitrary;
 mod events;
 mod gate;
 mod operator;
+mod place;
 mod rank;
 mod refit;
 mod series;

@@ -122,7 +122,8 @@ impl Segment {
         while kept.len() < n {
             let k = kept.len();
             let own = Mat::from_fn(k, k, |i, j| self.inputs[(kept[i], kept[j])] + if i == j { precision } else { 0.0 });
-            let sides = Mat::from_fn(k, n + 1, |i, j| if j == n { right[(kept[i], 0)] } else { self.inputs[(kept[i], j)] });
+            let sides =
+                Mat::from_fn(k, n + 1, |i, j| if j == n { right[(kept[i], 0)] } else { self.inputs[(kept[i], j)] });
             let solved = if k == 0 { Mat::zeros(0, n + 1) } else { solve_spd(&own, &sides)?.0 };
             let gain = |j: usize| {
                 let through = |column: usize| (0..k).map(|i| sides[(i, j)] * solved[(i, column)]).sum::<f64>();
@@ -152,9 +153,8 @@ impl Recording {
                 solved.push(None);
                 continue;
             }
-            let inputs = Mat::from_fn(k, k, |i, j| {
-                segment.inputs[(kept[i], kept[j])] + if i == j { precision } else { 0.0 }
-            });
+            let inputs =
+                Mat::from_fn(k, k, |i, j| segment.inputs[(kept[i], kept[j])] + if i == j { precision } else { 0.0 });
             // Of x, of the residual, and the inverse, at once.
             let sides = Mat::from_fn(k, n + 1 + k, |i, j| match j.checked_sub(n) {
                 None => segment.cross[(kept[i], j)],
@@ -237,7 +237,7 @@ fn recording(ground: &Ground<'_>, inputs: &[Input], seen: Option<&Seen<'_>>, run
             let of = |j: usize| column(&|w, channel| unit * pulses[j][run][s][w][channel]);
             p.extend((0..segment.windows).map(of));
         }
-        let residual = 
+        let residual =
             vec![column(&|w, channel| segment.observed[w][channel] - simulated[w][channel] + done(w, channel))];
 
         let matrix = |all: &[Vec<f64>]| Mat::from_fn(rows.len(), all.len(), |i, j| all[j][i]);

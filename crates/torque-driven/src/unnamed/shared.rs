@@ -4,7 +4,7 @@ use inference::robust;
 use law::{Input, Variable};
 use verdict::{Opposed, Shared};
 
-use super::events::Instant;
+use super::arbitrary::Instant;
 use super::signals::Signals;
 use crate::settings::law::{Events, SETTINGS};
 

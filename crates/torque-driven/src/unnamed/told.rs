@@ -12,10 +12,11 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Claim, CommonLaw, Diagnosis, FoundLaw, FreeRun, LawFreeRun, LawNumber, UnnamedCause, Verdict};
 
 use super::acting::{Acting, Inputs};
-use super::events;
+use super::arbitrary::{Acts, wide};
 use super::gate::{References, Standing, holds_elsewhere};
 use super::rank::Ranking;
 use super::refit::{Refitted, Starts, hypothesis, numbers};
+use super::{events, place, series};
 use crate::calibrate::problem;
 use crate::decide::fault_free_cost;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
@@ -86,13 +87,23 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
     // What does not hold on recordings that its fit did not use is no law of this robot, and its place is none.
     let law = law.filter(|law| holds_elsewhere(&law.free_runs));
     let claim = if law.is_some() { claim } else { Claim::Nothing };
-    if claim == Claim::Law {
-        return UnnamedCause { claim, law, events: None, in_every_drive };
+    let found = UnnamedCause { claim, law, events: None, place: None, in_every_drive };
+    let Some(references) = references.filter(|_| claim != Claim::Law) else { return found };
+
+    // Instants say more than a place alone, and a law that predicts too little more than none.
+    let wide = wide(p);
+    let ground = series::Ground { problem: &wide, base: &origin, operator: &ranking.operator };
+    let all = Acts::everywhere(&ground);
+    if let Some(events) = events::find(judged, &ground, &all, &ranking.signals, retuned, &references) {
+        return UnnamedCause { claim: Claim::Events, law: None, events: Some(events), ..found };
     }
-    // Instants say more than a place alone.
-    let events = events::find(judged, &ranking, retuned, references.as_ref());
-    let claim = if events.is_some() { Claim::Events } else { claim };
-    UnnamedCause { claim, law: law.filter(|_| claim == Claim::Place), events, in_every_drive }
+    if claim == Claim::Place {
+        return found;
+    }
+    match place::find(judged, &ground, &all, retuned, &references) {
+        Some(place) => UnnamedCause { claim: Claim::Place, place: Some(place), ..found },
+        None => found,
+    }
 }
 
 /// The winner with its numbers from a fit that saturates less.
