@@ -184,6 +184,8 @@ pub(crate) fn of_followed(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const NOISE: Noise = Noise { sigma: [0.01; 3], power: [1.0; 3] };
     use crate::car::Car;
     use crate::constant_table::constants;
     use crate::constants::Quantity;
@@ -224,7 +226,7 @@ mod tests {
         let scatter = DVector::from_iterator(all.len(), all.iter().map(|c| c.scatter));
         let theta = vec![0.0; all.len()];
         let habit = Habit { fading: 5.0, freedom: 10.0 };
-        let followed = following(&all, &scatter, &shown, (&theta, [0.01; 3]), habit);
+        let followed = following(&all, &scatter, &shown, (&theta, NOISE), habit);
         let last = |errors: Vec<[[f64; 2]; 3]>| median(errors.iter().rev().take(20).map(|e| e[2][0])).expect("errors");
         let own = last(of_followed(&all, &shown, &followed, 0.2));
         let fitted = last(of_laws(&shown, &Laws::at(&all, &theta), 0.2));
@@ -248,7 +250,7 @@ mod tests {
         let scatter = DVector::from_iterator(all.len(), all.iter().map(|c| c.scatter));
         let of = |drive: &Drive| {
             let shown = Shown::new(drive, 0.0);
-            following(&all, &scatter, &shown, (&vec![0.0; all.len()], [0.01; 3]), Habit { fading: 5.0, freedom: 3.0 })
+            following(&all, &scatter, &shown, (&vec![0.0; all.len()], NOISE), Habit { fading: 5.0, freedom: 3.0 })
         };
         let (one, other) = (of(&whole), of(&cut));
         let before = |f: &[(usize, Vec<f64>)]| -> Vec<_> { f.iter().filter(|(k, _)| *k < half).cloned().collect() };

@@ -36,7 +36,7 @@ pub(super) fn score(truth: &Truth, d: &Diagnosis) -> EventScore {
     for (recording, r) in &truth.recordings {
         for (of, times) in &r.intervals_s {
             let side = of.rsplit('_').next().unwrap_or_default();
-            times.iter().for_each(|span| hidden.extend(windows(recording, side, *span)));
+            hidden.extend(times.iter().flat_map(|span| windows(recording, side, *span)));
         }
     }
     let mut told: BTreeSet<Window> = BTreeSet::new();

@@ -90,14 +90,15 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
         let places = OUTSIDE_PLACES.iter().find(|(id, _)| *id == kind).map_or(&[][..], |(_, places)| places);
         told.is_some_and(|told| places.iter().any(|p| told.starts_with(p)))
     };
-    let place_right = outside.map(is_there).unwrap_or_else(|| {
+    let is_known_place = || {
         known.is_some_and(|(_, places, _)| {
             let place = places.iter().any(|p| formula.starts_with(p));
             let side = hidden.and_then(|e| e.side.as_deref());
             let own = |side: &str| !formula.starts_with("T_") || formula.starts_with(&format!("T_{side}"));
             place && side.is_none_or(own)
         })
-    });
+    };
+    let place_right = outside.map_or_else(is_known_place, is_there);
     Judged {
         hidden: hidden.map(|e| e.kind.clone().filter(|_| e.id == OUTSIDE).unwrap_or_else(|| e.id.clone())),
         events: hidden.filter(|e| is_short(e)).map(|_| score(truth, d)),

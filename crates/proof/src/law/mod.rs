@@ -101,9 +101,8 @@ fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option
     let hidden = drawn.truth.effects.first().cloned();
     let id = hidden.as_ref().map(|e| e.id.as_str());
     let is_asked = match id {
-        Some(judge::OUTSIDE) => true,
+        Some(judge::OUTSIDE) | None => true,
         Some(id) => judge::is_law(id) && (only.is_empty() || only.iter().any(|o| o == id)),
-        None => true,
     };
     if !is_asked {
         return Ok(None);

@@ -68,7 +68,9 @@ impl Acts {
     pub(super) fn everywhere(ground: &Ground<'_>) -> Vec<Self> {
         let mut all: Vec<Self> = PLACES.into_iter().filter_map(|p| Self::new(ground, p, &EVENTS.sizes)).collect();
         if all.iter().all(|a| a.evidence < 0.0) {
-            all.iter_mut().for_each(|a| a.evidence = a.of_few);
+            for place in &mut all {
+                place.evidence = place.of_few;
+            }
         }
         all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
         all

@@ -141,8 +141,11 @@ impl Segment {
     }
 }
 
+/// A recording as it was solved: evidence, `x`, and the inputs by segment.
+type OfRecording = (f64, Mat<f64>, Vec<Vec<[f64; 2]>>);
+
 impl Recording {
-    fn solve(&self, kept: &[Vec<usize>], size: f64) -> Option<(f64, Mat<f64>, Vec<Vec<[f64; 2]>>)> {
+    fn solve(&self, kept: &[Vec<usize>], size: f64) -> Option<OfRecording> {
         let (n, precision) = (self.own.nrows(), size.powi(-2));
         let (mut own, mut right) = (self.own.clone(), self.right.clone());
         let mut evidence = -self.none;
