@@ -380,7 +380,8 @@ fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior:
     let (given, value, half_width) = match multiplied {
         Some(of) => {
             let value = of * posterior.mean[k].exp();
-            (of * prior.mean[k].exp(), value, NINETY * sd * value.abs())
+            let form = if constant.quantity == Quantity::TurnSlipRate { SETTINGS.slip.form } else { 0.0 };
+            (of * prior.mean[k].exp(), value, NINETY * sd.hypot(form) * value.abs())
         }
         None => (prior.mean[k], posterior.mean[k], NINETY * sd),
     };

@@ -80,6 +80,8 @@
     slip: Slip {
         /// Turning rate at which slip in turns has half its size, as long as no drive says otherwise.
         turning: f64 = 0.05, "rad/s", "guess; dry friction does not grow with the rate";
+        /// Share by which that rate, as it is told, may be off because slip has another law, one sigma.
+        form: f64 = 0.6, "share", "guess; rates over a quarter of a second smear slow turns: 0.032 for 0.015 in a drawn robot";
     }
 
     /// How well constants are known where the robot file does not say so: one sigma.

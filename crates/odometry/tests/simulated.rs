@@ -16,7 +16,7 @@ fn expected(hidden: Hidden) -> &'static str {
         Hidden::SteeringZero => "steering_zero",
         Hidden::Mounting => "pose_mounting",
         Hidden::Origin => "pose_origin",
-        Hidden::SlipInTurns => "slip_in_turns",
+        Hidden::SlipInTurns | Hidden::SlipInSlowTurns => "slip_in_turns",
         Hidden::ClockOffset => "counts_clock_offset",
         Hidden::ClockRate => "clock_rate",
         Hidden::LostCounts => "lost_counts",
@@ -65,6 +65,17 @@ fn what_is_hidden_is_named_first() {
         }
     }
     assert!(right * 100 >= all * 90, "{right} of {all}: {wrong:#?}");
+}
+
+#[test]
+fn a_slip_that_is_whole_in_slow_turns_is_no_other_radius() {
+    for kind in KINDS {
+        let findings = found(&drawn(kind, Hidden::SlipInSlowTurns, 4, 60.0, 77 + kind as u64));
+        let named: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+        assert_eq!(named, ["slip_in_turns"], "{kind:?}");
+        let rate = findings.named[0].estimates.iter().find(|e| e.unit == "rad/s").expect("a turning rate");
+        assert!((rate.value - 0.015).abs() < rate.half_width, "{kind:?}: {rate:?}");
+    }
 }
 
 #[test]

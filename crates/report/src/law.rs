@@ -33,6 +33,8 @@ fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
     Some(("lacks in every drive", text))
 }
 
+/// Share of the windows in which torques act against the same, from which on it is said what does so.
+const CLEAR: f64 = 0.85;
 /// Events that are listed one by one; of more, a line tells how many there are.
 const LISTED: usize = 12;
 
@@ -106,9 +108,14 @@ fn of_event(e: &Event) -> String {
 }
 
 fn against(o: &Opposed) -> String {
+    let like = match (o.torque > o.motion, o.torque.max(o.motion) > CLEAR) {
+        (_, false) => "",
+        (true, true) => ", as a drive does that fails now and then",
+        (false, true) => ", as a brake does that touches",
+    };
     format!(
         "against the commanded torque in {:.0} % of the windows of 0.1 s with an event (the drive delivers {:.0} % less, median), \
-         against the wheel's motion in {:.0} %",
+         against the wheel's motion in {:.0} %{like}",
         100.0 * o.torque,
         100.0 * o.of_torque,
         100.0 * o.motion

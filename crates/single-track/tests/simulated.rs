@@ -40,6 +40,17 @@ fn what_is_hidden_is_named_with_its_size() {
 }
 
 #[test]
+fn other_distances_of_the_axles_are_not_re_tuned_away() {
+    for wheelbase in [-0.15, 0.2] {
+        let findings = found(Hidden { wheelbase, ..Hidden::default() }, 31);
+        let first = findings.named.first().map(|c| c.spec.id);
+        assert_eq!((findings.answer, first), (Answer::Named, Some("car_wheelbase")), "{wheelbase}");
+        let (value, half_width) = value(&findings, "wheelbase");
+        assert!((value - 0.25 * (1.0 + wheelbase)).abs() < half_width, "{value} ± {half_width}");
+    }
+}
+
+#[test]
 fn nothing_is_named_of_a_car_as_stated() {
     let named: Vec<Vec<&str>> = (0..5)
         .map(|seed| found(Hidden::default(), 100 + 10 * seed))

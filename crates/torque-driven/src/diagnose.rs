@@ -170,7 +170,9 @@ impl Calibrated {
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
             progress("looking for a law without a name");
-            out.law = Some(unnamed::tell(&answer, &found.retuned, &out));
+            let law = unnamed::tell(&answer, &found.retuned, &out);
+            out.sentences.extend(law.sentence().filter(|_| out.verdict == Verdict::Unknown));
+            out.law = Some(law);
         }
         if let Some(length) = options.next {
             progress("looking for the drive that tells the rivals apart");

@@ -36,6 +36,35 @@ pub struct UnnamedCause {
     pub in_every_drive: Option<CommonLaw>,
 }
 
+impl UnnamedCause {
+    /// What was found instead of a name, in a sentence; `None` where nothing was.
+    pub fn sentence(&self) -> Option<String> {
+        let or = |place: &str, alike: &[String]| {
+            std::iter::once(place).chain(alike.iter().map(String::as_str)).collect::<Vec<_>>().join(", or ")
+        };
+        if let Some(found) = &self.events {
+            return Some(format!(
+                "Something acts now and then, in {:.0} % of the time ({} events): {}.",
+                100.0 * found.filled,
+                found.events.len(),
+                or(&found.place, &found.places_alike)
+            ));
+        }
+        if let Some(found) = &self.place {
+            return Some(format!(
+                "It acts like this, and no law in the measured signals predicts it: {}.",
+                or(&found.place, &found.places_alike)
+            ));
+        }
+        let law = self.law.as_ref()?;
+        let place = or(&law.place, &law.places_alike);
+        Some(match self.claim {
+            Claim::Law => format!("A law that fits acts like this: {place}; {}.", law.formula),
+            _ => format!("It acts like this: {place}."),
+        })
+    }
+}
+
 /// A law with its proof.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FoundLaw {
@@ -233,6 +262,53 @@ mod tests {
     fn left_out(quantity: &str, retuned: f64, law: f64) -> LawFreeRun {
         let (recording, quantity) = ("a".to_owned(), quantity.to_owned());
         LawFreeRun { recording, quantity, nominal: 100.0, retuned, named: Some(50.0), law, shifted: 70.0 }
+    }
+
+    #[test]
+    fn a_sentence_says_where_and_how_often_something_acts() {
+        let nothing =
+            UnnamedCause { claim: Claim::Nothing, law: None, events: None, place: None, in_every_drive: None };
+        assert_eq!(nothing.sentence(), None);
+        let event = Event {
+            recording: "run_1".to_owned(),
+            from: 1.0,
+            until: 1.3,
+            input: "torque, right".to_owned(),
+            size: -2.0,
+            half: 0.5,
+            unit: "N m".to_owned(),
+        };
+        let events = FoundEvents {
+            place: "torque on the right side".to_owned(),
+            places_alike: vec!["yaw moment on the body".to_owned()],
+            events: vec![event.clone(), event],
+            shared: Vec::new(),
+            opposed: None,
+            filled: 0.119,
+            in_references: 0.0,
+            left: 0.2,
+            score: 900.0,
+        };
+        let with_events = UnnamedCause { claim: Claim::Events, events: Some(events), ..nothing.clone() };
+        assert_eq!(
+            with_events.sentence().as_deref(),
+            Some(
+                "Something acts now and then, in 12 % of the time (2 events): torque on the right side, or yaw moment on the \
+                 body."
+            )
+        );
+        let place = FoundPlace {
+            place: "grip of all wheels".to_owned(),
+            places_alike: Vec::new(),
+            next_place: None,
+            size: 0.2,
+            unit: "1".to_owned(),
+            left: 0.3,
+            in_references: 0.1,
+        };
+        let with_place = UnnamedCause { claim: Claim::Place, place: Some(place), ..nothing };
+        let sentence = with_place.sentence().expect("a place");
+        assert!(sentence.ends_with(": grip of all wheels."), "{sentence}");
     }
 
     #[test]

@@ -56,6 +56,8 @@ pub(crate) enum Hidden {
     Mounting,
     Origin,
     SlipInTurns,
+    /// The same, whole in slow turns already.
+    SlipInSlowTurns,
     ClockOffset,
     ClockRate,
     LostCounts,
@@ -71,6 +73,8 @@ pub(crate) struct Truth {
     pub mounting: f64,
     pub origin: [f64; 2],
     pub slip: f64,
+    /// Turning rate at which that slip is half of what it becomes, rad/s.
+    pub slip_rate: f64,
     pub offset: f64,
     pub rate: f64,
     pub lost: Option<usize>,
@@ -136,6 +140,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         mounting: 0.001 * draw.normal(),
         origin: [0.001 * draw.normal(), 0.001 * draw.normal()],
         slip: 1e-3 * draw.normal(),
+        slip_rate: 0.05,
         offset: 0.0,
         rate: 0.0,
         lost: None,
@@ -155,6 +160,10 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         Hidden::Mounting => truth.mounting = sign * draw.between(0.025, 0.08),
         Hidden::Origin => truth.origin = [sign * draw.between(0.02, 0.06), 0.0],
         Hidden::SlipInTurns => truth.slip = draw.between(0.03, 0.08),
+        Hidden::SlipInSlowTurns => {
+            truth.slip = draw.between(0.06, 0.12);
+            truth.slip_rate = 0.015;
+        }
         Hidden::ClockOffset => truth.offset = sign * draw.between(0.15, 0.4),
         Hidden::ClockRate => truth.rate = sign * draw.between(0.01, 0.025),
         Hidden::LostCounts => truth.lost = Some((draw.uniform() * measured as f64) as usize % measured),
@@ -211,7 +220,7 @@ fn drive(kind: Kind, robot: &WheeledRobot, t: &Truth, name: &str, seconds: f64, 
         turned.push(last.iter().zip(&wheel).map(|(a, b)| a + b).collect());
         steering.push(steer - t.steering);
         let rate = rolled[2].abs() / fine;
-        let kept = 1.0 - t.slip * rate / (rate + 0.05);
+        let kept = 1.0 - t.slip * rate / (rate + t.slip_rate);
         let [px, py, yaw] = *bodies.last().expect("a step");
         let (sin, cos) = (yaw + 0.5 * rolled[2]).sin_cos();
         let [x, y] = [kept * rolled[0], kept * rolled[1]];

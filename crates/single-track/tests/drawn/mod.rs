@@ -7,6 +7,8 @@ use single_track::{Car, Case, Columns, Drive, Stated};
 pub(crate) struct Hidden {
     pub(crate) centre: f64,
     pub(crate) gain: f64,
+    /// Share by which the axles are farther apart.
+    pub(crate) wheelbase: f64,
     pub(crate) encoder: f64,
     pub(crate) gyro_scale: f64,
     pub(crate) gyro_bias: f64,
@@ -56,7 +58,7 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
         let turned = (wanted - angle) * if hidden.lag > 0.0 { 1e-3 / hidden.lag } else { 1.0 };
         let most = if hidden.slowness > 0.0 { 1e-3 / hidden.slowness } else { f64::INFINITY };
         angle += turned.clamp(-most, most);
-        let rate = v * angle.tan() / 0.25;
+        let rate = v * angle.tan() / (0.25 * (1.0 + hidden.wheelbase));
         v += 1e-3 * (8.0 * (throttle - 0.05) - 0.6 * v - 0.4);
         v = v.max(0.0);
         x += 1e-3 * v * yaw.cos();
