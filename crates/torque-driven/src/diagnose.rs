@@ -18,7 +18,7 @@ use crate::trial::{SearchResult, Trial};
 use crate::visit::{Visit, VisitNumbers, visits_of};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, KnownEffects, Options};
-use verdict::Diagnosis;
+use verdict::{Diagnosis, Verdict};
 
 use crate::{next, own_effects, stand_in, unnamed};
 
