@@ -1,9 +1,9 @@
 //! When no law fits: at which instants something acts, where, and how strongly.
 //!
 //! Places are told apart by the evidence of an arbitrary input there, or, where events are too rare for it, in few windows. At
-//! the best place windows get an input one after another while each is worth more than choosing it costs. Windows whose input stands out of its interval, joined where they follow one another,
-//! are events. Responses are linear about a free run, so that windows are chosen anew about the free run with what was found, while
-//! its cost falls.
+//! the best place windows get an input one after another while each is worth more than choosing it costs. Windows whose input
+//! stands out of its interval, joined where they follow one another, are events. Responses are linear about a free run, so
+//! that windows are chosen anew about the free run with what was found, while its cost falls.
 
 use law::Input;
 use statrs::function::factorial::ln_binomial;
