@@ -50,7 +50,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             Quantity::Mounting => &spec::POSE_MOUNTING,
             Quantity::OriginX | Quantity::OriginY => &spec::POSE_ORIGIN,
             Quantity::RollerSlip => &spec::ROLLER_SLIP,
-            Quantity::TurnSlip | Quantity::TurnSlipRate => &spec::SLIP_IN_TURNS,
+            Quantity::TurnSlip | Quantity::TurnSlipRate | Quantity::TurnSlipPower => &spec::SLIP_IN_TURNS,
             Quantity::RateSlip => &spec::SLIP_WITH_TURNING,
             Quantity::SpeedSlip => &spec::SLIP_WITH_SPEED,
             Quantity::Sideslip | Quantity::CorneringForward | Quantity::CorneringSideways => &spec::CORNERING_SLIP,

@@ -32,6 +32,8 @@ pub enum Quantity {
     TurnSlip,
     /// Logarithm of the factor on the turning rate at which slip in turns has half its size.
     TurnSlipRate,
+    /// Logarithm of the power with which slip in turns grows in slow turns.
+    TurnSlipPower,
     /// Share of turning that is lost, per turning rate, s/rad.
     RateSlip,
     /// Share of the way that is lost, per speed, s/m.
@@ -105,7 +107,9 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
     }
     add(Quantity::TurnSlip, "slip in turns", "1", known.slip, usual.slip, scatter.slip);
     let name = "turning rate of half the slip in turns";
-    add(Quantity::TurnSlipRate, name, "rad/s", known.slip_rate, usual.slip_rate, scatter.slip_rate);
+    add(Quantity::TurnSlipRate, name, "rad/s", known.slip_shape, usual.slip_rate, scatter.slip_shape);
+    let name = "power of the slip in slow turns";
+    add(Quantity::TurnSlipPower, name, "1", known.slip_shape, usual.slip_power, scatter.slip_shape);
     add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.growing, usual.turning, scatter.growing);
     add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.growing, usual.speed, scatter.growing);
     let cornering = [

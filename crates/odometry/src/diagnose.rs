@@ -373,14 +373,15 @@ fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior:
         Quantity::Across => Some(extent(1)),
         Quantity::Along => Some(extent(0)),
         Quantity::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
-        Quantity::SteeringGain => Some(1.0),
+        Quantity::SteeringGain | Quantity::TurnSlipPower => Some(1.0),
         Quantity::TurnSlipRate => Some(SETTINGS.slip.turning),
         _ => None,
     };
     let (given, value, half_width) = match multiplied {
         Some(of) => {
             let value = of * posterior.mean[k].exp();
-            let form = if constant.quantity == Quantity::TurnSlipRate { SETTINGS.slip.form } else { 0.0 };
+            let is_shape = matches!(constant.quantity, Quantity::TurnSlipRate | Quantity::TurnSlipPower);
+            let form = if is_shape { SETTINGS.slip.form } else { 0.0 };
             (of * prior.mean[k].exp(), value, NINETY * sd.hypot(form) * value.abs())
         }
         None => (prior.mean[k], posterior.mean[k], NINETY * sd),

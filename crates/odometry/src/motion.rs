@@ -3,8 +3,8 @@
 //! With the motion `(x, y, t)` of a row from [`Kinematics`](crate::kinematics), rates `v`, `w` = ω of the body about that
 //! row, and `a = (−v_y ω, v_x ω)` its acceleration in curves:
 //!
-//! * way: `x, y ← (1 − turn_slip |ω|/(|ω| + turn_slip_rate) − speed_slip |v|) (x, (1 − roller_slip) y)`: dry friction does
-//!   not grow with the rate, and from which rate on it is whole depends on the ground;
+//! * way: `x, y ← (1 − turn_slip g/(1 + g) − speed_slip |v|) (x, (1 − roller_slip) y)`, `g = (|ω|/turn_slip_rate)^turn_slip_power`: dry
+//!   friction does not grow with the rate, and from which rate on it is whole, and how soon, depends on the ground;
 //! * sideslip: `(x, y) ← (x, y) − sideslip a dt`;
 //! * turning: `t ← (1 − rate_slip |ω|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
 //! * frame: the pose's x axis points `mounting` from the robot's, its origin stands at `origin`.
@@ -24,6 +24,7 @@ pub(crate) struct Laws {
     pub(crate) roller_slip: f64,
     pub(crate) turn_slip: f64,
     pub(crate) turn_slip_rate: f64,
+    pub(crate) turn_slip_power: f64,
     pub(crate) rate_slip: f64,
     pub(crate) speed_slip: f64,
     pub(crate) sideslip: f64,
@@ -41,6 +42,7 @@ impl Laws {
             roller_slip: 0.0,
             turn_slip: 0.0,
             turn_slip_rate: SETTINGS.slip.turning,
+            turn_slip_power: 1.0,
             rate_slip: 0.0,
             speed_slip: 0.0,
             sideslip: 0.0,
@@ -67,6 +69,7 @@ impl Laws {
                 Quantity::RollerSlip => out.roller_slip = value,
                 Quantity::TurnSlip => out.turn_slip = value,
                 Quantity::TurnSlipRate => out.turn_slip_rate = SETTINGS.slip.turning * value.exp(),
+                Quantity::TurnSlipPower => out.turn_slip_power = value.exp(),
                 Quantity::RateSlip => out.rate_slip = value,
                 Quantity::SpeedSlip => out.speed_slip = value,
                 Quantity::Sideslip => out.sideslip = value,
@@ -103,7 +106,8 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
 /// A row's motion less its slip.
 fn slipped(laws: &Laws, [x, y, t]: [f64; 3], [vx, vy, turning]: [f64; 3], dt: f64) -> [f64; 3] {
     let rate = turning.abs();
-    let kept = 1.0 - laws.turn_slip * rate / (rate + laws.turn_slip_rate) - laws.speed_slip * vx.hypot(vy);
+    let grown = (rate / laws.turn_slip_rate).powf(laws.turn_slip_power);
+    let kept = 1.0 - laws.turn_slip * grown / (1.0 + grown) - laws.speed_slip * vx.hypot(vy);
     let curved = turning * dt;
     let [forward, sideways] = laws.cornering;
     [

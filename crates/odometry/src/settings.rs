@@ -80,7 +80,7 @@
     slip: Slip {
         /// Turning rate at which slip in turns has half its size, as long as no drive says otherwise.
         turning: f64 = 0.05, "rad/s", "guess; dry friction does not grow with the rate";
-        /// Share by which that rate, as it is told, may be off because slip has another law, one sigma.
+        /// Share by which that rate and the power, as they are told, may be off because slip has another law, one sigma.
         form: f64 = 0.6, "share", "guess; rates over a quarter of a second smear slow turns: 0.032 for 0.015 in a drawn robot";
     }
 
@@ -102,8 +102,8 @@
         slip: f64 = 0.001, "1", "guess";
         /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.
         growing: f64 = 2e-4, "s/rad; s/m; s", "guess; a fifth of the share";
-        /// Logarithm of the turning rate at which slip in turns has half its size: known only as part of such a slip.
-        slip_rate: f64 = 1e-3, "1", "guess; without such a slip it changes nothing";
+        /// Logarithms of the turning rate and the power of slip in turns: known only as part of such a slip.
+        slip_shape: f64 = 1e-3, "1", "guess; without such a slip it changes nothing";
         /// Clock of the counts against that of the pose.
         offset: f64 = 0.02, "s", "guess; a few periods of usual logs";
         /// Rate of the clocks.
@@ -128,6 +128,8 @@
         slip: f64 = 0.05, "1", "guess";
         /// Logarithm of the turning rate at which slip in turns has half its size.
         slip_rate: f64 = 1.0, "1", "guess; a factor of e";
+        /// Logarithm of the power with which slip in turns grows in slow turns.
+        slip_power: f64 = 0.7, "1", "guess; a factor of two";
         /// Share of turning that is lost, per rad/s.
         turning: f64 = 0.1, "s/rad", "guess";
         /// Share of the way that is lost, per m/s.
@@ -151,8 +153,8 @@
         slip: f64 = 1e-3, "1", "guess; floors differ";
         /// Slips that grow with a rate, a speed or an acceleration: less, or they would scatter with slip once more.
         growing: f64 = 2e-4, "s/rad; s/m; s", "guess; floors differ";
-        /// Logarithm of the turning rate at which slip in turns has half its size.
-        slip_rate: f64 = 1e-3, "1", "guess; less than the slip itself";
+        /// Logarithms of the turning rate and the power of slip in turns.
+        slip_shape: f64 = 1e-3, "1", "guess; less than the slip itself";
         /// Radius, relative.
         radius: f64 = 4e-4, "1", "guess; temperature and wear";
         /// Distances between wheels, relative.
