@@ -9,6 +9,7 @@ use super::gate::References;
 use super::series::{Ground, Seen, Series};
 use crate::fit::Fitted;
 use crate::judged::Judged;
+use crate::settings::decision;
 use crate::settings::law::{Events, SETTINGS};
 
 const EVENTS: Events = SETTINGS.events;
@@ -26,7 +27,9 @@ pub(super) fn find(
     let inputs = best.throughout(ground)?;
     let standing = Standing::new(judged, retuned, &inputs);
     let score = best.evidence / standing.misfit;
-    if score < SETTINGS.gates.score || standing.left > SETTINGS.gates.left_of_place_alone {
+    // Of a robot that lacks nothing an arbitrary input explains the little that there is.
+    let is_mismatch = standing.gain > decision::SETTINGS.unknown.least_mismatch;
+    if !is_mismatch || score < SETTINGS.gates.score || standing.left > SETTINGS.gates.left_of_place_alone {
         return None;
     }
     let strength = |of: &Inputs| robust::rms(of.iter().flat_map(|(_, runs)| runs.iter().flatten().copied()));
