@@ -1,6 +1,6 @@
 //! A law for what has no name, in the words of the field.
 
-use verdict::{Claim, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, Opposed, Shared, UnnamedCause};
+use verdict::{Claim, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, Opposed, Shared, UnnamedCause, one_of};
 
 /// What is told of a cause without a name: a label and a text for each line; empty where nothing was found.
 pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
@@ -33,13 +33,11 @@ fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
     Some(("lacks in every drive", text))
 }
 
-/// Share of the windows in which torques act against the same, from which on it is said what does so.
-const CLEAR: f64 = 0.85;
 /// Events that are listed one by one; of more, a line tells how many there are.
 const LISTED: usize = 12;
 
 fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
-    let place = or(&found.place, &found.places_alike);
+    let place = one_of(&found.place, &found.places_alike);
     let mut recordings: Vec<&str> = found.events.iter().map(|e| e.recording.as_str()).collect();
     recordings.dedup();
     let lengths = found.events.iter().map(|e| e.until - e.from);
@@ -73,7 +71,7 @@ fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
 }
 
 fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
-    let mut place = or(&found.place, &found.places_alike);
+    let mut place = one_of(&found.place, &found.places_alike);
     if let Some((next, worse)) = &found.next_place {
         place = format!("{place} [next place: {next}, {worse:.0} nats worse]");
     }
@@ -83,7 +81,7 @@ fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
         (
             "how much",
             format!(
-                "{:.2}{unit} rms (references {:.0} % of its power); an input there that is another one every 0.1 s leaves {:.0} % of \
+                "{:.2}{unit} rms (references: {:.0} % of its mean square); an input there that is another one every 0.1 s leaves {:.0} % of \
                  what re-tuning leaves unexplained",
                 found.size,
                 100.0 * found.in_references,
@@ -92,11 +90,6 @@ fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
         ),
         ("law", "none in the measured signals predicts it, so that no forecast is offered".to_owned()),
     ]
-}
-
-/// A place, or one of those that cannot be told from it.
-fn or(place: &str, alike: &[String]) -> String {
-    if alike.is_empty() { place.to_owned() } else { format!("{place}, or {}", alike.join(", or ")) }
 }
 
 fn of_event(e: &Event) -> String {
@@ -108,11 +101,7 @@ fn of_event(e: &Event) -> String {
 }
 
 fn against(o: &Opposed) -> String {
-    let like = match (o.torque > o.motion, o.torque.max(o.motion) > CLEAR) {
-        (_, false) => "",
-        (true, true) => ", as a drive does that fails now and then",
-        (false, true) => ", as a brake does that touches",
-    };
+    let like = o.like.as_ref().map_or_else(String::new, |like| format!(", as {like}"));
     format!(
         "against the commanded torque in {:.0} % of the windows of 0.1 s with an event (the drive delivers {:.0} % less, median), \
          against the wheel's motion in {:.0} %{like}",
@@ -155,7 +144,7 @@ fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {
 }
 
 fn place(law: &FoundLaw) -> String {
-    let mut out = or(&law.place, &law.places_alike);
+    let mut out = one_of(&law.place, &law.places_alike);
     if let Some((next, worse)) = &law.next_place {
         out = format!("{out} [next place: {next}, {worse:.0} nats worse]");
     }

@@ -36,31 +36,33 @@ pub struct UnnamedCause {
     pub in_every_drive: Option<CommonLaw>,
 }
 
+/// A place, or one of those that cannot be told from it.
+pub fn one_of(place: &str, alike: &[String]) -> String {
+    std::iter::once(place).chain(alike.iter().map(String::as_str)).collect::<Vec<_>>().join(", or ")
+}
+
 impl UnnamedCause {
     /// What was found instead of a name, in a sentence; `None` where nothing was.
     pub fn sentence(&self) -> Option<String> {
-        let or = |place: &str, alike: &[String]| {
-            std::iter::once(place).chain(alike.iter().map(String::as_str)).collect::<Vec<_>>().join(", or ")
-        };
         if let Some(found) = &self.events {
             return Some(format!(
-                "Something acts now and then, in {:.0} % of the time ({} events): {}.",
-                100.0 * found.filled,
+                "What is missing acts for short times, {} events in {:.0} % of the time, as {}.",
                 found.events.len(),
-                or(&found.place, &found.places_alike)
+                100.0 * found.filled,
+                one_of(&found.place, &found.places_alike)
             ));
         }
         if let Some(found) = &self.place {
             return Some(format!(
-                "It acts like this, and no law in the measured signals predicts it: {}.",
-                or(&found.place, &found.places_alike)
+                "What is missing acts as {}; no law in the measured signals predicts it.",
+                one_of(&found.place, &found.places_alike)
             ));
         }
         let law = self.law.as_ref()?;
-        let place = or(&law.place, &law.places_alike);
+        let place = one_of(&law.place, &law.places_alike);
         Some(match self.claim {
-            Claim::Law => format!("A law that fits acts like this: {place}; {}.", law.formula),
-            _ => format!("It acts like this: {place}."),
+            Claim::Law => format!("What is missing acts as {place}; a law that fits: {}.", law.formula),
+            _ => format!("What is missing acts as {place}."),
         })
     }
 }
@@ -171,6 +173,9 @@ pub struct Opposed {
     pub motion: f64,
     /// By which share of the commanded torque it makes the torque smaller, median.
     pub of_torque: f64,
+    /// What does so, where nearly all act against the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub like: Option<String>,
 }
 
 /// A variable whose amount is other at events than elsewhere.
@@ -293,8 +298,8 @@ mod tests {
         assert_eq!(
             with_events.sentence().as_deref(),
             Some(
-                "Something acts now and then, in 12 % of the time (2 events): torque on the right side, or yaw moment on the \
-                 body."
+                "What is missing acts for short times, 2 events in 12 % of the time, as torque on the right side, or yaw \
+                 moment on the body."
             )
         );
         let place = FoundPlace {
@@ -308,7 +313,7 @@ mod tests {
         };
         let with_place = UnnamedCause { claim: Claim::Place, place: Some(place), ..nothing };
         let sentence = with_place.sentence().expect("a place");
-        assert!(sentence.ends_with(": grip of all wheels."), "{sentence}");
+        assert!(sentence.starts_with("What is missing acts as grip of all wheels;"), "{sentence}");
     }
 
     #[test]

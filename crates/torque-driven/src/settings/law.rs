@@ -110,7 +110,7 @@
         sizes: [f64; 3] = [0.3, 1.0, 3.0], "1", "guess: a third of a law of usual size to three times that";
         /// Sigmas from which the input of a window stands out.
         sigmas: f64 = 3.0, "1", "the prototype";
-        /// Solutions one after another, each with the windows that stood out in the one before.
+        /// Solutions one after another, each about the free run with what the one before found.
         rounds: usize = 3, "1", "guess";
         /// Events below which there is no list.
         least: usize = 3, "1", "guess: what happened twice may be chance";
@@ -122,6 +122,8 @@
         shared: usize = 2, "1", "guess";
         /// Probability that an amount at an event is larger, or smaller, than one elsewhere, from which on it is told.
         clear: f64 = 0.8, "1", "guess";
+        /// Share of the windows in which torques act against the same, from which on it is said what does so.
+        against: f64 = 0.85, "1", "guess";
         /// Share of the events whose amounts are told.
         most_of_them: f64 = 0.8, "1", "guess";
     }

@@ -1,8 +1,7 @@
 //! What an arbitrary input, another number in every window, would have been: linear Gaussian, recording by recording.
 //!
 //! With `y = Q x + P u + noise` in every segment, `x` the constants and what a recording has to itself, `u` the input in each of
-//! the windows that may have one, `u ~ N(0, s²)`: `u` is eliminated segment by segment, then `x` (Schur complements; Rauch,
-//! Tung & Striebel without a state). Weights are those of the fit.
+//! the windows that may have one, `u ~ N(0, s²)`: `u` is eliminated segment by segment, then `x` (Schur complements). Weights are those of the fit.
 
 use faer::Mat;
 use inference::algebra::{inverse_spd, solve_spd};

@@ -67,7 +67,13 @@ pub(super) fn opposed(signals: &Signals, inputs: &[Input], instants: &[Instant])
     }
     let n = instants.len().max(1) as f64;
     let of_torque = robust::median(of_torque.into_iter().filter(|x| x.is_finite()))?;
-    Some(Opposed { torque: against[0] / n, motion: against[1] / n, of_torque })
+    let [torque, motion] = against.map(|windows| windows / n);
+    let like = match (torque > motion, torque.max(motion) > EVENTS.against) {
+        (_, false) => None,
+        (true, true) => Some("a drive does that fails now and then"),
+        (false, true) => Some("a brake does that touches"),
+    };
+    Some(Opposed { torque, motion, of_torque, like: like.map(str::to_owned) })
 }
 
 /// How clearly amounts at events differ from those elsewhere; `None` where they do not.
