@@ -71,7 +71,7 @@ fn robot(model: &Model<'_>, v: &Vehicle) -> Element {
         .comments(v.comments(Section::Sensors))
         .child(chassis(v, &parts));
     if let Some(load) = &parts.payload {
-        let fixed = element("joint").with("name", "payload").with("type", "fixed");
+        let fixed = element("joint").with("name", "payload_joint").with("type", "fixed");
         out = out
             .child(element("link").with("name", "payload").child(inertial(load, [0.0; 3])))
             .child(fixed.leaf("parent", "chassis").leaf("child", "payload"));
@@ -142,13 +142,14 @@ fn axle(v: &Vehicle, i: usize) -> Element {
     let mut axis = element("axis").leaf("xyz", "0 1 0").child(dynamics);
     let limit = v.robot.drive.limit;
     if i < 2 {
-        let rear = element("mimic").with("joint", format!("rear_{}", SIDES[i])).with("axis", "axis");
+        let rear = element("mimic").with("joint", format!("rear_{}_joint", SIDES[i])).with("axis", "axis");
         axis = axis.child(rear.leaf("multiplier", "1").leaf("offset", "0").leaf("reference", "0"));
     } else if limit < NO_LIMIT {
         axis = axis.child(element("limit").leaf("effort", number(limit)));
     }
+    // Links, joints and frames of a model share one space of names from SDF 1.7 on.
     element("joint")
-        .with("name", WHEELS[i])
+        .with("name", format!("{}_joint", WHEELS[i]))
         .with("type", "revolute")
         .leaf("parent", "chassis")
         .leaf("child", WHEELS[i])

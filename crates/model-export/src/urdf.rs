@@ -66,10 +66,10 @@ fn inertial(part: &Part, link: [f64; 3]) -> Element {
     )
 }
 
-/// A joint from the chassis to the link of the same name.
+/// A joint from the chassis to a link. Simulators that read URDF as SDF want a name of its own for every link and joint.
 fn joint(name: &'static str, kind: &'static str) -> Element {
     element("joint")
-        .with("name", name)
+        .with("name", format!("{name}_joint"))
         .with("type", kind)
         .child(element("parent").with("link", "chassis"))
         .child(element("child").with("link", name))
@@ -106,7 +106,7 @@ fn axle(v: &Vehicle, parts: &Parts, i: usize) -> Element {
         .child(element("dynamics").num("damping", grip.viscous).num("friction", grip.dry));
     let limit = v.robot.drive.limit;
     if i < 2 {
-        let rear = format!("rear_{}", SIDES[i]);
+        let rear = format!("rear_{}_joint", SIDES[i]);
         axle.child(element("mimic").with("joint", rear).num("multiplier", 1.0).num("offset", 0.0))
     } else if limit < NO_LIMIT {
         axle.child(element("limit").num("effort", limit).num("velocity", ANY_SPEED))

@@ -208,3 +208,66 @@ fn a_robot_file_is_fitted_to_the_logs_of_a_simulator() {
     wrong[radius + 1] = "0.4";
     bench.run(&wrong).failed(&["does not behave like the logs", "check wheel radius"]);
 }
+
+/// Two wheels on one axle, and a ball that slides along.
+const CART: &str = r#"<robot name="cart">
+  <link name="base_link"/>
+  <link name="ball"><collision><origin xyz="-0.1 0 0.02"/><geometry><sphere radius="0.02"/></geometry></collision></link>
+  <joint name="ball" type="fixed"><parent link="base_link"/><child link="ball"/></joint>
+  <link name="left"><collision><origin rpy="1.5707963 0 0"/><geometry><cylinder radius="0.04" length="0.02"/></geometry></collision></link>
+  <link name="right"><collision><origin rpy="1.5707963 0 0"/><geometry><cylinder radius="0.04" length="0.02"/></geometry></collision></link>
+  <joint name="left_wheel" type="continuous"><parent link="base_link"/><child link="left"/><origin xyz="0 0.1 0.04"/><axis xyz="0 1 0"/></joint>
+  <joint name="right_wheel" type="continuous"><parent link="base_link"/><child link="right"/><origin xyz="0 -0.1 0.04"/><axis xyz="0 1 0"/></joint>
+</robot>
+"#;
+
+#[test]
+fn from_a_model_to_the_first_verdict_in_three_commands() {
+    let bench = Bench::empty();
+    bench.write("cart.urdf", CART);
+    let run = bench.run(&["robot", "cart.urdf", "-o", "cart.toml"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let told = run.out();
+    assert!(told.contains("a differential drive") && told.contains("URDF: joint left_wheel"), "{told}");
+    assert!(told.contains("spheres that slide along the ground were left out: ball"), "{told}");
+
+    // Drives whose right wheel is 5 % larger than the model says: angles of the wheels beside the pose that follows.
+    let drive = |turn: f64| {
+        let mut text = String::from("time_s,left_wheel,right_wheel,x_m,y_m,yaw_rad\n");
+        let ([mut x, mut y, mut yaw], mut angle) = ([0.0; 3], [0.0; 2]);
+        for k in 0..1200 {
+            let t = 0.05 * f64::from(k);
+            text += &format!("{t:.2},{:.6},{:.6},{x:.6},{y:.6},{yaw:.6}\n", angle[0], angle[1]);
+            let speed = [6.0 + turn * (0.4 * t).sin(), 6.0 - turn * (0.4 * t).sin() + 0.3 * (0.15 * t).cos()];
+            let [left, right] = [0.04 * speed[0] * 0.05, 0.042 * speed[1] * 0.05];
+            let (length, change) = (0.5 * (left + right), (right - left) / 0.2);
+            x += length * (yaw + 0.5 * change).cos();
+            y += length * (yaw + 0.5 * change).sin();
+            yaw += change;
+            angle = [angle[0] + 0.05 * speed[0], angle[1] + 0.05 * speed[1]];
+        }
+        text
+    };
+    bench.write("drives/one.csv", &drive(1.5));
+    bench.write("drives/two.csv", &drive(-2.0));
+    let run = bench.run(&["diagnose", "--robot", "cart.toml", "--recordings", "drives", "--json", "verdict.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    let verdict: Value = serde_json::from_str(&bench.read("verdict.json")).unwrap();
+    let said = verdict["diagnosis"].to_string();
+    assert!(said.contains("radius of right") && said.contains("radius_of_one_wheel"), "{said}");
+    let run = bench.run(&["report", "verdict.json", "-o", "page.html"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+}
+
+#[test]
+fn a_model_that_no_robot_file_can_be_made_of_is_refused_with_the_remedy() {
+    let bench = Bench::empty();
+    bench.write("cart.urdf", CART);
+    bench.run(&["robot", "cart.urdf", "--kind", "torque-driven"]).failed(&["--kind odometry", "four fixed wheels"]);
+    bench.run(&["robot", "cart.urdf", "--kind", "car"]).failed(&["one steered and one fixed axle"]);
+    bench.run(&["robot", "cart.urdf", "--from-logs", "none.csv"]).failed(&["leave out --from-logs"]);
+    bench.run(&["robot", "none.urdf"]).failed(&["cannot read 'none.urdf'", "URDF, SDF or MJCF"]);
+    bench.write("broken.urdf", &CART.replace("xyz=\"0 1 0\"", "xyz=\"0 1\""));
+    bench.run(&["robot", "broken.urdf"]).failed(&["broken.urdf: line 7", "xyz holds 2 numbers, but 3 belong there"]);
+    assert_eq!(bench.run(&["robot"]).code(), Some(2));
+}

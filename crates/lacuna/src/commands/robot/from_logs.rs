@@ -1,76 +1,20 @@
-//! `lacuna robot`: a robot file from what a user has beside one.
-
-use std::path::PathBuf;
+//! A robot file whose robot behaves like the logs of a simulator.
 
 use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
-use clap::Args as ClapArgs;
 use inference::Options;
 use pages::text_table::{TextTable, number};
 use robot_file::{Causality, RobotSpec, Size};
 use serde_json::json;
 use torque_driven::{FittedRobot, Run, fit_logs};
 
-use super::{Outcome, Reader, Usage, sources};
+use super::super::{Outcome, Usage, sources};
+use super::{Args, from_model};
 use crate::console::{Progress, emit, emit_json};
 
-const EXAMPLES: &str = "\
-Examples:
-  lacuna robot --from-logs sim_1.csv sim_2.csv --mass 20 --wheel-radius 0.1 \\
-      --track 0.4 --wheelbase 0.36 -o robot.toml
-  lacuna robot --from-logs logs/ --like old.toml -o robot.toml
-
-Logs of a simulator, torque-driven: the torques that it was given, and wheel
-speeds and motion that came out. Constants are fitted so that free runs over
-2 s behave as the simulator does. Together they do; one of them alone may be
-off by tens of per cent, since a heavier body shows as larger motors do.
-
-Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.
-Failed is also a fit after which no such robot behaves like the logs.";
-
-/// Arguments of `lacuna robot`.
-#[derive(Debug, ClapArgs)]
-#[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
-    /// Logs of a simulator: files or folders.
-    #[arg(long, value_name = "LOG", required = true, num_args = 1..)]
-    from_logs: Vec<PathBuf>,
-    #[command(flatten)]
-    reader: Reader,
-    /// Robot file, or name of a built-in robot, from whose constants the fit starts.
-    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["mass", "wheel_radius", "track", "wheelbase"])]
-    like: Option<String>,
-    /// Mass of the simulated robot, kg.
-    #[arg(long, value_name = "KG", value_parser = positive)]
-    mass: Option<f64>,
-    /// Radius of its wheels, m.
-    #[arg(long, value_name = "M", value_parser = positive)]
-    wheel_radius: Option<f64>,
-    /// Distance between the middles of its left and right wheels, m.
-    #[arg(long, value_name = "M", value_parser = positive)]
-    track: Option<f64>,
-    /// Distance between its axles, m.
-    #[arg(long, value_name = "M", value_parser = positive)]
-    wheelbase: Option<f64>,
-    /// Name of the robot.
-    #[arg(long, default_value = "simulated")]
-    name: String,
-    /// Write the robot file; `-` is standard output.
-    #[arg(short, long, value_name = "FILE.toml|-", default_value = "-")]
-    out: String,
-    /// Write what was fitted as JSON to a file; `-` is standard output, instead of the text.
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<String>,
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let given: f64 = text.parse().map_err(|_| format!("'{text}' is no number"))?;
-    if given.is_finite() && given > 0.0 { Ok(given) } else { Err("must be larger than zero".to_owned()) }
-}
-
 /// Fits a robot to logs.
-pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
+pub(super) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let start = start(args)?;
     let (loaded, _) = args.reader.load(&args.from_logs)?;
     if loaded.reads.is_empty() {
@@ -135,6 +79,17 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 
 /// The robot from which the fit starts.
 fn start(args: &Args) -> Result<RobotSpec> {
+    if let Some(model) = &args.model {
+        let made = from_model::read(args, model)?;
+        let is_one = |spec: &RobotSpec| spec.causality == Causality::TorqueDriven;
+        return made.spec.filter(is_one).with_context(|| {
+            format!(
+                "'{}' is {}: logs of torques can be fitted for torque-driven robots only; leave out --from-logs",
+                model.display(),
+                made.layout
+            )
+        });
+    }
     if let Some(like) = &args.like {
         let spec = case_folder::robot(like)?;
         if spec.causality != Causality::TorqueDriven {
@@ -154,15 +109,22 @@ fn start(args: &Args) -> Result<RobotSpec> {
     ];
     let [Some(mass), Some(wheel_radius), Some(track), Some(wheelbase)] = sizes.map(|(_, given)| given) else {
         let missing: Vec<&str> = sizes.iter().filter(|(_, given)| given.is_none()).map(|(name, _)| *name).collect();
-        bail!(Usage(format!("give {}, or a robot to start from with --like", missing.join(", "))));
+        bail!(Usage(format!("give {}, a model, or a robot to start from with --like", missing.join(", "))));
     };
-    Ok(RobotSpec::of_size(&args.name, &Size { mass, wheel_radius, track, wheelbase })?)
+    Ok(RobotSpec::of_size(name(args), &Size { mass, wheel_radius, track, wheelbase })?)
+}
+
+/// Name of the robot.
+fn name(args: &Args) -> &str {
+    args.name.as_deref().unwrap_or("simulated")
 }
 
 /// The robot file of what was fitted: what was free came from the logs.
 fn written(args: &Args, mut spec: RobotSpec, fitted: &FittedRobot, logs: usize) -> RobotSpec {
     spec.robot = fitted.robot;
-    spec.name.clone_from(&args.name);
+    if args.name.is_some() || args.model.is_none() {
+        name(args).clone_into(&mut spec.name);
+    }
     let [_, after] = fitted.errors;
     spec.description = Some(format!(
         "Behaves like {logs} {} of a simulator: free runs over 2 s are off by {:.3} rad/s of a wheel and {:.4} rad/s of \

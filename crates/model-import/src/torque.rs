@@ -1,0 +1,246 @@
+//! Robot files of four wheels, coupled by side.
+
+use robot_file::{Causality, RobotSpec, Size};
+use robot_model::Robot as Plant;
+use robot_model::constants::Usual;
+use robot_model::tunable::{Tuning, place_of, tunables};
+
+use crate::assumed::{FRICTION, LACKING, MOTOR_SURPLUS, NO_EFFORT, STATED, STATED_FRICTION, STATED_INERTIA};
+use crate::error::ImportError;
+use crate::import::{Imported, Kind, Number};
+use crate::layout::{Layout, Robot, mean};
+use crate::model::Joint;
+use crate::solid::Solid;
+use crate::source::Source;
+use crate::wheels::{RadiusOf, Wheel};
+
+/// A constant that the model states: its name, value, sigma as a share of the value (of an offset: in its unit), source.
+struct Stated {
+    id: &'static str,
+    value: f64,
+    sigma: f64,
+    source: String,
+}
+
+/// The robot file of a skid-steer robot.
+pub(crate) fn file(
+    source: &Source<'_>,
+    robot: &Robot<'_>,
+    name: &str,
+    kind: Kind,
+    causality: Causality,
+) -> Result<Imported, ImportError> {
+    let sides = robot.sides();
+    if robot.layout != Layout::SkidSteer || sides.iter().any(|side| side.len() != 2) {
+        return Err(source.whole(format!(
+            "the model is {} with {} wheels and {} casters, but {} robots have four fixed wheels, two on each side; make it \
+             of another kind with --kind odometry",
+            robot.layout.name(),
+            robot.wheels.len(),
+            robot.casters.len(),
+            kind.name()
+        )));
+    }
+    let model = robot.model;
+    let Some(whole) = model.solid(&model.of_robot()) else {
+        return Err(source.whole(format!(
+            "no link states a mass, but {} robots need mass and inertia: add <inertial> to the links, or compare wheel motion \
+             with a pose alone (--kind odometry)",
+            kind.name()
+        )));
+    };
+
+    let mut notes = robot.notes.clone();
+    let size = size(robot, &sides, whole.mass);
+    let cannot_be = |e: robot_model::ModelError| source.whole(format!("no robot can be so: {e}"));
+    let mut spec = RobotSpec::of_size(name, &size).map_err(cannot_be)?;
+    let stated = constants(robot, &sides, &whole, &spec.robot, &mut notes);
+    spec.causality = causality;
+    spec.description = Some(format!("Made from a model in {}, {}", model.form, robot.layout.name()));
+    for constant in Plant::<f64>::CONSTANTS {
+        if let Some(s) = stated.iter().rfind(|s| constant.is_called(s.id)) {
+            (constant.set)(&mut spec.robot, s.value);
+        }
+    }
+    let spec = with_spreads(spec, &stated, model.form);
+    let spec = RobotSpec { robot: spec.robot.checked().map_err(cannot_be)?, ..spec };
+
+    let unwritable = |e: robot_file::RobotFileError| source.whole(e.to_string());
+    Ok(Imported {
+        kind,
+        layout: robot.layout.name(),
+        text: spec.to_toml().map_err(unwritable)?,
+        numbers: numbers(&spec, &stated),
+        spec: Some(spec),
+        notes,
+    })
+}
+
+/// Every number that the model states, then those that stand in for what it lacks.
+fn numbers(spec: &RobotSpec, stated: &[Stated]) -> Vec<Number> {
+    // What the plant itself takes when nobody says it is no news.
+    let is_default = |c: &robot_model::Constant<f64>| match c.usual {
+        Usual::Needed => false,
+        Usual::Value(usual) => (c.get)(&spec.robot) == usual,
+        Usual::Unlimited | Usual::RearAxle => true,
+    };
+    let mut out: Vec<Number> = Plant::<f64>::CONSTANTS
+        .iter()
+        .filter(|c| stated.iter().any(|s| c.is_called(s.id)) || !is_default(c))
+        .map(|c| Number {
+            name: c.id.to_owned(),
+            value: (c.get)(&spec.robot),
+            unit: c.unit.to_owned(),
+            source: spec.sources.get(c.id).cloned().unwrap_or_default(),
+            is_stated: stated.iter().any(|s| c.is_called(s.id)),
+        })
+        .collect();
+    out.sort_by_key(|n| !n.is_stated);
+    out
+}
+
+/// Middle of the wheels, forward and to the left of the model's origin.
+fn middle(robot: &Robot<'_>) -> [f64; 2] {
+    [0, 1].map(|axis| mean(robot.wheels.iter().map(|w| robot.place(w)[axis])))
+}
+
+fn size(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], mass: f64) -> Size {
+    let y = |side: usize| mean(sides[side].iter().map(|w| robot.place(w)[1]));
+    let [x, _] = middle(robot);
+    Size {
+        mass,
+        wheel_radius: mean(robot.wheels.iter().map(|w| w.radius)),
+        track: y(0) - y(1),
+        wheelbase: 2.0 * mean(robot.wheels.iter().map(|w| (robot.place(w)[0] - x).abs())),
+    }
+}
+
+/// What the model says of the constants; `usual` are those of a robot of this size.
+fn constants(
+    robot: &Robot<'_>,
+    sides: &[Vec<&Wheel>; 2],
+    whole: &Solid,
+    usual: &Plant<f64>,
+    notes: &mut Vec<String>,
+) -> Vec<Stated> {
+    let (model, form) = (robot.model, robot.model.form);
+    let all: Vec<&Wheel> = robot.wheels.iter().collect();
+    let [x, y] = middle(robot);
+    let Size { wheel_radius: radius, track, wheelbase, .. } = size(robot, sides, whole.mass);
+    if all.iter().any(|w| (w.radius - radius).abs() > STATED * radius) {
+        notes.push("its wheels have different radii; their mean was taken".to_owned());
+    }
+
+    let mut out = Vec::new();
+    let mut say = |id: &'static str, value: f64, sigma: f64, what: &str| {
+        out.push(Stated { id, value, sigma, source: format!("{form}: {what}") });
+    };
+    say("mass", whole.mass, STATED, "masses of all links");
+    let yaw = whole.about_axis(&whole.centre, &nalgebra::Vector3::z());
+    say("yaw_inertia", yaw, STATED_INERTIA, "inertias of all links about their centre of mass");
+    let off = whole.centre.coords;
+    let [com_x, com_y] = [off.dot(&robot.forward) - x, off.dot(&robot.left()) - y];
+    say("com_x", com_x, STATED * wheelbase, "centre of mass of all links, from the middle of the wheels");
+    say("com_y", com_y, STATED * track, "centre of mass of all links, from the middle of the wheels");
+    say("com_height", whole.centre.z - robot.ground, STATED_INERTIA, "centre of mass of all links, above the ground");
+    say("wheelbase", wheelbase, STATED, "places of the wheel joints");
+    say("track", track, STATED, "places of the wheel joints");
+    let of = match all[0].radius_of {
+        RadiusOf::Contact | RadiusOf::Rollers => "collision shapes of the wheels",
+        RadiusOf::Sight => "visual shapes of the wheels",
+        RadiusOf::Told => "given by the user",
+    };
+    say("wheel_radius", radius, STATED, of);
+
+    let joint = |w: &Wheel| &model.joints[w.joint];
+    let spin = |w: &&Wheel| Some(model.solid(&w.links)?.about_axis(&w.centre, &w.axle));
+    let spins: Vec<f64> = all.iter().filter_map(spin).collect();
+    let least = spins.iter().copied().fold(f64::INFINITY, f64::min);
+    let solid_disc = 0.5 * whole.mass * radius * radius;
+    if least >= solid_disc {
+        notes.push(format!(
+            "a wheel's inertia of {least:.3} kg m2 is more than that of a disc as heavy as the whole robot ({solid_disc:.3}); a \
+             usual one was taken"
+        ));
+    } else if least > 0.0 && spins.len() == all.len() {
+        say("wheel_inertia", least, STATED_INERTIA, "inertia of a wheel about its axle");
+    }
+    let armature = all.iter().filter_map(|w| joint(w).armature).sum::<f64>() / 2.0;
+    let surplus = spins.iter().sum::<f64>() / 2.0 - least * spins.len() as f64 / 2.0;
+    if armature > 0.0 {
+        say("motor_inertia", armature, STATED_INERTIA, "armature of the joints of a side");
+    } else if least < solid_disc && surplus > MOTOR_SURPLUS * least {
+        say("motor_inertia", surplus, STATED_INERTIA, "what some wheels of a side turn with beyond the lightest one");
+    }
+
+    let (low, high) = (FRICTION[0], FRICTION[1]);
+    let frictions: Vec<f64> = all.iter().flat_map(|w| w.friction.iter().copied()).collect();
+    let real: Vec<f64> = frictions.iter().copied().filter(|mu| (low..=high).contains(mu)).collect();
+    if real.is_empty() && !frictions.is_empty() {
+        notes.push(format!("friction of {} is none of rubber: a usual one was taken", frictions[0]));
+    }
+    if !real.is_empty() {
+        // A simulator has one coefficient where tyres have a peak and less beyond it: the middle of both.
+        let peak = mean(real.iter().copied()) / (0.5 * (1.0 + usual.sliding_share));
+        say("adhesion", peak, STATED_FRICTION, "friction of the wheels, as the middle of peak and sliding");
+    }
+    drives(robot, sides, usual, &mut say);
+    out
+}
+
+/// Friction and limits of the drives.
+fn drives(
+    robot: &Robot<'_>,
+    sides: &[Vec<&Wheel>; 2],
+    usual: &Plant<f64>,
+    say: &mut impl FnMut(&'static str, f64, f64, &str),
+) {
+    let sum = |side: usize, of: fn(&Joint) -> Option<f64>| -> Option<f64> {
+        let given: Vec<f64> = sides[side].iter().filter_map(|w| of(&robot.model.joints[w.joint])).collect();
+        (!given.is_empty()).then(|| given.iter().sum()).filter(|total| *total > 0.0)
+    };
+    // Half of the robot rolls on each side; simulators have no rolling resistance, so joint friction stands for both.
+    let rolls = |resistance: f64| 0.5 * usual.mass * usual.gravity * resistance * usual.wheel_radius;
+    let dry = [0, 1].map(|side| sum(side, |j| j.friction));
+    if let [Some(left), Some(right)] = dry {
+        // What rolls takes at most half of the weaker side's friction.
+        let resistance = usual.rolling_resistance.min(0.5 * left.min(right) / rolls(1.0));
+        for (id, whole) in [("coulomb_left", left), ("coulomb_right", right)] {
+            say(
+                id,
+                whole - rolls(resistance),
+                STATED_FRICTION,
+                "friction of the joints of a side, less rolling resistance",
+            );
+        }
+        say("rolling_resistance", resistance, STATED_FRICTION, "share of the joints' friction");
+    }
+    for (side, id) in ["viscous_left", "viscous_right"].into_iter().enumerate() {
+        if let Some(damping) = sum(side, |j| j.damping) {
+            say(id, damping, STATED_FRICTION, "damping of the joints of a side");
+        }
+    }
+    let torque = |j: &Joint| j.effort.filter(|e| !j.follows && (0.0..NO_EFFORT).contains(e));
+    if let [Some(left), Some(right)] = [0, 1].map(|side| sum(side, torque)) {
+        say("torque_limit", left.min(right), STATED, "largest torque of the joints of a side");
+    }
+}
+
+/// The robot with sources and sigmas: of what the model states as it states them, of the rest as of guesses.
+fn with_spreads(mut spec: RobotSpec, stated: &[Stated], form: &str) -> RobotSpec {
+    for constant in Plant::<f64>::CONSTANTS {
+        let said = stated.iter().rfind(|s| constant.is_called(s.id));
+        let usual = format!("not in the {form}: usual value, a guess");
+        spec.sources.insert(constant.id, said.map_or(usual, |s| s.source.clone()));
+        let Some(tuning) = constant.tuning else { continue };
+        let Some(place) = place_of(tuning.id) else { continue };
+        let usual = tunables::<f64>()[place].sigma;
+        spec.sigma[place] = match said {
+            Some(s) => s.sigma.max(usual),
+            // An offset's usual value is zero: it may be off by what it usually is.
+            None if tuning.tuning == Tuning::Offset => usual,
+            None => LACKING.max(usual),
+        };
+    }
+    spec
+}
