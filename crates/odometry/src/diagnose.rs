@@ -13,7 +13,7 @@ use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
 use crate::name::{Named, name};
 use crate::settings::SETTINGS;
-use crate::traces::trace;
+use crate::traces::{predicted, trace};
 use crate::weigh::{Evidence, Posterior};
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
@@ -21,7 +21,7 @@ use catalogue::CauseSpec;
 use catalogue::odometry::LOST_COUNTS;
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
-use verdict::Trace;
+use verdict::{PredictedPath, Trace};
 
 /// Kind of answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,6 +104,23 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// As stated, re-tuned, with the named causes.
+    pub(crate) laws: [Laws; 3],
+}
+
+impl Findings {
+    /// The pose of a drive from its counts alone. It begins where the pose was seen first, and anew where it is seen again after
+    /// rows in which it was not; at the origin where it was never seen.
+    pub fn predict(&self, robot: &WheeledRobot, drive: &Drive) -> PredictedPath {
+        let [_, retuned, corrected] = &self.laws;
+        let path = |laws: &Laws| predicted(robot, drive, laws);
+        PredictedPath {
+            name: drive.name.clone(),
+            time: drive.time.clone(),
+            corrected: path(corrected),
+            retuned: path(retuned),
+        }
+    }
 }
 
 /// Drives with the constants fitted to them, and what was named.
@@ -324,6 +341,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
         told,
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
+        laws: solved.laws(&case.robot),
     }
 }
 

@@ -56,6 +56,39 @@ impl Drive {
         steering: Option<Vec<f64>>,
         pose: Vec<[f64; 3]>,
     ) -> Result<Self, OdometryError> {
+        let mut out = Self::of_columns(name, robot, time, (data, wheels), steering, pose)?;
+        units::guess(&mut out, robot, data)?;
+        Ok(out)
+    }
+
+    /// A drive whose pose is to be predicted, and may be seen in some rows or in none.
+    ///
+    /// # Errors
+    /// As [`Drive::new`], but for a pose that was never seen.
+    pub fn held_out(
+        name: &str,
+        robot: &WheeledRobot,
+        time: Vec<f64>,
+        (data, wheels): (WheelData, &[Vec<f64>]),
+        steering: Option<Vec<f64>>,
+        pose: Vec<[f64; 3]>,
+    ) -> Result<Self, OdometryError> {
+        let mut out = Self::of_columns(name, robot, time, (data, wheels), steering, pose)?;
+        // One pose is a beginning; only motion tells units.
+        if (0..out.pose.len()).filter(|&row| out.is_seen(row)).nth(RULES.rows).is_some() {
+            units::guess(&mut out, robot, data)?;
+        }
+        Ok(out)
+    }
+
+    fn of_columns(
+        name: &str,
+        robot: &WheeledRobot,
+        time: Vec<f64>,
+        (data, wheels): (WheelData, &[Vec<f64>]),
+        steering: Option<Vec<f64>>,
+        pose: Vec<[f64; 3]>,
+    ) -> Result<Self, OdometryError> {
         let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
         let measured = robot.measured();
         if wheels.len() != measured.len() {
@@ -112,9 +145,7 @@ impl Drive {
                     };
             }
         }
-        let mut out = Self { name: name.to_owned(), session: name.to_owned(), time, turns, steering, pose, told };
-        units::guess(&mut out, robot, data)?;
-        Ok(out)
+        Ok(Self { name: name.to_owned(), session: name.to_owned(), time, turns, steering, pose, told })
     }
 
     /// The same drive of a session.

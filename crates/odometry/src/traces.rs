@@ -71,6 +71,24 @@ impl Beside<'_> {
     }
 }
 
+/// The pose of a drive from its counts alone, from where it was seen first on, and anew where it is seen again after rows in
+/// which it was not; in the rows before, as counts say backwards. At the origin where it was never seen.
+pub(crate) fn predicted(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[f64; 3]> {
+    let path = implied(robot, drive, laws);
+    let again = |row: usize| drive.is_seen(row) && (row == 0 || !drive.is_seen(row - 1));
+    let mut starts = (0..path.len()).filter(|&row| again(row)).peekable();
+    let Some(mut start) = starts.next() else { return path };
+    (0..path.len())
+        .map(|row| {
+            if starts.peek() == Some(&row) {
+                start = row;
+                starts.next();
+            }
+            placed(drive.pose[start], relative(path[start], path[row]))
+        })
+        .collect()
+}
+
 /// A drive beside what counts alone say under each of these laws: as stated, re-tuned, corrected.
 pub(crate) fn trace(robot: &WheeledRobot, drive: &Drive, laws: [Option<&Laws>; 3], left_out: bool) -> Trace {
     let starts = starts(drive);

@@ -9,10 +9,12 @@ use crate::drive::Drive;
 use crate::error::CarError;
 use crate::fit::Prior;
 use crate::left_out::{Table, left_out_of};
+use crate::model::{Laws, STEP};
 use crate::settings::SETTINGS;
 use crate::solve::{Solved, solve};
+use crate::traces::predicted;
 use inference::robust::NINETY;
-use verdict::Trace;
+use verdict::{PredictedPath, Trace};
 
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
@@ -45,6 +47,18 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings with a pose beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// Re-tuned, with the named causes.
+    pub(crate) laws: [Laws; 2],
+}
+
+impl Findings {
+    /// The pose of a drive from throttle and steering alone, on the grid of the model.
+    pub fn predict(&self, drive: &Drive) -> PredictedPath {
+        let [retuned, corrected] = &self.laws;
+        let (corrected, retuned) = (predicted(corrected, drive), predicted(retuned, drive));
+        let time = (0..corrected.len()).map(|k| drive.start + STEP * k as f64).collect();
+        PredictedPath { name: drive.name.clone(), time, corrected, retuned }
+    }
 }
 
 /// Compares a car's drives with what throttle and steering imply, and names what would make them agree.
@@ -133,6 +147,7 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
         ],
         told,
         traces: data.shown.iter().filter_map(|shown| solved.trace(shown, false)).collect(),
+        laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.constants, p.mean.as_slice())),
     }
 }
 

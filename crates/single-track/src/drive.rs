@@ -93,6 +93,8 @@ pub struct Drive {
     pub(crate) pose: Vec<[f64; 3]>,
     pub(crate) messages: Vec<Message>,
     steps: usize,
+    /// Time of the first row, s.
+    pub(crate) start: f64,
     /// What was done to it before the comparison, for people.
     pub told: Vec<String>,
 }
@@ -104,6 +106,18 @@ impl Drive {
     /// Columns that are missing or of unlike length, time that does not rise, commands out of range, a drive that has neither
     /// pose nor both gyro and encoder.
     pub fn new(name: &str, table: &Table) -> Result<Self, CarError> {
+        if !has_pose(table) && (table.gyro.is_empty() || table.encoder.is_empty()) {
+            let what = "there is neither a pose nor both a gyro and an encoder speed; map one of them".to_owned();
+            return Err(CarError::Drive { drive: name.to_owned(), what });
+        }
+        Self::held_out(name, table)
+    }
+
+    /// A drive whose pose is to be predicted, with or without a pose to begin at.
+    ///
+    /// # Errors
+    /// As [`Drive::new`], but for what was not measured.
+    pub fn held_out(name: &str, table: &Table) -> Result<Self, CarError> {
         let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
         let rows = table.time.len();
         if rows < RULES.rows {
@@ -134,13 +148,6 @@ impl Drive {
                 )));
             }
         }
-        let has_pose = table.pose.iter().any(|p| p.iter().all(|x| x.is_finite()));
-        if !has_pose && (table.gyro.is_empty() || table.encoder.is_empty()) {
-            return Err(wrong(
-                "there is neither a pose nor both a gyro and an encoder speed; map one of them".to_owned(),
-            ));
-        }
-
         let start = table.time[0];
         let steps = ((table.time[rows - 1] - start) / STEP) as usize;
         let mut told = Vec::new();
@@ -170,9 +177,10 @@ impl Drive {
             name: name.to_owned(),
             steering: command(&table.steering, &[]),
             throttle: command(&table.throttle, &table.enabled),
-            pose: if has_pose { on_grid(table, start, steps) } else { Vec::new() },
+            pose: if has_pose(table) { on_grid(table, start, steps) } else { Vec::new() },
             messages,
             steps,
+            start,
             told,
         })
     }
@@ -186,6 +194,11 @@ impl Drive {
     pub fn has_pose(&self) -> bool {
         !self.pose.is_empty()
     }
+}
+
+/// Whether a pose was seen in any row.
+fn has_pose(table: &Table) -> bool {
+    table.pose.iter().any(|p| p.iter().all(|x| x.is_finite()))
 }
 
 /// Instants of the car's messages, s from the start, with the row in which each arrived.

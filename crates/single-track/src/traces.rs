@@ -3,6 +3,7 @@
 use odometry::traces::Beside;
 use verdict::Trace;
 
+use crate::drive::Drive;
 use crate::model::{Laws, STEP};
 use crate::rates::end;
 use crate::rows::Shown;
@@ -20,7 +21,8 @@ impl Solved<'_> {
         if starts.is_empty() {
             return None;
         }
-        let of = |theta: &[f64]| free_runs(&Laws::at(&self.data.constants, theta), shown, &starts);
+        let longest = (RULES.free / STEP).round() as usize;
+        let of = |theta: &[f64]| free_runs(&Laws::at(&self.data.constants, theta), shown.drive, &starts, longest);
         let named = &self.named;
         let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
         let simulated = [of(self.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
@@ -41,15 +43,32 @@ fn starts(pose: &[[f64; 3]]) -> Vec<usize> {
     out
 }
 
-/// The tracked pose at each step, from start to start.
-fn free_runs(laws: &Laws, shown: &Shown<'_>, starts: &[usize]) -> Vec<[f64; 3]> {
-    let pose = &shown.drive.pose;
-    let inputs = laws.inputs(shown.drive);
-    let mut out = vec![[f64::NAN; 3]; pose.len()];
+/// The tracked pose of a drive from throttle and steering alone, at each step. It begins where a velocity is known from poses
+/// first, and anew where it is known again after steps without a pose; at rest at the origin without any pose. The pose before
+/// is as it was seen.
+pub(crate) fn predicted(laws: &Laws, drive: &Drive) -> Vec<[f64; 3]> {
+    let pose = &drive.pose;
+    let known = |step: usize| end(pose, step, RULES.past).is_some();
+    let mut starts: Vec<usize> = (0..pose.len()).filter(|&k| known(k) && (k == 0 || !known(k - 1))).collect();
+    if starts.is_empty() {
+        starts.push(0);
+    }
+    let mut out = free_runs(laws, drive, &starts, drive.steps());
+    for (to, seen) in out.iter_mut().zip(pose).take(starts[0]) {
+        *to = *seen;
+    }
+    out
+}
+
+/// The tracked pose at each step, from start to start and so many steps at most; at rest where no velocity is known.
+fn free_runs(laws: &Laws, drive: &Drive, starts: &[usize], longest: usize) -> Vec<[f64; 3]> {
+    let inputs = laws.inputs(drive);
+    let steps = drive.pose.len().max(drive.steps());
+    let mut out = vec![[f64::NAN; 3]; steps];
     for (k, &start) in starts.iter().enumerate() {
-        let next = starts.get(k + 1).copied().unwrap_or(pose.len());
-        let last = next.min(start + (RULES.free / STEP).round() as usize);
-        let Some((at, rates)) = end(pose, start, RULES.past) else { continue };
+        let next = starts.get(k + 1).copied().unwrap_or(steps);
+        let last = next.min(start + longest);
+        let (at, rates) = end(&drive.pose, start, RULES.past).unwrap_or_default();
         out[start] = at;
         // A state stands at the end of its step.
         for (after, state) in laws.run(laws.state(at, rates), &inputs, start, last - start - 1).iter().enumerate() {

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, LawOfFile, Loads, Located, Prediction, Response,
-    Retuned, SimulatorConstants, Trace, Trial, UnnamedCause,
+    Advice, Cause, Cell, Correction, Coverage, Finding, FreeRun, LawOfFile, Loads, Located, PredictedPath, Prediction,
+    Response, Retuned, SimulatorConstants, Trace, Trial, UnnamedCause,
 };
 
 /// Version of the JSON of a diagnosis.
@@ -92,6 +92,9 @@ pub struct Diagnosis {
     /// Predicted responses of the held-out drives: corrected, then without the effect.
     #[serde(skip)]
     pub predictions: Vec<(Prediction, Prediction)>,
+    /// Predicted poses of the held-out drives, of robots that are compared by their pose.
+    #[serde(skip)]
+    pub predicted_paths: Vec<PredictedPath>,
 }
 
 impl Diagnosis {
@@ -125,6 +128,7 @@ impl Diagnosis {
             own_effects: Vec::new(),
             coverage: BTreeMap::new(),
             predictions: Vec::new(),
+            predicted_paths: Vec::new(),
         }
     }
 

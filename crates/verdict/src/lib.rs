@@ -55,7 +55,7 @@ pub use loads::{
     TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
-pub use prediction::Prediction;
+pub use prediction::{PredictedPath, Prediction};
 pub use rehearsal::{
     Answers, FoundFrom, LookAlike, NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect,
     RehearsedSize, SensorNoise,

@@ -233,11 +233,12 @@ fn from_a_model_to_the_first_verdict_in_three_commands() {
 
     // Drives whose right wheel is 5 % larger than the model says: angles of the wheels beside the pose that follows.
     let drive = |turn: f64| {
+        use std::fmt::Write as _;
         let mut text = String::from("time_s,left_wheel,right_wheel,x_m,y_m,yaw_rad\n");
         let ([mut x, mut y, mut yaw], mut angle) = ([0.0; 3], [0.0; 2]);
         for k in 0..1200 {
             let t = 0.05 * f64::from(k);
-            text += &format!("{t:.2},{:.6},{:.6},{x:.6},{y:.6},{yaw:.6}\n", angle[0], angle[1]);
+            writeln!(text, "{t:.2},{:.6},{:.6},{x:.6},{y:.6},{yaw:.6}", angle[0], angle[1]).unwrap();
             let speed = [6.0 + turn * (0.4 * t).sin(), 6.0 - turn * (0.4 * t).sin() + 0.3 * (0.15 * t).cos()];
             let [left, right] = [0.04 * speed[0] * 0.05, 0.042 * speed[1] * 0.05];
             let (length, change) = (0.5 * (left + right), (right - left) / 0.2);

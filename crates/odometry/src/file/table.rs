@@ -12,6 +12,19 @@ impl RobotFile {
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
     pub fn drive(&self, name: &str, table: &str) -> Result<Drive, OdometryError> {
+        self.read(name, table, true)
+    }
+
+    /// A drive whose pose is to be predicted: where the pose was seen, the prediction begins; columns and cells of the pose may be
+    /// missing. Without any pose units are those of the robot file.
+    ///
+    /// # Errors
+    /// As [`RobotFile::drive`].
+    pub fn held_out(&self, name: &str, table: &str) -> Result<Drive, OdometryError> {
+        self.read(name, table, false)
+    }
+
+    fn read(&self, name: &str, table: &str, needs_pose: bool) -> Result<Drive, OdometryError> {
         let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
         let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
@@ -23,12 +36,18 @@ impl RobotFile {
             })
         };
         let mut places = vec![place(&names.time)?];
-        for column in names.wheels.iter().chain(&names.steering).chain(&names.pose) {
+        for column in names.wheels.iter().chain(&names.steering) {
             places.push(place(column)?);
+        }
+        let has_pose = needs_pose || names.pose.iter().any(|column| header.iter().any(|h| h == column));
+        if has_pose {
+            for column in &names.pose {
+                places.push(place(column)?);
+            }
         }
 
         let mut columns: Vec<Vec<f64>> = vec![Vec::new(); places.len()];
-        let first_of_pose = places.len() - names.pose.len();
+        let first_of_pose = places.len() - if has_pose { names.pose.len() } else { 0 };
         for (row, record) in reader.records().enumerate() {
             let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
             for (k, &at) in places.iter().enumerate() {
@@ -48,11 +67,12 @@ impl RobotFile {
         });
         let pose = (0..columns[0].len())
             .map(|row| {
-                let [x, y, yaw] = [0, 1, 2].map(|axis| columns[first_of_pose + axis][row]);
+                let [x, y, yaw] = [0, 1, 2].map(|axis| columns.get(first_of_pose + axis).map_or(f64::NAN, |c| c[row]));
                 [x * names.length, y * names.length, yaw * names.angle]
             })
             .collect();
-        let drive = Drive::new(name, &self.robot, columns[0].clone(), (names.data, wheels), steering, pose)?;
+        let new = if needs_pose { Drive::new } else { Drive::held_out };
+        let drive = new(name, &self.robot, columns[0].clone(), (names.data, wheels), steering, pose)?;
         let session = names.session_separator.as_ref().and_then(|s| name.rsplit_once(s.as_str()));
         Ok(match session {
             Some((session, _)) => drive.of_session(session),

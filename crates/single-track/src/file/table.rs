@@ -12,6 +12,19 @@ impl RobotFile {
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
     pub fn drive(&self, name: &str, table: &str) -> Result<Drive, CarError> {
+        Drive::new(name, &self.columns_of(name, table)?)
+    }
+
+    /// A drive whose pose is to be predicted from its commands: nothing else needs to be there. Where the pose was seen for long
+    /// enough to give a velocity, the prediction begins.
+    ///
+    /// # Errors
+    /// As [`RobotFile::drive`].
+    pub fn held_out(&self, name: &str, table: &str) -> Result<Drive, CarError> {
+        Drive::held_out(name, &self.columns_of(name, table)?)
+    }
+
+    fn columns_of(&self, name: &str, table: &str) -> Result<Table, CarError> {
         let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
         let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
@@ -49,7 +62,7 @@ impl RobotFile {
         };
         let [x, y, yaw] = [optional(&names.x)?, optional(&names.y)?, optional(&names.yaw)?];
         let pose = x.iter().zip(&y).zip(&yaw).map(|((x, y), yaw)| [*x, *y, *yaw]).collect();
-        let columns = Table {
+        Ok(Table {
             time: needed(&names.time)?,
             pose,
             throttle: needed(&names.throttle)?,
@@ -58,7 +71,6 @@ impl RobotFile {
             car_time: optional(&names.car_time)?,
             gyro: optional(&names.gyro)?,
             encoder: optional(&names.encoder)?,
-        };
-        Drive::new(name, &columns)
+        })
     }
 }
