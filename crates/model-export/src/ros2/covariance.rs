@@ -51,7 +51,8 @@ impl Scatter {
     /// Where the covariances come from, in lines.
     pub(crate) fn told(&self) -> Vec<String> {
         let Self { short, long, drives } = self;
-        let mm = |f: &Forecast| format!("{:.2} mm and {:.2} mrad after {} s", 1e3 * f.position, 1e3 * f.heading, f.after);
+        let mm =
+            |f: &Forecast| format!("{:.2} mm and {:.2} mrad after {} s", 1e3 * f.position, 1e3 * f.heading, f.after);
         vec![
             format!(
                 "Covariances come from {drives} recordings or sessions that were left out of the fit: one sigma of poses \

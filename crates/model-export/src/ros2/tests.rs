@@ -94,10 +94,7 @@ const SCHEMA: &[(&str, &[(&str, Type)])] = &[
             ("diagonal_covariance.twist", Type::Doubles(6)),
         ],
     ),
-    (
-        "ekf_filter_node",
-        &[("two_d_mode", Type::Bool), ("odom0", Type::Text), ("odom0_config", Type::Bools(15))],
-    ),
+    ("ekf_filter_node", &[("two_d_mode", Type::Bool), ("odom0", Type::Text), ("odom0_config", Type::Bools(15))]),
 ];
 
 /// Names with points, as ROS 2 has those of nested parameters.

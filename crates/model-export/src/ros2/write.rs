@@ -60,7 +60,10 @@ impl Controllers {
     fn comments(&self) -> Vec<String> {
         let controller = self.geometry.controller();
         let mut out = vec![
-            format!("Robot '{}' for {controller} of ros2_controllers 4.x (ROS 2 Jazzy); lengths in m, angles in rad.", self.robot),
+            format!(
+                "Robot '{}' for {controller} of ros2_controllers 4.x (ROS 2 Jazzy); lengths in m, angles in rad.",
+                self.robot
+            ),
             "It names what is known of the robot; limits, frames and rates are yours, or the controller's defaults."
                 .to_owned(),
         ];
