@@ -36,10 +36,10 @@ pub(super) fn set_source(table: &mut dyn TableLike, change: &str) {
 }
 
 /// The tables of an array, however it is written.
-pub(super) fn tables(item: Option<&mut Item>) -> Vec<&mut dyn TableLike> {
+pub(super) fn tables(item: &mut Item) -> Vec<&mut dyn TableLike> {
     match item {
-        Some(Item::ArrayOfTables(rows)) => rows.iter_mut().map(|row| row as &mut dyn TableLike).collect(),
-        Some(Item::Value(Value::Array(rows))) => {
+        Item::ArrayOfTables(rows) => rows.iter_mut().map(|row| row as &mut dyn TableLike).collect(),
+        Item::Value(Value::Array(rows)) => {
             let inline = rows.iter_mut().filter_map(Value::as_inline_table_mut);
             inline.map(|row| row as &mut dyn TableLike).collect()
         }

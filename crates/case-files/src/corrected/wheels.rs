@@ -16,7 +16,7 @@ pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Resul
     let stated = RobotFile::parse(name, text)?.robot;
     let wanted = corrected(&stated, &diagnosis.tuning);
     let mut document = document(name, text)?;
-    for row in tables(document.get_mut("wheel")) {
+    for row in document.get_mut("wheel").map(tables).unwrap_or_default() {
         let wheel = row.get("name").and_then(Item::as_str);
         // Casters are wheels of the file, but none of the robot.
         let Some(k) = wheel.and_then(|wheel| stated.wheels.iter().position(|w| w.name == wheel)) else { continue };
@@ -57,7 +57,9 @@ pub(super) fn corrected(stated: &WheeledRobot, tuning: &BTreeMap<String, f64>) -
     let reach = inference::robust::mean(stated.wheels.iter().map(|w| w.place[0].hypot(w.place[1])));
     let mut scale = |axes: &[usize], factor: f64| {
         for wheel in &mut out.wheels {
-            axes.iter().for_each(|&axis| wheel.place[axis] *= factor);
+            for &axis in axes {
+                wheel.place[axis] *= factor;
+            }
         }
     };
     let found = |name: &str| tuning.get(name).copied();
@@ -79,7 +81,9 @@ pub(super) fn corrected(stated: &WheeledRobot, tuning: &BTreeMap<String, f64>) -
         out.wheels[wheel].radius = radius;
     }
     // The zero is added to the steering angle, as the direction at steering zero is.
-    out.wheels.iter_mut().filter(|w| w.steered).for_each(|w| w.direction += zero);
+    for wheel in out.wheels.iter_mut().filter(|w| w.steered) {
+        wheel.direction += zero;
+    }
     out
 }
 

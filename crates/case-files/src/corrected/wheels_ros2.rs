@@ -17,6 +17,8 @@ use super::wheels::{corrected, is_length, unheld};
 const ALIGNED: f64 = 0.02;
 /// By how much lengths may differ that a controller has one number for before that is told, as a share.
 const ALIKE: f64 = 1e-3;
+/// By how much places may differ that a controller takes for the same, m.
+const NEAR: f64 = 1e-3;
 /// Median of the distance of two errors of one sigma each: `√(2 ln 2)`; median of the size of one.
 const MEDIAN: [f64; 2] = [1.177_41, 0.674_49];
 
@@ -155,7 +157,7 @@ impl Wheels<'_> {
             ));
         }
         let [x, y] = middle;
-        if x.abs().max(y.abs()) > ALIKE {
+        if x.abs().max(y.abs()) > NEAR {
             self.not_held.push(format!(
                 "{of} is at x {x:.4} m, y {y:.4} m of the robot file's origin: odometry of the controller is that of {of}, so \
                  place base_link there."
@@ -192,13 +194,13 @@ impl Wheels<'_> {
         let all: Vec<usize> = (0..wheels.len()).filter(|&k| k != front).collect();
         let measured: Vec<usize> = all.iter().copied().filter(|&k| wheels[k].measured).collect();
         let x = |k: &usize| wheels[*k].place[0];
-        if all.iter().any(|k| (x(k) - x(&all[0])).abs() > ALIKE) || x(&front) <= x(&all[0]) {
+        if all.iter().any(|k| (x(k) - x(&all[0])).abs() > NEAR) || x(&front) <= x(&all[0]) {
             return self.refused("the steered wheel is not before one fixed axle");
         }
         let (ahead, axle) = (self.length(&[front], |w| w.place[0]), self.length(&all, |w| w.place[0]));
         let wheelbase = Length { stated: ahead.stated - axle.stated, corrected: ahead.corrected - axle.corrected };
         let sideways = self.wanted.wheels[front].place[1] - self.length(&all, |w| w.place[1]).corrected;
-        if sideways.abs() > ALIKE {
+        if sideways.abs() > NEAR {
             self.not_held
                 .push(format!("the steered wheel is {sideways:.4} m beside the middle; controllers have it there."));
         }
