@@ -19,6 +19,8 @@ pub struct CarCase {
     pub case: Case,
     /// The robot file.
     pub robot: String,
+    /// What it says.
+    pub text: String,
     /// Files of the references, then of the recordings.
     pub files: [Vec<SourceFile>; 2],
     /// Other things in the folders, which were not read.
@@ -53,7 +55,8 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 2]) 
     if recordings.is_empty() {
         bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files with --recordings");
     }
-    Ok(Some(CarCase { case: Case { car: file.car, references, recordings }, robot: name, files, ignored }))
+    let case = Case { car: file.car, references, recordings };
+    Ok(Some(CarCase { case, robot: name, text, files, ignored }))
 }
 
 impl CarCase {
@@ -68,6 +71,6 @@ impl CarCase {
 
     /// A diagnosis with what it was made from.
     pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
-        ColumnsEnvelope::new(Kind::Car, &self.robot, &self.files, &self.ignored, diagnosis)
+        ColumnsEnvelope::new(Kind::Car, [&self.robot, &self.text], &self.files, &self.ignored, diagnosis)
     }
 }

@@ -48,6 +48,9 @@ pub struct ColumnsEnvelope {
     pub program: Program,
     /// The robot file, or the built-in robot's name.
     pub robot: String,
+    /// What the robot file says, word by word; older verdicts have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot_file: Option<String>,
     /// Files by the part they play: reference, recordings.
     pub sources: BTreeMap<String, Vec<SourceFile>>,
     /// Other things in the folders, which were not read.
@@ -57,10 +60,11 @@ pub struct ColumnsEnvelope {
 }
 
 impl ColumnsEnvelope {
-    /// Packs a diagnosis with what it was made from: files of the references, then of the recordings.
+    /// Packs a diagnosis with what it was made from: name and text of the robot file, files of the references, then of the
+    /// recordings.
     pub fn new(
         kind: Kind,
-        robot: &str,
+        [robot, robot_file]: [&str; 2],
         files: &[Vec<SourceFile>; 2],
         ignored: &[String],
         diagnosis: Diagnosis,
@@ -71,6 +75,7 @@ impl ColumnsEnvelope {
             kind,
             program: Program::default(),
             robot: robot.to_owned(),
+            robot_file: Some(robot_file.to_owned()),
             sources: [("reference", reference), ("recordings", recordings)].map(|(k, v)| (k.to_owned(), v)).into(),
             ignored_files: ignored.to_vec(),
             diagnosis,

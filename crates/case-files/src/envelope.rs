@@ -266,8 +266,9 @@ impl Envelope {
     pub fn parse(name: &str, text: &str) -> Result<Self> {
         if let Some(kind) = Version::of(text).and_then(|version| version.kind) {
             bail!(
-                "'{name}' holds a verdict of kind {kind}, of which nothing can be exported and no law be told; \
-                 `lacuna report '{name}' -o page.html` shows it"
+                "'{name}' holds a verdict of kind {kind}, which has no law of what is missing and no masses; \
+                 `lacuna report '{name}' -o page.html` shows it, `lacuna export '{name}' --to toml` or `--to ros2` \
+                 corrects the robot"
             );
         }
         parsed(name, text)

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use odometry::file::RobotFile;
+use odometry::file::{BUILT_IN, RobotFile};
 use odometry::{Case, diagnosis, left_out};
 use verdict::Diagnosis;
 
@@ -19,6 +19,8 @@ pub struct OdometryCase {
     pub case: Case,
     /// The robot file, or the built-in robot's name.
     pub robot: String,
+    /// What the robot file says.
+    pub text: String,
     /// Files of the references, then of the recordings.
     pub files: [Vec<SourceFile>; 2],
     /// Other things in the folders, which were not read.
@@ -30,14 +32,21 @@ pub struct OdometryCase {
 /// # Errors
 /// A file that cannot be read, or holds what no such robot can have.
 pub fn robot(name: &str) -> Result<Option<RobotFile>> {
+    let Some(text) = text(name)? else { return Ok(None) };
+    let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
+    Ok(Some(RobotFile::parse(&shown, &text)?))
+}
+
+/// What the file of a robot says that is named, a file or built in; `None` where it is of another kind.
+fn text(name: &str) -> Result<Option<String>> {
     if Path::new(name).is_file() {
         let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return if RobotFile::is_one(&text) { Ok(Some(RobotFile::parse(name, &text)?)) } else { Ok(None) };
+        return Ok(RobotFile::is_one(&text).then_some(text));
     }
     if is_path(name) {
         return Ok(None);
     }
-    RobotFile::built_in(name).transpose().map_err(Into::into)
+    Ok(BUILT_IN.iter().find(|built_in| built_in.0 == name).map(|(_, text)| (*text).to_owned()))
 }
 
 /// The case of a folder, or of a robot with files, if its robot is of this kind.
@@ -58,7 +67,7 @@ pub fn read(
         },
         (None, None) => return Ok(None),
     };
-    let Some(file) = robot(&name)? else { return Ok(None) };
+    let Some((file, text)) = robot(&name)?.zip(text(&name)?) else { return Ok(None) };
 
     let mut ignored = Vec::new();
     let (drives, files) =
@@ -67,7 +76,8 @@ pub fn read(
     if recordings.is_empty() {
         bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
     }
-    Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, robot: name, files, ignored }))
+    let case = Case { robot: file.robot, references, recordings };
+    Ok(Some(OdometryCase { case, robot: name, text, files, ignored }))
 }
 
 /// Drives and files: of the references, then of the recordings.
@@ -130,6 +140,6 @@ impl OdometryCase {
 
     /// A diagnosis with what it was made from.
     pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
-        ColumnsEnvelope::new(Kind::Odometry, &self.robot, &self.files, &self.ignored, diagnosis)
+        ColumnsEnvelope::new(Kind::Odometry, [&self.robot, &self.text], &self.files, &self.ignored, diagnosis)
     }
 }

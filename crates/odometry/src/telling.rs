@@ -191,9 +191,22 @@ pub fn free_runs(
     out
 }
 
+/// Length, s, of a free run that [`free_runs`] has written, if it is one of this quantity: "position" or "heading".
+pub fn length_of(run: &FreeRun, quantity: &str) -> Option<f64> {
+    let rest = run.quantity.strip_prefix(quantity)?.strip_prefix(" after ")?;
+    rest.split_once(" s from ")?.0.parse().ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lengths_of_free_runs_are_read_as_they_are_written() {
+        let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([1.0, 2.0]));
+        let of = |quantity: &str| runs.iter().filter_map(|run| length_of(run, quantity)).collect::<Vec<_>>();
+        assert_eq!((of("position"), of("heading"), of("speed")), (vec![2.0, 10.0, 0.5], vec![2.0, 10.0, 0.5], vec![]));
+    }
 
     #[test]
     fn probabilities_of_all_answers_add_up_whatever_the_answer_is() {

@@ -1,11 +1,14 @@
-//! `lacuna export`: a diagnosed robot as a model of a simulator.
+//! `lacuna export`: a diagnosed robot as a model of a simulator, as a robot file, or as parameters of its controller.
+
+mod columns;
 
 use robot_file::RobotSpec;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder;
-use case_files::envelope::Envelope;
+use case_files::corrected::ColumnsRobot;
+use case_files::envelope::{Answered, Envelope};
 use case_files::kind;
 use case_files::own_effects;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -22,6 +25,8 @@ Examples:
   lacuna export verdict.json --to toml -o robot.toml   for simulate and predict
   lacuna export verdict.json --to sdf --retuned        re-tuned, no effects
   lacuna export robot.toml --to urdf                   with the file's effects
+  lacuna export verdict.json --to ros2 -o controllers.yaml
+                                                       of wheels or a car: ROS 2
   lacuna export verdict.json --to mjcf -o robot.xml --effects my-law.toml
                                                        it names a law of a file
 
@@ -29,6 +34,11 @@ Laws that an engine has become values of its model, with comments that say
 where they come from. What an engine cannot hold is listed in the model as
 lines to be added, with the reason; for MuJoCo they also are a Python file
 beside the model, robot_residual.py.
+
+Verdicts of kind odometry and car become the owner's robot file with the
+corrected numbers (toml), or parameters of the controller of ros2_controllers
+that the wheels ask for (ros2). What such a file cannot hold is a warning and
+a comment in it.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
 
@@ -69,6 +79,8 @@ enum Format {
     Urdf,
     /// Gazebo, with the ground.
     Sdf,
+    /// Parameters of a ROS 2 controller (of kinds odometry and car).
+    Ros2,
 }
 
 /// A robot and where it comes from.
@@ -80,13 +92,23 @@ struct Source {
 
 /// Exports a robot.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
-    let Source { robot, before, causes } = source(args)?;
+    let Source { robot, before, causes } = match source(args)? {
+        Exportable::Model(source) => source,
+        Exportable::Columns(robot) => return columns::run(args, robot),
+    };
     let engine = match args.to {
         Format::Toml => return save(args, &robot.to_toml()?, None),
         Format::Json => return save(args, &(serde_json::to_string_pretty(&robot.to_json()?)? + "\n"), None),
         Format::Mjcf => Engine::Mjcf,
         Format::Urdf => Engine::Urdf,
         Format::Sdf => Engine::Sdf,
+        Format::Ros2 => bail!(
+            "robot '{}' is {}: its sides skid in turns, so that it turns as if its track were wider, and no verdict of this \
+             kind says by how much a controller has to count that in; compare its wheel speeds with a pose \
+             (`lacuna diagnose --robot skid-steer-4 --recordings ... --json verdict.json`) and export that verdict",
+            robot.name,
+            robot.causality.name()
+        ),
     };
     let no_forces = kind::of(robot.causality).no_forces();
     ensure!(
@@ -112,9 +134,22 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     save(args, &exported.text, exported.residual.as_deref())
 }
 
-fn source(args: &Args) -> Result<Source> {
-    let known = args.effects.known()?;
+/// What is exported.
+enum Exportable {
+    /// A robot with masses and forces.
+    Model(Source),
+    /// A robot whose file names its columns.
+    Columns(ColumnsRobot),
+}
+
+fn source(args: &Args) -> Result<Exportable> {
     let toml = args.from.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    if toml && args.from.is_file() {
+        if let Some(robot) = ColumnsRobot::of_file(&args.from)? {
+            return Ok(Exportable::Columns(robot));
+        }
+    }
+    let known = args.effects.known()?;
     if toml {
         let whole = case_folder::robot_with(known, &args.from.display().to_string())?;
         own_effects::ensure_torque_driven(&whole)?;
@@ -122,13 +157,18 @@ fn source(args: &Args) -> Result<Source> {
             warning(&sentence);
         }
         let robot = if args.nominal || args.retuned { RobotSpec { effects: Vec::new(), ..whole } } else { whole };
-        return Ok(Source { robot, before: None, causes: Vec::new() });
+        return Ok(Exportable::Model(Source { robot, before: None, causes: Vec::new() }));
     }
-    let envelope = Envelope::open(&args.from)?;
+    let envelope: Box<Envelope> = match Answered::open(&args.from)? {
+        Answered::Mapped(envelope) => envelope,
+        Answered::Columns(envelope) => {
+            return Ok(Exportable::Columns(ColumnsRobot::of_verdict(&args.from.display().to_string(), *envelope)?));
+        }
+    };
     let nominal = envelope.robot_with(known)?;
     own_effects::ensure_torque_driven(&nominal)?;
     if args.nominal {
-        return Ok(Source { robot: nominal, before: None, causes: Vec::new() });
+        return Ok(Exportable::Model(Source { robot: nominal, before: None, causes: Vec::new() }));
     }
     if !args.retuned {
         envelope.ensure_known(known)?;
@@ -141,7 +181,7 @@ fn source(args: &Args) -> Result<Source> {
         correction.effects.clear();
     }
     let robot = nominal.corrected(&correction)?;
-    Ok(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked })
+    Ok(Exportable::Model(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked }))
 }
 
 /// What speaks against taking the corrected robot for the true one.

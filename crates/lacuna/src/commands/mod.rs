@@ -111,6 +111,11 @@ impl OwnEffects {
     pub(crate) fn known(&self) -> Result<KnownEffects> {
         own_effects::read(&self.files)
     }
+
+    /// Whether there are any.
+    pub(crate) fn is_any(&self) -> bool {
+        !self.files.is_empty()
+    }
 }
 
 /// How recordings are read.

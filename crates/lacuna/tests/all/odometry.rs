@@ -175,3 +175,52 @@ fn a_drive_is_drawn_beside_its_simulations_at_once_or_from_the_verdict() {
     }
     bench.run(&["law", "out.json"]).failed(&["verdict of kind odometry", "lacuna report"]);
 }
+
+#[test]
+fn a_verdict_becomes_a_robot_file_and_parameters_of_a_controller() {
+    let bench = bench();
+    bench.write("case/robot.toml", &ROBOT.replace("radius = 0.05\n", "radius = 0.05   # m\n"));
+    assert_eq!(bench.run(&["diagnose", "case", "--json", "out.json"]).code(), Some(0));
+    let run = bench.run(&["export", "out.json", "--to", "toml", "-o", "corrected.toml"]);
+    assert_eq!((run.code(), run.out(), run.err()), (Some(0), String::new(), String::new()));
+    let corrected = bench.read("corrected.toml");
+    let (wanted, found) = (&["radius = 0.0524", "   # m", "re-tuned by lacuna from 0.05 m"], &corrected);
+    assert!(wanted.iter().all(|part| found.contains(part)), "{corrected}");
+    let nominal = bench.run(&["export", "out.json", "--to", "toml", "--nominal"]).out();
+    assert_eq!(nominal, bench.read("case/robot.toml"));
+
+    // With the file corrected, nothing is missing any more.
+    let run = bench.run(&["diagnose", "--robot", "corrected.toml", "--recordings", "case/recordings", "--json", "-"]);
+    let json: Value = serde_json::from_str(&run.out()).unwrap();
+    assert_eq!(json["diagnosis"]["verdict"], "no_mismatch");
+
+    let run = bench.run(&["export", "out.json", "--to", "ros2", "-o", "controllers.yaml"]);
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    let yaml: serde_yaml_ng::Value = serde_yaml_ng::from_str(&bench.read("controllers.yaml")).unwrap();
+    let parameters = &yaml["diff_drive_controller"]["ros__parameters"];
+    let number = |value: &serde_yaml_ng::Value| value.as_f64().unwrap();
+    assert!((number(&parameters["right_wheel_radius_multiplier"]) - 1.05).abs() < 0.002);
+    assert!((number(&parameters["left_wheel_radius_multiplier"]) - 1.0).abs() < 0.002);
+    assert_eq!((number(&parameters["wheel_radius"]), number(&parameters["wheel_separation"])), (0.05, 0.3));
+    let velocity = number(&parameters["twist_covariance_diagonal"][0]);
+    assert!(velocity > 0.0 && velocity < 1e-3, "{velocity}");
+    assert_eq!(yaml["ekf_filter_node"]["ros__parameters"]["odom0"], "/diff_drive_controller/odom");
+    let stated = bench.run(&["export", "case/robot.toml", "--to", "ros2"]).out();
+    assert!(stated.contains("left_wheel_radius_multiplier: 1.0\n") && stated.contains("# Covariances are left out"));
+}
+
+#[test]
+fn what_cannot_be_exported_is_one_clear_sentence() {
+    let bench = bench();
+    bench.write("cart.toml", ROBOT);
+    for format in ["mjcf", "urdf", "sdf"] {
+        let run = bench.run(&["export", "cart.toml", "--to", format]);
+        run.failed(&["kind odometry have no masses and forces", "--to ros2"]);
+    }
+    bench.run(&["export", "cart.toml", "--to", "json"]).failed(&["kind odometry are TOML", "--to toml"]);
+    let run = bench.run(&["export", "cart.toml", "--to", "toml", "--retuned"]);
+    assert!(run.code() == Some(2) && run.err().contains("take --nominal"), "{}", run.err());
+    bench.write("driven.toml", crate::common::ROBOT);
+    let run = bench.run(&["export", "driven.toml", "--to", "ros2"]);
+    run.failed(&["is torque-driven", "sides skid in turns", "--robot skid-steer-4"]);
+}

@@ -1,0 +1,268 @@
+use std::collections::BTreeMap;
+
+use approx::assert_relative_eq;
+use odometry::file::{BUILT_IN, RobotFile};
+use verdict::{Cause, Diagnosis, Estimate, Verdict};
+
+use super::*;
+
+const CAR: &str = r#"
+name = "model car"   # 1:10
+kind = "car"
+wheelbase = { value = 0.26, sigma = 0.002, source = "tape measure" }    # m
+mass = { value = 2.0 }
+front_axle_mass = { value = 1.0 }
+yaw_inertia = { value = 0.02 }
+wheel_radius = { value = 0.033, sigma = 0.0005 }
+
+[steering]
+full_angle = { value = 0.40, sigma = 0.02, source = "protractor" }      # rad
+centre = { value = 0.0, sigma = 0.02 }
+
+[columns]
+time = "t"
+throttle = "duty"
+steering = "servo"
+encoder = "speed"
+"#;
+
+/// A verdict with these values, of which those of a cause are told.
+fn verdict(tuning: &[(&str, f64)], told: &[(&str, f64)]) -> Diagnosis {
+    let mut out = Diagnosis::withheld();
+    out.verdict = Verdict::Explained;
+    out.sentences = vec!["Something is off.".to_owned()];
+    out.tuning = tuning.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+    let estimate = |value| Estimate { value, sigma: Some(0.02 * value), at_bound: false };
+    let parameters: BTreeMap<String, Estimate> =
+        told.iter().map(|(name, value)| ((*name).to_owned(), estimate(*value))).collect();
+    out.ranked = vec![Cause { parameters: parameters.into_iter().collect(), ..Cause::plain("some", "some", 0.9) }];
+    out
+}
+
+fn robot(kind: Kind, text: &str, diagnosis: Option<Diagnosis>) -> ColumnsRobot {
+    ColumnsRobot { kind, name: "robot.toml".to_owned(), text: text.to_owned(), diagnosis, is_nominal: false }
+}
+
+fn built_in(name: &str) -> &'static str {
+    BUILT_IN.iter().find(|b| b.0 == name).expect("built in").1
+}
+
+/// Every constant of a robot off by another share.
+fn off(text: &str) -> Vec<(String, f64)> {
+    let robot = RobotFile::parse("robot.toml", text).expect("a robot").robot;
+    let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);
+    let extent = |axis: usize| places(axis).fold(f64::MIN, f64::max) - places(axis).fold(f64::MAX, f64::min);
+    let value = |constant: &odometry::Constant| match constant.quantity {
+        odometry::Quantity::Radius(k) => robot.wheels[robot.measured()[k]].radius * (1.01 + 0.001 * k as f64),
+        odometry::Quantity::Across => 1.02 * extent(1),
+        odometry::Quantity::Along => 0.97 * extent(0),
+        odometry::Quantity::Reach => 1.03 * robot.wheels[0].place[0].hypot(robot.wheels[0].place[1]),
+        odometry::Quantity::SteeringOffset => 0.0123,
+        _ => 0.001,
+    };
+    odometry::constants(&robot).iter().map(|c| (c.name.clone(), value(c))).collect()
+}
+
+fn corrected(name: &str) -> ColumnsRobot {
+    let off = off(built_in(name));
+    let tuning: Vec<(&str, f64)> = off.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    robot(Kind::Odometry, built_in(name), Some(verdict(&tuning, &[("rate of the clocks", 0.001)])))
+}
+
+#[test]
+fn a_corrected_file_reads_back_as_the_corrected_robot_and_keeps_what_its_owner_wrote() {
+    for (name, text) in BUILT_IN {
+        let written = corrected(name).robot_file().expect("a file");
+        let read = RobotFile::parse("corrected.toml", &written.text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let stated = RobotFile::parse("robot.toml", text).expect("a robot");
+        let wanted = wheels::corrected(&stated.robot, &corrected(name).tuning());
+        assert_eq!((&read.columns, &read.description), (&stated.columns, &stated.description));
+        for (read, wanted) in read.robot.wheels.iter().zip(&wanted.wheels) {
+            assert_relative_eq!(read.radius, wanted.radius, max_relative = 1e-8);
+            assert_relative_eq!(read.direction, wanted.direction, epsilon = 1e-8);
+            for axis in 0..2 {
+                assert_relative_eq!(read.place[axis], wanted.place[axis], epsilon = 1e-8);
+            }
+        }
+        // What was corrected once is right by itself.
+        let measured = read.robot.measured()[0];
+        let [radius, before] = [&read, &stated].map(|file| file.robot.wheels[measured].radius);
+        assert_relative_eq!(radius, 1.01 * before, max_relative = 1e-8);
+        assert!(written.text.contains("re-tuned by lacuna from"), "{}", written.text);
+        assert!(written.text.starts_with("# Corrected by lacuna") && written.text.contains("The verdict: Something"));
+        let clock = "rate of the clocks is 0.001000 ± 0.000033 (90 %), which a robot file of kind odometry cannot hold: \
+                     correct the time stamps of the counts by it.";
+        assert_eq!(written.not_held, [clock]);
+        assert!(written.text.contains(&format!("# {clock}\n")), "{}", written.text);
+    }
+    let commented = built_in("differential").replacen("radius = 0.042\n", "radius = 0.042   # m, with a calliper\n", 1);
+    let mut robot = corrected("differential");
+    robot.text = commented.clone();
+    let text = robot.robot_file().expect("a file").text;
+    assert!(
+        text.contains("radius = 0.04242   # m, with a calliper") && text.contains("m; Sousa et al. (2022)"),
+        "{text}"
+    );
+    assert_eq!(robot.nominal().robot_file().expect("a file").text, commented);
+}
+
+#[test]
+fn a_zero_of_the_steering_is_the_direction_of_the_steered_wheel() {
+    let text = corrected("tricycle").robot_file().expect("a file").text;
+    let front = &RobotFile::parse("robot.toml", &text).expect("a robot").robot.wheels[0];
+    assert_relative_eq!(front.direction, 0.0123, epsilon = 1e-9);
+    let controllers = corrected("tricycle").controllers().expect("parameters").text;
+    assert!(controllers.contains("wheelbase: 0.1455\n"), "{controllers}");
+}
+
+#[test]
+fn a_corrected_car_reads_back_and_numbers_of_a_drive_that_nobody_states_stay_out() {
+    let tuning = [
+        ("wheelbase", 0.25),
+        ("centre of mass ahead of the rear axle", 0.12),
+        ("yaw inertia over mass", 0.011),
+        ("steering angle at full command", 0.42),
+        ("steering angle at no command", -0.03),
+        ("time constant of the steering", 0.08),
+        ("acceleration at full throttle", 7.0),
+        ("place of the tracked point, forward", 0.1),
+        ("encoder speed over ground speed", 1.1),
+    ];
+    let told = [("encoder speed over ground speed", 1.1), ("compliance of the front tyres", 0.02)];
+    let car = robot(Kind::Car, CAR, Some(verdict(&tuning, &told)));
+    let written = car.robot_file().expect("a file");
+    let read = single_track::file::RobotFile::parse("car.toml", &written.text).expect("a car").car;
+    let values = [
+        (read.wheelbase, 0.25),
+        (read.centre_of_mass, 0.12),
+        (read.gyration, 0.011),
+        (read.full_steering, 0.42),
+        (read.centre, -0.03),
+        (read.steering_lag, 0.08),
+        (read.point_x, 0.1),
+    ];
+    for (read, wanted) in values {
+        assert!(read.is_stated);
+        assert_relative_eq!(read.value, wanted, max_relative = 1e-8);
+    }
+    assert!(!read.drive_gain.is_stated && read.radius.value == 0.033);
+    for part in
+        ["name = \"model car\"   # 1:10", "re-tuned by lacuna from 0.26 m; tape measure", "which a robot file of kind"]
+    {
+        assert!(written.text.contains(part), "no `{part}` in\n{}", written.text);
+    }
+    let speed = "encoder speed over ground speed is 1.100 ± 0.036 (90 %), which a robot file of kind car cannot hold";
+    assert_eq!(written.not_held.len(), 2);
+    assert!(written.not_held.iter().any(|s| s.starts_with(speed)), "{:?}", written.not_held);
+
+    // Wheels that are smaller than stated make the encoder's speed too large.
+    let ros2 = car.controllers().expect("parameters");
+    assert!(
+        ros2.text.contains("rear_wheel_radius: 0.03\n") && ros2.text.contains("wheelbase: 0.25\n"),
+        "{}",
+        ros2.text
+    );
+    assert!(ros2.not_held.len() == 1 && ros2.not_held[0].contains("front tyres"), "{:?}", ros2.not_held);
+    assert!(!ros2.text.contains("covariance_diagonal") && ros2.text.contains("from throttle and steering"));
+    let unstated = robot(Kind::Car, &CAR.replace("wheel_radius = { value = 0.033, sigma = 0.0005 }", ""), None);
+    let text = unstated.controllers().expect("parameters").text;
+    assert!(text.contains("states no wheel_radius") && !text.contains("rear_wheel_radius:"), "{text}");
+}
+
+#[test]
+fn every_built_in_robot_has_its_controller() {
+    let parts: [(&str, &[&str]); 6] = [
+        (
+            "differential",
+            &[
+                "wheel_separation: 0.2\n",
+                "wheel_separation_multiplier: 1.02\n",
+                "wheel_radius: 0.042\n",
+                "left_wheel_radius_multiplier: 1.01\n",
+                "right_wheel_radius_multiplier: 1.011\n",
+            ],
+        ),
+        ("skid-steer-4", &["- left_side_joint\n", "wheel_separation: 0.75\n", "wheel_separation_multiplier: 1.02\n"]),
+        (
+            "tricycle",
+            &["type: tricycle_controller/TricycleController\n", "steering_joint_name: front_steering_joint\n"],
+        ),
+        ("mecanum-4", &["sum_of_robot_center_projection_on_X_Y_axis: 0.199\n"]),
+        ("omni-3", &["- wheel_2_joint\n    - wheel_3_joint\n    - wheel_1_joint\n", "robot_radius: 0.20085\n"]),
+        ("omni-4", &["- front_left_joint\n    - rear_left_joint\n", "turns the robot counter-clockwise"]),
+    ];
+    for (name, parts) in parts {
+        let written = corrected(name).controllers().expect("parameters");
+        for part in parts {
+            assert!(written.text.contains(part), "{name}: no `{part}` in\n{}", written.text);
+        }
+        assert!(written.not_held.iter().any(|s| s.contains("time stamps")), "{name}: {:?}", written.not_held);
+    }
+    // One number for four radii that differ by 0.3 %.
+    let mecanum = corrected("mecanum-4").controllers().expect("parameters");
+    assert!(mecanum.not_held.iter().any(|s| s.contains("radii of wheels differ (front left 0.03030 m")), "{mecanum:?}");
+    assert!(mecanum.text.contains("# front right, rear right: counts backwards"), "{}", mecanum.text);
+}
+
+#[test]
+fn driven_wheels_behind_a_steered_one_ask_for_the_steering_controllers() {
+    let rear = "[[wheel]]\nname = \"rear axle\"\nplace = [0, 0]\nradius = 0.0325\n\
+                source = \"only says that the axle does not slide sideways\"\n";
+    let tricycle = built_in("tricycle").replace("column = \"tick\"\n", "");
+    let wheel = |name: &str, y: f64| {
+        format!(
+            "[[wheel]]\nname = \"{name}\"\nplace = [0, {y}]\nradius = 0.03\ncounts_per_turn = 1600.0\ncolumn = \"{name}\"\n"
+        )
+    };
+    let written = |rear_wheels: &str| {
+        let text = tricycle.replace(rear, rear_wheels);
+        robot(Kind::Odometry, &text, None).controllers().expect("parameters").text
+    };
+    let two = written(&(wheel("l", 0.1) + &wheel("r", -0.1)));
+    assert!(two.contains("rear_wheels_names:\n    - r_joint\n    - l_joint\n"), "right first: {two}");
+    assert!(two.contains("wheel_track: 0.2\n") && two.contains("front_wheels_radius: 0.0325\n"), "{two}");
+    let one = written(&wheel("back", 0.0));
+    assert!(one.contains("bicycle_steering_controller") && one.contains("rear_wheel_radius: 0.03\n"), "{one}");
+}
+
+#[test]
+fn what_no_controller_has_is_one_clear_sentence() {
+    let refused = |text: &str| robot(Kind::Odometry, text, None).controllers().unwrap_err().to_string();
+    let text = built_in("omni-3").replace("place = [-0.195, 0]", "place = [-0.25, 0]");
+    assert!(refused(&text).contains("'omni-3': no controller of ros2_controllers holds it"), "{}", refused(&text));
+    let text = built_in("differential")
+        .replace("name = \"right\"", "name = \"left side\"")
+        .replace("\"left\"", "\"left_side\"");
+    assert!(refused(&text).contains("would share a joint"), "{}", refused(&text));
+}
+
+#[test]
+fn forecasts_of_the_verdict_become_covariances() {
+    let mut diagnosis = corrected("differential").diagnosis.expect("a verdict");
+    diagnosis.free_runs = odometry::telling::free_runs("run", "counts alone", [2.0, 10.0, 30.0], |row, k| {
+        let size = (1 + row) as f64 * 1e-3 * (1 + k) as f64;
+        Some([1.177_41 * size, 0.674_49 * size])
+    });
+    let robot = robot(Kind::Odometry, built_in("differential"), Some(diagnosis));
+    let corrected = robot.controllers().expect("parameters").text;
+    assert!(
+        corrected.contains("is 3.00 mm and 3.00 mrad after 2 s and 9.00 mm and 9.00 mrad after 30 s"),
+        "{corrected}"
+    );
+    // σ_v² = σ_p² f / T = 9e-6 · 50 / 2
+    assert!(corrected.contains("twist_covariance_diagonal:\n    - 0.000225\n"), "{corrected}");
+    assert!(corrected.contains("errors are larger"), "{corrected}");
+    let nominal = robot.nominal().controllers().expect("parameters");
+    assert!(nominal.text.contains("is 1.00 mm and 1.00 mrad after 2 s") && nominal.not_held.is_empty());
+}
+
+#[test]
+fn a_verdict_that_did_not_keep_the_robot_file_is_refused_with_the_remedy() {
+    let envelope =
+        ColumnsEnvelope::new(Kind::Odometry, ["my.toml", CAR], &Default::default(), &[], Diagnosis::withheld());
+    let mut json = serde_json::to_value(&envelope).expect("JSON");
+    json.as_object_mut().expect("an object").remove("robot_file");
+    let older: ColumnsEnvelope = serde_json::from_value(json).expect("older verdicts are read");
+    let refused = ColumnsRobot::of_verdict("old.json", older).unwrap_err().to_string();
+    assert!(refused.contains("did not keep the robot file in it: run `lacuna diagnose"), "{refused}");
+}

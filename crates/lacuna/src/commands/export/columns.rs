@@ -1,0 +1,48 @@
+//! Exports of robots whose files name their columns: wheels beside a pose, and cars.
+
+use anyhow::{Result, bail, ensure};
+use case_files::corrected::ColumnsRobot;
+use verdict::{Diagnosis, Verdict};
+
+use super::{Args, Format, doubts, save};
+use crate::commands::{Outcome, Usage};
+use crate::console::warning;
+
+/// Exports such a robot.
+pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
+    let kind = robot.kind.name();
+    ensure!(
+        !args.retuned,
+        Usage(format!(
+            "--retuned: verdicts of kind {kind} hold constants together with their causes alone; leave it out, or take \
+             --nominal"
+        ))
+    );
+    ensure!(!args.effects.is_any(), Usage(format!("--effects: robots of kind {kind} have no effects; leave it out")));
+    let robot = if args.nominal { robot.nominal() } else { robot };
+    let written = match args.to {
+        Format::Toml => robot.robot_file()?,
+        Format::Ros2 => robot.controllers()?,
+        Format::Json => bail!("robot files of kind {kind} are TOML; export it with --to toml"),
+        Format::Mjcf | Format::Urdf | Format::Sdf => bail!(
+            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export it with \
+             --to toml, or with --to ros2 for parameters of its controller"
+        ),
+    };
+    for doubt in robot.correction().map(told).unwrap_or_default() {
+        warning(&doubt);
+    }
+    for sentence in &written.not_held {
+        warning(sentence.trim_end_matches('.'));
+    }
+    save(args, &written.text, None)
+}
+
+/// What speaks against taking the corrected robot for the true one.
+fn told(diagnosis: &Diagnosis) -> Vec<String> {
+    let mut out = doubts(diagnosis);
+    if diagnosis.verdict == Verdict::Unknown {
+        out[0] = "what is missing has no name: constants and causes are the nearest that were found".to_owned();
+    }
+    out
+}
