@@ -4,25 +4,27 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use single_track::file::RobotFile;
-use single_track::{Case, diagnosis, examine};
+use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
 use crate::case_folder::robot_of;
 use crate::columns::{ColumnsEnvelope, Kind};
 use crate::envelope::SourceFile;
-use crate::odometry::drives;
+use crate::odometry::{Part, drives};
 
 /// A case with what was read for it.
 #[derive(Debug)]
 pub struct CarCase {
     /// The car and its drives.
     pub case: Case,
+    /// Drives whose pose is to be predicted.
+    pub held_out: Vec<Drive>,
     /// The robot file.
     pub robot: String,
     /// What it says.
     pub text: String,
-    /// Files of the references, then of the recordings.
-    pub files: [Vec<SourceFile>; 2],
+    /// Files of the references, of the recordings, and of the drives to be predicted.
+    pub files: [Vec<SourceFile>; 3],
     /// Other things in the folders, which were not read.
     pub ignored: Vec<String>,
 }
@@ -31,7 +33,7 @@ pub struct CarCase {
 ///
 /// # Errors
 /// A robot file or tables that cannot be read, or hold what no car can have.
-pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 2]) -> Result<Option<CarCase>> {
+pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<CarCase>> {
     let name = match (robot, folder) {
         (Some(name), _) => name.to_owned(),
         // What is wrong with a folder without a robot is said where other kinds are read.
@@ -50,13 +52,15 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 2]) 
     }
     let file = RobotFile::parse(&name, &text)?;
     let mut ignored = Vec::new();
-    let (drives, files) = drives(folder, parts, &mut ignored, |name, text| Ok(file.drive(name, text)?))?;
-    let [references, recordings] = drives;
+    let (drives, files) = drives(folder, parts, &mut ignored, |part, name, text| {
+        Ok(if part == Part::HeldOut { file.held_out(name, text)? } else { file.drive(name, text)? })
+    })?;
+    let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
         bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files with --recordings");
     }
     let case = Case { car: file.car, references, recordings };
-    Ok(Some(CarCase { case, robot: name, text, files, ignored }))
+    Ok(Some(CarCase { case, held_out, robot: name, text, files, ignored }))
 }
 
 impl CarCase {
@@ -66,7 +70,9 @@ impl CarCase {
     /// Drives that do not determine an answer.
     pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
         let (findings, table) = examine(&self.case, progress)?;
-        Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
+        let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
+        out.predicted_paths = self.held_out.iter().map(|d| findings.predict(d)).collect();
+        Ok(out)
     }
 
     /// A diagnosis with what it was made from.

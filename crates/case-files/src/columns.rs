@@ -65,18 +65,20 @@ impl ColumnsEnvelope {
     pub fn new(
         kind: Kind,
         [robot, robot_file]: [&str; 2],
-        files: &[Vec<SourceFile>; 2],
+        files: &[Vec<SourceFile>; 3],
         ignored: &[String],
         diagnosis: Diagnosis,
     ) -> Self {
-        let [reference, recordings] = files.clone();
+        let [reference, recordings, heldout] = files.clone();
         Self {
             format: FORMAT,
             kind,
             program: Program::default(),
             robot: robot.to_owned(),
             robot_file: Some(robot_file.to_owned()),
-            sources: [("reference", reference), ("recordings", recordings)].map(|(k, v)| (k.to_owned(), v)).into(),
+            sources: [("reference", reference), ("recordings", recordings), ("heldout", heldout)]
+                .map(|(k, v)| (k.to_owned(), v))
+                .into(),
             ignored_files: ignored.to_vec(),
             diagnosis,
         }

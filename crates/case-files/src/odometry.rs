@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use odometry::file::{BUILT_IN, RobotFile};
-use odometry::{Case, diagnosis, left_out};
+use odometry::{Case, Drive, diagnosis, left_out};
 use verdict::Diagnosis;
 
 use crate::case_folder::{folders, robot_of};
@@ -17,12 +17,14 @@ use crate::inputs::{is_path, list};
 pub struct OdometryCase {
     /// The robot and its drives.
     pub case: Case,
+    /// Drives whose pose is to be predicted.
+    pub held_out: Vec<Drive>,
     /// The robot file, or the built-in robot's name.
     pub robot: String,
     /// What the robot file says.
     pub text: String,
-    /// Files of the references, then of the recordings.
-    pub files: [Vec<SourceFile>; 2],
+    /// Files of the references, of the recordings, and of the drives to be predicted.
+    pub files: [Vec<SourceFile>; 3],
     /// Other things in the folders, which were not read.
     pub ignored: Vec<String>,
 }
@@ -53,11 +55,7 @@ fn text(name: &str) -> Result<Option<String>> {
 ///
 /// # Errors
 /// As [`robot`]; tables that cannot be read.
-pub fn read(
-    folder: Option<&Path>,
-    robot_name: Option<&str>,
-    [reference, recordings]: [&[PathBuf]; 2],
-) -> Result<Option<OdometryCase>> {
+pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<OdometryCase>> {
     let name = match (robot_name, folder) {
         (Some(name), _) => name.to_owned(),
         // What is wrong with a folder without a robot is said where other kinds are read.
@@ -70,41 +68,50 @@ pub fn read(
     let Some((file, text)) = robot(&name)?.zip(text(&name)?) else { return Ok(None) };
 
     let mut ignored = Vec::new();
-    let (drives, files) =
-        drives(folder, [reference, recordings], &mut ignored, |name, text| Ok(file.drive(name, text)?))?;
-    let [references, recordings] = drives;
+    let (drives, files) = drives(folder, parts, &mut ignored, |part, name, text| {
+        Ok(if part == Part::HeldOut { file.held_out(name, text)? } else { file.drive(name, text)? })
+    })?;
+    let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
         bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
     }
     let case = Case { robot: file.robot, references, recordings };
-    Ok(Some(OdometryCase { case, robot: name, text, files, ignored }))
+    Ok(Some(OdometryCase { case, held_out, robot: name, text, files, ignored }))
 }
 
-/// Drives and files: of the references, then of the recordings.
-type Parts<D> = ([Vec<D>; 2], [Vec<SourceFile>; 2]);
+/// What part a drive plays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    /// The simulation was right.
+    Reference,
+    /// It was not.
+    Recording,
+    /// Its pose is to be predicted.
+    HeldOut,
+}
 
-/// Drives of references and recordings, of a case folder or of paths, read by `drive` from name and text.
+/// Drives and files, by their part.
+type Parts<D> = ([Vec<D>; 3], [Vec<SourceFile>; 3]);
+
+/// Drives of a case folder or of paths (references, recordings, held out), read by `drive` from part, name and text.
 pub(crate) fn drives<D>(
     folder: Option<&Path>,
-    [reference, recordings]: [&[PathBuf]; 2],
+    paths: [&[PathBuf]; 3],
     ignored: &mut Vec<String>,
-    drive: impl Fn(&str, &str) -> Result<D>,
+    drive: impl Fn(Part, &str, &str) -> Result<D>,
 ) -> Result<Parts<D>> {
-    let parts: [Vec<PathBuf>; 2] = match folder {
-        Some(folder) => {
-            let [reference, recordings, _] = folders(folder);
-            [reference, recordings].map(|part| if part.is_dir() { vec![part] } else { Vec::new() })
-        }
-        None => [reference.to_vec(), recordings.to_vec()],
+    let paths: [Vec<PathBuf>; 3] = match folder {
+        Some(folder) => folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() }),
+        None => paths.map(<[PathBuf]>::to_vec),
     };
-    let mut drives = [Vec::new(), Vec::new()];
-    let mut files: [Vec<SourceFile>; 2] = Default::default();
-    for (part, paths) in parts.iter().enumerate() {
-        for path in tables(paths, ignored)? {
+    let mut drives = [Vec::new(), Vec::new(), Vec::new()];
+    let mut files: [Vec<SourceFile>; 3] = Default::default();
+    for (k, part) in [Part::Reference, Part::Recording, Part::HeldOut].into_iter().enumerate() {
+        for path in tables(&paths[k], ignored)? {
             let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
             let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-            drives[part].push(drive(&stem, &text)?);
-            files[part].push(source(path.display().to_string(), &text));
+            drives[k].push(drive(part, &stem, &text)?);
+            files[k].push(source(path.display().to_string(), &text));
         }
     }
     Ok((drives, files))
@@ -135,7 +142,9 @@ impl OdometryCase {
     pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
         let findings = odometry::diagnose(&self.case, progress)?;
         let table = left_out(&self.case, progress)?;
-        Ok(diagnosis(&findings, &table, !self.case.references.is_empty()))
+        let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
+        out.predicted_paths = self.held_out.iter().map(|d| findings.predict(&self.case.robot, d)).collect();
+        Ok(out)
     }
 
     /// A diagnosis with what it was made from.

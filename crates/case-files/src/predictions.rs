@@ -20,6 +20,31 @@ pub fn write(dir: &Path, diagnosis: &Diagnosis) -> Result<()> {
     Ok(())
 }
 
+/// Writes `DIR/<drive>.csv` (corrected) and `DIR/<drive>.nominal.csv` (re-tuned) of robots that are compared by their pose;
+/// cells of rows in which no pose is predicted are empty.
+///
+/// # Errors
+/// When the folder or a file cannot be written.
+pub fn write_paths(dir: &Path, diagnosis: &Diagnosis) -> Result<()> {
+    fs::create_dir_all(dir).with_context(|| format!("cannot create '{}'", dir.display()))?;
+    for path in &diagnosis.predicted_paths {
+        let stem = file_stem(&path.name);
+        save(&dir.join(format!("{stem}.csv")), &csv_of_path(&path.time, &path.corrected))?;
+        save(&dir.join(format!("{stem}.nominal.csv")), &csv_of_path(&path.time, &path.retuned))?;
+    }
+    Ok(())
+}
+
+fn csv_of_path(time: &[f64], poses: &[[f64; 3]]) -> String {
+    use std::fmt::Write as _;
+    let mut out = String::from("time_s,x_m,y_m,yaw_rad\n");
+    for (t, [x, y, yaw]) in time.iter().zip(poses) {
+        // Writing to a string cannot fail.
+        let _ = if x.is_finite() { writeln!(out, "{t:.4},{x:.5},{y:.5},{yaw:.6}") } else { writeln!(out, "{t:.4},,,") };
+    }
+    out
+}
+
 /// Writes `DIR/<drive>.csv`.
 ///
 /// # Errors

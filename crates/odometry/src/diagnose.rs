@@ -109,8 +109,8 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// The pose of a drive from its counts alone. It begins where the pose was seen first, and anew where it is seen again after
-    /// rows in which it was not; at the origin where it was never seen.
+    /// The pose of a drive from its counts alone. It begins in the first row of each stretch in which the pose was seen, and anew
+    /// in the last one where rows follow in which it was not; at the origin where it was never seen.
     pub fn predict(&self, robot: &WheeledRobot, drive: &Drive) -> PredictedPath {
         let [_, retuned, corrected] = &self.laws;
         let path = |laws: &Laws| predicted(robot, drive, laws);

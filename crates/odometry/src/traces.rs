@@ -71,12 +71,13 @@ impl Beside<'_> {
     }
 }
 
-/// The pose of a drive from its counts alone, from where it was seen first on, and anew where it is seen again after rows in
-/// which it was not; in the rows before, as counts say backwards. At the origin where it was never seen.
+/// The pose of a drive from its counts alone: from the first row of each stretch in which it was seen, and anew from the last one
+/// where rows follow in which it was not; in the rows before all, as counts say backwards. At the origin where it was never seen.
 pub(crate) fn predicted(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[f64; 3]> {
     let path = implied(robot, drive, laws);
-    let again = |row: usize| drive.is_seen(row) && (row == 0 || !drive.is_seen(row - 1));
-    let mut starts = (0..path.len()).filter(|&row| again(row)).peekable();
+    let seen = |row: usize| drive.is_seen(row);
+    let is_end = |row: usize| row == 0 || !seen(row - 1) || (row + 1 < path.len() && !seen(row + 1));
+    let mut starts = (0..path.len()).filter(|&row| seen(row) && is_end(row)).peekable();
     let Some(mut start) = starts.next() else { return path };
     (0..path.len())
         .map(|row| {

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         return Ok(true);
     }
     let robot = output::beside(ROBOT).display().to_string();
-    let read = case_files::car::read(None, Some(&robot), [&[], &[data.join("runs")]])?;
+    let read = case_files::car::read(None, Some(&robot), [&[], &[data.join("runs")], &[]])?;
     let mut case = read.with_context(|| format!("'{robot}' is no robot file of kind car"))?.case;
     let all = case.recordings.len();
     case.recordings.retain(single_track::Drive::has_pose);

@@ -43,13 +43,14 @@ fn starts(pose: &[[f64; 3]]) -> Vec<usize> {
     out
 }
 
-/// The tracked pose of a drive from throttle and steering alone, at each step. It begins where a velocity is known from poses
-/// first, and anew where it is known again after steps without a pose; at rest at the origin without any pose. The pose before
-/// is as it was seen.
+/// The tracked pose of a drive from throttle and steering alone, at each step. It begins at the first step of each stretch in
+/// which a velocity is known from poses, and anew at the last one where steps without a pose follow; at rest at the origin without
+/// any pose. The pose before is as it was seen.
 pub(crate) fn predicted(laws: &Laws, drive: &Drive) -> Vec<[f64; 3]> {
     let pose = &drive.pose;
     let known = |step: usize| end(pose, step, RULES.past).is_some();
-    let mut starts: Vec<usize> = (0..pose.len()).filter(|&k| known(k) && (k == 0 || !known(k - 1))).collect();
+    let is_end = |k: usize| k == 0 || !known(k - 1) || (k + 1 < pose.len() && !known(k + 1));
+    let mut starts: Vec<usize> = (0..pose.len()).filter(|&k| known(k) && is_end(k)).collect();
     if starts.is_empty() {
         starts.push(0);
     }

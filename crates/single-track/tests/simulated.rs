@@ -2,8 +2,8 @@
 
 mod drawn;
 
-use drawn::{Hidden, case};
-use single_track::{Answer, CORRECTED, FOLLOWING, Findings, LENGTHS, diagnose, examine};
+use drawn::{Hidden, case, columns};
+use single_track::{Answer, CORRECTED, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
 
 fn found(hidden: Hidden, seed: u64) -> Findings {
     diagnose(&case(hidden, seed), &|_| {}).expect("an answer")
@@ -72,4 +72,33 @@ fn left_out_drives_are_forecast_better_with_the_cause_than_as_stated() {
     assert_eq!(table.drives, 3);
     assert!(error(CORRECTED) < 0.5 * error(0), "{} beside {}", error(CORRECTED), error(0));
     assert!(error(FOLLOWING) < 0.5 * error(0), "{} beside {}", error(FOLLOWING), error(0));
+}
+
+#[test]
+fn the_pose_of_a_held_out_drive_follows_from_its_commands() {
+    let hidden = Hidden { centre: 0.05, ..Hidden::default() };
+    let findings = found(hidden, 5);
+    let whole = columns(hidden, 41);
+    // The pose was seen for 3 s, then no more; nothing else was measured.
+    let seen = |(k, pose): (usize, &[f64; 3])| if k < 150 { *pose } else { [f64::NAN; 3] };
+    let mut given = whole.clone();
+    given.pose = whole.pose.iter().enumerate().map(seen).collect();
+    (given.gyro, given.encoder) = (Vec::new(), Vec::new());
+    let told = findings.predict(&Drive::held_out("new", &given).expect("a drive"));
+    let error = |poses: &[[f64; 3]], after: f64| {
+        let k = told.time.iter().position(|t| *t >= after).expect("long enough");
+        let row = whole.time.iter().position(|t| *t >= after - 1e-9).expect("long enough");
+        let ([x, y, _], [a, b, _]) = (poses[k], whole.pose[row]);
+        (x - a).hypot(y - b)
+    };
+    for (after, most) in [(2.0, 0.03), (3.5, 0.01), (5.0, 0.05)] {
+        assert!(error(&told.corrected, after) < most, "{} m after {after} s", error(&told.corrected, after));
+    }
+    assert!(error(&told.corrected, 8.0) < error(&told.retuned, 8.0), "the steering's zero was named");
+
+    // Without a pose it stands at the origin, as this drive did, heading ahead.
+    given.pose = Vec::new();
+    let told = findings.predict(&Drive::held_out("new", &given).expect("a drive"));
+    assert_eq!(told.corrected[0], [0.1, 0.0, 0.0].map(|x| x * told.corrected[0][0] / 0.1));
+    assert!(told.corrected.iter().flatten().all(|x| x.is_finite()) && told.corrected.len() > 1500);
 }

@@ -291,6 +291,7 @@ impl Judged<'_> {
             law: None,
             own_effects: p.known.told(),
             coverage: BTreeMap::new(),
+            predicted_paths: Vec::new(),
             predictions,
         };
         out.sentences = words::sentences(&out, self);

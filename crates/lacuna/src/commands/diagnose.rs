@@ -38,6 +38,8 @@ Examples:
   lacuna diagnose --robot husky-drive --recordings drives/ --heldout unseen/
   lacuna diagnose --robot my-differential.toml --recordings drives/
         wheel counts and a pose, with a robot file of kind = \"odometry\"
+  lacuna diagnose --robot my-differential.toml --recordings drives/ \\
+         --heldout new/ --predictions poses/      where counts alone lead to
   lacuna diagnose --robot my-car.toml --recordings drives/
         throttle, steering, pose or gyro and encoder, with one of kind = \"car\"
 
@@ -61,6 +63,10 @@ Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some of the recordings w
   4 done and a mismatch was found (with --fail-on mismatch; replaces 3).";
 
 /// Where each stage begins, as a share of the time of a torque-driven case; measured on drawn cases.
+/// What there is to say where nothing can be predicted.
+const NOTHING_HELD_OUT: &str =
+    "there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout";
+
 const STAGES: Stages = &[
     ("reading the recordings", 0.0),
     ("calibrating on the references", 0.005),
@@ -246,7 +252,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         if let Some(why) = cannot {
             warning(why);
         } else if diagnosis.predictions.is_empty() {
-            warning("there is no held-out drive, so nothing was predicted; give some with heldout/ or --heldout");
+            warning(NOTHING_HELD_OUT);
         } else {
             predictions::write(dir, diagnosis)?;
         }
@@ -269,8 +275,13 @@ fn verdict_of_columns(args: &Args, case: &odometry::Case, progress: Progress) ->
     let diagnosis = case.diagnose(&|what| progress.stage(what))?;
     drop(progress);
 
-    odometry::warn_of_unused(case.kind(), &[(args.predictions.is_some(), "--predictions"), (args.next, "--next")]);
+    odometry::warn_of_unused(case.kind(), &[(args.next, "--next")]);
     let envelope = case.envelope(diagnosis);
+    match &args.predictions {
+        Some(_) if envelope.diagnosis.predicted_paths.is_empty() => warning(NOTHING_HELD_OUT),
+        Some(dir) => predictions::write_paths(dir, &envelope.diagnosis)?,
+        None => {}
+    }
     write_drawings(args, &envelope.diagnosis, || page_of_columns(&envelope))?;
     if let Some(target) = &args.json {
         emit_json(target, &serde_json::to_value(&envelope)?)?;

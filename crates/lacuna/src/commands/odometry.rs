@@ -61,7 +61,7 @@ impl Case {
 
 /// The case that the arguments name, if its robot is of one of these kinds.
 pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
-    let parts = [input.reference.as_slice(), input.recordings.as_slice()];
+    let parts = [&input.reference, &input.recordings, &input.heldout].map(Vec::as_slice);
     let (folder, robot) = (input.case.as_deref(), input.robot.as_deref());
     let case = match car::read(folder, robot, parts)? {
         Some(case) => Some(Case::Car(Box::new(case))),
@@ -75,8 +75,8 @@ pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
             case.robot()
         );
     }
-    if !input.simulation.is_empty() || !input.heldout.is_empty() {
-        bail!("robots of kind {kind} take --reference and --recordings only; leave out --simulation and --heldout");
+    if !input.simulation.is_empty() {
+        bail!("robots of kind {kind} take --reference, --recordings and --heldout; leave out --simulation");
     }
     if !input.visit.is_empty() {
         bail!(

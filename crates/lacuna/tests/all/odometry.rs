@@ -68,6 +68,26 @@ fn drive(phase: f64) -> String {
     out
 }
 
+/// The same drive with its pose in the first row only, or without any.
+fn counts_of(phase: f64, begins: bool) -> String {
+    let cells = |(k, line): (usize, &str)| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        if !begins {
+            cells.truncate(3);
+        } else if k > 1 {
+            cells[3..].fill("");
+        }
+        cells.join(",") + "\n"
+    };
+    drive(phase).lines().enumerate().map(cells).collect()
+}
+
+/// Where a table of predicted poses ends.
+fn end(table: &str) -> [f64; 3] {
+    let last: Vec<f64> = table.lines().last().unwrap().split(',').skip(1).map(|c| c.parse().unwrap()).collect();
+    last.try_into().unwrap()
+}
+
 fn bench() -> Bench {
     let bench = Bench::empty();
     bench.write("case/robot.toml", ROBOT);
@@ -223,4 +243,32 @@ fn what_cannot_be_exported_is_one_clear_sentence() {
     bench.write("driven.toml", crate::common::ROBOT);
     let run = bench.run(&["export", "driven.toml", "--to", "ros2"]);
     run.failed(&["is torque-driven", "sides skid in turns", "--robot skid-steer-4"]);
+}
+
+#[test]
+fn a_drive_of_counts_alone_is_predicted_from_where_it_was_seen_or_from_the_origin() {
+    let bench = bench();
+    bench.write("case/heldout/new.csv", &counts_of(1.2, true));
+    bench.write("case/heldout/blind.csv", &counts_of(1.2, false));
+    let run = bench.run(&["diagnose", "case", "--predictions", "poses", "--json", "verdict.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+
+    let truth = end(&drive(1.2)
+        .lines()
+        .map(|l| l.splitn(4, ',').map(str::to_owned).collect::<Vec<_>>())
+        .fold(String::new(), |all, cells| all + "t," + &cells[3] + "\n"));
+    let off = |table: &str| {
+        let [x, y, _] = end(&bench.read(table));
+        (x - truth[0]).hypot(y - truth[1])
+    };
+    assert!(off("poses/new.csv") < 0.03, "{}", off("poses/new.csv"));
+    // Without a pose it begins at the origin, which this drive does but for its noise.
+    assert!(off("poses/blind.csv") < 0.05, "{}", off("poses/blind.csv"));
+    assert_ne!(bench.read("poses/new.nominal.csv"), bench.read("poses/new.csv"), "a cause was named");
+    let verdict: Value = serde_json::from_str(&bench.read("verdict.json")).unwrap();
+    assert_eq!(verdict["sources"]["heldout"].as_array().unwrap().len(), 2);
+
+    let run =
+        bench.run(&["diagnose", "--robot", "case/robot.toml", "--recordings", "case/recordings", "--predictions", "p"]);
+    assert!(run.err().contains("there is no held-out drive"), "{}", run.err());
 }

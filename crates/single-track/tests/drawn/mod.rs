@@ -39,8 +39,13 @@ fn noise(seed: &mut u64) -> f64 {
     sum - 6.0
 }
 
-/// A drive of 40 s: throttle in steps, steering in steps and sweeps.
+/// A drive of 40 s.
 fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
+    Drive::new(name, &columns(hidden, seed)).expect("a drive")
+}
+
+/// Columns of a drive of 40 s: throttle in steps, steering in steps and sweeps.
+pub(crate) fn columns(hidden: Hidden, seed: u64) -> Columns {
     let mut random = seed;
     let (mut x, mut y, mut yaw, mut v, mut angle) = (0.0_f64, 0.0_f64, 0.3_f64, 0.0_f64, 0.0_f64);
     let mut out = Columns::default();
@@ -78,7 +83,7 @@ fn drive(name: &str, hidden: Hidden, seed: u64) -> Drive {
             out.encoder.push((1.0 + hidden.encoder) * v + 0.02 * noise(&mut random));
         }
     }
-    Drive::new(name, &out).expect("a drive")
+    out
 }
 
 /// Three drives of a car.
