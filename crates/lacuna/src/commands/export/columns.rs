@@ -41,8 +41,10 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
 /// What speaks against taking the corrected robot for the true one.
 fn told(diagnosis: &Diagnosis) -> Vec<String> {
     let mut out = doubts(diagnosis);
-    if diagnosis.verdict == Verdict::Unknown {
-        out[0] = "what is missing has no name: constants and causes are the nearest that were found".to_owned();
+    if diagnosis.verdict == Verdict::Unknown
+        && let Some(first) = out.first_mut()
+    {
+        "what is missing has no name: constants and causes are the nearest that were found".clone_into(first);
     }
     out
 }
