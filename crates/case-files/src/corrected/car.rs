@@ -34,8 +34,8 @@ struct Place {
     unit: &'static str,
 }
 
-/// Where a robot file has a constant, if it has one. Numbers of a drive that the owner leaves out stay out: what a file does not
-/// state of its drive is fitted to every set of drives.
+/// Where a robot file has a constant, if it has one. Numbers of a drive that the owner leaves out stay out: what a file
+/// does not state of its drive is fitted to every set of drives.
 fn place(car: &Car, mass: Option<f64>, quantity: Quantity) -> Option<Place> {
     let states_drive = car.drive_gain.is_stated || car.dead_zone.is_stated;
     let of = |table: &'static str, key, stated, unit| {

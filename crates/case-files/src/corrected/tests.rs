@@ -91,8 +91,8 @@ fn a_corrected_file_reads_back_as_the_corrected_robot_and_keeps_what_its_owner_w
         assert_relative_eq!(radius, 1.01 * before, max_relative = 1e-8);
         assert!(written.text.contains("re-tuned by lacuna from"), "{}", written.text);
         assert!(written.text.starts_with("# Corrected by lacuna") && written.text.contains("The verdict: Something"));
-        let clock = "rate of the clocks is 0.001000 ± 0.000033 (90 %), which a robot file of kind odometry cannot hold: \
-                     correct the time stamps of the counts by it.";
+        let clock = "rate of the clocks is 0.001000 ± 0.000033 (90 %), which a robot file of kind odometry cannot \
+                     hold: correct the time stamps of the counts by it.";
         assert_eq!(written.not_held, [clock]);
         assert!(written.text.contains(&format!("# {clock}\n")), "{}", written.text);
     }
@@ -225,7 +225,8 @@ fn driven_wheels_behind_a_steered_one_ask_for_the_steering_controllers() {
     let tricycle = built_in("tricycle").replace("column = \"tick\"\n", "");
     let wheel = |name: &str, y: f64| {
         format!(
-            "[[wheel]]\nname = \"{name}\"\nplace = [0, {y}]\nradius = 0.03\ncounts_per_turn = 1600.0\ncolumn = \"{name}\"\n"
+            "[[wheel]]\nname = \"{name}\"\nplace = [0, {y}]\nradius = 0.03\ncounts_per_turn = 1600.0\n\
+             column = \"{name}\"\n"
         )
     };
     let written = |rear_wheels: &str| {

@@ -103,8 +103,8 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         Format::Urdf => Engine::Urdf,
         Format::Sdf => Engine::Sdf,
         Format::Ros2 => bail!(
-            "robot '{}' is {}: its sides skid in turns, so that it turns as if its track were wider, and no verdict of this \
-             kind says by how much a controller has to count that in; compare its wheel speeds with a pose \
+            "robot '{}' is {}: its sides skid in turns, so that it turns as if its track were wider, and no verdict of \
+             this kind says by how much a controller has to count that in; compare its wheel speeds with a pose \
              (`lacuna diagnose --robot skid-steer-4 --recordings ... --json verdict.json`) and export that verdict",
             robot.name,
             robot.causality.name()

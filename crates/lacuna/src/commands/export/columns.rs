@@ -25,8 +25,8 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
         Format::Ros2 => robot.controllers()?,
         Format::Json => bail!("robot files of kind {kind} are TOML; export it with --to toml"),
         Format::Mjcf | Format::Urdf | Format::Sdf => bail!(
-            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export it with \
-             --to toml, or with --to ros2 for parameters of its controller"
+            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export \
+             it with --to toml, or with --to ros2 for parameters of its controller"
         ),
     };
     for doubt in robot.correction().map(told).unwrap_or_default() {
