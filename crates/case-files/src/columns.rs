@@ -60,8 +60,8 @@ pub struct ColumnsEnvelope {
 }
 
 impl ColumnsEnvelope {
-    /// Packs a diagnosis with what it was made from: name and text of the robot file, files of the references, then of the
-    /// recordings.
+    /// Packs a diagnosis with what it was made from: name and text of the robot file, files of the references, then of
+    /// the recordings.
     pub fn new(
         kind: Kind,
         [robot, robot_file]: [&str; 2],

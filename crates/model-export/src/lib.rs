@@ -6,8 +6,8 @@
 //!
 //! From the bottom up: `number` and `xml`; `model` (what is exported); `at` (an effect at values), `origin` (where values
 //! come from), `vehicle`, `contact`, `inertia` and `residual` (what writers read); `translate` (effects into a vehicle);
-//! `added`, `gazebo`, `mjcf`, `urdf`, `sdf` (writers); `export` (one model for one engine). Beside them `ros2/*`: parameters of
-//! ROS 2 controllers from wheels and their lengths.
+//! `added`, `gazebo`, `mjcf`, `urdf`, `sdf` (writers); `export` (one model for one engine). Beside them `ros2/*`:
+//! parameters of ROS 2 controllers from wheels and their lengths.
 
 mod added;
 mod at;

@@ -34,8 +34,8 @@ struct Place {
     unit: &'static str,
 }
 
-/// Where a robot file has a constant, if it has one. Numbers of a drive that the owner leaves out stay out: what a file does not
-/// state of its drive is fitted to every set of drives.
+/// Where a robot file has a constant, if it has one. Numbers of a drive that the owner leaves out stay out: what a file
+/// does not state of its drive is fitted to every set of drives.
 fn place(car: &Car, mass: Option<f64>, quantity: Quantity) -> Option<Place> {
     let states_drive = car.drive_gain.is_stated || car.dead_zone.is_stated;
     let of = |table: &'static str, key, stated, unit| {
@@ -80,10 +80,14 @@ fn edit(document: &mut DocumentMut, place: &Place, found: f64) {
         return;
     }
     // Of what the owner does not state the usual number stood in.
+    let from = if stated.is_stated {
+        format!("{from} {unit}, which follows from other keys")
+    } else {
+        format!("the usual {from} {unit}, for none was stated")
+    };
     let mut row = InlineTable::new();
     row.insert("value", to.into());
-    let source = if stated.is_stated { "other keys" } else { "what is usual, for nothing was stated" };
-    row.insert("source", format!("re-tuned by lacuna from {from} {unit} of {source}").into());
+    row.insert("source", format!("re-tuned by lacuna from {from}").into());
     parent.insert(key, value(row));
 }
 
@@ -97,9 +101,17 @@ pub(super) fn unheld(car: &Car, diagnosis: &Diagnosis, holds: impl Fn(&Constant)
     let unheld = |told: Told| {
         let constant = constants.iter().find(|c| c.name == told.name)?;
         let remedy = remedy(constant.quantity);
-        (!holds(constant)).then_some(Unheld { told, unit: constant.unit, remedy })
+        let is_off = told.differs_from(constant.given);
+        (is_off && !holds(constant)).then_some(Unheld { told, unit: constant.unit, remedy })
     };
-    told(diagnosis).into_iter().filter_map(unheld).collect()
+    let (mut all, mut fitted) = (told(diagnosis), Vec::new());
+    // What makes angles of commands is fitted together with the lengths that a target does hold.
+    let of_steering = |c: &&Constant| matches!(c.quantity, Quantity::FullSteering | Quantity::Centre);
+    for constant in constants.iter().filter(of_steering).filter(|c| all.iter().all(|told| told.name != c.name)) {
+        fitted.extend(Told::fitted(diagnosis, constant.name));
+    }
+    all.extend(fitted);
+    all.into_iter().filter_map(unheld).collect()
 }
 
 fn remedy(quantity: Quantity) -> &'static str {

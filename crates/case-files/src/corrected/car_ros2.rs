@@ -60,8 +60,8 @@ fn told(car: &Car, robot: &ColumnsRobot, has_radius: bool) -> Vec<String> {
     });
     if robot.diagnosis.is_some() {
         out.push(
-            "Forecasts of the verdict are from throttle and steering, not from wheels: they say nothing of the errors of this \
-             odometry."
+            "Forecasts of the verdict are from throttle and steering, not from wheels: they say nothing of the errors \
+             of this odometry."
                 .to_owned(),
         );
     }

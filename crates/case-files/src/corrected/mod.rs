@@ -1,7 +1,8 @@
-//! Robots whose files name their columns, as a verdict corrects them: their robot file, and parameters of ROS 2 controllers.
-//!
-//! `edit`: numbers in TOML; `unheld`: what a target cannot hold; `wheels`, `car`: robot files; `wheels_ros2`, `car_ros2`:
+//! Robots whose files name their columns, as a verdict corrects them: their robot file, and parameters of ROS 2
 //! controllers.
+//!
+//! `edit`: numbers in TOML; `unheld`: what a target cannot hold; `wheels`, `car`: robot files; `wheels_ros2`,
+//! `car_ros2`: controllers.
 
 mod car;
 mod car_ros2;
@@ -70,8 +71,8 @@ impl ColumnsRobot {
         let ColumnsEnvelope { kind, robot, robot_file, diagnosis, program, .. } = envelope;
         let text = robot_file.with_context(|| {
             format!(
-                "'{name}' was written by {} {}, which did not keep the robot file in it: run `lacuna diagnose ... --json \
-                 '{name}'` again on the same recordings",
+                "'{name}' was written by {} {}, which did not keep the robot file in it: run `lacuna diagnose ... \
+                 --json '{name}'` again on the same recordings",
                 program.name, program.version
             )
         })?;

@@ -58,6 +58,7 @@ fn off(text: &str) -> Vec<(String, f64)> {
         odometry::Quantity::Along => 0.97 * extent(0),
         odometry::Quantity::Reach => 1.03 * robot.wheels[0].place[0].hypot(robot.wheels[0].place[1]),
         odometry::Quantity::SteeringOffset => 0.0123,
+        odometry::Quantity::SteeringGain => 1.0,
         _ => 0.001,
     };
     odometry::constants(&robot).iter().map(|c| (c.name.clone(), value(c))).collect()
@@ -90,8 +91,8 @@ fn a_corrected_file_reads_back_as_the_corrected_robot_and_keeps_what_its_owner_w
         assert_relative_eq!(radius, 1.01 * before, max_relative = 1e-8);
         assert!(written.text.contains("re-tuned by lacuna from"), "{}", written.text);
         assert!(written.text.starts_with("# Corrected by lacuna") && written.text.contains("The verdict: Something"));
-        let clock = "rate of the clocks is 0.001000 ± 0.000033 (90 %), which a robot file of kind odometry cannot hold: \
-                     correct the time stamps of the counts by it.";
+        let clock = "rate of the clocks is 0.001000 ± 0.000033 (90 %), which a robot file of kind odometry cannot \
+                     hold: correct the time stamps of the counts by it.";
         assert_eq!(written.not_held, [clock]);
         assert!(written.text.contains(&format!("# {clock}\n")), "{}", written.text);
     }
@@ -113,6 +114,17 @@ fn a_zero_of_the_steering_is_the_direction_of_the_steered_wheel() {
     assert_relative_eq!(front.direction, 0.0123, epsilon = 1e-9);
     let controllers = corrected("tricycle").controllers().expect("parameters").text;
     assert!(controllers.contains("wheelbase: 0.1455\n"), "{controllers}");
+    let zero = "# - steering zero is 0.0123 rad, which tricycle_controller cannot hold: add it to the steering angle";
+    assert!(controllers.contains(zero), "{controllers}");
+}
+
+#[test]
+fn what_may_as_well_not_be_there_is_not_told() {
+    let within = [("offset of the clocks", -0.001), ("rate of the clocks", 0.001)];
+    let mut diagnosis = verdict(&[], &within);
+    diagnosis.ranked[0].parameters.get_mut("offset of the clocks").expect("told").sigma = Some(0.2);
+    let written = robot(Kind::Odometry, built_in("differential"), Some(diagnosis)).robot_file().expect("a file");
+    assert!(written.not_held.len() == 1 && written.not_held[0].starts_with("rate"), "{:?}", written.not_held);
 }
 
 #[test]
@@ -162,7 +174,9 @@ fn a_corrected_car_reads_back_and_numbers_of_a_drive_that_nobody_states_stay_out
         "{}",
         ros2.text
     );
-    assert!(ros2.not_held.len() == 1 && ros2.not_held[0].contains("front tyres"), "{:?}", ros2.not_held);
+    let parts = ["front tyres is 0.02000 ± 0.00066", "full command is 0.420 rad", "no command is -0.0300 rad"];
+    assert!(ros2.not_held.len() == 3, "{:?}", ros2.not_held);
+    assert!(parts.iter().all(|part| ros2.not_held.iter().any(|s| s.contains(part))), "{:?}", ros2.not_held);
     assert!(!ros2.text.contains("covariance_diagonal") && ros2.text.contains("from throttle and steering"));
     let unstated = robot(Kind::Car, &CAR.replace("wheel_radius = { value = 0.033, sigma = 0.0005 }", ""), None);
     let text = unstated.controllers().expect("parameters").text;
@@ -211,7 +225,8 @@ fn driven_wheels_behind_a_steered_one_ask_for_the_steering_controllers() {
     let tricycle = built_in("tricycle").replace("column = \"tick\"\n", "");
     let wheel = |name: &str, y: f64| {
         format!(
-            "[[wheel]]\nname = \"{name}\"\nplace = [0, {y}]\nradius = 0.03\ncounts_per_turn = 1600.0\ncolumn = \"{name}\"\n"
+            "[[wheel]]\nname = \"{name}\"\nplace = [0, {y}]\nradius = 0.03\ncounts_per_turn = 1600.0\n\
+             column = \"{name}\"\n"
         )
     };
     let written = |rear_wheels: &str| {

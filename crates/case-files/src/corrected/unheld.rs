@@ -11,8 +11,11 @@ pub(super) struct Told {
     /// Its value.
     pub(super) value: f64,
     /// Half width of its 90 % interval, if it is known.
-    half_width: Option<f64>,
+    pub(super) half_width: Option<f64>,
 }
+
+/// By how much a constant that no cause was named for has to differ from what is stated to be told, in its unit.
+const SHOWS: f64 = 1e-3;
 
 /// A constant that a file cannot hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +48,26 @@ pub(super) fn told(diagnosis: &Diagnosis) -> Vec<Told> {
     out
 }
 
+impl Told {
+    /// A constant that was fitted beside those of the causes.
+    pub(super) fn fitted(diagnosis: &Diagnosis, name: &str) -> Option<Self> {
+        let value = *diagnosis.tuning.get(name)?;
+        Some(Self { name: name.to_owned(), value, half_width: None })
+    }
+
+    /// Whether it differs from what a target takes for granted.
+    pub(super) fn differs_from(&self, neutral: f64) -> bool {
+        (self.value - neutral).abs() > self.half_width.unwrap_or(SHOWS)
+    }
+}
+
 impl Unheld {
     /// "rate of the clocks is 0.00135 ± 0.00017 (90 %), which a robot file cannot hold: correct the time stamps by it."
     pub(super) fn sentence(&self, holder: &str) -> String {
         let Self { told: Told { name, value, half_width }, unit, remedy } = self;
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
-        let least = half_width.unwrap_or(*value).abs().max(1e-9);
+        // Two digits of the interval, or three of a value without one.
+        let least = half_width.unwrap_or(0.1 * value).abs().max(1e-9);
         let digits = (1.0 - least.log10().floor()).clamp(0.0, 9.0) as usize;
         let interval = half_width.map_or_else(String::new, |half| format!(" ± {half:.digits$}"));
         let level = if half_width.is_some() { " (90 %)" } else { "" };

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
 use odometry::file::RobotFile;
-use odometry::{Quantity, WheeledRobot, constants};
+use odometry::{Constant, Quantity, WheeledRobot, constants};
 use toml_edit::{Array, Item, TableLike};
 use verdict::Diagnosis;
 
 use super::edit::{document, rounded, set, set_source, tables};
-use super::unheld::{Unheld, told};
+use super::unheld::{Told, Unheld, told};
 
 /// The corrected file, and what it cannot hold.
 pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Result<(String, Vec<Unheld>)> {
@@ -95,15 +95,32 @@ pub(super) fn is_length(quantity: Quantity) -> bool {
 /// What the verdict tells and a target does not hold.
 pub(super) fn unheld(stated: &WheeledRobot, diagnosis: &Diagnosis, holds: impl Fn(Quantity) -> bool) -> Vec<Unheld> {
     let constants = constants(stated);
-    let unheld = |told: super::unheld::Told| {
+    let unheld = |told: Told| {
         let Some(constant) = constants.iter().find(|c| c.name == told.name) else {
             let remedy = "look at the wheel's encoder, its plug and its counter";
             return Some(Unheld { told, unit: "1", remedy });
         };
         let remedy = remedy(constant.quantity);
-        (!holds(constant.quantity)).then_some(Unheld { told, unit: constant.unit, remedy })
+        let is_off = neutral(constant.quantity).is_none_or(|neutral| told.differs_from(neutral));
+        (is_off && !holds(constant.quantity)).then_some(Unheld { told, unit: constant.unit, remedy })
     };
-    told(diagnosis).into_iter().filter_map(unheld).collect()
+    let (mut all, mut fitted) = (told(diagnosis), Vec::new());
+    // Zero and gain of the steering are fitted together with the lengths that a target does hold.
+    let of_steering = |c: &&Constant| matches!(c.quantity, Quantity::SteeringOffset | Quantity::SteeringGain);
+    for constant in constants.iter().filter(of_steering).filter(|c| all.iter().all(|told| told.name != c.name)) {
+        fitted.extend(Told::fitted(diagnosis, &constant.name));
+    }
+    all.extend(fitted);
+    all.into_iter().filter_map(unheld).collect()
+}
+
+/// What a target takes for granted of a constant that it does not hold; `None` where that depends on another constant.
+fn neutral(quantity: Quantity) -> Option<f64> {
+    match quantity {
+        Quantity::SteeringGain => Some(1.0),
+        Quantity::TurnSlipRate | Quantity::TurnSlipPower => None,
+        _ => Some(0.0),
+    }
 }
 
 fn remedy(quantity: Quantity) -> &'static str {

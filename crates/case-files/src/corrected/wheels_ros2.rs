@@ -117,8 +117,8 @@ impl Wheels<'_> {
 
     fn refused<T>(&self, why: &str) -> Result<T> {
         bail!(
-            "robot '{}': no controller of ros2_controllers holds it, for {why}; export it with --to toml, or correct the robot \
-             file if it says so by mistake",
+            "robot '{}': no controller of ros2_controllers holds it, for {why}; export it with --to toml, or correct \
+             the robot file if it says so by mistake",
             self.stated.name
         )
     }
@@ -151,16 +151,16 @@ impl Wheels<'_> {
         let names: Vec<String> = names.collect();
         if !names.is_empty() {
             self.told.push(format!(
-                "{}: counts backwards when the robot drives ahead; turn the sign in the hardware interface, or the joint's axis \
-                 in the URDF.",
+                "{}: counts backwards when the robot drives ahead; turn the sign in the hardware interface, or the \
+                 joint's axis in the URDF.",
                 names.join(", ")
             ));
         }
         let [x, y] = middle;
         if x.abs().max(y.abs()) > NEAR {
             self.not_held.push(format!(
-                "{of} is at x {x:.4} m, y {y:.4} m of the robot file's origin: odometry of the controller is that of {of}, so \
-                 place base_link there."
+                "{of} is at x {x:.4} m, y {y:.4} m of the robot file's origin: odometry of the controller is that of \
+                 {of}, so place base_link there."
             ));
         }
     }
@@ -293,8 +293,8 @@ impl Wheels<'_> {
         let joints = all.iter().map(|&k| joint(&stated[k])).collect();
         let way = if sense(all[0]) > 0.0 { "counter-clockwise" } else { "clockwise" };
         self.told.push(format!(
-            "Turned forward, a wheel of the robot file turns the robot {way}: compare with the controller's convention and the \
-             joints' axes in the URDF."
+            "Turned forward, a wheel of the robot file turns the robot {way}: compare with the controller's convention \
+             and the joints' axes in the URDF."
         ));
         let radius = self.radius(&all, "omni_wheel_drive_controller");
         ensure!(

@@ -93,8 +93,8 @@ struct Source {
 /// Exports a robot.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let Source { robot, before, causes } = match source(args)? {
-        Exportable::Model(source) => source,
-        Exportable::Columns(robot) => return columns::run(args, robot),
+        Exportable::Model(source) => *source,
+        Exportable::Columns(robot) => return columns::run(args, *robot),
     };
     let engine = match args.to {
         Format::Toml => return save(args, &robot.to_toml()?, None),
@@ -103,8 +103,8 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
         Format::Urdf => Engine::Urdf,
         Format::Sdf => Engine::Sdf,
         Format::Ros2 => bail!(
-            "robot '{}' is {}: its sides skid in turns, so that it turns as if its track were wider, and no verdict of this \
-             kind says by how much a controller has to count that in; compare its wheel speeds with a pose \
+            "robot '{}' is {}: its sides skid in turns, so that it turns as if its track were wider, and no verdict of \
+             this kind says by how much a controller has to count that in; compare its wheel speeds with a pose \
              (`lacuna diagnose --robot skid-steer-4 --recordings ... --json verdict.json`) and export that verdict",
             robot.name,
             robot.causality.name()
@@ -137,17 +137,18 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 /// What is exported.
 enum Exportable {
     /// A robot with masses and forces.
-    Model(Source),
+    Model(Box<Source>),
     /// A robot whose file names its columns.
-    Columns(ColumnsRobot),
+    Columns(Box<ColumnsRobot>),
 }
 
 fn source(args: &Args) -> Result<Exportable> {
     let toml = args.from.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
-    if toml && args.from.is_file() {
-        if let Some(robot) = ColumnsRobot::of_file(&args.from)? {
-            return Ok(Exportable::Columns(robot));
-        }
+    if toml
+        && args.from.is_file()
+        && let Some(robot) = ColumnsRobot::of_file(&args.from)?
+    {
+        return Ok(Exportable::Columns(Box::new(robot)));
     }
     let known = args.effects.known()?;
     if toml {
@@ -157,18 +158,19 @@ fn source(args: &Args) -> Result<Exportable> {
             warning(&sentence);
         }
         let robot = if args.nominal || args.retuned { RobotSpec { effects: Vec::new(), ..whole } } else { whole };
-        return Ok(Exportable::Model(Source { robot, before: None, causes: Vec::new() }));
+        return Ok(Exportable::Model(Box::new(Source { robot, before: None, causes: Vec::new() })));
     }
     let envelope: Box<Envelope> = match Answered::open(&args.from)? {
         Answered::Mapped(envelope) => envelope,
         Answered::Columns(envelope) => {
-            return Ok(Exportable::Columns(ColumnsRobot::of_verdict(&args.from.display().to_string(), *envelope)?));
+            let robot = ColumnsRobot::of_verdict(&args.from.display().to_string(), *envelope)?;
+            return Ok(Exportable::Columns(Box::new(robot)));
         }
     };
     let nominal = envelope.robot_with(known)?;
     own_effects::ensure_torque_driven(&nominal)?;
     if args.nominal {
-        return Ok(Exportable::Model(Source { robot: nominal, before: None, causes: Vec::new() }));
+        return Ok(Exportable::Model(Box::new(Source { robot: nominal, before: None, causes: Vec::new() })));
     }
     if !args.retuned {
         envelope.ensure_known(known)?;
@@ -181,7 +183,7 @@ fn source(args: &Args) -> Result<Exportable> {
         correction.effects.clear();
     }
     let robot = nominal.corrected(&correction)?;
-    Ok(Exportable::Model(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked }))
+    Ok(Exportable::Model(Box::new(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked })))
 }
 
 /// What speaks against taking the corrected robot for the true one.

@@ -55,19 +55,19 @@ impl Scatter {
             |f: &Forecast| format!("{:.2} mm and {:.2} mrad after {} s", 1e3 * f.position, 1e3 * f.heading, f.after);
         vec![
             format!(
-                "Covariances come from {drives} recordings or sessions that were left out of the fit: one sigma of poses \
-                 from wheels alone is {} and {}, the error of the measured pose included.",
+                "Covariances come from {drives} recordings or sessions that were left out of the fit: one sigma of \
+                 poses from wheels alone is {} and {}, the error of the measured pose included.",
                 mm(short),
                 mm(long)
             ),
             format!(
-                "twist covariance: var(v) = var(p) f / T, errors white from sample to sample, f = {RATE} Hz, T = {} s; at \
-                 another rate f multiply by f/{RATE}.",
+                "twist covariance: var(v) = var(p) f / T, errors white from sample to sample, f = {RATE} Hz, T = {} s; \
+                 at another rate f multiply by f/{RATE}.",
                 short.after
             ),
             format!(
-                "pose covariance: that after {} s; it grows for ever, so that filters should take the velocities. {UNMEASURED:e} \
-                 stands for what no wheel tells.",
+                "pose covariance: that after {} s; it grows for ever, so that filters should take the velocities. \
+                 {UNMEASURED:e} stands for what no wheel tells.",
                 long.after
             ),
         ]

@@ -84,8 +84,8 @@ impl Controllers {
         match &self.scatter {
             Some(scatter) => out.extend(scatter.told()),
             None => out.push(
-                "Covariances are left out, for nothing here says how far poses from wheels alone err: set them before a \
-                 filter reads this odometry."
+                "Covariances are left out, for nothing here says how far poses from wheels alone err: set them before \
+                 a filter reads this odometry."
                     .to_owned(),
             ),
         }

@@ -25,8 +25,8 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
         Format::Ros2 => robot.controllers()?,
         Format::Json => bail!("robot files of kind {kind} are TOML; export it with --to toml"),
         Format::Mjcf | Format::Urdf | Format::Sdf => bail!(
-            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export it with \
-             --to toml, or with --to ros2 for parameters of its controller"
+            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export \
+             it with --to toml, or with --to ros2 for parameters of its controller"
         ),
     };
     for doubt in robot.correction().map(told).unwrap_or_default() {
@@ -41,8 +41,10 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
 /// What speaks against taking the corrected robot for the true one.
 fn told(diagnosis: &Diagnosis) -> Vec<String> {
     let mut out = doubts(diagnosis);
-    if diagnosis.verdict == Verdict::Unknown {
-        out[0] = "what is missing has no name: constants and causes are the nearest that were found".to_owned();
+    if diagnosis.verdict == Verdict::Unknown
+        && let Some(first) = out.first_mut()
+    {
+        "what is missing has no name: constants and causes are the nearest that were found".clone_into(first);
     }
     out
 }
