@@ -65,7 +65,7 @@ impl Judged<'_> {
         out
     }
 
-    fn cause(&self, scored: &Scored, part: usize, probability: f64) -> Cause {
+    pub(crate) fn cause(&self, scored: &Scored, part: usize, probability: f64) -> Cause {
         let trial = &scored.trial;
         let (variant, onsets) = &trial.hypothesis.parts[part];
         let before: usize = trial.hypothesis.parts[..part].iter().map(|(v, _)| v.count()).sum();

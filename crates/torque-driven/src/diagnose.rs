@@ -146,6 +146,7 @@ impl Calibrated {
         }
         // What is likeliest a constant that moved is told as that constant, and as no other.
         let before = problem(&robot, case, &recordings, &calibration, largest, options);
+        decision = self.judged(case, options, &sensors, (&before, &calibration), &decision).without_sizes_of_zero();
         let moved = decision.moved.as_ref().filter(|_| decision.finds_nothing());
         if let Some((place, usual, point)) = moved.and_then(|trial| stand_in::as_constant(&before, trial)) {
             calibration = calibration.with_free(place, usual);
@@ -155,17 +156,7 @@ impl Calibrated {
         }
         let problem = problem(&robot, case, &recordings, &calibration, largest, options);
         progress("comparing on data that was not fitted");
-        let answer = Judged {
-            case,
-            options,
-            problem: &problem,
-            references: &self.references,
-            visits: &self.visits,
-            calibration: &calibration,
-            sensors: &sensors,
-            decision: &decision,
-            simulator: self.simulator.as_ref(),
-        };
+        let answer = self.judged(case, options, &sensors, (&problem, &calibration), &decision);
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
@@ -179,6 +170,28 @@ impl Calibrated {
             out.next = Some(next::advise(&answer, &found.retuned, length));
         }
         Ok(out)
+    }
+
+    /// What an answer is made of.
+    fn judged<'a>(
+        &'a self,
+        case: &'a Case,
+        options: &'a Options,
+        sensors: &'a Redundant,
+        (problem, calibration): (&'a Problem<'a>, &'a Calibration),
+        decision: &'a Decision,
+    ) -> Judged<'a> {
+        Judged {
+            case,
+            options,
+            problem,
+            references: &self.references,
+            visits: &self.visits,
+            calibration,
+            sensors,
+            decision,
+            simulator: self.simulator.as_ref(),
+        }
     }
 }
 
