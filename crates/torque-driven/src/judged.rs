@@ -75,7 +75,7 @@ mod tests {
         let cuts = [cut(&driven(&robot, &[form.dose(&[1.0], None)], 12.0), &cutting())];
         let p = problem(&robot, &cuts);
         let scored = |size: f64| {
-            let h = Hypothesis::single(form.clone(), Vec::new());
+            let h = Hypothesis::single(form, Vec::new());
             let fitted = p.begin(&h, Point { effects: vec![size], ..p.origin() }, None);
             Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score: 10.0, probability: 0.4 }
         };
