@@ -29,6 +29,21 @@ pub struct CarCase {
     pub ignored: Vec<String>,
 }
 
+/// The car of a robot file, and what the file says; `None` where it is of another kind.
+///
+/// # Errors
+/// A file that cannot be read, or holds what no car can have.
+pub fn robot(name: &str) -> Result<Option<(RobotFile, String)>> {
+    if !Path::new(name).is_file() {
+        return Ok(None);
+    }
+    let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
+    if !RobotFile::is_one(&text) {
+        return Ok(None);
+    }
+    Ok(Some((RobotFile::parse(name, &text)?, text)))
+}
+
 /// The case of a folder, or of a robot with files, if its robot is a car.
 ///
 /// # Errors
@@ -43,14 +58,7 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) 
         },
         (None, None) => return Ok(None),
     };
-    if !Path::new(&name).is_file() {
-        return Ok(None);
-    }
-    let text = std::fs::read_to_string(&name).with_context(|| format!("cannot read robot file '{name}'"))?;
-    if !RobotFile::is_one(&text) {
-        return Ok(None);
-    }
-    let file = RobotFile::parse(&name, &text)?;
+    let Some((file, text)) = self::robot(&name)? else { return Ok(None) };
     let mut ignored = Vec::new();
     let (drives, files) = drives(folder, parts, &mut ignored, |part, name, text| {
         Ok(if part == Part::HeldOut { file.held_out(name, text)? } else { file.drive(name, text)? })

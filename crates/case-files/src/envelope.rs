@@ -119,7 +119,8 @@ pub struct UnusedColumn {
 }
 
 /// A diagnosis of a robot of any kind, as `lacuna diagnose --json` writes it.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
 pub enum Answered {
     /// Of a robot whose recordings were read with a mapping.
     Mapped(Box<Envelope>),

@@ -9,6 +9,7 @@ pub mod car;
 pub mod case_folder;
 pub mod check;
 pub mod columns;
+pub mod columns_case;
 pub mod corrected;
 pub mod envelope;
 pub mod inputs;

@@ -8,6 +8,7 @@
 //! What a unit is named after is a hash of all that its answer depends on. A file in `done/` is written last, by
 //! renaming: where it is there, the unit is finished, whatever happened to the program afterwards.
 
+mod columns;
 mod date;
 mod find;
 mod key;

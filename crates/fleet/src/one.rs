@@ -5,17 +5,26 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use anyhow::{Result, ensure};
-use case_files::envelope::Envelope;
+use case_files::envelope::{Answered, Envelope};
 use case_files::inputs::Plan;
 
 use super::Settings;
+use super::columns::Columns;
 use super::key;
 use super::prepared::Prepared;
 use super::row::{Measured, Row};
 use super::unit::{Setup, Unit};
 
 /// What recordings of a robot are compared with, or why there is nothing.
-pub(crate) type Ready = Arc<Result<Prepared, Unprepared>>;
+pub(crate) type Ready = Arc<Result<Robot, Unprepared>>;
+
+/// A robot with what its recordings are compared with.
+pub(crate) enum Robot {
+    /// Its recordings are read with a mapping.
+    Mapped(Box<Prepared>),
+    /// Its file names their columns.
+    Columns(Columns),
+}
 
 /// A robot that could not be prepared.
 pub(crate) struct Unprepared {
@@ -25,24 +34,35 @@ pub(crate) struct Unprepared {
 
 /// Prepares a robot.
 pub(crate) fn prepare(setup: &Setup, settings: &Settings) -> Ready {
-    let prepared = guarded(|| Prepared::new(setup, settings));
+    let prepared = guarded(|| match Columns::new(setup, settings)? {
+        Some(columns) => Ok(Robot::Columns(columns)),
+        None => Ok(Robot::Mapped(Box::new(Prepared::new(setup, settings)?))),
+    });
     Arc::new(prepared.map_err(|why| Unprepared { key: key::of_setup(setup, settings), why }))
 }
 
 /// Diagnoses a unit: its row, and the whole answer where there is one.
-pub(crate) fn diagnose(unit: &Unit, ready: &Ready, settings: &Settings) -> (Row, Option<Envelope>) {
+pub(crate) fn diagnose(unit: &Unit, ready: &Ready, settings: &Settings) -> (Row, Option<Answered>) {
     let (robot, of_setup) = match &**ready {
-        Ok(prepared) => (prepared.robot.name.as_str(), &prepared.key),
+        Ok(Robot::Mapped(prepared)) => (prepared.robot.name.as_str(), &prepared.key),
+        Ok(Robot::Columns(columns)) => (columns.robot.as_str(), &columns.key),
         Err(unprepared) => ("", &unprepared.key),
     };
     // A mapping that cannot be read makes no key, and no answer.
     let key = key::of_unit(unit, of_setup).unwrap_or_else(|_| of_setup.clone());
     let answer = match &**ready {
-        Ok(prepared) => guarded(|| answer(unit, prepared, settings)),
+        Ok(Robot::Mapped(prepared)) => guarded(|| {
+            let (measured, envelope) = answer(unit, prepared, settings)?;
+            Ok((measured, robot.to_owned(), Answered::Mapped(Box::new(envelope))))
+        }),
+        Ok(Robot::Columns(columns)) => guarded(|| {
+            let (measured, name, envelope) = columns.answer(&unit.recording)?;
+            Ok((measured, name, Answered::Columns(Box::new(envelope))))
+        }),
         Err(unprepared) => Err(unprepared.why.clone()),
     };
     match answer {
-        Ok((measured, envelope)) => (Row::done(unit, &key, robot, measured, &envelope), Some(envelope)),
+        Ok((measured, robot, answered)) => (Row::done(unit, &key, &robot, measured, &answered), Some(answered)),
         Err(why) => (Row::failed(unit, &key, robot, why), None),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use case_files::envelope::{Envelope, Program};
+use case_files::envelope::{Answered, Program};
 use recordings::Recording;
 use report::words::{NINETY, is_no_cause};
 use serde::{Deserialize, Serialize};
@@ -134,6 +134,11 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
+    /// Of a drive of such a length, s, whose stamps tell no date.
+    pub(crate) fn of_duration(duration_s: Option<f64>) -> Self {
+        Self { duration_s, ..Self::default() }
+    }
+
     /// Of a recording, or of the first stretch of a long one that was screened.
     pub(crate) fn of(recording: &Recording, screened: Option<&Coverage>) -> Self {
         let spans: Vec<(i64, i64)> = (0..recording.clocks().len()).filter_map(|c| recording.span_ns(c)).collect();
@@ -180,15 +185,24 @@ impl Row {
     }
 
     /// A unit with its answer.
-    pub(crate) fn done(unit: &Unit, key: &str, robot: &str, measured: Measured, envelope: &Envelope) -> Self {
-        let d = &envelope.diagnosis;
-        let text = |name: &str| envelope.robot.get(name).and_then(|v| v.as_str()).map(str::to_owned);
-        let sources = envelope.sources.iter().flat_map(|(part, files)| files.iter().map(move |f| (part, f)));
+    pub(crate) fn done(unit: &Unit, key: &str, robot: &str, measured: Measured, answered: &Answered) -> Self {
+        let (d, sources) = match answered {
+            Answered::Mapped(envelope) => (&envelope.diagnosis, &envelope.sources),
+            Answered::Columns(envelope) => (&envelope.diagnosis, &envelope.sources),
+        };
+        let (causality, mapping, lost) = match answered {
+            Answered::Mapped(envelope) => {
+                let causality = envelope.robot.get("causality").and_then(|v| v.as_str()).map(str::to_owned);
+                (causality, Some(envelope.mapping.clone()), envelope.lost.clone())
+            }
+            Answered::Columns(envelope) => (Some(envelope.kind.name().to_owned()), None, Vec::new()),
+        };
+        let sources = sources.iter().flat_map(|(part, files)| files.iter().map(move |f| (part, f)));
         Self {
             date: unit.date.or(measured.stamped),
             stamped: measured.stamped,
-            causality: text("causality"),
-            mapping: Some(envelope.mapping.clone()),
+            causality,
+            mapping,
             duration_s: measured.duration_s,
             rows: measured.rows,
             outcome: Outcome::Done,
@@ -199,7 +213,7 @@ impl Row {
             causes: d.ranked.iter().filter(|c| !is_no_cause(c)).take(CAUSES).map(RowCause::of).collect(),
             probabilities: d.ranked.iter().map(|c| (c.effect.clone(), c.probability)).collect(),
             limits: d.limits.clone(),
-            lost: envelope.lost.clone(),
+            lost,
             sources: sources
                 .map(|(part, f)| RowSource { part: part.clone(), name: f.name.clone(), sha256: f.sha256.clone() })
                 .collect(),

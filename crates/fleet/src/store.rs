@@ -6,7 +6,7 @@ use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use case_files::envelope::Envelope;
+use case_files::envelope::Answered;
 use serde::{Deserialize, Serialize};
 
 use super::key::of_text;
@@ -156,11 +156,11 @@ impl Store {
     }
 
     /// Keeps an answer: first the whole of it, then its row.
-    pub(crate) fn keep(&self, row: &mut Row, envelope: Option<&Envelope>) -> Result<()> {
+    pub(crate) fn keep(&self, row: &mut Row, answered: Option<&Answered>) -> Result<()> {
         let name = Self::name(&row.id, &row.key);
-        if let Some(envelope) = envelope {
+        if let Some(answered) = answered {
             let json = Self::json(&name);
-            write_json(&self.root.join(&json), envelope)?;
+            write_json(&self.root.join(&json), answered)?;
             row.json = Some(json);
         }
         self.keep_row(row)

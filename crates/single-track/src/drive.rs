@@ -185,6 +185,11 @@ impl Drive {
         })
     }
 
+    /// From its first row to its last, s.
+    pub fn duration(&self) -> f64 {
+        STEP * self.steps as f64
+    }
+
     /// Steps of the grid.
     pub(crate) fn steps(&self) -> usize {
         self.steps

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Result, bail, ensure};
 use case_files::envelope::Program;
 use case_files::long::Budget;
-use case_files::{case_folder, own_effects};
+use case_files::{case_folder, columns_case, own_effects};
 use clap::Args as ClapArgs;
 use fleet::{Defaults, Event, FolderContents, Outcome as UnitOutcome, Overview, Settings, Shard, Store};
 use inference::KnownEffects;
@@ -179,8 +179,11 @@ fn find(args: &Args, known: KnownEffects) -> Result<FolderContents> {
     let defaults =
         Defaults { robot: args.robot.clone(), reference: args.reference.clone(), mapping: args.mapping.clone() };
     // What holds for all is looked at before any work is done.
-    let robot = defaults.robot.as_deref().map(|name| case_folder::robot_with(known, name)).transpose()?;
-    robot.as_ref().map_or(Ok(()), own_effects::ensure_torque_driven)?;
+    if let Some(name) = defaults.robot.as_deref()
+        && columns_case::kind_of(name)?.is_none()
+    {
+        own_effects::ensure_torque_driven(&case_folder::robot_with(known, name)?)?;
+    }
     defaults.mapping.as_deref().map(case_folder::mapping).transpose()?;
     if args.input.is_file() {
         return Ok(FolderContents { units: fleet::manifest(&args.input, &defaults)?, unread: Vec::new() });

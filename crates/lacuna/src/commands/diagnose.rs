@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use ::report::diagnosis_text;
 use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder::{self, CaseFolder};
+use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
 use case_files::report_page::{page, page_of_columns};
@@ -228,7 +229,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
     if let Some(case) = odometry::case(&args.input)? {
-        ensure!(known.own().is_empty(), own_effects::refused(known, case.kind()));
+        ensure!(known.own().is_empty(), own_effects::refused(known, case.kind().name()));
         return verdict_of_columns(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
@@ -271,11 +272,11 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 }
 
 /// Diagnoses a case whose robot file names its columns.
-fn verdict_of_columns(args: &Args, case: &odometry::Case, progress: Progress) -> Result<Outcome> {
+fn verdict_of_columns(args: &Args, case: &ColumnsCase, progress: Progress) -> Result<Outcome> {
     let diagnosis = case.diagnose(&|what| progress.stage(what))?;
     drop(progress);
 
-    odometry::warn_of_unused(case.kind(), &[(args.next, "--next")]);
+    odometry::warn_of_unused(case.kind().name(), &[(args.next, "--next")]);
     let envelope = case.envelope(diagnosis);
     match &args.predictions {
         Some(_) if envelope.diagnosis.predicted_paths.is_empty() => warning(NOTHING_HELD_OUT),

@@ -2,73 +2,17 @@
 //! cars.
 
 use anyhow::{Result, bail};
-use case_files::car::{self, CarCase};
-use case_files::columns::{ColumnsEnvelope, Kind};
-use case_files::odometry::{self, OdometryCase};
-use verdict::Diagnosis;
+use case_files::columns_case::ColumnsCase;
 
 use super::diagnose::Input;
 use crate::console::warning;
 
-/// A case of one of these kinds.
-pub(crate) enum Case {
-    /// Of kind odometry.
-    Odometry(Box<OdometryCase>),
-    /// Of kind car.
-    Car(Box<CarCase>),
-}
-
-impl Case {
-    /// Its kind, as robot files write it.
-    pub(crate) fn kind(&self) -> &'static str {
-        match self {
-            Self::Odometry(_) => Kind::Odometry.name(),
-            Self::Car(_) => Kind::Car.name(),
-        }
-    }
-
-    fn robot(&self) -> &str {
-        match self {
-            Self::Odometry(case) => &case.robot,
-            Self::Car(case) => &case.robot,
-        }
-    }
-
-    /// Other things in the folders, which were not read.
-    pub(crate) fn ignored(&self) -> &[String] {
-        match self {
-            Self::Odometry(case) => &case.ignored,
-            Self::Car(case) => &case.ignored,
-        }
-    }
-
-    /// Diagnoses the case.
-    pub(crate) fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-        match self {
-            Self::Odometry(case) => case.diagnose(progress),
-            Self::Car(case) => case.diagnose(progress),
-        }
-    }
-
-    /// A diagnosis with what it was made from.
-    pub(crate) fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
-        match self {
-            Self::Odometry(case) => case.envelope(diagnosis),
-            Self::Car(case) => case.envelope(diagnosis),
-        }
-    }
-}
-
 /// The case that the arguments name, if its robot is of one of these kinds.
-pub(crate) fn case(input: &Input) -> Result<Option<Case>> {
+pub(crate) fn case(input: &Input) -> Result<Option<ColumnsCase>> {
     let parts = [&input.reference, &input.recordings, &input.heldout].map(Vec::as_slice);
     let (folder, robot) = (input.case.as_deref(), input.robot.as_deref());
-    let case = match car::read(folder, robot, parts)? {
-        Some(case) => Some(Case::Car(Box::new(case))),
-        None => odometry::read(folder, robot, parts)?.map(|case| Case::Odometry(Box::new(case))),
-    };
-    let Some(case) = case else { return Ok(None) };
-    let kind = case.kind();
+    let Some(case) = ColumnsCase::read(folder, robot, parts)? else { return Ok(None) };
+    let kind = case.kind().name();
     if let Some(mapping) = &input.mapping {
         bail!(
             "robot '{}' is of kind {kind} and names its columns itself, under [columns]; leave out --mapping {mapping}",

@@ -272,3 +272,28 @@ fn a_drive_of_counts_alone_is_predicted_from_where_it_was_seen_or_from_the_origi
         bench.run(&["diagnose", "--robot", "case/robot.toml", "--recordings", "case/recordings", "--predictions", "p"]);
     assert!(run.err().contains("there is no held-out drive"), "{}", run.err());
 }
+
+#[test]
+fn drives_of_a_fleet_are_diagnosed_one_by_one() {
+    let bench = bench();
+    bench.write("case/recordings/broken.csv", "t,left\n0,1\n");
+    let run = bench.run(&["batch", "case", "-o", "out", "--page", "fleet.html", "--json", "counts.json"]);
+    assert_eq!(run.code(), Some(3), "{} {}", run.out(), run.err());
+    let counts: Value = serde_json::from_str(&bench.read("counts.json")).unwrap();
+    assert_eq!((counts["units"]["done"].as_u64(), counts["units"]["failed"].as_u64()), (Some(3), Some(1)), "{counts}");
+    assert!(bench.read("fleet.html").contains("radius"), "the page names the wheel");
+    // The whole answer goes on to a page and to an export.
+    let answer = std::fs::read_dir(bench.path("out/json")).unwrap().next().unwrap().unwrap().path();
+    let answer = answer.display().to_string();
+    for args in [["report", &answer, "-o", "page.html"], ["export", &answer, "--to", "toml"]] {
+        assert_eq!(bench.run(&args).code(), Some(0), "{args:?}");
+    }
+    // In a folder of recordings, too; such robots take no mapping.
+    let folder = ["batch", "case/recordings", "--robot", "case/robot.toml", "--limit", "1"];
+    let run = bench.run(&[&folder[..], &["-o", "two"]].concat());
+    assert!(run.out().contains("4 recordings"), "{} {}", run.out(), run.err());
+    let run = bench.run(&[&folder[..], &["-o", "none", "--mapping", "lacuna"]].concat());
+    assert_eq!(run.code(), Some(3), "{} {}", run.out(), run.err());
+    let rows = std::fs::read_dir(bench.path("none/done")).unwrap().next().unwrap().unwrap().path();
+    assert!(std::fs::read_to_string(rows).unwrap().contains("names its columns itself"), "the row says why");
+}

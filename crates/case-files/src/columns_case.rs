@@ -1,0 +1,115 @@
+//! Cases of robots whose files name their columns themselves: wheel motion beside a pose, and cars.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use verdict::Diagnosis;
+
+use crate::car::{self, CarCase};
+use crate::columns::{ColumnsEnvelope, Kind};
+use crate::odometry::{self, OdometryCase};
+
+/// A case of one of these kinds.
+#[derive(Debug)]
+pub enum ColumnsCase {
+    /// Of kind odometry.
+    Odometry(Box<OdometryCase>),
+    /// Of kind car.
+    Car(Box<CarCase>),
+}
+
+impl ColumnsCase {
+    /// The case of a folder, or of a robot with files (references, recordings, held-out drives), if its robot is of one of these
+    /// kinds.
+    ///
+    /// # Errors
+    /// A robot file or tables that cannot be read, or hold what no such robot can have.
+    pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<Self>> {
+        Ok(match car::read(folder, robot, parts)? {
+            Some(case) => Some(Self::Car(Box::new(case))),
+            None => odometry::read(folder, robot, parts)?.map(|case| Self::Odometry(Box::new(case))),
+        })
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Odometry(_) => Kind::Odometry,
+            Self::Car(_) => Kind::Car,
+        }
+    }
+
+    /// The robot file, or the built-in robot's name.
+    pub fn robot(&self) -> &str {
+        match self {
+            Self::Odometry(case) => &case.robot,
+            Self::Car(case) => &case.robot,
+        }
+    }
+
+    /// Name of the robot in its file.
+    pub fn robot_name(&self) -> &str {
+        match self {
+            Self::Odometry(case) => &case.case.robot.name,
+            Self::Car(case) => &case.case.car.name,
+        }
+    }
+
+    /// Names of its recordings.
+    pub fn recordings(&self) -> Vec<&str> {
+        match self {
+            Self::Odometry(case) => case.case.recordings.iter().map(|d| d.name.as_str()).collect(),
+            Self::Car(case) => case.case.recordings.iter().map(|d| d.name.as_str()).collect(),
+        }
+    }
+
+    /// Length of its first recording, s; `None` without any.
+    pub fn duration(&self) -> Option<f64> {
+        match self {
+            Self::Odometry(case) => case.case.recordings.first().map(odometry_length),
+            Self::Car(case) => case.case.recordings.first().map(single_track::Drive::duration),
+        }
+    }
+
+    /// Other things in the folders, which were not read.
+    pub fn ignored(&self) -> &[String] {
+        match self {
+            Self::Odometry(case) => &case.ignored,
+            Self::Car(case) => &case.ignored,
+        }
+    }
+
+    /// Diagnoses the case.
+    ///
+    /// # Errors
+    /// Drives that do not determine an answer.
+    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        match self {
+            Self::Odometry(case) => case.diagnose(progress),
+            Self::Car(case) => case.diagnose(progress),
+        }
+    }
+
+    /// A diagnosis with what it was made from.
+    pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
+        match self {
+            Self::Odometry(case) => case.envelope(diagnosis),
+            Self::Car(case) => case.envelope(diagnosis),
+        }
+    }
+}
+
+fn odometry_length(drive: &::odometry::Drive) -> f64 {
+    drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first)
+}
+
+/// The kind of a robot, a file or built in, if it names its columns itself.
+///
+/// # Errors
+/// A file that cannot be read, or holds what no such robot can have.
+pub fn kind_of(robot: &str) -> Result<Option<Kind>> {
+    if car::robot(robot)?.is_some() {
+        return Ok(Some(Kind::Car));
+    }
+    Ok(odometry::robot(robot)?.map(|_| Kind::Odometry))
+}
