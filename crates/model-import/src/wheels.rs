@@ -69,7 +69,9 @@ pub(crate) struct Ground {
 pub(crate) fn wheels(model: &Model, told: Option<f64>) -> Ground {
     let of_robot = model.of_robot();
     let mut is_of_robot = vec![false; model.links.len()];
-    of_robot.iter().for_each(|&link| is_of_robot[link] = true);
+    for &link in &of_robot {
+        is_of_robot[link] = true;
+    }
     let is_level = |j: &Joint| j.is_endless() && j.axis.z.abs() < LEVEL && is_of_robot[j.child];
     // A roller turns on a wheel: its axle hangs on what turns itself.
     let is_roller = |j: &Joint| model.ancestors(j.parent).any(is_level);
