@@ -115,10 +115,11 @@ pub fn import(file: &str, text: &str, asked: &Asked) -> Result<Imported, ImportE
     let document = Document::parse_with_options(text, options).map_err(|e| ImportError::At {
         file: file.to_owned(),
         line: e.pos().row,
-        what: format!("this is no XML ({e}); give a URDF, SDF or MJCF file"),
+        what: format!("this is no XML ({}); give a URDF, SDF or MJCF file", e.to_string().replace('\n', " ")),
     })?;
     let source = Source { file, document: &document };
     let root = document.root_element();
+    source.ensure_sound()?;
     let model = match root.tag_name().name() {
         "robot" => urdf::read(&source, root)?,
         "sdf" | "gazebo" => sdf::read(&source, root)?,

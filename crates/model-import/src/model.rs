@@ -15,6 +15,8 @@ pub(crate) struct Model {
     pub(crate) joints: Vec<Joint>,
     /// What was there and not read.
     pub(crate) notes: Vec<String>,
+    /// The joint above each link, by its place among the joints.
+    above: Vec<Option<usize>>,
 }
 
 /// A rigid part.
@@ -116,9 +118,18 @@ impl Joint {
 }
 
 impl Model {
+    /// Links and the joints between them; no link hangs on two.
+    pub(crate) fn new(name: &str, form: &'static str, links: Vec<Link>, joints: Vec<Joint>) -> Self {
+        let mut above = vec![None; links.len()];
+        for (k, joint) in joints.iter().enumerate() {
+            above[joint.child] = Some(k);
+        }
+        Self { name: name.to_owned(), form, links, joints, notes: Vec::new(), above }
+    }
+
     /// The joint above a link.
     pub(crate) fn above(&self, link: usize) -> Option<&Joint> {
-        self.joints.iter().find(|j| j.child == link)
+        self.above[link].map(|k| &self.joints[k])
     }
 
     /// Joints from a link up to the root, the nearest first.

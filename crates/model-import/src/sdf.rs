@@ -137,8 +137,7 @@ fn robot(source: &Source<'_>, model: Node<'_, '_>) -> Result<Model, ImportError>
         read.at = at.translation.vector.into();
         joints.push(read);
     }
-    let name = model.attribute("name").unwrap_or("robot").to_owned();
-    Ok(Model { name, form: "SDF", links, joints, notes: Vec::new() })
+    Ok(Model::new(model.attribute("name").unwrap_or("robot"), "SDF", links, joints))
 }
 
 fn link(source: &Source<'_>, node: Node<'_, '_>, name: &str, at: Place) -> Result<Link, ImportError> {

@@ -10,6 +10,10 @@ use crate::error::ImportError;
 /// Position and rotation of one frame in another.
 pub(crate) type Place = Isometry3<f64>;
 
+/// Depth and number of elements beyond which a file is no robot's: arms of a hundred links nest a few hundred deep.
+const DEEPEST: usize = 1000;
+const MOST_ELEMENTS: usize = 100_000;
+
 /// What to do about macros.
 pub(crate) const UNEXPANDED: &str =
     "which xacro has to expand first: run `xacro robot.urdf.xacro > robot.urdf` and give that file";
@@ -23,6 +27,28 @@ pub(crate) struct Source<'a> {
 }
 
 impl Source<'_> {
+    /// Refuses what is nested or numerous beyond any robot, before anything follows it down.
+    pub(crate) fn ensure_sound(&self) -> Result<(), ImportError> {
+        let mut depth: Vec<usize> = Vec::new();
+        let mut elements = 0;
+        for node in self.document.root().descendants() {
+            let above = node.parent().map_or(0, |p| depth[p.id().get_usize()]);
+            depth.push(above + 1);
+            elements += usize::from(node.is_element());
+            if above > DEEPEST {
+                return Err(
+                    self.wrong(node, format!("elements are nested more than {DEEPEST} deep; no robot is; correct it"))
+                );
+            }
+        }
+        if elements > MOST_ELEMENTS {
+            return Err(self.whole(format!(
+                "{elements} elements are more than the {MOST_ELEMENTS} that are read; leave out what is not the robot"
+            )));
+        }
+        Ok(())
+    }
+
     /// An error at an element.
     pub(crate) fn wrong(&self, at: Node<'_, '_>, what: impl Into<String>) -> ImportError {
         let line = self.document.text_pos_at(at.range().start).row;
@@ -77,8 +103,10 @@ impl Source<'_> {
         if text.contains("$(") || text.contains("${") {
             return Err(self.wrong(node, format!("{name} holds '{text}', {UNEXPANDED}")));
         }
-        // Simulators write "inf" for what has no limit.
-        let value = f64::from_str(text.trim()).ok().filter(|x| !x.is_nan());
+        // Simulators write "inf" for what has no limit, and for nothing else.
+        let may_be_infinite = ["lower", "upper", "effort", "range", "ctrlrange", "forcerange"].contains(&name);
+        let value = f64::from_str(text.trim()).ok();
+        let value = value.filter(|x| x.is_finite() || (may_be_infinite && !x.is_nan()));
         value.ok_or_else(|| self.wrong(node, format!("{name} is '{}', which is no number; correct it", text.trim())))
     }
 }

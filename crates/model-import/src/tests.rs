@@ -207,6 +207,46 @@ fn what_is_wrong_is_one_sentence_with_its_line() {
 }
 
 #[test]
+fn what_is_nested_without_end_is_refused_and_no_text_makes_it_panic() {
+    let nested = |n: usize| {
+        format!("<mujoco><worldbody>{}{}</worldbody></mujoco>", "<body><joint/>".repeat(n), "</body>".repeat(n))
+    };
+    assert!(refused(&nested(2000), &Asked::default()).contains("nested more than 1000 deep"));
+    assert!(refused(&nested(900), &Asked::default()).contains("no wheel was found"));
+    let ring = "<sdf><model name=\"m\"><link name=\"a\"><pose relative_to=\"b\">0 0 0 0 0 0</pose></link><link name=\"b\"><pose \
+                relative_to=\"a\">0 0 0 0 0 0</pose></link></model></sdf>";
+    assert!(refused(ring, &Asked::default()).contains("is told relative to itself"));
+    assert!(
+        refused(&four("").replace("0.15 0.2 0.05", "inf 0.2 0.05"), &Asked::default())
+            .contains("'inf', which is no number")
+    );
+
+    // Every byte in turn taken out, or another in its place: a robot or one sentence.
+    let model = Model {
+        name: "mine",
+        robot: &RobotSpec::built_in("husky-a200").expect("built in").robot,
+        effects: &[],
+        known: inference::KnownEffects::default(),
+        before: None,
+        causes: &[],
+    };
+    for engine in [Engine::Urdf, Engine::Sdf, Engine::Mjcf] {
+        let text = model.export(engine).expect("exported").text;
+        for k in (0..text.len()).step_by(7).filter(|&k| text.is_char_boundary(k) && text.is_char_boundary(k + 1)) {
+            for other in ["", "0", "-", "<", "\""] {
+                let changed = [&text[..k], other, &text[k + 1..]].concat();
+                for kind in [None, Some(Kind::Odometry)] {
+                    let asked = Asked { kind, ..Asked::default() };
+                    if let Err(e) = import("mine.xml", &changed, &asked) {
+                        assert!(!e.to_string().contains('\n'), "{e}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn default_classes_and_shapes_of_mjcf_give_what_mujoco_compiles() {
     // Mass and inertia as MuJoCo 3 compiles them: cylinders of 1000 kg/m³, a box of 4 kg.
     let wheel = |name: &str, x: f64, y: f64| {

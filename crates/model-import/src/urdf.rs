@@ -45,13 +45,8 @@ pub(crate) fn read(source: &Source<'_>, root: Node<'_, '_>) -> Result<Model, Imp
         joints.push((joint(source, node, parent, below)?, origin(source, child(node, "origin"))?));
     }
 
-    let mut model = Model {
-        name: root.attribute("name").unwrap_or("robot").to_owned(),
-        form: "URDF",
-        links,
-        joints: joints.iter().map(|(j, _)| j.clone()).collect(),
-        notes: Vec::new(),
-    };
+    let name = root.attribute("name").unwrap_or("robot");
+    let mut model = Model::new(name, "URDF", links, joints.iter().map(|(j, _)| j.clone()).collect());
     // From the root down, so that a parent's frame is known before its children's.
     let order = model.of_robot();
     if order.len() < model.links.len() {

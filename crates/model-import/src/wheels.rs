@@ -68,7 +68,11 @@ pub(crate) struct Ground {
 /// wheels whose shapes tell none.
 pub(crate) fn wheels(model: &Model, told: Option<f64>) -> Ground {
     let of_robot = model.of_robot();
-    let is_level = |j: &Joint| j.is_endless() && j.axis.z.abs() < LEVEL && of_robot.contains(&j.child);
+    let mut is_of_robot = vec![false; model.links.len()];
+    for &link in &of_robot {
+        is_of_robot[link] = true;
+    }
+    let is_level = |j: &Joint| j.is_endless() && j.axis.z.abs() < LEVEL && is_of_robot[j.child];
     // A roller turns on a wheel: its axle hangs on what turns itself.
     let is_roller = |j: &Joint| model.ancestors(j.parent).any(is_level);
     let axles = || (0..model.joints.len()).filter(|&k| is_level(&model.joints[k]) && !is_roller(&model.joints[k]));

@@ -39,17 +39,11 @@ pub(crate) fn read(source: &Source<'_>, root: Node<'_, '_>) -> Result<Model, Imp
         );
     };
 
-    let mut model = Model {
-        name: root.attribute("model").unwrap_or("robot").to_owned(),
-        form: "MJCF",
-        links: Vec::new(),
-        joints: Vec::new(),
-        notes: Vec::new(),
-    };
     let from_geoms = compiler("inertiafromgeom");
-    let mut reader = Reader { reading, model: &mut model, pairs: pairs(root), from_geoms };
+    let mut reader = Reader { reading, links: Vec::new(), joints: Vec::new(), pairs: pairs(root), from_geoms };
     reader.body(*robot, None, Place::identity())?;
     reader.motors(root)?;
+    let mut model = Model::new(root.attribute("model").unwrap_or("robot"), "MJCF", reader.links, reader.joints);
     let others = bodies.iter().filter(moves).filter(|b| *b != robot).filter_map(|b| b.attribute("name"));
     model.notes.extend(others.map(|name| format!("body '{name}' stands in the same world and was not read")));
     Ok(model)
@@ -60,17 +54,18 @@ fn pairs<'a, 'i>(root: Node<'a, 'i>) -> Vec<Node<'a, 'i>> {
     children(root, "contact").flat_map(|c| children(c, "pair")).collect()
 }
 
-struct Reader<'s, 'a, 'i, 'm> {
+struct Reader<'s, 'a, 'i> {
     reading: Reading<'s, 'a>,
-    model: &'m mut Model,
+    links: Vec<Link>,
+    joints: Vec<Joint>,
     pairs: Vec<Node<'a, 'i>>,
     from_geoms: Option<&'a str>,
 }
 
-impl<'a, 'i: 'a> Reader<'_, 'a, 'i, '_> {
+impl<'a, 'i: 'a> Reader<'_, 'a, 'i> {
     /// A body, and those inside.
     fn body(&mut self, node: Node<'a, 'i>, parent: Option<usize>, base: Place) -> Result<(), ImportError> {
-        let name = node.attribute("name").map_or_else(|| format!("body {}", self.model.links.len()), str::to_owned);
+        let name = node.attribute("name").map_or_else(|| format!("body {}", self.links.len()), str::to_owned);
         // The root's own place in the world is no part of the robot.
         let at = if parent.is_some() { base * self.reading.place(node)? } else { base };
 
@@ -79,24 +74,24 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i, '_> {
             let joints: Vec<Node<'a, 'i>> = children(node, "joint").collect();
             let mut carrier = first;
             for (k, joint) in joints.iter().enumerate() {
-                let child = self.model.links.len();
+                let child = self.links.len();
                 let read = self.joint(*joint, &name, carrier, child, &at)?;
-                self.model.joints.push(read);
+                self.joints.push(read);
                 if k + 1 < joints.len() {
-                    let between = format!("{name} below {}", self.model.joints.last().map_or("", |j| &j.name));
-                    self.model.links.push(Link { name: between, place: at, solid: None, shapes: Vec::new() });
+                    let between = format!("{name} below {}", self.joints.last().map_or("", |j| &j.name));
+                    self.links.push(Link { name: between, place: at, solid: None, shapes: Vec::new() });
                     carrier = child;
                 }
             }
             if joints.is_empty() {
-                let child = self.model.links.len();
-                self.model.joints.push(Joint::fixed(&name, carrier, child));
+                let child = self.links.len();
+                self.joints.push(Joint::fixed(&name, carrier, child));
             }
         }
 
         let link = self.link(node, &name, at)?;
-        let index = self.model.links.len();
-        self.model.links.push(link);
+        let index = self.links.len();
+        self.links.push(link);
         for inside in children(node, "body") {
             self.body(inside, Some(index), at)?;
         }
@@ -173,7 +168,7 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i, '_> {
     fn motors(&mut self, root: Node<'a, 'i>) -> Result<(), ImportError> {
         for motor in children(root, "actuator").flat_map(|a| a.children()).filter(Node::is_element) {
             let Some(name) = motor.attribute("joint") else { continue };
-            let Some(k) = self.model.joints.iter().position(|j| j.name == name) else { continue };
+            let Some(k) = self.joints.iter().position(|j| j.name == name) else { continue };
             let gear = self.reading.list(motor, "gear")?.and_then(|g| g.first().copied()).unwrap_or(1.0);
             let gain = match motor.tag_name().name() {
                 "motor" => Some(1.0),
@@ -184,7 +179,7 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i, '_> {
             let command = self.reading.array::<2>(motor, "ctrlrange")?.zip(gain).map(|([_, most], gain)| most * gain);
             let force = self.reading.array::<2>(motor, "forcerange")?.map(|[_, most]| most);
             let most = [command, force].into_iter().flatten().map(|most| (most * gear).abs()).reduce(f64::min);
-            self.model.joints[k].effort = most.filter(|m| m.is_finite() && *m > 0.0);
+            self.joints[k].effort = most.filter(|m| m.is_finite() && *m > 0.0);
         }
         Ok(())
     }
