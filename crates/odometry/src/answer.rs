@@ -1,6 +1,6 @@
 //! Findings as a verdict in sentences.
 
-use crate::diagnose::{Answer, Findings};
+use crate::findings::{Answer, Findings};
 use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::telling::{Found, free_runs};

@@ -10,6 +10,7 @@
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables.
+//! * `findings`: what the drives of a case say, as plain data.
 //! * `diagnose`, `left_out`, `telling`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
@@ -24,6 +25,7 @@ mod drive;
 mod dropout;
 mod error;
 pub mod file;
+mod findings;
 mod fit;
 mod forecast;
 mod kinematics;
@@ -51,9 +53,10 @@ pub use answer::diagnosis;
 pub use case::Case;
 pub use cause::Cause;
 pub use constants::{Constant, Quantity, constants};
-pub use diagnose::{Answer, Estimate, Findings, NamedCause, diagnose};
+pub use diagnose::diagnose;
 pub use drive::{Drive, WheelData};
 pub use error::OdometryError;
+pub use findings::{Answer, Estimate, Findings, NamedCause};
 pub use forecast::{Errors, LENGTHS};
 pub use left_out::{Table, left_out};
 pub use wheel::{Sigmas, Wheel, WheeledRobot};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnose::{Answer, Estimate, NamedCause};
+use crate::findings::{Answer, Estimate, NamedCause};
 use crate::settings::SETTINGS;
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::evidence::none_of;

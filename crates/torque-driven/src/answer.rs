@@ -8,7 +8,8 @@ use faer::Mat;
 use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
-use crate::decide::{Scored, fault_free_cost};
+use crate::decide::fault_free_cost;
+use crate::decision::Scored;
 use crate::fit::{Fitted, Hypothesis};
 use crate::judged::Judged;
 use crate::leave_out::{is_worthwhile, leave_one_out};

@@ -4,7 +4,8 @@ use robot_model::Robot;
 
 use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
-use crate::decide::{Decision, decide, evidence};
+use crate::decide::{decide, evidence};
+use crate::decision::Decision;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::own_effects::Runaway;

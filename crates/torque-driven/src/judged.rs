@@ -2,7 +2,7 @@
 
 use crate::calibrate::Calibration;
 use crate::case::Case;
-use crate::decide::{Decision, Scored};
+use crate::decision::{Decision, Scored};
 use crate::fit::Problem;
 use crate::redundancy::Redundant;
 use crate::settings::decision::SETTINGS;

@@ -7,7 +7,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use verdict::FreeRun;
 
 use crate::calibrate::problem;
-use crate::decide::Scored;
+use crate::decision::Scored;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::rms::{residuals, rms};
@@ -234,7 +234,7 @@ mod tests {
     use crate::calibrate::{Calibration, Regimes};
     use crate::case::Case;
     use crate::channel::Channel;
-    use crate::decide::Decision;
+    use crate::decision::Decision;
     use crate::null_scores::NullScores;
     use crate::redundancy::Redundant;
     use crate::testing::{cutting, driven, problem};

@@ -16,7 +16,7 @@
 //! * `hypothesis`: effects that are missing together.
 //! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
 //!   `onset`: place and time; `handed_over`: effects that hide in a constant.
-//! * `decide`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities.
+//! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `answer`, `words`: causes with sizes and intervals; sentences.
@@ -36,6 +36,7 @@ mod candidate;
 mod case;
 mod channel;
 mod decide;
+mod decision;
 mod diagnose;
 mod disc;
 mod drives;

@@ -4,7 +4,7 @@ use faer::Mat;
 use inference::evidence::normalised;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::decide::Decision;
+use crate::decision::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::hypothesis::THROUGHOUT;
 use crate::run_numbers::UNKNOWN;
