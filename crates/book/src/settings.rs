@@ -17,6 +17,7 @@ fn rooms() -> Vec<Room> {
         ("command-driven", "robots of which only commands and motion are known", command_driven::settings().collect()),
         ("odometry", "wheel motion against a measured pose", odometry::settings().collect()),
         ("single-track", "cars: throttle and steering against motion", single_track::settings().collect()),
+        ("model-import", "robot files from models of simulators", model_import::settings().collect()),
         ("weak-form", "screening without simulation", weak_form::settings().collect()),
         ("rehearsal", "what a diagnosis would find on given inputs", rehearsal::settings().collect()),
         ("diagnosis", "which minutes of a long recording are diagnosed", diagnosis::settings().collect()),

@@ -51,7 +51,7 @@ pub struct ColumnsEnvelope {
     /// What the robot file says, word by word; older verdicts have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub robot_file: Option<String>,
-    /// Files by the part they play: reference, recordings.
+    /// Files by the part they play: reference, recordings, heldout.
     pub sources: BTreeMap<String, Vec<SourceFile>>,
     /// Other things in the folders, which were not read.
     pub ignored_files: Vec<String>,

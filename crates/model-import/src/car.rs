@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::assumed::{CENTRE, DIRECTION, POINT, STATED, STATED_INERTIA};
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
 use crate::layout::{Layout, Robot, mean};
+use crate::settings::SETTINGS;
 use crate::source::Source;
 use crate::wheels::{Hangs, Wheel};
 
@@ -100,20 +100,26 @@ pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result
         name: name.to_owned(),
         description: format!("Made from a model in {form}, {}", robot.layout.name()),
         kind: "car",
-        wheelbase: stated(wheelbase, STATED * wheelbase, "places of the wheel joints"),
-        mass: whole.map(|w| stated(w.mass, STATED * w.mass, "masses of all links")),
+        wheelbase: stated(wheelbase, SETTINGS.spreads.stated * wheelbase, "places of the wheel joints"),
+        mass: whole.map(|w| stated(w.mass, SETTINGS.spreads.stated * w.mass, "masses of all links")),
         centre_of_mass: between
-            .map(|x| stated(x, STATED * wheelbase, "centre of mass of all links, from the rear axle")),
-        yaw_inertia: yaw.map(|j| stated(j, STATED_INERTIA * j, "inertias of all links about their centre of mass")),
-        wheel_radius: stated(radius, STATED * radius, "shapes of the wheels"),
+            .map(|x| stated(x, SETTINGS.spreads.stated * wheelbase, "centre of mass of all links, from the rear axle")),
+        yaw_inertia: yaw.map(|j| {
+            stated(j, SETTINGS.spreads.stated_inertia * j, "inertias of all links about their centre of mass")
+        }),
+        wheel_radius: stated(radius, SETTINGS.spreads.stated * radius, "shapes of the wheels"),
         steering: Steering {
-            full_angle: stated(full, 2.0 * STATED * full, "limits of the steering joints"),
-            centre: stated(mean(ranges.iter().map(|[l, u]| 0.5 * (l + u))), CENTRE, "limits of the steering joints"),
+            full_angle: stated(full, 2.0 * SETTINGS.spreads.stated * full, "limits of the steering joints"),
+            centre: stated(
+                mean(ranges.iter().map(|[l, u]| 0.5 * (l + u))),
+                SETTINGS.spreads.centre,
+                "limits of the steering joints",
+            ),
         },
         point: Point {
-            x: stated(-rear, POINT, "origin of the model, from the rear axle"),
-            y: stated(-across, POINT, "origin of the model, from the rear axle"),
-            yaw: stated(0.0, DIRECTION, "axes of the model"),
+            x: stated(-rear, SETTINGS.spreads.point, "origin of the model, from the rear axle"),
+            y: stated(-across, SETTINGS.spreads.point, "origin of the model, from the rear axle"),
+            yaw: stated(0.0, SETTINGS.spreads.direction, "axes of the model"),
         },
         columns: Columns {
             time: "time_s",

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::assumed::{ONE_AXLE, PARALLEL};
 use crate::error::ImportError;
 use crate::import::Rollers;
 use crate::model::Model;
+use crate::settings::SETTINGS;
 use crate::source::Source;
 use crate::wheels::{Ground, Hangs, Wheel};
 
@@ -81,7 +81,7 @@ impl<'a> Robot<'a> {
 
         let layout = layout(source, model, &wheels, &ground.without_radius, told, &mut notes)?;
         let forward = forward(layout, &wheels);
-        if forward.x < 1.0 - PARALLEL {
+        if forward.x < 1.0 - SETTINGS.layout.parallel {
             notes.push(
                 "the model does not drive along its x axis; lengths are measured along the way it drives".to_owned(),
             );
@@ -132,7 +132,7 @@ fn no_wheels(without_radius: &[String]) -> String {
 }
 
 fn is_parallel(a: &Wheel, b: &Wheel) -> bool {
-    a.axle.cross(&b.axle).norm() < PARALLEL
+    a.axle.cross(&b.axle).norm() < SETTINGS.layout.parallel
 }
 
 fn layout(
@@ -147,7 +147,7 @@ fn layout(
     let fixed: Vec<&Wheel> = wheels.iter().filter(|w| w.hangs == Hangs::Fixed).collect();
     let is_one_axle = |of: &[&Wheel]| {
         let x = |w: &Wheel| w.centre.coords.dot(&forward_of(w));
-        of.iter().all(|w| is_parallel(w, of[0]) && (x(w) - x(of[0])).abs() < ONE_AXLE * w.radius)
+        of.iter().all(|w| is_parallel(w, of[0]) && (x(w) - x(of[0])).abs() < SETTINGS.layout.one_axle * w.radius)
     };
     if !steered.is_empty() {
         if fixed.is_empty() || !is_one_axle(&fixed) || !is_one_axle(&steered) {
@@ -207,7 +207,7 @@ fn layout(
 /// Where a wheel rolls to when it turns about its axle, within half a turn of x (or of y, of one that rolls along y).
 fn forward_of(wheel: &Wheel) -> Vector3<f64> {
     let ahead = wheel.axle.cross(&Vector3::z()).normalize();
-    let is_ahead = if ahead.x.abs() > PARALLEL { ahead.x > 0.0 } else { ahead.y > 0.0 };
+    let is_ahead = if ahead.x.abs() > SETTINGS.layout.parallel { ahead.x > 0.0 } else { ahead.y > 0.0 };
     if is_ahead { ahead } else { -ahead }
 }
 

@@ -6,9 +6,8 @@
 //! * `model`, `solid`: links and joints of any format; masses and their sums.
 //! * `wheels`, `layout`: which parts are wheels, and what robot they make.
 //! * `torque`, `odometry`, `car`: robot files of the three sorts.
-//! * `assumed`: every number that is not in a model.
+//! * `settings`: every tuned number.
 
-mod assumed;
 mod car;
 mod error;
 mod import;
@@ -17,6 +16,7 @@ mod mjcf;
 mod model;
 mod odometry;
 mod sdf;
+mod settings;
 mod solid;
 mod source;
 mod torque;
@@ -25,6 +25,11 @@ mod wheels;
 
 pub use error::ImportError;
 pub use import::{Asked, Imported, Kind, Number, Rollers, import};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}
 
 #[cfg(test)]
 mod tests;

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::assumed::{SKIDDING, STATED, WIDER};
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number, Rollers};
 use crate::layout::{Layout, Robot, mean};
+use crate::settings::SETTINGS;
 use crate::source::Source;
 use crate::wheels::{Hangs, Wheel};
 
@@ -73,11 +73,12 @@ pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result
         Some(places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)).filter(|x| *x > 0.0)
     };
     let known = Known {
-        track_sigma: extent(1).map(|x| if skids { SKIDDING * x } else { STATED * x }),
-        wheelbase_sigma: extent(0).map(|x| STATED * x),
+        track_sigma: extent(1).map(|x| if skids { SETTINGS.spreads.skidding * x } else { SETTINGS.spreads.stated * x }),
+        wheelbase_sigma: extent(0).map(|x| SETTINGS.spreads.stated * x),
         source: if skids {
             format!(
-                "the effective track of sides that skid: {WIDER} times the measured one is usual (Mandow et al. 2007)"
+                "the effective track of sides that skid: {} times the measured one is usual (Mandow et al. 2007)",
+                SETTINGS.skid.wider
             )
         } else {
             "guess: models are drawn by people".to_owned()
@@ -142,7 +143,7 @@ fn row(robot: &Robot<'_>, wheel: &Wheel, roller: f64) -> Row {
         direction_deg: degrees(direction(robot, wheel)),
         roller_deg: Some(degrees(roller)).filter(|r| *r != 0.0),
         radius: metres(wheel.radius),
-        radius_sigma: Some(metres(STATED * wheel.radius)),
+        radius_sigma: Some(metres(SETTINGS.spreads.stated * wheel.radius)),
         column: Some(robot.model.joints[wheel.joint].name.clone()),
         steered: matches!(wheel.hangs, Hangs::Steered(_)).then_some(true),
         caster: None,
@@ -180,7 +181,7 @@ fn sides(robot: &Robot<'_>) -> Vec<Row> {
     let sides = robot.sides();
     let y = |side: usize| mean(sides[side].iter().map(|w| robot.place(w)[1]));
     let x = mean(robot.wheels.iter().map(|w| robot.place(w)[0]));
-    let (middle, half) = (0.5 * (y(0) + y(1)), 0.5 * WIDER * (y(0) - y(1)));
+    let (middle, half) = (0.5 * (y(0) + y(1)), 0.5 * SETTINGS.skid.wider * (y(0) - y(1)));
     let row = |(name, side, place): (&str, usize, f64)| {
         let radius = mean(sides[side].iter().map(|w| w.radius));
         let of = sides[side].iter().map(|w| robot.model.joints[w.joint].name.clone()).collect::<Vec<_>>();
@@ -190,7 +191,7 @@ fn sides(robot: &Robot<'_>) -> Vec<Row> {
             direction_deg: degrees(direction(robot, sides[side][0])),
             roller_deg: None,
             radius: metres(radius),
-            radius_sigma: Some(metres(STATED * radius)),
+            radius_sigma: Some(metres(SETTINGS.spreads.stated * radius)),
             column: of.first().cloned(),
             steered: None,
             caster: None,

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use roxmltree::Node;
 
 use crate::error::ImportError;
 use crate::model::{Form, Joint, Link, Model, Motion, Shape};
-use crate::solid::Solid;
+use crate::solid::{Solid, moments};
 use crate::source::{Place, Source, child, children, place, unit};
 
 /// A limit beyond which a joint has none: SDF's default is 1e16.
@@ -146,20 +146,15 @@ fn link(source: &Source<'_>, node: Node<'_, '_>, name: &str, at: Place) -> Resul
         && let Some(mass) = child(inertial, "mass")
     {
         let value = source.parsed(mass, "mass", text(mass))?;
-        if value < 0.0 {
-            return Err(source.wrong(mass, format!("a mass is {value} kg; write zero or more")));
-        }
+        source.ensure_mass(mass, value)?;
         let of = child(inertial, "inertia");
         let moment = |name: &str, usual: f64| match of.and_then(|i| child(i, name)) {
             Some(n) => source.parsed(n, name, text(n)),
             None => Ok(usual),
         };
         // Without <inertia> SDF takes 1 kg m² for each axis.
-        let ([xx, yy, zz], [xy, xz, yz]) = (
-            [moment("ixx", 1.0)?, moment("iyy", 1.0)?, moment("izz", 1.0)?],
-            [moment("ixy", 0.0)?, moment("ixz", 0.0)?, moment("iyz", 0.0)?],
-        );
-        let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let about = [moment("ixx", 1.0)?, moment("iyy", 1.0)?, moment("izz", 1.0)?];
+        let inertia = moments(about, [moment("ixy", 0.0)?, moment("ixz", 0.0)?, moment("iyz", 0.0)?]);
         solid = Some(Solid::at(&(at * pose_of(source, child(inertial, "pose"))?), value, inertia));
     }
     let mut shapes = Vec::new();

@@ -12,6 +12,11 @@ pub(crate) struct Solid {
     pub(crate) inertia: Matrix3<f64>,
 }
 
+/// A symmetric matrix of moments: about the axes x, y and z, then the products xy, xz and yz.
+pub(crate) fn moments([xx, yy, zz]: [f64; 3], [xy, xz, yz]: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
 impl Solid {
     /// A part whose frame of inertia lies at `place`.
     pub(crate) fn at(place: &Place, mass: f64, inertia: Matrix3<f64>) -> Self {

@@ -98,6 +98,14 @@ impl Source<'_> {
         text.split_whitespace().map(|word| self.parsed(node, name, word)).collect()
     }
 
+    /// Refuses a mass below zero.
+    pub(crate) fn ensure_mass(&self, at: Node<'_, '_>, mass: f64) -> Result<(), ImportError> {
+        if mass < 0.0 {
+            return Err(self.wrong(at, format!("a mass is {mass} kg; write zero or more")));
+        }
+        Ok(())
+    }
+
     /// A finite number.
     pub(crate) fn parsed(&self, node: Node<'_, '_>, name: &str, text: &str) -> Result<f64, ImportError> {
         if text.contains("$(") || text.contains("${") {

@@ -26,6 +26,13 @@ fn refused(text: &str, asked: &Asked) -> String {
     import("mine.urdf", text, asked).expect_err("refused").to_string()
 }
 
+/// A robot as a model of another simulator.
+fn exported(name: &str, robot: &robot_model::Robot<f64>, engine: Engine) -> String {
+    let known = inference::KnownEffects::default();
+    let model = Model { name, robot, effects: &[], known, before: None, causes: &[] };
+    model.export(engine).expect("exported").text
+}
+
 fn of_kind(kind: Kind) -> Asked {
     Asked { kind: Some(kind), ..Asked::default() }
 }
@@ -34,16 +41,8 @@ fn of_kind(kind: Kind) -> Asked {
 fn a_robot_that_was_exported_reads_back_the_same() {
     for name in ["hendzel-trojnacki-2014", "husky-a200"] {
         let spec = RobotSpec::built_in(name).expect("built in");
-        let model = Model {
-            name,
-            robot: &spec.robot,
-            effects: &[],
-            known: inference::KnownEffects::default(),
-            before: None,
-            causes: &[],
-        };
         for engine in [Engine::Urdf, Engine::Sdf, Engine::Mjcf] {
-            let text = model.export(engine).expect("exported").text;
+            let text = exported(name, &spec.robot, engine);
             let made = import("again.xml", &text, &Asked::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_eq!((made.kind, made.layout), (Kind::TorqueDriven, "a skid-steer robot"), "{name}");
             let again = RobotSpec::parse("again.toml", &made.text).expect("a robot file").robot;
@@ -222,16 +221,9 @@ fn what_is_nested_without_end_is_refused_and_no_text_makes_it_panic() {
     );
 
     // Every byte in turn taken out, or another in its place: a robot or one sentence.
-    let model = Model {
-        name: "mine",
-        robot: &RobotSpec::built_in("husky-a200").expect("built in").robot,
-        effects: &[],
-        known: inference::KnownEffects::default(),
-        before: None,
-        causes: &[],
-    };
+    let robot = RobotSpec::built_in("husky-a200").expect("built in").robot;
     for engine in [Engine::Urdf, Engine::Sdf, Engine::Mjcf] {
-        let text = model.export(engine).expect("exported").text;
+        let text = exported("mine", &robot, engine);
         for k in (0..text.len()).step_by(7).filter(|&k| text.is_char_boundary(k) && text.is_char_boundary(k + 1)) {
             for other in ["", "0", "-", "<", "\""] {
                 let changed = [&text[..k], other, &text[k + 1..]].concat();

@@ -5,11 +5,11 @@ use robot_model::Robot as Plant;
 use robot_model::constants::Usual;
 use robot_model::tunable::{Tuning, place_of, tunables};
 
-use crate::assumed::{FRICTION, LACKING, MOTOR_SURPLUS, NO_EFFORT, STATED, STATED_FRICTION, STATED_INERTIA};
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
 use crate::layout::{Layout, Robot, mean};
 use crate::model::Joint;
+use crate::settings::SETTINGS;
 use crate::solid::Solid;
 use crate::source::Source;
 use crate::wheels::{RadiusOf, Wheel};
@@ -127,7 +127,7 @@ fn constants(
     let all: Vec<&Wheel> = robot.wheels.iter().collect();
     let [x, y] = middle(robot);
     let Size { wheel_radius: radius, track, wheelbase, .. } = size(robot, sides, whole.mass);
-    if all.iter().any(|w| (w.radius - radius).abs() > STATED * radius) {
+    if all.iter().any(|w| (w.radius - radius).abs() > SETTINGS.spreads.stated * radius) {
         notes.push("its wheels have different radii; their mean was taken".to_owned());
     }
 
@@ -135,22 +135,32 @@ fn constants(
     let mut say = |id: &'static str, value: f64, sigma: f64, what: &str| {
         out.push(Stated { id, value, sigma, source: format!("{form}: {what}") });
     };
-    say("mass", whole.mass, STATED, "masses of all links");
+    say("mass", whole.mass, SETTINGS.spreads.stated, "masses of all links");
     let yaw = whole.about_axis(&whole.centre, &nalgebra::Vector3::z());
-    say("yaw_inertia", yaw, STATED_INERTIA, "inertias of all links about their centre of mass");
+    say("yaw_inertia", yaw, SETTINGS.spreads.stated_inertia, "inertias of all links about their centre of mass");
     let off = whole.centre.coords;
     let [com_x, com_y] = [off.dot(&robot.forward) - x, off.dot(&robot.left()) - y];
-    say("com_x", com_x, STATED * wheelbase, "centre of mass of all links, from the middle of the wheels");
-    say("com_y", com_y, STATED * track, "centre of mass of all links, from the middle of the wheels");
-    say("com_height", whole.centre.z - robot.ground, STATED_INERTIA, "centre of mass of all links, above the ground");
-    say("wheelbase", wheelbase, STATED, "places of the wheel joints");
-    say("track", track, STATED, "places of the wheel joints");
+    say(
+        "com_x",
+        com_x,
+        SETTINGS.spreads.stated * wheelbase,
+        "centre of mass of all links, from the middle of the wheels",
+    );
+    say("com_y", com_y, SETTINGS.spreads.stated * track, "centre of mass of all links, from the middle of the wheels");
+    say(
+        "com_height",
+        whole.centre.z - robot.ground,
+        SETTINGS.spreads.stated_inertia,
+        "centre of mass of all links, above the ground",
+    );
+    say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
+    say("track", track, SETTINGS.spreads.stated, "places of the wheel joints");
     let of = match all[0].radius_of {
         RadiusOf::Contact | RadiusOf::Rollers => "collision shapes of the wheels",
         RadiusOf::Sight => "visual shapes of the wheels",
         RadiusOf::Told => "given by the user",
     };
-    say("wheel_radius", radius, STATED, of);
+    say("wheel_radius", radius, SETTINGS.spreads.stated, of);
 
     let joint = |w: &Wheel| &model.joints[w.joint];
     let spin = |w: &&Wheel| Some(model.solid(&w.links)?.about_axis(&w.centre, &w.axle));
@@ -163,17 +173,22 @@ fn constants(
              usual one was taken"
         ));
     } else if least > 0.0 && spins.len() == all.len() {
-        say("wheel_inertia", least, STATED_INERTIA, "inertia of a wheel about its axle");
+        say("wheel_inertia", least, SETTINGS.spreads.stated_inertia, "inertia of a wheel about its axle");
     }
     let armature = all.iter().filter_map(|w| joint(w).armature).sum::<f64>() / 2.0;
     let surplus = spins.iter().sum::<f64>() / 2.0 - least * spins.len() as f64 / 2.0;
     if armature > 0.0 {
-        say("motor_inertia", armature, STATED_INERTIA, "armature of the joints of a side");
-    } else if least < solid_disc && surplus > MOTOR_SURPLUS * least {
-        say("motor_inertia", surplus, STATED_INERTIA, "what some wheels of a side turn with beyond the lightest one");
+        say("motor_inertia", armature, SETTINGS.spreads.stated_inertia, "armature of the joints of a side");
+    } else if least < solid_disc && surplus > SETTINGS.fillers.motor_surplus * least {
+        say(
+            "motor_inertia",
+            surplus,
+            SETTINGS.spreads.stated_inertia,
+            "what some wheels of a side turn with beyond the lightest one",
+        );
     }
 
-    let (low, high) = (FRICTION[0], FRICTION[1]);
+    let (low, high) = (SETTINGS.fillers.friction[0], SETTINGS.fillers.friction[1]);
     let frictions: Vec<f64> = all.iter().flat_map(|w| w.friction.iter().copied()).collect();
     let real: Vec<f64> = frictions.iter().copied().filter(|mu| (low..=high).contains(mu)).collect();
     if real.is_empty() && !frictions.is_empty() {
@@ -182,7 +197,12 @@ fn constants(
     if !real.is_empty() {
         // A simulator has one coefficient where tyres have a peak and less beyond it: the middle of both.
         let peak = mean(real.iter().copied()) / (0.5 * (1.0 + usual.sliding_share));
-        say("adhesion", peak, STATED_FRICTION, "friction of the wheels, as the middle of peak and sliding");
+        say(
+            "adhesion",
+            peak,
+            SETTINGS.spreads.stated_friction,
+            "friction of the wheels, as the middle of peak and sliding",
+        );
     }
     drives(robot, sides, usual, &mut say);
     out
@@ -209,20 +229,20 @@ fn drives(
             say(
                 id,
                 whole - rolls(resistance),
-                STATED_FRICTION,
+                SETTINGS.spreads.stated_friction,
                 "friction of the joints of a side, less rolling resistance",
             );
         }
-        say("rolling_resistance", resistance, STATED_FRICTION, "share of the joints' friction");
+        say("rolling_resistance", resistance, SETTINGS.spreads.stated_friction, "share of the joints' friction");
     }
     for (side, id) in ["viscous_left", "viscous_right"].into_iter().enumerate() {
         if let Some(damping) = sum(side, |j| j.damping) {
-            say(id, damping, STATED_FRICTION, "damping of the joints of a side");
+            say(id, damping, SETTINGS.spreads.stated_friction, "damping of the joints of a side");
         }
     }
-    let torque = |j: &Joint| j.effort.filter(|e| !j.follows && (0.0..NO_EFFORT).contains(e));
+    let torque = |j: &Joint| j.effort.filter(|e| !j.follows && (0.0..SETTINGS.fillers.no_effort).contains(e));
     if let [Some(left), Some(right)] = [0, 1].map(|side| sum(side, torque)) {
-        say("torque_limit", left.min(right), STATED, "largest torque of the joints of a side");
+        say("torque_limit", left.min(right), SETTINGS.spreads.stated, "largest torque of the joints of a side");
     }
 }
 
@@ -239,7 +259,7 @@ fn with_spreads(mut spec: RobotSpec, stated: &[Stated], form: &str) -> RobotSpec
             Some(s) => s.sigma.max(usual),
             // An offset's usual value is zero: it may be off by what it usually is.
             None if tuning.tuning == Tuning::Offset => usual,
-            None => LACKING.max(usual),
+            None => SETTINGS.spreads.lacking.max(usual),
         };
     }
     spec

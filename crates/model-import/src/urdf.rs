@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use roxmltree::Node;
 
 use crate::error::ImportError;
 use crate::model::{Form, Joint, Link, Model, Motion, Shape};
-use crate::solid::Solid;
+use crate::solid::{Solid, moments};
 use crate::source::{Place, Source, UNEXPANDED, child, children, place, unit};
 
 /// Reads `<robot>`.
@@ -99,14 +99,11 @@ fn solid(source: &Source<'_>, node: Node<'_, '_>) -> Result<Solid, ImportError> 
     let lacks = |what: &str| source.wrong(node, format!("<inertial> has no <{what}>; add it"));
     let mass = child(node, "mass").ok_or_else(|| lacks("mass"))?;
     let value = source.parsed(mass, "mass", source.needed(mass, "value")?)?;
-    if value < 0.0 {
-        return Err(source.wrong(mass, format!("a mass is {value} kg; write zero or more")));
-    }
+    source.ensure_mass(mass, value)?;
     let of = child(node, "inertia").ok_or_else(|| lacks("inertia"))?;
     let moment = |name: &str| Ok(source.number(of, name)?.unwrap_or_default());
-    let ([xx, yy, zz], [xy, xz, yz]) =
-        ([moment("ixx")?, moment("iyy")?, moment("izz")?], [moment("ixy")?, moment("ixz")?, moment("iyz")?]);
-    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let about = [moment("ixx")?, moment("iyy")?, moment("izz")?];
+    let inertia = moments(about, [moment("ixy")?, moment("ixz")?, moment("iyz")?]);
     Ok(Solid::at(&origin(source, child(node, "origin"))?, value, inertia))
 }
 

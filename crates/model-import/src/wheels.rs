@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::assumed::{CENTRED, LEVEL, ON_GROUND, TRAIL, UPRIGHT};
 use crate::model::{Form, Joint, Model, Motion, Shape};
+use crate::settings::SETTINGS;
 
 /// A wheel on the ground.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,7 +72,7 @@ pub(crate) fn wheels(model: &Model, told: Option<f64>) -> Ground {
     for &link in &of_robot {
         is_of_robot[link] = true;
     }
-    let is_level = |j: &Joint| j.is_endless() && j.axis.z.abs() < LEVEL && is_of_robot[j.child];
+    let is_level = |j: &Joint| j.is_endless() && j.axis.z.abs() < SETTINGS.wheels.level && is_of_robot[j.child];
     // A roller turns on a wheel: its axle hangs on what turns itself.
     let is_roller = |j: &Joint| model.ancestors(j.parent).any(is_level);
     let axles = || (0..model.joints.len()).filter(|&k| is_level(&model.joints[k]) && !is_roller(&model.joints[k]));
@@ -80,14 +80,14 @@ pub(crate) fn wheels(model: &Model, told: Option<f64>) -> Ground {
     let mut found: Vec<Wheel> = axles().filter_map(|k| wheel(model, k, told)).collect();
     let lowest = |wheels: &[Wheel]| wheels.iter().map(|w| w.centre.z - w.radius).fold(f64::INFINITY, f64::min);
     let height = lowest(&found);
-    found.retain(|w| w.centre.z - w.radius - height < ON_GROUND * w.radius);
+    found.retain(|w| w.centre.z - w.radius - height < SETTINGS.wheels.on_ground * w.radius);
     let without_radius = axles().filter(|k| wheel(model, *k, told).is_none());
     let without_radius = without_radius.map(|k| model.joints[k].name.clone()).collect();
 
     let of_wheels: Vec<usize> = found.iter().flat_map(|w| w.links.clone()).collect();
     let slides = |shape: &Shape| match shape.form {
         Form::Sphere(radius) => {
-            shape.touches && (shape.place.translation.z - radius - height).abs() < ON_GROUND * radius
+            shape.touches && (shape.place.translation.z - radius - height).abs() < SETTINGS.wheels.on_ground * radius
         }
         _ => false,
     };
@@ -103,7 +103,7 @@ fn wheel(model: &Model, k: usize, told: Option<f64>) -> Option<Wheel> {
     let links = model.group(joint.child, |_| true);
     // What hangs on a wheel are rollers, which turn across its axle without end; what else moves there makes it a leg.
     let is_part = |j: &Joint| {
-        let across = j.axis.cross(&joint.axis).norm() > LEVEL;
+        let across = j.axis.cross(&joint.axis).norm() > SETTINGS.wheels.level;
         j.child == joint.child || j.motion == Motion::Fixed || (j.is_endless() && across)
     };
     if !model.joints.iter().filter(|j| links.contains(&j.child)).all(is_part) {
@@ -146,13 +146,13 @@ fn radius(shape: &Shape, joint: &Joint) -> Option<f64> {
         Form::Sphere(radius) => radius,
         Form::Round(radius) => {
             let along = shape.place.rotation * Vector3::z();
-            (along.cross(&joint.axis).norm() < LEVEL).then_some(radius)?
+            (along.cross(&joint.axis).norm() < SETTINGS.wheels.level).then_some(radius)?
         }
         Form::Other => return None,
     };
     let from = shape.place.translation.vector - joint.at.coords;
     let off = from - joint.axis * from.dot(&joint.axis);
-    (radius > 0.0 && off.norm() < CENTRED * radius).then_some(radius)
+    (radius > 0.0 && off.norm() < SETTINGS.wheels.centred * radius).then_some(radius)
 }
 
 /// Axle of the lowest roller of a wheel, and the wheel's radius over it.
@@ -168,12 +168,12 @@ fn lowest_roller(model: &Model, axle: &Joint, links: &[usize]) -> Option<(Vector
 
 /// Whether something above an axle turns about an upright axis.
 fn hangs(model: &Model, axle: &Joint, centre: &Point3<f64>, radius: f64) -> Hangs {
-    let is_swivel = |j: &&Joint| j.motion == Motion::Turn && j.axis.z.abs() > UPRIGHT;
+    let is_swivel = |j: &&Joint| j.motion == Motion::Turn && j.axis.z.abs() > SETTINGS.wheels.upright;
     let Some(swivel) = model.ancestors(axle.parent).find(is_swivel) else { return Hangs::Fixed };
     // Along the way it rolls: a wheel beside its steering axis is none that follows.
     let ahead = axle.axis.cross(&Vector3::z()).normalize();
     let trail = (centre - swivel.at).dot(&ahead).abs();
-    if swivel.is_endless() && trail > TRAIL * radius {
+    if swivel.is_endless() && trail > SETTINGS.wheels.trail * radius {
         return Hangs::Caster;
     }
     Hangs::Steered(model.joints.iter().position(|j| j.child == swivel.child).unwrap_or_default())

@@ -56,11 +56,8 @@ impl Judged<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::between_visits::Moves;
-    use crate::calibrate::Regimes;
     use crate::fit::{Hypothesis, Point};
-    use crate::null_scores::NullScores;
-    use crate::testing::{cutting, driven, problem};
+    use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
     use inference::hypothesis::Place;
@@ -79,15 +76,7 @@ mod tests {
             let fitted = p.begin(&h, Point { effects: vec![size], ..p.origin() }, None);
             Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score: 10.0, probability: 0.4 }
         };
-        let calibration = Calibration {
-            theta: p.centre,
-            information: p.information.clone(),
-            variance: p.variance,
-            spread: p.spread,
-            regimes: Regimes::default(),
-            null_scores: NullScores::default(),
-            moves: Moves::default(),
-        };
+        let calibration = calibration(&p);
         let case = Case::new(robot);
         let decision = Decision { scored: vec![scored(1e-6), scored(1.0)], none: 0.2, ..Decision::default() };
         let told = Judged {

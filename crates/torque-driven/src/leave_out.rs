@@ -230,14 +230,11 @@ fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::between_visits::Moves;
-    use crate::calibrate::{Calibration, Regimes};
     use crate::case::Case;
     use crate::channel::Channel;
     use crate::decision::Decision;
-    use crate::null_scores::NullScores;
     use crate::redundancy::Redundant;
-    use crate::testing::{cutting, driven, problem};
+    use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
     use inference::Options;
@@ -255,15 +252,7 @@ mod tests {
     fn forecasts(cuts: &[Cut]) -> Forecasts {
         let robot = robot();
         let p = problem(&robot, cuts);
-        let calibration = Calibration {
-            theta: p.centre,
-            information: p.information.clone(),
-            variance: p.variance,
-            spread: p.spread,
-            regimes: Regimes::default(),
-            null_scores: NullScores::default(),
-            moves: Moves::default(),
-        };
+        let calibration = calibration(&p);
         let case = Case { pose_sigma: 1e-4, ..Case::new(robot) };
         let all = [("viscous_friction", 30.0), ("rolling_resistance", 10.0), ("viscous_friction", 5.0)];
         let scored = all.map(|(id, score)| scored(&p, id, score)).to_vec();

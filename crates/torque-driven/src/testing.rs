@@ -9,10 +9,13 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use testing::{PERIOD, robot};
 
+use crate::between_visits::Moves;
+use crate::calibrate::{Calibration, Regimes};
 use crate::channel::Channels;
 use crate::drives::Drives;
 use crate::fit::Problem;
 use crate::motion::GyroError;
+use crate::null_scores::NullScores;
 use crate::run::Run;
 use crate::settings::fit::SETTINGS;
 use crate::windows::{Cut, CutOptions};
@@ -149,5 +152,18 @@ pub(crate) fn problem<'a>(robot: &'a Robot<f64>, cuts: &'a [Cut]) -> Problem<'a>
         known: options.known,
         without: None,
         drives: Drives::default(),
+    }
+}
+
+/// A calibration that has taught a problem all that it knows.
+pub(crate) fn calibration(p: &Problem<'_>) -> Calibration {
+    Calibration {
+        theta: p.centre,
+        information: p.information.clone(),
+        variance: p.variance,
+        spread: p.spread,
+        regimes: Regimes::default(),
+        null_scores: NullScores::default(),
+        moves: Moves::default(),
     }
 }

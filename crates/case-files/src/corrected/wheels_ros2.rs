@@ -67,7 +67,7 @@ fn scatter(runs: &[FreeRun], is_nominal: bool) -> Option<Scatter> {
     [&short, &long].into_iter().all(errs).then_some(Scatter { short, long, drives })
 }
 
-/// Wheels as stated and as corrected, and what is told of them on the way to a controller.
+/// Wheels as stated and as corrected, with the sentences for the user that come up while a controller is chosen for them.
 struct Wheels<'a> {
     stated: &'a WheeledRobot,
     wanted: &'a WheeledRobot,

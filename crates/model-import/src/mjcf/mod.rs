@@ -9,7 +9,7 @@ use roxmltree::Node;
 
 use crate::error::ImportError;
 use crate::model::{Joint, Link, Model, Motion};
-use crate::solid::Solid;
+use crate::solid::{Solid, moments};
 use crate::source::{Place, Source, child, children, unit};
 use defaults::Defaults;
 use frame::Reading;
@@ -128,8 +128,9 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i> {
 
     fn inertial(&self, node: Node<'a, 'i>, at: &Place) -> Result<Solid, ImportError> {
         let mass = self.reading.source.parsed(node, "mass", self.reading.source.needed(node, "mass")?)?;
+        self.reading.source.ensure_mass(node, mass)?;
         let inertia = if let Some([xx, yy, zz, xy, xz, yz]) = self.reading.array(node, "fullinertia")? {
-            Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+            moments([xx, yy, zz], [xy, xz, yz])
         } else {
             let of = self.reading.array(node, "diaginertia")?.unwrap_or_default();
             Matrix3::from_diagonal(&Vector3::from(of))
