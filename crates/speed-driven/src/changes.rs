@@ -70,7 +70,13 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let level = levels(&rest, any, period);
     let usual = usual_of(run, &rest, &level, usual);
     let mut found = slopes.found;
-    found.extend(jumps(run, &rest, &level, &usual, weight, slope.is_some()));
+    // The pull that was taken away errs by the angle, and by the losses of a drive train that grow with what it carries.
+    let pull_sigma = |i: usize| {
+        let by_angle = |slope: &Attitude| slope.sigma[i].hypot(CHANGES.slopes.losses * slope.pitch[i]);
+        if is_sloping(run.time[i]) { weight * slope.as_ref().map_or(0.0, by_angle) } else { 0.0 }
+    };
+    let pull_sigma: Option<&dyn Fn(usize) -> f64> = slope.is_some().then_some(&pull_sigma);
+    found.extend(jumps(run, &rest, &level, &usual, weight, pull_sigma));
     Changes { found, tentative: slopes.tentative, hidden: hidden(run, &readings) }
 }
 
@@ -233,6 +239,20 @@ mod tests {
         let without = slopes(&drive(&legs, true));
         assert!(without.iter().all(|c| c.relative && c.reason.contains("accelerometer")), "{without:?}");
         assert!(!found[0].relative);
+    }
+
+    #[test]
+    fn losses_that_grow_with_the_pull_of_a_slope_are_no_other_ground() {
+        // The slope pulls 12.7 N m; a part of its stretch takes 2 N m more than that, which its losses may do.
+        let losses = Leg { straight: STRAIGHT + 2.5, ..Leg::straight(15.0) };
+        let legs = [Leg::straight(30.0), losses.slope(6.0), Leg::straight(30.0)];
+        let all = changes(&levelled(&legs, 0.0), &USUAL, WEIGHT).found;
+        assert!(all.len() == 1 && all[0].causes == [GRADE], "{all:?}");
+        // Ground that takes as much again as the usual one is found on the slope, too.
+        let soft = Leg { straight: 2.2 * STRAIGHT, ..Leg::straight(15.0) };
+        let legs = [Leg::straight(30.0), soft.slope(6.0), Leg::straight(30.0)];
+        let all = changes(&levelled(&legs, 0.0), &USUAL, WEIGHT).found;
+        assert!(all.iter().any(|c| c.causes == [GRADE]) && all.iter().any(|c| c.causes == [ROLLING]), "{all:?}");
     }
 
     #[test]

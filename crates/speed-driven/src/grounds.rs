@@ -37,12 +37,20 @@ struct Stretch {
 /// Grounds inside these recordings, the longest first.
 pub(crate) fn grounds(runs: &[SpeedRun], loads: &Loads, usual: &Usual<'_>) -> Vec<OtherGround> {
     let of_run = |run: &SpeedRun| -> Vec<OtherGround> {
-        stretches(&run.name, loads).into_iter().filter_map(|interval| usual.ground(run, interval)).collect()
+        let slopes = slopes(&run.name, loads);
+        stretches(&run.name, loads).into_iter().filter_map(|interval| usual.ground(run, interval, &slopes)).collect()
     };
     let mut out: Vec<OtherGround> = runs.iter().flat_map(of_run).collect();
     let seconds = |g: &OtherGround| g.interval[1] - g.interval[0];
     out.sort_by(|a, b| seconds(b).total_cmp(&seconds(a)));
     out
+}
+
+/// Slopes of a recording, from and until: their pull is no load of the ground. A tilt against the rest of a drive may be soft
+/// ground itself.
+fn slopes(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
+    let is_slope = |c: &&LoadChange| c.recording == recording && c.causes == [GRADE] && !c.relative;
+    loads.changes.found.iter().filter(is_slope).map(|c| c.interval).collect()
 }
 
 /// Changes of a recording that may be one ground, joined.
@@ -73,9 +81,9 @@ fn stretches(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
 }
 
 impl Usual<'_> {
-    /// The ground of a stretch; `None` where no load differs from the references'.
-    fn ground(&self, run: &SpeedRun, interval: [f64; 2]) -> Option<OtherGround> {
-        let (loads, _) = extract(&only(run, interval));
+    /// The ground of a stretch, by its rows beside slopes; `None` where no load of these differs from the references'.
+    fn ground(&self, run: &SpeedRun, interval: [f64; 2], slopes: &[[f64; 2]]) -> Option<OtherGround> {
+        let (loads, _) = extract(&only(run, interval, slopes));
         let (ratios, _) = ratios(&loads, self.references);
         if !ratios.iter().any(|r: &Ratio| judgement(r) == Judgement::Differs) {
             return None;
@@ -88,12 +96,14 @@ impl Usual<'_> {
     }
 }
 
-/// The same recording as if only these rows said anything: all others are left out like those in which a body stands.
-fn only(run: &SpeedRun, [from, until]: [f64; 2]) -> SpeedRun {
+/// The same recording as if only these rows said anything, less the slopes among them: all others are left out like those
+/// in which a body stands.
+fn only(run: &SpeedRun, [from, until]: [f64; 2], slopes: &[[f64; 2]]) -> SpeedRun {
     let mut out = run.clone();
     out.changed.fill(false);
     for (left_out, t) in out.standing.iter_mut().zip(&run.time) {
-        *left_out |= *t < from || *t > until;
+        let slopes_there = slopes.iter().any(|[a, b]| a <= t && t <= b);
+        *left_out |= *t < from || *t > until || slopes_there;
     }
     out
 }

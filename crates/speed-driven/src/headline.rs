@@ -51,10 +51,8 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
             1 => String::new(),
             n => format!(": {n} stretches of other ground, of which this is the longest"),
         };
-        return vec![
-            format!("The ground changes inside a recording{how_many}. {}", other_ground(longest, theirs)),
-            rest.to_owned(),
-        ];
+        let first = format!("The ground changes inside a recording{how_many}. {}", other_ground(longest, theirs));
+        return [Some(first), apart(&longest.causes), Some(rest.to_owned())].into_iter().flatten().collect();
     }
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
@@ -62,9 +60,15 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
     let Some(clearest) = steepest.map(change).or_else(|| largest.map(turning_change)) else {
         return vec![whole];
     };
+    let way_back = steepest.filter(|c| c.causes.len() > 1).map(|_| {
+        "To find out which, drive the same stretch the other way: a slope then changes the load the opposite way, the \
+         ground the same way."
+            .to_owned()
+    });
     let count = straight.len() + turning.len();
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
-    vec![format!("Change inside a recording{how_many}. {clearest}"), rest.to_owned()]
+    let first = format!("Change inside a recording{how_many}. {clearest}");
+    [Some(first), way_back, Some(rest.to_owned())].into_iter().flatten().collect()
 }
 
 /// The clearest differences, though none of their causes is likely enough to be named; the class that fits each.

@@ -12,16 +12,18 @@ const JUMPS: Jumps = CHANGES.jumps;
 /// Factor by which the straight load varies without a cause.
 const UNNAMED: f64 = NAMING.priors.unnamed_straight;
 
-/// Jumps of the load, from currents. `after_slope`: what a slope does was taken away.
+/// Jumps of the load, from currents. `pull_sigma`: what slopes pull was taken away, and one sigma of that at a row, N m;
+/// `None` where nothing tells slopes.
 pub(super) fn jumps(
     run: &SpeedRun,
     readings: &[Option<Reading>],
     level: &[f64],
     usual: &Usual,
     weight: f64,
-    after_slope: bool,
+    pull_sigma: Option<&dyn Fn(usize) -> f64>,
 ) -> Vec<LoadChange> {
     let period = run.period();
+    let after_slope = pull_sigma.is_some();
     let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
     let changed = |i: &usize| (level[*i] - base(*i)).abs() > (1.0 - 1.0 / UNNAMED) * base(*i);
     let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
@@ -64,6 +66,13 @@ pub(super) fn jumps(
                 continue;
             }
 
+            // On a slope the excess may be what its pull was taken for too little or too much.
+            let of_pull = pull_sigma.map_or(0.0, |sigma| mean(&|i| sigma(i)));
+            let half = NINETY * (JUMPS.scatter * from).hypot(of_pull);
+            if of_pull > 0.0 && (load - from).abs() < half {
+                continue;
+            }
+
             let slope = ((load - from) / weight).clamp(-1.0, 1.0).asin().to_degrees();
             let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
             let below = load < JUMPS.below_friction * from || nothing >= JUMPS.below_seconds && load < from / UNNAMED;
@@ -82,7 +91,7 @@ pub(super) fn jumps(
                 seconds,
                 ratio: Some(load / from),
                 slope,
-                slope_half: NINETY * JUMPS.scatter * from / weight * 180.0 / std::f64::consts::PI,
+                slope_half: (half / weight).to_degrees(),
                 bound,
                 relative: false,
                 causes,

@@ -34,7 +34,7 @@ fn mismatches(d: &Diagnosis) -> impl Iterator<Item = Stretch<'_>> {
 }
 
 /// When the loads of steady driving change, and when that could not have been seen.
-fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
+fn load_changes<'a>(d: &'a Diagnosis, loads: &'a Loads) -> Vec<Stretch<'a>> {
     let text = |recording: &str, [a, b]: [f64; 2], what: &str| format!("{recording}: {a:.1} to {b:.1} s, {what}");
     let straight = loads.changes.found.iter().map(|c| {
         let angle =
@@ -60,7 +60,9 @@ fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
         (c.recording.as_str(), "straight load", c.interval, Role::Placebo, what)
     });
     let grounds = loads.grounds.iter().map(|g| {
-        let what = if g.causes.is_empty() { "no effect of the catalogue fits".to_owned() } else { g.causes.join(", ") };
+        let name = |id: &'a String| d.ranked.iter().find(|c| c.effect == *id).map_or(id.as_str(), |c| c.name.as_str());
+        let names: Vec<&str> = g.causes.iter().map(name).collect();
+        let what = if names.is_empty() { "no effect of the catalogue fits".to_owned() } else { names.join(" or ") };
         (g.recording.as_str(), "other ground", g.interval, Role::Before, what)
     });
     let all = grounds.chain(straight).chain(turning).chain(standing).chain(hidden);
@@ -73,7 +75,7 @@ fn load_changes(loads: &Loads) -> Vec<Stretch<'_>> {
 /// Lanes of the first recordings, and how many recordings there are.
 fn lanes(d: &Diagnosis) -> (Vec<Lane>, usize) {
     let mut out: Vec<Lane> = Vec::new();
-    for (recording, signal, marked) in mismatches(d).chain(d.steady.iter().flat_map(load_changes)) {
+    for (recording, signal, marked) in mismatches(d).chain(d.steady.iter().flat_map(|loads| load_changes(d, loads))) {
         let length = length(d, recording).max(marked.until);
         if let Some(lane) = out.iter_mut().find(|l| l.recording == recording && l.signal == signal) {
             lane.length = lane.length.max(length);

@@ -60,6 +60,8 @@ const fn degrees(x: f64) -> f64 {
         turned: f64 = 0.35, "rad", "guess: 20°";
         /// A slope's angle is that of its middle: so much at either end is ramp.
         flank: f64 = 2.0, "s", "guess: a robot's length at walking pace, and the mean of the accelerometer";
+        /// A drive train loses this share of what a slope pulls, one sigma.
+        losses: f64 = 0.1, "1", "guess: gears of 85 to 95 % efficiency";
         /// Gaps in the sight of a slope that do not end it.
         gap: f64 = 2.0, "s", "guess";
         /// Clocks are aligned to about this: taken off and added where a slope begins and ends.
