@@ -147,8 +147,9 @@ impl Bound {
         let unit = channel.unit();
         let worst = channel.values().iter().map(|v| (v - self.middle).abs()).fold(0.0, f64::max);
         let units = explaining(unit, |factor| worst * factor <= self.largest);
+        let worst = if worst < POSSIBLE.readable { format!("{worst:.4}") } else { format!("{worst:.3e}") };
         let what = format!(
-            "{outside} of {} samples of {} (column '{}') cannot be, the largest is {worst:.4} {unit}: {}; {}",
+            "{outside} of {} samples of {} (column '{}') cannot be, the largest is {worst} {unit}: {}; {}",
             channel.len(),
             channel.name(),
             channel.column(),
@@ -222,14 +223,13 @@ fn contradictions(recording: &Recording, robot: &Robot<f64>) -> Result<Option<St
 
 /// Typical speed (m/s) and yaw rate (rad/s, root mean square) that the wheels give the body if they roll.
 fn wheel_motion(recording: &Recording, robot: &Robot<f64>) -> Option<[f64; 2]> {
-    let speeds = |speed: Signal, angle: Signal| -> Option<Vec<(i64, f64)>> {
-        if let Some(channel) = recording.get(speed) {
-            return Some(channel.samples().collect());
-        }
-        Some(Moved::of(recording.get(angle)?)?.rates)
+    let speeds = |[speed, angle, command]: [Signal; 3]| -> Option<Vec<(i64, f64)>> {
+        let by_angle = || Some(Moved::of(recording.get(angle)?)?.rates);
+        let of = |signal: Signal| recording.get(signal).map(|channel| channel.samples().collect());
+        of(speed).or_else(by_angle).or_else(|| of(command))
     };
-    let left = speeds(Signal::WheelSpeedLeft, Signal::WheelAngleLeft)?;
-    let right = speeds(Signal::WheelSpeedRight, Signal::WheelAngleRight)?;
+    let left = speeds([Signal::WheelSpeedLeft, Signal::WheelAngleLeft, Signal::CommandSpeedLeft])?;
+    let right = speeds([Signal::WheelSpeedRight, Signal::WheelAngleRight, Signal::CommandSpeedRight])?;
     // Each sample of the left side with the next of the right one.
     let mut later = right.iter().peekable();
     let both: Vec<[f64; 2]> = left

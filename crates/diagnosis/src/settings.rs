@@ -43,6 +43,8 @@
         lag: f64 = 0.5, "s", "guess; long beside the noise of a pose";
         /// How much faster than by its wheels a body seems to move where a unit is wrong.
         beyond_wheels: f64 = 10.0, "1", "guess; the factors of wrong units are 9.5 (rpm), 57 (degrees) and 1000 (mm), those of faults below 2";
+        /// Largest value that is written with all its digits.
+        readable: f64 = 1e9, "1", "guess";
         /// Added to the turn that wheels give: bias and noise of a gyro.
         turn: f64 = 0.05, "rad/s", "guess";
         /// Added to the drive that wheels give: noise of a pose.

@@ -9,10 +9,17 @@ use crate::place::Place;
 use crate::term::{Law, Term};
 use crate::variable::Variable;
 
+/// A number as a formatter asks for it: with all digits, or with as many as its precision says.
+fn number(x: f64, f: &fmt::Formatter<'_>) -> String {
+    let rounded = |digits: usize| format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x);
+    f.precision().map_or(x, rounded).to_string()
+}
+
+/// As people write it; a precision is the number of significant digits: `{:.4}`.
 impl fmt::Display for Factor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (name, variable, numbers) = self.parts();
-        let numbers = numbers.iter().map(f64::to_string);
+        let numbers = numbers.iter().map(|x| number(*x, f));
         let all: Vec<String> = variable.map(|v| v.symbol().to_owned()).into_iter().chain(numbers).collect();
         write!(f, "{name}({})", all.join(", "))
     }
@@ -20,15 +27,20 @@ impl fmt::Display for Factor {
 
 impl fmt::Display for Term {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {} [{}]", self.place().symbol(), self.constant(), self.unit())?;
-        self.factors().iter().try_for_each(|factor| write!(f, " * {factor}"))
+        write!(f, "{} = {} [{}]", self.place().symbol(), number(self.constant(), f), self.unit())?;
+        self.factors().iter().try_for_each(|factor| {
+            f.write_str(" * ")?;
+            fmt::Display::fmt(factor, f)
+        })
     }
 }
 
 impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let terms: Vec<String> = self.terms().iter().map(Term::to_string).collect();
-        f.write_str(&terms.join("; "))
+        self.terms().iter().enumerate().try_for_each(|(k, term)| {
+            f.write_str(if k > 0 { "; " } else { "" })?;
+            fmt::Display::fmt(term, f)
+        })
     }
 }
 

@@ -61,6 +61,16 @@ proptest! {
     }
 
     #[test]
+    fn a_rounded_formula_reads_back_as_nearly_the_same(law in law()) {
+        let rounded: Law = format!("{law:.6}").parse().expect("reads");
+        prop_assert_eq!(rounded.terms().len(), law.terms().len());
+        for (rounded, exact) in rounded.terms().iter().zip(law.terms()) {
+            prop_assert!((rounded.constant() - exact.constant()).abs() <= 5e-6 * exact.constant().abs());
+            prop_assert_eq!(rounded.unit(), exact.unit());
+        }
+    }
+
+    #[test]
     fn a_file_reads_back(law in law(), low in -1e3..0.0_f64, high in 0.0..1e3_f64) {
         let seen: Vec<_> = law.variables().into_iter().map(|v| (v, [low, high])).collect();
         let law = law.seen_within(&seen);

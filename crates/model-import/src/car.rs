@@ -154,13 +154,22 @@ fn range(source: &Source<'_>, robot: &Robot<'_>, wheel: &Wheel) -> Result<[f64; 
     let joint = &robot.model.joints[joint];
     // About an axis that points down, left is negative.
     let up = |[lower, upper]: [f64; 2]| if joint.axis.z < 0.0 { [-upper, -lower] } else { [lower, upper] };
-    joint.range.filter(|_| !joint.is_endless()).or(joint.meant).map(up).ok_or_else(|| {
+    let stated = joint.range.filter(|_| !joint.is_endless()).or(joint.meant).filter(|range| *range != [0.0; 2]);
+    let [lower, upper] = stated.map(up).ok_or_else(|| {
         source.whole(format!(
             "steering joint '{}' has no limits; add them in rad (URDF: type=\"revolute\" with <limit lower upper>): the angle \
              at full command is read from them",
             joint.name
         ))
-    })
+    })?;
+    if lower >= upper || lower.abs().max(upper.abs()) > std::f64::consts::FRAC_PI_2 {
+        return Err(source.whole(format!(
+            "steering joint '{}' has limits of {lower} and {upper} rad; the lower one must be less than the upper one, and no \
+             wheel is steered by more than a right angle (1.5708 rad): are they in degrees?",
+            joint.name
+        )));
+    }
+    Ok([lower, upper])
 }
 
 /// Six digits, which are more than a model knows.

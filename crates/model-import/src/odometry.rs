@@ -67,6 +67,12 @@ pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result
         _ => None,
     });
     let skids = robot.layout == Layout::SkidSteer;
+    if skids && robot.sides().iter().any(Vec::is_empty) {
+        return Err(source.whole(
+            "all wheels roll along one line, so that no difference of their speeds turns the robot; check the origins of the \
+             wheel joints",
+        ));
+    }
     let mut wheel = if skids { sides(robot) } else { wheels(robot, &mut notes) };
     let extent = |axis: usize| {
         let places = || wheel.iter().map(|row| row.place[axis]);

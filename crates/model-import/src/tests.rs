@@ -138,6 +138,26 @@ fn a_car_whose_steering_has_no_limits_is_refused() {
     assert!(refusal.contains("steering joint 'left_steering' has no limits; add them in rad"), "{refusal}");
 }
 
+#[test]
+fn limits_of_a_steering_joint_that_no_wheel_has_are_refused() {
+    for limit in ["<limit effort=\"1\" velocity=\"1\"/>", "<limit lower=\"0.0\" upper=\"0.0\"/>"] {
+        let refusal = refused(&car(limit), &Asked::default());
+        assert!(refusal.contains("steering joint 'left_steering' has no limits"), "{refusal}");
+    }
+    for limit in ["<limit lower=\"0.4\" upper=\"-0.4\"/>", "<limit lower=\"-30\" upper=\"30\"/>"] {
+        let refusal = refused(&car(limit), &Asked::default());
+        assert!(refusal.contains("are they in degrees?"), "{refusal}");
+    }
+}
+
+#[test]
+fn wheels_that_all_roll_along_one_line_are_refused() {
+    let line = ["0.15 0 0.05", "-0.15 0 0.05", "0 0 0.05"];
+    let wheels: String = line.iter().enumerate().map(|(k, xyz)| wheel(&format!("w{k}"), xyz, "")).collect();
+    let refusal = refused(&urdf(&wheels), &of_kind(Kind::Odometry));
+    assert!(refusal.contains("all wheels roll along one line"), "{refusal}");
+}
+
 /// Four wheels at the corners.
 fn four(more: &str) -> String {
     let at = [("fl", "0.15 0.2 0.05"), ("fr", "0.15 -0.2 0.05"), ("rl", "-0.15 0.2 0.05"), ("rr", "-0.15 -0.2 0.05")];

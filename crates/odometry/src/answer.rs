@@ -3,6 +3,7 @@
 use crate::findings::{Answer, Findings};
 use crate::forecast::LENGTHS;
 use crate::left_out::Table;
+use crate::settings::SETTINGS;
 use crate::telling::{Found, free_runs};
 use catalogue::odometry::RADIUS_OF_ALL_WHEELS;
 use verdict::Diagnosis;
@@ -57,7 +58,12 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
         }
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer."
+             {best:.1} % remain with the best answer.{}",
+            if findings.shares[2] > SETTINGS.naming.left_most {
+                " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
+            } else {
+                ""
+            }
         )),
     }
     text

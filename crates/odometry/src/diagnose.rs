@@ -212,8 +212,8 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
 
     let rules = SETTINGS.naming;
     let floor = data.pose_noise().max(SETTINGS.windows.floor);
-    let is_left =
-        best.1 > rules.left_share && best.0 > rules.left_of_retuned * tuned.0 && best.0 > rules.left_noise * floor;
+    let is_much = best.1 > rules.left_most || best.0 > rules.left_of_retuned * tuned.0;
+    let is_left = best.1 > rules.left_share && is_much && best.0 > rules.left_noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
     let answer = if is_left {
         Answer::Unknown

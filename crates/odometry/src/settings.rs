@@ -202,6 +202,8 @@
         left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
         /// Share of the re-tuned error that has to be left then.
         left_of_retuned: f64 = 0.8, "1", "guess";
+        /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
+        left_most: f64 = 0.3, "1", "guess; wrong columns, signs and units leave half of the motion and more";
         /// Sigmas of the pose's noise beyond which what is left is more than noise.
         left_noise: f64 = 4.0, "1", "guess";
     }

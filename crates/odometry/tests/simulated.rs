@@ -68,6 +68,25 @@ fn what_is_hidden_is_named_first() {
 }
 
 #[test]
+fn columns_in_the_wrong_order_or_with_the_wrong_sign_are_no_robot() {
+    type Fault = fn(&mut odometry::Drive);
+    let faults: [(&str, Fault); 4] = [
+        ("left and right exchanged", |d| d.turns.iter_mut().for_each(|row| row.reverse())),
+        ("sign of one wheel", |d| d.turns.iter_mut().for_each(|row| row[0] = -row[0])),
+        ("yaw clockwise", |d| d.pose.iter_mut().for_each(|p| p[2] = -p[2])),
+        ("x and y exchanged", |d| d.pose.iter_mut().for_each(|p| p.swap(0, 1))),
+    ];
+    for (what, fault) in faults {
+        let mut case = drawn(Kind::Differential, Hidden::Nothing, 3, 60.0, 4242);
+        case.case.recordings.iter_mut().for_each(fault);
+        let findings = found(&case);
+        assert_eq!(findings.answer, Answer::Unknown, "{what}: {:?} of the motion", findings.shares);
+        let told = odometry::diagnosis(&findings, &odometry::Table::default(), false);
+        assert!(told.sentences[0].contains("check the order, the signs"), "{what}: {:?}", told.sentences);
+    }
+}
+
+#[test]
 fn a_slip_that_is_whole_in_slow_turns_is_no_other_radius() {
     for kind in KINDS {
         let findings = found(&drawn(kind, Hidden::SlipInSlowTurns, 4, 60.0, 77 + kind as u64));

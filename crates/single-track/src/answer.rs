@@ -1,5 +1,6 @@
 //! Findings as a verdict in sentences.
 
+use crate::settings::SETTINGS;
 use odometry::Answer;
 use odometry::telling::{Found, free_runs};
 
@@ -65,7 +66,12 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
         )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer."
+             {best:.1} % remain with the best answer.{}",
+            if findings.shares[2] > SETTINGS.naming.left_most {
+                " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
+            } else {
+                ""
+            }
         )),
     }
     text

@@ -111,7 +111,8 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
     let named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
 
     let rules = SETTINGS.naming;
-    let is_left = shares[2] > rules.left_share && shares[2] > rules.left_of_retuned * shares[1];
+    let is_left =
+        shares[2] > rules.left_most || (shares[2] > rules.left_share && shares[2] > rules.left_of_retuned * shares[1]);
     let is_stated = |e: &&Estimate| data.constants.iter().any(|c| c.name == e.name && c.sigma < c.usual);
     // Deviations of single drives explain everything where they are as free as was tried.
     let widest = SETTINGS.fitting.factors.into_iter().fold(0.0, f64::max);

@@ -280,6 +280,8 @@
         rounds: usize = 4, "1", "guess; two are usual";
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
         left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
+        /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
+        left_most: f64 = 0.45, "1", "guess; wrong signs and units leave half of the motion and more";
         /// Share of the re-tuned error that has to be left then.
         left_of_retuned: f64 = 0.8, "1", "guess";
     }

@@ -30,10 +30,11 @@ fn what_is_wrong_with_a_robot_file_is_one_sentence_with_its_remedy() {
     assert!(refused(limit, "").contains("the steering has no limits; add [steering] with full_angle"));
     assert!(refused("value = 0.40", "value = 25.0").contains("write radians below 1.57"));
     assert!(refused("value = 0.1735", "value = -0.1735").contains("wheelbase is -0.1735; it has to be above 0"));
+    assert!(refused("value = 0.1735, sigma = ", "value = 0.1735, sigma = -").contains("sigma of wheelbase is -"));
     assert!(refused("value = 0.847", "value = 1.6").contains("front_axle_mass is 1.6 kg of a mass of 1.58 kg"));
     assert!(refused("yaw = \"yaw_rad\"\n", "").contains("give x, y and yaw, or none of them"));
     assert!(refused("kind = \"car\"", "kind = \"lorry\"").contains("belong to kind = \"car\""));
-    assert!(refused("sigma = 0.001", "sigma = 0.0").contains("a sigma is not above 0"));
+    assert!(refused("sigma = 0.001", "sigma = 0.0").contains("sigma of wheelbase is 0; it has to be above 0"));
 }
 
 #[test]

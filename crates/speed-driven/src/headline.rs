@@ -33,18 +33,23 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
 
 /// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.
 fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> Vec<String> {
+    let warmth = warmth(loads, theirs);
     let whole = match of_loads {
         Verdict::Withheld if leads => too_little(loads),
         Verdict::Withheld => "The other rows hold too little steady driving to compare any load.".to_owned(),
-        _ if leads => {
-            "No mismatch: the simulation explains the loads of steady driving; nothing needs to be added to it."
-                .to_owned()
-        }
+        _ if leads => match &warmth {
+            Some(warmth) => format!("No mismatch that asks for a cause. {warmth}"),
+            None => {
+                "No mismatch: the simulation explains the loads of steady driving; nothing needs to be added to it."
+                    .to_owned()
+            }
+        },
         _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
     };
-    let rest = match of_loads {
-        Verdict::Withheld => "No load of a whole recording can be compared: too little steady driving.",
-        _ => "Apart from that the simulation explains the loads; nothing else needs to be added to it.",
+    let rest = match (of_loads, warmth) {
+        (Verdict::Withheld, _) => "No load of a whole recording can be compared: too little steady driving.".to_owned(),
+        (_, Some(warmth)) => warmth,
+        _ => "Apart from that the simulation explains the loads; nothing else needs to be added to it.".to_owned(),
     };
     if let Some(longest) = loads.grounds.first() {
         let how_many = match loads.grounds.len() {
@@ -52,7 +57,7 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
             n => format!(": {n} stretches of other ground, of which this is the longest"),
         };
         let first = format!("The ground changes inside a recording{how_many}. {}", other_ground(longest, theirs));
-        return [Some(first), apart(&longest.causes), Some(rest.to_owned())].into_iter().flatten().collect();
+        return [Some(first), apart(&longest.causes), Some(rest)].into_iter().flatten().collect();
     }
     let (straight, turning) = (&loads.changes.found, &loads.turning_changes);
     let steepest = straight.iter().max_by(|a: &&LoadChange, b| a.slope.abs().total_cmp(&b.slope.abs()));
@@ -68,7 +73,21 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
     let count = straight.len() + turning.len();
     let how_many = if count == 1 { String::new() } else { format!(", the clearest of {count}") };
     let first = format!("Change inside a recording{how_many}. {clearest}");
-    [Some(first), way_back, Some(rest.to_owned())].into_iter().flatten().collect()
+    [Some(first), way_back, Some(rest)].into_iter().flatten().collect()
+}
+
+/// A straight load that differs by no more than cold drive trains do, and how to find out.
+fn warmth(loads: &Loads, theirs: &str) -> Option<String> {
+    let unnamed = reported(loads).filter(|r| judgement(r) == Judgement::Unnamed);
+    let most = unnamed.max_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
+    let [from, until] = most.interval;
+    Some(format!(
+        "In {} the torque of straight driving is {:.2} times {theirs} (90 % interval {from:.2} to {until:.2}), which drive \
+         trains that are colder or warmer do, too: drive both again after ten minutes of driving. No other load of whole \
+         recordings differs.",
+        recordings(&most.recording),
+        most.ratio
+    ))
 }
 
 /// The clearest differences, though none of their causes is likely enough to be named; the class that fits each.

@@ -34,7 +34,7 @@ impl Judged<'_> {
         let d = self.decision;
         let best = d.scored.first().map_or(0.0, |s| s.probability);
         // A fault that two sensors show stands, whatever the motion does besides.
-        if self.sensors.faults.iter().any(|f| f.probability > ANSWER.likely) {
+        if self.has_sensor_fault() {
             Verdict::Explained
         } else if d.unknown > ANSWER.likely {
             Verdict::Unknown
@@ -43,6 +43,15 @@ impl Judged<'_> {
         } else {
             Verdict::NoMismatch
         }
+    }
+
+    fn has_sensor_fault(&self) -> bool {
+        self.sensors.faults.iter().any(|f| f.probability > ANSWER.likely)
+    }
+
+    /// Whether sensors are wrong and the motion shows nothing that no name explains.
+    pub(crate) fn is_of_sensors_alone(&self) -> bool {
+        self.has_sensor_fault() && self.decision.unknown <= ANSWER.likely
     }
 
     fn causes(&self) -> Vec<Cause> {
@@ -357,8 +366,8 @@ impl Judged<'_> {
         if !self.problem.has_references {
             if !self.case.references.is_empty() {
                 out.push(
-                    "the references look like a simulator's logs, for their sensors show no noise while the robot stands: \
-                     constants were fitted to them as to logs given with --simulation, and they say nothing about noise"
+                    "the references look like a simulator's logs, for their sensors show no noise: constants \
+                     were fitted to them as to logs given with --simulation, and they say nothing about noise"
                         .to_owned(),
                 );
             }

@@ -2,7 +2,7 @@
 //!
 //! # Files
 //!
-//! * `diagnose`: the way of a case as one list of stages; `case`, `run`: what goes in.
+//! * `diagnose`: the way of a case as one list of stages; `case`, `run`: what goes in; `noise_free`: a simulator's log.
 //! * `motion`, `smooth`, `windows`, `channel`: what sensors say before any force law, and the segments of
 //!   free runs.
 //! * `redundancy/*`: sensor faults that two sensors show without any force law.
@@ -53,6 +53,7 @@ mod local;
 mod locate;
 mod motion;
 mod next;
+mod noise_free;
 mod normal;
 mod null_scores;
 mod onset;

@@ -25,12 +25,24 @@ fn retuned(p: &Problem<'_>, h: &Hypothesis, fitted: &Fitted, likely: Option<usiz
     let known = covariance(p, h, fitted).zip(inverse_spd(&p.information));
     let Some((covariance, prior)) = known else { return Vec::new() };
     let mut out = moved(p.robot, &p.sigma, [&p.centre, &fitted.point.theta], [&prior, &covariance], likely);
+    if !p.has_references {
+        out.retain(|constant| is_told_without_references(constant, likely));
+    }
     // Where a simulation of this form is best is not quite what a robot of another form has.
     for constant in &mut out {
         let sigma = ((constant.to - constant.from) / constant.sigmas).abs();
         constant.half_width = constant.half_width.hypot(NINETY * RETUNE.form * sigma);
     }
     out
+}
+
+/// Whether a constant moved so far that not the form of the plant's laws moved it, which no reference shows: one that can be
+/// measured on a robot, by more than both the file and the form err, or one that is likelier moved than not.
+fn is_told_without_references(constant: &Retuned, likely: Option<usize>) -> bool {
+    let Some(k) = tunables::<f64>().iter().position(|t| t.id == constant.constant) else { return false };
+    let is_measurable = tunables::<f64>()[k].between_visits >= RETUNE.measurable;
+    let far = RETUNE.least_known * RETUNE.form.hypot(1.0);
+    likely == Some(k) || (is_measurable && constant.sigmas.abs() >= far)
 }
 
 impl Judged<'_> {
@@ -191,6 +203,20 @@ mod tests {
         assert!(told("lateral_factor", -1.5).is_empty(), "fault-free robots are that far off");
         assert!(told("sliding_share", 3.7).is_empty(), "no effect of the catalogue is a share in sliding");
         assert_eq!(told("rolling_resistance", 1.5), ["rolling_resistance"]);
+    }
+
+    #[test]
+    fn without_references_the_form_of_the_laws_is_no_constant_that_moved() {
+        let told = |id: &str, sigmas: f64, likely: bool| {
+            let place = crate::run_numbers::constant(id);
+            let mut theta = [0.0; NUISANCES];
+            theta[place] = sigmas;
+            let constant = otherwise(&robot(), &usual_sigma(), [&[0.0; NUISANCES], &theta], place).expect("a constant");
+            is_told_without_references(&constant, likely.then_some(place))
+        };
+        assert!(!told("slip_at_peak", -9.0, false), "nobody can measure it on a robot");
+        assert!(told("rolling_resistance", 4.0, false) && !told("rolling_resistance", 3.0, false));
+        assert!(told("rolling_resistance", 1.0, true));
     }
 
     #[test]

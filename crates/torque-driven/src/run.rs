@@ -4,12 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use recordings::{Recording, Signal};
 
-use crate::settings::preparation::{Logs, Runs, SETTINGS};
+use crate::settings::preparation::{Runs, SETTINGS};
 use crate::visit::Visit;
 use inference::DiagnosisError;
 
 const RUNS: Runs = SETTINGS.runs;
-const LOGS: Logs = SETTINGS.logs;
 
 /// One recording of a torque-driven robot: what was commanded and what the sensors showed, row by row.
 ///
@@ -39,21 +38,6 @@ pub struct Run {
 }
 
 impl Run {
-    /// Whether this looks like a simulator's log: gyro and accelerometer show the same number all the while that the
-    /// robot stands at the start. Real inertial sensors are noisy.
-    pub fn is_noise_free(&self) -> bool {
-        let stands = |k: usize| self.angle.iter().all(|angle| angle[k] == angle[0] && angle[k].is_some());
-        let rest = (0..self.rows()).take_while(|&k| stands(k)).count();
-        let same = |channel: &Vec<Option<f64>>| {
-            let samples: Vec<f64> = channel[..rest].iter().copied().flatten().collect();
-            let first = samples.first().copied().unwrap_or_default();
-            (samples.len() >= LOGS.least_samples).then(|| samples.iter().all(|v| (v - first).abs() < LOGS.same))
-        };
-        let sensors = std::iter::once(&self.gyro).chain(&self.accel).filter_map(same);
-        let of_each: Vec<bool> = sensors.collect();
-        !of_each.is_empty() && of_each.iter().all(|constant| *constant)
-    }
-
     /// Lays a recording on its grid.
     ///
     /// Wheel angles are taken as recorded or, where only wheel speeds are, integrated.
@@ -169,31 +153,6 @@ impl Run {
     /// Samples that are there, with their row.
     pub(crate) fn present(channel: &[Option<f64>]) -> impl Iterator<Item = (usize, f64)> + '_ {
         channel.iter().enumerate().filter_map(|(k, v)| v.map(|v| (k, v)))
-    }
-}
-
-#[cfg(test)]
-mod noise {
-    use crate::testing::blank;
-
-    #[test]
-    fn a_log_whose_sensors_rest_while_the_robot_stands_is_a_simulators() {
-        let mut run = blank(300);
-        for k in 0..300_usize {
-            let moved = 0.01 * k.saturating_sub(50) as f64;
-            run.angle = run.angle.map(|mut angle| {
-                angle[k] = Some(moved);
-                angle
-            });
-            run.gyro[k] = Some(if k < 50 { 0.0 } else { 0.1 * moved });
-        }
-        assert!(run.is_noise_free());
-        run.gyro[20] = Some(1e-4);
-        assert!(!run.is_noise_free(), "noise of a real gyro");
-        let mut moving = run.clone();
-        moving.gyro[20] = Some(0.0);
-        moving.angle[0][2] = Some(1.0);
-        assert!(!moving.is_noise_free(), "too short a rest tells nothing");
     }
 }
 

@@ -76,6 +76,27 @@ fn wrong_units_are_named() {
 }
 
 #[test]
+fn set_speeds_tell_the_unit_of_a_gyro_as_measured_ones_do() {
+    let mut channels = scaled(&drive(&robot()), Signal::GyroZ, 57.3);
+    channels.retain(|c| !c.0.name().starts_with("pose"));
+    for c in &mut channels {
+        c.0 = match c.0 {
+            Signal::WheelSpeedLeft => Signal::CommandSpeedLeft,
+            Signal::WheelSpeedRight => Signal::CommandSpeedRight,
+            other => other,
+        };
+    }
+    let message = refused(&channels);
+    assert!(message.contains("its wheels turn it") && message.contains("`unit = \"deg/s\"`"), "{message}");
+}
+
+#[test]
+fn a_value_without_end_is_told_in_few_digits() {
+    let message = refused(&scaled(&drive(&robot()), Signal::PoseYaw, 1e300));
+    assert!(message.len() < 400, "{message}");
+}
+
+#[test]
 fn a_sensor_upside_down_or_on_its_side_is_refused_with_the_lines_that_mend_it() {
     let right = drive(&robot());
     let message = refused(&scaled(&right, Signal::AccelZ, -1.0));

@@ -111,10 +111,31 @@ struct ColumnNames {
     session_separator: Option<String>,
 }
 
+/// Every sigma that is stated is above zero.
+fn known_above_none(read: &File) -> Result<(), String> {
+    let known = &read.known;
+    let stated = [
+        ("track_sigma", known.track_sigma),
+        ("wheelbase_sigma", known.wheelbase_sigma),
+        ("steering_sigma_deg", known.steering_sigma_deg),
+        ("steering_gain_sigma", known.steering_gain_sigma),
+        ("pose_direction_sigma_deg", known.pose_direction_sigma_deg),
+        ("pose_origin_sigma", known.pose_origin_sigma),
+    ];
+    let of_wheels = read.wheel.iter().map(|w| ("radius_sigma", w.radius_sigma));
+    let mut wrong = of_wheels.chain(stated).filter_map(|(name, sigma)| Some((name, sigma?)));
+    wrong.find(|(_, sigma)| sigma.is_nan() || *sigma <= 0.0).map_or(Ok(()), |(name, sigma)| {
+        Err(format!(
+            "{name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
+        ))
+    })
+}
+
 impl RobotFile {
     /// Whether a robot file is one of this kind.
     pub fn is_one(text: &str) -> bool {
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(|r| r.contains("\"odometry\"")))
+        let is_named = |rest: &str| rest.contains("\"odometry\"") || rest.contains("'odometry'");
+        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
     }
 
     /// A built-in robot; `None` where there is none of this name.
@@ -135,6 +156,7 @@ impl RobotFile {
         if read.kind != "odometry" {
             return Err(wrong(format!("kind = \"{}\"; wheels and columns belong to kind = \"odometry\"", read.kind)));
         }
+        known_above_none(&read).map_err(wrong)?;
         let Some(names) = read.columns else {
             return Err(wrong("no [columns]; say which columns hold time, wheels and pose".to_owned()));
         };
@@ -160,6 +182,7 @@ impl RobotFile {
                  the column out"
             )));
         }
+        let known = &read.known;
         let measured: Vec<&WheelRow> = read.wheel.iter().filter(|w| w.column.is_some()).collect();
         let relative = |row: &&WheelRow| row.radius_sigma.map(|s| s / row.radius);
         let sigmas: Vec<f64> = measured.iter().filter_map(relative).collect();
@@ -168,7 +191,6 @@ impl RobotFile {
             places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)
         };
         let share = |sigma: Option<f64>, axis: usize| sigma.filter(|_| extent(axis) > 0.0).map(|s| s / extent(axis));
-        let known = &read.known;
         let robot = WheeledRobot {
             name: read.name.clone(),
             wheels: read.wheel.iter().map(wheel).collect(),
@@ -280,6 +302,9 @@ mod tests {
             )
             .contains("wheel 'back' is a caster and yet has a column")
         );
+        assert!(refused("radius_sigma = ", "radius_sigma = -").contains("it has to be above 0: give one sigma"));
+        assert!(refused("track_sigma = ", "track_sigma = -").contains("track_sigma is -"));
+        assert!(RobotFile::is_one("kind = 'odometry'") && !RobotFile::is_one("kind = 'car'"));
         assert!(refused("name = \"right\"", "name = \"left\"").contains("wheel 'left': two wheels have this name"));
         let (_, tricycle) = BUILT_IN[1];
         let unsteered = tricycle.replace("steering = \"steer_rad\"\n", "");

@@ -115,7 +115,8 @@ struct Encoder {
 impl RobotFile {
     /// Whether a robot file is one of this kind.
     pub fn is_one(text: &str) -> bool {
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(|r| r.contains("\"car\"")))
+        let is_named = |rest: &str| rest.contains("\"car\"") || rest.contains("'car'");
+        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
     }
 
     /// Reads a robot file.
@@ -133,6 +134,9 @@ impl RobotFile {
             Some(n) if n.value.is_nan() || n.value <= 0.0 => {
                 Err(wrong(format!("{name} is {}; it has to be above 0", n.value)))
             }
+            Some(Number { sigma: Some(sigma), .. }) if sigma.is_nan() || *sigma <= 0.0 => Err(wrong(format!(
+                "sigma of {name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
+            ))),
             _ => Ok(()),
         };
         let wheelbase = read.wheelbase.as_ref().ok_or_else(|| {

@@ -132,6 +132,8 @@
     proof: Proof {
         /// Gauss–Newton steps of a fit to the other recordings.
         steps: usize = 3, "1", "as of named effects";
+        /// Significant digits of numbers in formulas.
+        digits: usize = 6, "1", "guess: more than any drive determines";
         /// Half width of a 90 % interval, in sigmas.
         interval: f64 = 1.645, "1", "mathematics: a quantile of the normal distribution";
         /// Share of a constant that the model gets wrong, one sigma.

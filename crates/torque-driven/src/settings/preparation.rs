@@ -10,6 +10,14 @@
         least_samples: usize = 10, "1", "guess";
         /// Spread within which samples are the same.
         same: f64 = 1e-7, "rad/s, m/s²", "numerical guard: far below the resolution of any inertial sensor";
+        /// Rows with gyro, accelerometer and pose that are compared, at least.
+        least_rows: usize = 100, "1", "guess";
+        /// Most by which the gyro of a simulator's log is off the slope of its yaw, median.
+        same_yaw_rate: f64 = 3e-3, "rad/s",
+            "logs of `lacuna simulate` at 100 Hz: 4e-5, 25 times that at 20 Hz; a yaw with an error of 0.1 mrad at 100 Hz: 1e-2";
+        /// Most by which the accelerometer of a simulator's log is off the curvature of its path, median.
+        same_acceleration: f64 = 0.1, "m/s²",
+            "logs of `lacuna simulate` at 100 Hz: 2e-3, 25 times that at 20 Hz; a position with an error of 0.1 mm at 100 Hz: 2";
         /// How much wider than the robot file's sigmas a simulator's constants may lie about the file's.
         wider: f64 = 5.0, "1", "guess";
         /// Gauss–Newton steps of a fit to a simulator's logs, at most.

@@ -29,6 +29,13 @@ use crate::windows::Cut;
 
 const PROOF: Proof = SETTINGS.proof;
 
+/// Significant digits of numbers in formulas: more than any drive determines.
+const DIGITS: usize = SETTINGS.proof.digits;
+
+fn told_formula(law: &Law) -> String {
+    format!("{law:.DIGITS$}")
+}
+
 /// Whether a law is to be looked for.
 pub(crate) struct Asked;
 
@@ -37,6 +44,8 @@ impl Asked {
     pub(crate) fn of(judged: &Judged<'_>, retuned: &Fitted, verdict: Verdict) -> bool {
         match (judged.options.law, verdict) {
             (SearchForLaw::Always, _) | (SearchForLaw::Unknown, Verdict::Unknown) => true,
+            // What a sensor shows wrongly is no law of the motion.
+            (SearchForLaw::Unknown, Verdict::Explained) if judged.is_of_sensors_alone() => false,
             (SearchForLaw::Unknown, Verdict::Explained) => {
                 let fault_free = fault_free_cost(judged.problem, &judged.calibration.regimes.scatter);
                 let best = judged.decision.scored.iter().map(|s| s.trial.fitted.cost).fold(retuned.cost, f64::min);
@@ -64,7 +73,7 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
     let common = all().find(|(law, s)| law.gain > SETTINGS.gates.score && s.is_in_every_drive());
     let in_every_drive = common.and_then(|(law, s)| {
         let place = law.law.terms().first()?.place().name().to_owned();
-        Some(CommonLaw { place, formula: law.law.to_string(), in_references: s.in_references?[0] })
+        Some(CommonLaw { place, formula: told_formula(&law.law), in_references: s.in_references?[0] })
     });
 
     // Of those that the references do not have, the best.
@@ -140,7 +149,7 @@ impl Telling<'_> {
         places_alike.sort_unstable();
         places_alike.dedup();
         // The first of the rivals is the law itself before its last fit.
-        let alike = self.rivals.iter().skip(1).filter(close).map(|r| r.law.to_string()).collect();
+        let alike = self.rivals.iter().skip(1).filter(close).map(|r| told_formula(&r.law)).collect();
         let next = others().find(|r| place(&r.law) != own);
         let nearest =
             self.judged.decision.scored.iter().max_by(|a, b| b.trial.fitted.cost.total_cmp(&a.trial.fitted.cost));
@@ -148,8 +157,8 @@ impl Telling<'_> {
         FoundLaw {
             place: own.to_owned(),
             places_alike,
-            formula: law.to_string(),
-            factors: law.terms().iter().flat_map(law::Term::factors).map(ToString::to_string).collect(),
+            formula: told_formula(law),
+            factors: law.terms().iter().flat_map(law::Term::factors).map(|f| format!("{f:.DIGITS$}")).collect(),
             numbers: self.numbers(),
             seen: seen.iter().map(|(v, range)| (v.symbol().to_owned(), *range)).collect(),
             alike,
@@ -184,7 +193,7 @@ impl Telling<'_> {
             push("constant".to_owned(), term.constant(), term.unit().to_string());
             for factor in term.factors() {
                 for (shape, unit) in factor.shapes().iter().zip(factor.shape_units()) {
-                    push(factor.to_string(), shape.value, unit.to_string());
+                    push(format!("{factor:.DIGITS$}"), shape.value, unit.to_string());
                 }
             }
         }
