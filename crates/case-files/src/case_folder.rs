@@ -1,6 +1,6 @@
 //! Cases: a robot, references, recordings, and perhaps held-out drives.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
@@ -16,7 +16,7 @@ use crate::long::Budget;
 use crate::visits::{self, GivenVisit};
 
 /// Folders of a case with what belongs into them.
-const FOLDERS: [(&str, &str); 3] = [
+pub(crate) const FOLDERS: [(&str, &str); 3] = [
     ("reference", "drives in which the simulation was right"),
     ("recordings", "drives in which it was not"),
     ("heldout", "inputs whose response is to be predicted"),
@@ -201,31 +201,6 @@ impl CaseFolder {
             }
         }
         out
-    }
-
-    /// Refuses a file whose bytes are those of another: it cannot be both right and wrong, and counts once.
-    ///
-    /// # Errors
-    /// Both names, and the parts that they were given for.
-    pub fn refuse_twins(&self) -> Result<()> {
-        let mut seen: HashMap<&str, (&str, &str)> = HashMap::new();
-        for (role, loaded) in self.parts() {
-            for source in &loaded.sources {
-                let Some((other, name)) = seen.insert(&source.sha256, (role, &source.name)) else {
-                    continue;
-                };
-                bail!(
-                    "'{name}' ({other}) and '{}' ({role}) are the same recording (SHA-256 {}...); \
-                     give it once, as what it is: reference = {}, recordings = {}, heldout = {}",
-                    source.name,
-                    &source.sha256[..12],
-                    FOLDERS[0].1,
-                    FOLDERS[1].1,
-                    FOLDERS[2].1
-                );
-            }
-        }
-        Ok(())
     }
 
     /// When a recording begins, s: later than zero for a stretch of a long one.

@@ -25,6 +25,7 @@ mod sensor_faults;
 pub mod simulated;
 pub mod skeleton;
 mod text_error;
+mod twins;
 pub mod visits;
 mod watched;
 pub mod which_mapping;

@@ -104,13 +104,17 @@ impl Drive {
     ///
     /// # Errors
     /// Columns that are missing or of unlike length, time that does not rise, commands out of range, a drive that has neither
-    /// pose nor both gyro and encoder.
+    /// pose nor both gyro and encoder, channels that contradict each other by the factor of a unit or by a sign.
     pub fn new(name: &str, table: &Table) -> Result<Self, CarError> {
         if !has_pose(table) && (table.gyro.is_empty() || table.encoder.is_empty()) {
             let what = "there is neither a pose nor both a gyro and an encoder speed; map one of them".to_owned();
             return Err(CarError::Drive { drive: name.to_owned(), what });
         }
-        Self::held_out(name, table)
+        let drive = Self::held_out(name, table)?;
+        match crate::units::mistaken(table) {
+            Some(what) => Err(CarError::Drive { drive: name.to_owned(), what }),
+            None => Ok(drive),
+        }
     }
 
     /// A drive whose pose is to be predicted, with or without a pose to begin at.

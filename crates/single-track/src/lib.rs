@@ -35,6 +35,7 @@ mod rows;
 mod settings;
 mod solve;
 mod traces;
+mod units;
 
 pub use answer::diagnosis;
 pub use car::{Car, Stated};

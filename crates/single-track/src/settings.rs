@@ -18,6 +18,22 @@
         command: f64 = 0.05, "1", "guess; rounding and trims";
     }
 
+    /// Telling columns in other units than the robot file says.
+    units: Units {
+        /// Stretches over which gyro and encoder are compared with the pose.
+        stretch: f64 = 0.5, "s", "guess; long beside delays of channels and noise of a pose";
+        /// So many stretches with motion tell a unit, at least.
+        stretches: usize = 10, "1", "guess: five seconds";
+        /// Least yaw rate of the pose that counts.
+        turning: f64 = 0.2, "rad/s", "guess";
+        /// Least speed of the pose that counts.
+        moving: f64 = 0.1, "m/s", "guess";
+        /// Factor within which a ratio is that of two units.
+        near: f64 = 1.25, "1", "guess; scales of sensors are known to a few per cent, and the least factor of units is 3.6";
+        /// A step of yaw by this share of a turn of 2 pi is where it wraps around.
+        wrap: f64 = 0.5, "1", "definition";
+    }
+
     /// Steps of the model.
     model: Model {
         /// Speed below which slip angles are taken as if at this speed.

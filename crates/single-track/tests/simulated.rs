@@ -3,7 +3,7 @@
 mod drawn;
 
 use drawn::{Hidden, case, columns};
-use single_track::{Answer, CORRECTED, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
+use single_track::{Answer, CORRECTED, Columns, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
 
 fn found(hidden: Hidden, seed: u64) -> Findings {
     diagnose(&case(hidden, seed), &|_| {}).expect("an answer")
@@ -101,4 +101,29 @@ fn the_pose_of_a_held_out_drive_follows_from_its_commands() {
     let told = findings.predict(&Drive::held_out("new", &given).expect("a drive"));
     assert_eq!(told.corrected[0], [0.1, 0.0, 0.0].map(|x| x * told.corrected[0][0] / 0.1));
     assert!(told.corrected.iter().flatten().all(|x| x.is_finite()) && told.corrected.len() > 1500);
+}
+
+#[test]
+fn columns_in_other_units_or_with_another_sign_are_refused_by_name() {
+    type Fault = fn(&mut Columns);
+    let faults: [(Fault, &str); 6] = [
+        (|c| c.gyro.iter_mut().for_each(|w| *w = w.to_degrees()), "the gyro is in degrees per second"),
+        (|c| c.pose.iter_mut().for_each(|p| p[2] = p[2].to_degrees()), "yaw is in degrees"),
+        (|c| c.encoder.iter_mut().for_each(|v| *v *= 3.6), "the encoder's speed is in km/h"),
+        (|c| c.encoder.iter_mut().for_each(|v| *v *= 1e3), "the encoder's speed is in mm/s"),
+        (|c| c.pose.iter_mut().for_each(|p| (p[0], p[1]) = (1e3 * p[0], 1e3 * p[1])), "x and y are in millimetres"),
+        (|c| c.gyro.iter_mut().for_each(|w| *w = -*w), "change the sign"),
+    ];
+    let right = columns(Hidden::default(), 3);
+    assert!(Drive::new("right", &right).is_ok());
+    for (fault, told) in faults {
+        let mut wrong = right.clone();
+        fault(&mut wrong);
+        let refusal = Drive::new("wrong", &wrong).expect_err(told).to_string();
+        assert!(refusal.contains(told), "{refusal}");
+    }
+    // A gear of two is a cause and no unit.
+    let mut gear = right;
+    gear.encoder.iter_mut().for_each(|v| *v *= 2.0);
+    assert!(Drive::new("gear", &gear).is_ok());
 }

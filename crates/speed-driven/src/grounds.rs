@@ -10,12 +10,14 @@ use verdict::{LoadChange, Loads, OtherGround, Ratio};
 
 use crate::compare::{Judgement, Reference, judgement, ratios};
 use crate::differences;
-use crate::extract::extract;
+use crate::extract::{extract, is_steady_turn};
 use crate::found::fitting;
 use crate::model::Tuned;
 use crate::name::{Comparison, Named, Open, name};
 use crate::pieces::GRADE;
 use crate::run::SpeedRun;
+use crate::settings::{CHANGES, MEASURING};
+use crate::straight::is_straight;
 
 /// What grounds are compared with.
 pub(crate) struct Usual<'a> {
@@ -32,13 +34,15 @@ struct Stretch {
     reach: [f64; 2],
     /// Whether no slope can do all of it.
     is_ground: bool,
+    /// Whether straight driving shows it where it ends.
+    by_straight: bool,
 }
 
 /// Grounds inside these recordings, the longest first.
 pub(crate) fn grounds(runs: &[SpeedRun], loads: &Loads, usual: &Usual<'_>) -> Vec<OtherGround> {
     let of_run = |run: &SpeedRun| -> Vec<OtherGround> {
         let slopes = slopes(&run.name, loads);
-        stretches(&run.name, loads).into_iter().filter_map(|interval| usual.ground(run, interval, &slopes)).collect()
+        stretches(run, loads).into_iter().filter_map(|interval| usual.ground(run, interval, &slopes)).collect()
     };
     let mut out: Vec<OtherGround> = runs.iter().flat_map(of_run).collect();
     let seconds = |g: &OtherGround| g.interval[1] - g.interval[0];
@@ -54,22 +58,43 @@ fn slopes(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
 }
 
 /// Changes of a recording that may be one ground, joined.
-fn stretches(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
+fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<[f64; 2]> {
+    let recording = run.name.as_str();
     let may_be = |c: &&LoadChange| c.recording == recording && !c.bound && c.causes != [GRADE];
     let straight = loads.changes.found.iter().filter(may_be).map(|c| Stretch {
         interval: c.interval,
         reach: [c.onset[0], c.end[1]],
         is_ground: !c.causes.contains(&GRADE),
+        by_straight: true,
     });
     let turning = loads.turning_changes.iter().filter(|c| c.recording == recording && c.one_way.is_none());
-    let turning = turning.map(|c| Stretch { interval: c.interval, reach: [c.onset[0], c.end[1]], is_ground: true });
+    let turning = turning.map(|c| Stretch {
+        interval: c.interval,
+        reach: [c.onset[0], c.end[1]],
+        is_ground: true,
+        by_straight: false,
+    });
     let mut all: Vec<Stretch> = straight.chain(turning).collect();
     all.sort_by(|a, b| a.interval[0].total_cmp(&b.interval[0]));
 
+    // Straight driving between two stretches that takes what it takes elsewhere is other ground than either, if straight
+    // driving shows one of them.
+    let is_apart = |last: &Stretch, next: &Stretch| {
+        let between = (0..run.time.len()).filter(|&i| {
+            last.interval[1] < run.time[i]
+                && run.time[i] < next.interval[0]
+                && is_steadily_straight(run, i)
+                && !run.standing[i]
+        });
+        (last.by_straight || next.by_straight) && between.count() as f64 * run.period() > CHANGES.scrub.least
+    };
     let mut out: Vec<Stretch> = Vec::new();
     for next in all {
         match out.last_mut() {
-            Some(last) if next.reach[0] <= last.reach[1] => {
+            Some(last) if next.reach[0] <= last.reach[1] && !is_apart(last, &next) => {
+                if next.interval[1] > last.interval[1] {
+                    last.by_straight = next.by_straight;
+                }
                 last.interval[1] = last.interval[1].max(next.interval[1]);
                 last.reach[1] = last.reach[1].max(next.reach[1]);
                 last.is_ground |= next.is_ground;
@@ -96,6 +121,31 @@ impl Usual<'_> {
     }
 }
 
+/// Leaves the rows of these grounds out of all that is measured of the recordings, as those in which a body stands; whether
+/// there are any. Ground that covers most of the steady driving is what the recording was driven on.
+pub(crate) fn leave_out(runs: &mut [SpeedRun], grounds: &[OtherGround]) -> bool {
+    let mut any = false;
+    for run in runs {
+        let own: Vec<[f64; 2]> = grounds.iter().filter(|g| g.recording == run.name).map(|g| g.interval).collect();
+        let inside: Vec<bool> =
+            run.time.iter().map(|t| own.iter().any(|[from, until]| from <= t && t <= until)).collect();
+        let steady = (0..run.time.len()).filter(|&i| is_steady_turn(run, i) || is_steadily_straight(run, i));
+        let [there, all] = steady.fold([0_usize; 2], |[there, all], i| [there + usize::from(inside[i]), all + 1]);
+        if there == 0 || 2 * there > all {
+            continue;
+        }
+        any = true;
+        for (left_out, inside) in run.standing.iter_mut().zip(inside) {
+            *left_out |= inside;
+        }
+    }
+    any
+}
+
+fn is_steadily_straight(run: &SpeedRun, i: usize) -> bool {
+    is_straight(run, i, MEASURING.straight.hold_of_means)
+}
+
 /// The same recording as if only these rows said anything, less the slopes among them: all others are left out like those
 /// in which a body stands.
 fn only(run: &SpeedRun, [from, until]: [f64; 2], slopes: &[[f64; 2]]) -> SpeedRun {
@@ -110,7 +160,7 @@ fn only(run: &SpeedRun, [from, until]: [f64; 2], slopes: &[[f64; 2]]) -> SpeedRu
 
 #[cfg(test)]
 mod tests {
-    use verdict::{Diagnosis, Verdict};
+    use verdict::{Diagnosis, Quantity, Verdict};
 
     use crate::testing::{Leg, diagnosis, rounds};
 
@@ -140,6 +190,32 @@ mod tests {
         assert!(d.sentences[0].contains("2 stretches"), "{:?}", d.sentences);
         let told = d.sentences.iter().filter(|s| s.contains("other ground")).count();
         assert_eq!(told, 2, "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn soft_and_slippery_ground_with_hard_ground_between_are_two_findings() {
+        let legs = [on(1.0, 1.0, 2), on(2.2, 1.0, 1), on(1.0, 1.0, 1), on(1.0, 0.4, 1), on(1.0, 1.0, 2)].concat();
+        let found = grounds(&diagnosis(&[&legs]));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found.iter().all(|([from, until], _)| until - from < 45.0), "{found:?}");
+    }
+
+    #[test]
+    fn loads_of_a_recording_are_those_of_its_usual_ground() {
+        let alike = on(1.0, 1.0, 6);
+        let d = diagnosis(&[&[on(1.0, 1.0, 4), on(1.0, 0.4, 2)].concat()]);
+        assert_eq!(grounds(&d).len(), 1, "{:?}", d.sentences);
+        assert!(d.sentences[0].starts_with("The ground changes"), "{:?}", d.sentences);
+        let turning = |d: &Diagnosis| {
+            let ratios = d.steady.iter().flat_map(|loads| &loads.ratios);
+            ratios.filter(|r| r.quantity == Quantity::TurningLoad).map(|r| r.ratio).collect::<Vec<_>>()
+        };
+        for (mixed, whole) in turning(&d).into_iter().zip(turning(&diagnosis(&[&alike]))) {
+            approx::assert_relative_eq!(mixed, whole, max_relative = 0.02);
+        }
+        // Ground that covers most of a recording is what it was driven on.
+        let d = diagnosis(&[&[on(1.0, 1.0, 1), on(1.0, 0.4, 5)].concat()]);
+        assert!(!turning(&d).is_empty() && turning(&d).iter().all(|ratio| *ratio < 0.8), "{:?}", d.sentences);
     }
 
     #[test]

@@ -63,7 +63,7 @@ mod words;
 
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
-use verdict::{Changes, ClockError, Diagnosis, Forecast, FreeRun, Load, Loads, Quantity, Ratio, Verdict, Withheld};
+use verdict::{Changes, ClockError, Diagnosis, Forecast, FreeRun, Load, Loads, Quantity, Verdict, Withheld};
 
 use crate::next::advise_steady;
 use inference::{DiagnosisError, Options};
@@ -141,23 +141,36 @@ pub fn diagnose_steady(
     attitude::set_level(&case.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
-    let (loads, not_given) = all_loads(&marked.recordings);
-    let refs = references_of(&loads);
-    let case = &marked;
+    let (of_recordings, not_given) = all_loads(&marked.recordings);
+    let refs = references_of(&of_recordings);
     let by_file = case.references.is_empty();
     if refs.is_empty() && standstills.is_empty() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
     }
-    let (ratios, pooled) = compare::ratios(&loads, &refs);
 
     progress("calibrating on the references");
     let known: Vec<Measured> = if by_file { Vec::new() } else { refs.iter().map(of_reference).collect() };
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
 
+    progress("looking into the recordings");
+    let mut loads = Loads { standstills, changes, ..within(&marked, &robot, &refs, reference_loads.clone()) };
+    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
+    loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
+    // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
+    let (of_recordings, not_given) = if grounds::leave_out(&mut marked.recordings, &loads.grounds) {
+        all_loads(&marked.recordings)
+    } else {
+        (of_recordings, not_given)
+    };
+    let refs = references_of(&of_recordings);
+    (loads.ratios, loads.pooled) = compare::ratios(&of_recordings, &refs);
+    loads.withheld = withheld;
+    let case = &marked;
+
     progress("weighing the effects");
-    let differences = differences(&loads, &refs);
+    let differences = differences(&of_recordings, &refs);
     // Drives at several places, or in several headings, share no slope.
     let mut straight =
         differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad).map(|d| &d.recording);
@@ -179,13 +192,7 @@ pub fn diagnose_steady(
     };
     let forecasts = fits.forecasts();
     let correction = fits.correction();
-    withheld.extend(not_given);
-
-    progress("looking into the recordings");
-    let known_loads = (refs.as_slice(), reference_loads);
-    let mut loads = Loads { standstills, changes, ..within(case, &robot, known_loads, (ratios, pooled), withheld) };
-    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
-    loads.grounds = grounds::grounds(&case.recordings, &loads, &usual);
+    loads.withheld.extend(not_given);
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
 
     // The loads alone give a verdict; what was measured beside them may lead over it.
@@ -261,13 +268,7 @@ fn usual(refs: &[Reference]) -> pieces::Usual {
 }
 
 /// What is inside the recordings beside changes of the straight load: turning, forecasts, clocks.
-fn within(
-    case: &SteadyCase,
-    robot: &Robot<f64>,
-    (refs, references): (&[Reference], Vec<Load>),
-    (ratios, pooled): (Vec<Ratio>, Vec<Ratio>),
-    withheld: Vec<Withheld>,
-) -> Loads {
+fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references: Vec<Load>) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
     let straight = usual(refs).iter().flatten().next().copied();
     let sides = scrub::Sides::of(&case.references);
@@ -276,10 +277,10 @@ fn within(
     let nominal =
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
     let mut out = Loads {
-        ratios,
-        pooled,
+        ratios: Vec::new(),
+        pooled: Vec::new(),
         references,
-        withheld,
+        withheld: Vec::new(),
         changes: Changes::default(),
         turning_changes: Vec::new(),
         grounds: Vec::new(),

@@ -5,7 +5,6 @@ use std::iter;
 
 use catalogue::answer::{NONE, UNKNOWN};
 use faer::Mat;
-use robot_model::effect::Redundancy;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
 use crate::decide::fault_free_cost;
@@ -18,7 +17,7 @@ use crate::predict::predict;
 use crate::redundancy::Fault;
 use crate::settings::decision::{Answer, SETTINGS};
 use crate::settings::fit;
-use crate::{locate, own_effects, retuned, stand_in, visit, words};
+use crate::{locate, own_effects, retuned, stand_in, words};
 use inference::algebra::solve_spd;
 use inference::experiment::Standing;
 use inference::hypothesis::Dose;
@@ -359,49 +358,5 @@ impl Judged<'_> {
             .map(|c| c.effect.clone())
             .collect();
         (!rivals.is_empty()).then(|| members.iter().map(|m| (*m).to_owned()).chain(rivals).collect())
-    }
-
-    fn limits(&self) -> Vec<String> {
-        let mut out = Vec::new();
-        if !self.problem.has_references {
-            if !self.case.references.is_empty() {
-                out.push(
-                    "the references look like a simulator's logs, for their sensors show no noise: constants \
-                     were fitted to them as to logs given with --simulation, and they say nothing about noise"
-                        .to_owned(),
-                );
-            }
-            out.push(
-                "no real drive in which the simulation was right was given as reference: constants start from the robot \
-                 file's values, or from those of the simulator's logs, and may move by the sigmas that it states, and the noise is estimated from these \
-                 recordings. An effect so small that moving a constant explains it is not named; give a fault-free drive of \
-                 two minutes as reference to find smaller ones"
-                    .to_owned(),
-            );
-        }
-        let factor = Some(self.calibration.moves.factor).filter(|_| self.calibration.moves.taught);
-        out.extend(visit::sentence(self.visits, &visit::visits_of(&self.case.recordings), factor));
-        let runs = || self.case.recordings.iter();
-        if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
-            out.push(
-                "no pose was recorded: slip and places on the ground cannot be determined, and \
-                 gyro faults cannot be told from turning"
-                    .to_owned(),
-            );
-        }
-        if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
-            out.push("no gyro was recorded: turning is known from the wheels only".to_owned());
-        }
-        if runs().all(|r| r.accel[0].iter().all(Option::is_none)) {
-            out.push("no accelerometer was recorded: slopes and pulls are told apart by the motion only".to_owned());
-        }
-        let held: usize = runs().map(|r| r.held_torques).sum();
-        if held > 0 {
-            out.push(format!("{held} torque samples were missing; each was replaced by the value before it"));
-        }
-        if self.sensors.faults.iter().any(|f| f.spec.redundancy == Redundancy::FrozenAngle) {
-            out.push("windows next to rows with a frozen encoder were left out".to_owned());
-        }
-        out
     }
 }

@@ -19,7 +19,7 @@
 //! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
-//! * `answer`, `words`: causes with sizes and intervals; sentences.
+//! * `answer`, `limits`, `words`: causes with sizes and intervals; what limits them; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
 //! * `forward`, `predict`: any drive simulated, and held-out drives forecast.
@@ -49,6 +49,7 @@ mod hypothesis;
 mod judged;
 mod leave_out;
 mod level;
+mod limits;
 mod local;
 mod locate;
 mod motion;

@@ -15,14 +15,18 @@ pub struct Retuned {
     pub to: f64,
     /// Half width of the 90 % interval of that value.
     pub half_width: f64,
-    /// How far it moved, in the sigmas that the robot file states.
+    /// How far it moved, in its sigmas: of the robot file, or the usual one.
     pub sigmas: f64,
 }
 
 impl Retuned {
-    /// For people: "adhesion from 0.600 to 0.510 ± 0.020 (90 %), which is 1.3 times the sigma that the robot file states".
+    /// For people: "adhesion from 0.600 to 0.510 ± 0.020 (90 %), which is 1.3 times its sigma (of the robot file, or the usual one)".
     pub fn sentence(&self) -> String {
-        format!("{}, which is {:.1} times the sigma that the robot file states", self.change(), self.sigmas.abs())
+        format!(
+            "{}, which is {:.1} times its sigma (of the robot file, or the usual one)",
+            self.change(),
+            self.sigmas.abs()
+        )
     }
 
     /// "adhesion from 0.600 to 0.510 ± 0.020 (90 %)"
@@ -81,8 +85,8 @@ mod tests {
             half_width: 0.0012,
             sigmas: 2.04,
         };
-        let text = "rolling resistance from 0.0200 to 0.0261 ± 0.0012 (90 %), which is 2.0 times the sigma that the robot file \
-                    states";
+        let text = "rolling resistance from 0.0200 to 0.0261 ± 0.0012 (90 %), which is 2.0 times its sigma (of the robot \
+                    file, or the usual one)";
         assert_eq!(retuned.sentence(), text);
         let mass = Retuned {
             constant: "mass".to_owned(),

@@ -73,6 +73,17 @@ fn the_same_recording_as_reference_and_as_recording() {
     bench.refuses(&["case/reference/ref_1.csv", RUN, "same recording", "give it once"]);
 }
 
+#[test]
+fn the_same_drive_with_other_ends_of_lines_or_without_its_first_rows() {
+    let bench = Bench::new();
+    let reference = drive(300, 0.0);
+    bench.write(RUN, &reference.replace('\n', "\r\n"));
+    bench.refuses(&["ref_1", "run_1", "their samples are the same", "give it once"]);
+    let rows: Vec<&str> = reference.lines().collect();
+    bench.write(RUN, &([&rows[..1], &rows[31..]].concat().join("\n") + "\n"));
+    bench.refuses(&["their samples are the same"]);
+}
+
 fn mapping(unit: &str) -> String {
     let signal =
         |name: &str, unit: &str, column: &str| format!("{name} = {{ column = \"{column}\", unit = \"{unit}\" }}\n");

@@ -6,7 +6,7 @@ use crate::common::{Bench, ROBOT, drive};
 fn of_two_days() -> Bench {
     let bench = Bench::new();
     bench.remove("case/reference");
-    for (name, phase) in [("mon/a", 0.0), ("mon/b", 0.2), ("tue/c", 0.4)] {
+    for (name, phase) in [("mon/a", 0.0), ("mon/b", 0.2), ("tue/c", 2.5)] {
         bench.write(&format!("case/reference/{name}.csv"), &drive(300, phase));
     }
     bench

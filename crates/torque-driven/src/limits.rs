@@ -1,0 +1,72 @@
+//! What limits an answer: what was not recorded or stated, and what was taken for it.
+
+use robot_model::effect::Redundancy;
+use robot_model::tunable::{Tunable, tunables};
+
+use crate::judged::Judged;
+use crate::settings::decision::SETTINGS;
+use crate::visit;
+
+impl Judged<'_> {
+    /// The constants of which the usual sigma was taken.
+    fn usual_sigmas(&self) -> Option<String> {
+        let is_usual = |(k, t): &(usize, &Tunable<f64>)| {
+            t.between_visits >= SETTINGS.retune.measurable && self.case.sigma[*k] == t.sigma
+        };
+        let all = tunables::<f64>();
+        let names: Vec<String> = all.iter().enumerate().filter(is_usual).map(|(_, t)| t.id.replace('_', " ")).collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "the usual sigma was taken of constants for which the robot file states none, or a smaller one: {}; state how \
+                 well they are known",
+                names.join(", ")
+            )
+        })
+    }
+
+    /// All limits, as sentences.
+    pub(crate) fn limits(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        if !self.problem.has_references {
+            if !self.case.references.is_empty() {
+                out.push(
+                    "the references look like a simulator's logs, for their sensors show no noise: constants \
+                     were fitted to them as to logs given with --simulation, and they say nothing about noise"
+                        .to_owned(),
+                );
+            }
+            out.extend(self.usual_sigmas());
+            out.push(
+                "no real drive in which the simulation was right was given as reference: constants start from the robot \
+                 file's values, or from those of the simulator's logs, and may move by the sigmas that it states, and the noise is estimated from these \
+                 recordings. An effect so small that moving a constant explains it is not named; give a fault-free drive of \
+                 two minutes as reference to find smaller ones"
+                    .to_owned(),
+            );
+        }
+        let factor = Some(self.calibration.moves.factor).filter(|_| self.calibration.moves.taught);
+        out.extend(visit::sentence(self.visits, &visit::visits_of(&self.case.recordings), factor));
+        let runs = || self.case.recordings.iter();
+        if runs().all(|r| r.pose[0].iter().all(Option::is_none)) {
+            out.push(
+                "no pose was recorded: slip and places on the ground cannot be determined, and \
+                 gyro faults cannot be told from turning"
+                    .to_owned(),
+            );
+        }
+        if runs().all(|r| r.gyro.iter().all(Option::is_none)) {
+            out.push("no gyro was recorded: turning is known from the wheels only".to_owned());
+        }
+        if runs().all(|r| r.accel[0].iter().all(Option::is_none)) {
+            out.push("no accelerometer was recorded: slopes and pulls are told apart by the motion only".to_owned());
+        }
+        let held: usize = runs().map(|r| r.held_torques).sum();
+        if held > 0 {
+            out.push(format!("{held} torque samples were missing; each was replaced by the value before it"));
+        }
+        if self.sensors.faults.iter().any(|f| f.spec.redundancy == Redundancy::FrozenAngle) {
+            out.push("windows next to rows with a frozen encoder were left out".to_owned());
+        }
+        out
+    }
+}
