@@ -1,7 +1,6 @@
 //! What may make wheel motion and pose disagree: directions in the space of the constants.
 
 use crate::constants::{Constant, Quantity};
-use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use catalogue::{CauseSpec, odometry as spec};
 
@@ -36,7 +35,8 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
     let mut out: Vec<Cause> = Vec::new();
     let radii: Vec<usize> =
         (0..constants.len()).filter(|&k| matches!(constants[k].quantity, Quantity::Radius(_))).collect();
-    let all = (radii.iter().map(|&k| (k, 1.0)).collect(), SETTINGS.usual.radius);
+    let usual = radii.iter().map(|&k| constants[k].usual).fold(f64::INFINITY, f64::min);
+    let all = (radii.iter().map(|&k| (k, 1.0)).collect(), usual);
     out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all] });
 
     let measured = robot.measured();
@@ -55,7 +55,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             Quantity::SpeedSlip => &spec::SLIP_WITH_SPEED,
             Quantity::Sideslip | Quantity::CorneringForward | Quantity::CorneringSideways => &spec::CORNERING_SLIP,
             Quantity::ClockOffset => &spec::COUNTS_CLOCK_OFFSET,
-            Quantity::ClockRate => &spec::CLOCK_RATE,
+            Quantity::ClockRate(_) => &spec::CLOCK_RATE,
         };
         let of = match constant.quantity {
             Quantity::Radius(wheel) => Some(robot.wheels[measured[wheel]].name.clone()),

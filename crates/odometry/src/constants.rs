@@ -47,7 +47,16 @@ pub enum Quantity {
     /// By how much the clock of the counts is behind that of the pose, s.
     ClockOffset,
     /// By which share the clock of the counts is slow.
-    ClockRate,
+    ClockRate(ClockZero),
+}
+
+/// At which instant of a drive clocks are apart by their offset alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClockZero {
+    /// The first row: logs that were started together agree there, so that drives of any length have one offset.
+    Start,
+    /// The middle: logs that were matched at both ends by hand are best known there.
+    Middle,
 }
 
 /// A constant, how well it is known, and by how much sessions differ.
@@ -122,7 +131,7 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
         add(quantity, name, unit, known.growing, usual.cornering, scatter.growing);
     }
     add(Quantity::ClockOffset, "offset of the clocks", "s", known.offset, usual.offset, scatter.offset);
-    add(Quantity::ClockRate, "rate of the clocks", "1", known.rate, usual.rate, scatter.rate);
+    add(Quantity::ClockRate(ClockZero::Middle), "rate of the clocks", "1", known.rate, usual.rate, scatter.rate);
 
     out.retain(|constant| acts(robot, constant.quantity));
     out

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::case::Case;
 use crate::cause::{Cause, causes};
 use crate::clock;
-use crate::constants::{Constant, Quantity, constants};
+use crate::constants::{ClockZero, Constant, Quantity, constants};
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
@@ -58,10 +58,12 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Odomet
         return Err(OdometryError::Empty);
     }
     progress("fitting the pose to the wheels' motion");
-    let solved = solve(&case.robot, &case.references, &case.recordings.iter().collect::<Vec<_>>(), None)?;
+    let (case, clock) = clock::joined(case);
+    let drives: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
     let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
     progress("naming what would make them agree");
-    Ok(findings(case, &data, &solved))
+    Ok(findings(&case, &data, &solved))
 }
 
 /// What is known before the recordings: of the robot file, or of the references.
@@ -96,29 +98,50 @@ fn data<'a>(
     Ok(data)
 }
 
+/// Where a fit starts: at what is known before, where neither is given.
+pub(crate) struct Start {
+    /// Usual offset and rate of the clocks, from the first row on, where speeds showed them.
+    pub(crate) clock: Option<[f64; 2]>,
+    /// Where another fit of nearly the same drives ended.
+    pub(crate) fit: Option<Vec<f64>>,
+}
+
 /// Fits drives and names causes.
-///
-/// `start` is where another fit of nearly the same drives ended.
 pub(crate) fn solve(
     robot: &WheeledRobot,
     references: &[Drive],
     drives: &[&Drive],
-    start: Option<&[f64]>,
+    start: &Start,
 ) -> Result<Solved, OdometryError> {
-    let constants = constants(robot);
+    let mut constants = constants(robot);
+    if start.clock.is_some() {
+        // Logs that were started apart run apart from there.
+        for constant in &mut constants {
+            if let Quantity::ClockRate(zero) = &mut constant.quantity {
+                *zero = ClockZero::Start;
+            }
+        }
+    }
     let prior = prior(robot, &constants, references)?;
-    let causes = causes(robot, &constants);
+    let seen = |quantity: Quantity| match (quantity, start.clock) {
+        (Quantity::ClockOffset, Some([offset, _])) => Some(offset),
+        (Quantity::ClockRate(_), Some([_, rate])) => Some(rate),
+        _ => None,
+    };
+    let start = start.fit.clone().unwrap_or_else(|| {
+        constants.iter().zip(&prior.mean).map(|(c, known)| seen(c.quantity).unwrap_or(*known)).collect()
+    });
+    take_as_usual(&mut constants, &prior, &start);
+    let mut causes = causes(robot, &constants);
     let mut data = Data::new(robot, &constants, drives.to_vec())?;
-    let start = start.map_or_else(
-        || {
-            let mut start: Vec<f64> = prior.mean.iter().copied().collect();
-            align(robot, &constants, drives, &mut start);
-            start
-        },
-        <[f64]>::to_vec,
-    );
 
     let (mut fit, mut named) = weigh(&data, &prior, &causes, start).ok_or_else(|| short(&data))?;
+    let seen = named.posterior.mean.as_slice().to_vec();
+    let mut wider = constants.clone();
+    if take_as_usual(&mut wider, &prior, &seen) {
+        causes = crate::cause::causes(robot, &wider);
+        (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
+    }
     // Lost counts are found beside the best answer, and then left out of it.
     let wide = wide(&prior, &causes);
     let often = dropout::often(&data, &fit, prior.mean.as_slice(), |rest, start| self::fit(rest, &wide, start));
@@ -137,18 +160,18 @@ pub(crate) fn solve(
     Ok(Solved { constants, causes, prior, fit, named, lost })
 }
 
-/// Starts clocks where speeds agree, if they do not as they are.
-fn align(robot: &WheeledRobot, constants: &[Constant], drives: &[&Drive], start: &mut [f64]) {
-    let found: Vec<[f64; 2]> = drives.iter().filter_map(|d| clock::alignment(robot, d)).collect();
-    if 2 * found.len() < drives.len() {
-        return;
-    }
-    for (index, quantity) in [Quantity::ClockOffset, Quantity::ClockRate].into_iter().enumerate() {
-        let middle = inference::robust::median(found.iter().map(|f| f[index]));
-        if let Some((k, value)) = constants.iter().position(|c| c.quantity == quantity).zip(middle) {
-            start[k] = value;
+/// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
+/// seconds apart, would else be drawn to nothing, or count as scatter between sessions. Whether anything does.
+fn take_as_usual(constants: &mut [Constant], prior: &Prior, values: &[f64]) -> bool {
+    let mut any = false;
+    for ((constant, value), known) in constants.iter_mut().zip(values).zip(&prior.mean) {
+        let away = (value - known).abs();
+        if away > SETTINGS.usual.far * constant.usual {
+            constant.usual = away;
+            any = true;
         }
     }
+    any
 }
 
 /// What is known before the recordings if every cause may be there.

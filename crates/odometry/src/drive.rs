@@ -1,5 +1,6 @@
 //! A drive: turns of the wheels, steering and the measured pose on one grid of rows.
 
+use crate::constants::ClockZero;
 use crate::error::OdometryError;
 use crate::settings::{DriveRules, SETTINGS};
 use crate::units;
@@ -173,13 +174,21 @@ impl Drive {
         [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
     }
 
-    /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` about
-    /// the middle of the drive: row `t` shows what the counts have at `t − offset − rate (t − t_mid)`.
-    pub(crate) fn at_shifted_clock(&self, path: &[[f64; 3]], [offset, rate]: [f64; 2]) -> Vec<[f64; 3]> {
-        let middle = 0.5 * (self.time[0] + self.time[self.time.len() - 1]);
+    /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` from `zero`
+    /// on: row `t` shows what the counts have at `t − offset − rate (t − t₀)`.
+    pub(crate) fn at_shifted_clock(
+        &self,
+        path: &[[f64; 3]],
+        [offset, rate]: [f64; 2],
+        zero: ClockZero,
+    ) -> Vec<[f64; 3]> {
+        let start = match zero {
+            ClockZero::Start => self.time[0],
+            ClockZero::Middle => 0.5 * (self.time[0] + self.time[self.time.len() - 1]),
+        };
         let mut k = 0;
         let at = |t: f64| {
-            let t = t - offset - rate * (t - middle);
+            let t = t - offset - rate * (t - start);
             while k + 2 < self.time.len() && self.time[k + 1] < t {
                 k += 1;
             }
@@ -191,6 +200,51 @@ impl Drive {
             [0, 1, 2].map(|axis| path[k][axis] + share * (path[k + 1][axis] - path[k][axis]))
         };
         self.time.iter().copied().map(at).collect()
+    }
+
+    /// Moves counts and steering to `by` seconds later; where none were recorded the wheels stand.
+    pub(crate) fn shift_counts(&mut self, by: f64) {
+        let time = &self.time;
+        let last = time.len() - 1;
+        // Row and share of the way to the next, of an instant.
+        let place = |t: f64| {
+            let row = time.partition_point(|x| *x <= t).clamp(1, last) - 1;
+            (row, ((t - time[row]) / (time[row + 1] - time[row])).clamp(0.0, 1.0))
+        };
+        let between = |column: &[f64], t: f64| {
+            let (row, share) = place(t);
+            column[row] + share * (column[row + 1] - column[row])
+        };
+
+        let wheels = self.turns[0].len();
+        let mut turned = vec![vec![0.0; wheels]; time.len()];
+        for wheel in 0..wheels {
+            let mut sum = 0.0;
+            let sums: Vec<f64> = (0..time.len())
+                .map(|row| {
+                    sum += if row == 0 { 0.0 } else { self.turns[row][wheel] };
+                    sum
+                })
+                .collect();
+            for row in 1..time.len() {
+                turned[row][wheel] = between(&sums, time[row] - by) - between(&sums, time[row - 1] - by);
+            }
+        }
+        let steering = self.steering.as_ref().map(|s| time.iter().map(|t| between(s, t - by)).collect());
+        self.turns = turned;
+        self.steering = steering;
+    }
+
+    /// Takes the pose as not seen where the counts end: their clock is `offset` behind and slow by `rate`, and they were moved
+    /// by `moved` seconds.
+    pub(crate) fn forget_pose_beyond(&mut self, [offset, rate]: [f64; 2], moved: f64) {
+        let (first, last) = (self.time[0], self.time[self.time.len() - 1]);
+        for (t, pose) in self.time.iter().zip(&mut self.pose) {
+            let counted = t - offset - rate * (t - first);
+            if [counted, counted - moved].iter().any(|t| !(first..=last).contains(t)) {
+                *pose = [f64::NAN; 3];
+            }
+        }
     }
 }
 

@@ -202,7 +202,7 @@ pub(crate) fn columns(data: &Data<'_>, theta: &[f64], drive: usize) -> Vec<Vec<[
 /// `factors` are those on the usual scatter: of all constants, and of the clocks.
 pub(crate) fn scatter(data: &Data<'_>, [others, clocks]: [f64; 2]) -> DVector<f64> {
     let of = |c: &crate::Constant| {
-        let is_clock = matches!(c.quantity, Quantity::ClockOffset | Quantity::ClockRate);
+        let is_clock = matches!(c.quantity, Quantity::ClockOffset | Quantity::ClockRate(_));
         c.scatter * if is_clock { clocks } else { others }
     };
     DVector::from_iterator(data.constants.len(), data.constants.iter().map(of))

@@ -1,7 +1,8 @@
 //! Sessions left out in turn, and forecast from counts alone by every calibration.
 
 use crate::case::Case;
-use crate::diagnose::solve;
+use crate::clock;
+use crate::diagnose::{Start, solve};
 use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::forecast::{Errors, forecast};
@@ -35,6 +36,7 @@ const OURS: [&str; 4] = ["as stated", "re-tuned", "corrected", "placebo"];
 /// When the robot cannot be, or a fold leaves too few windows.
 pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryError> {
     case.robot.checked()?;
+    let (case, clock) = clock::joined(case);
     let mut sessions: Vec<&str> = case.recordings.iter().map(|d| d.session.as_str()).collect();
     sessions.sort_unstable();
     sessions.dedup();
@@ -53,11 +55,12 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
     names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
     let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
     let all: Vec<&Drive> = case.recordings.iter().collect();
-    let start = solve(&case.robot, &case.references, &all, None)?.fit.theta;
+    let of_all = solve(&case.robot, &case.references, &all, &Start { clock, fit: None })?;
+    let start = Start { clock, fit: Some(of_all.fit.theta) };
     for left in &keys {
         progress(&format!("forecasting {left}"));
         let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == *left);
-        let solved = solve(&case.robot, &case.references, &rest, Some(&start))?;
+        let solved = solve(&case.robot, &case.references, &rest, &start)?;
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let placebo = solved.named.placebo.as_ref();
         let placebo = placebo.map(|(_, p)| laws(&case.robot, &solved.constants, p.mean.as_slice()));

@@ -52,7 +52,7 @@ pub mod weighing {
 pub use answer::diagnosis;
 pub use case::Case;
 pub use cause::Cause;
-pub use constants::{Constant, Quantity, constants};
+pub use constants::{ClockZero, Constant, Quantity, constants};
 pub use diagnose::diagnose;
 pub use drive::{Drive, WheelData};
 pub use error::OdometryError;

@@ -9,7 +9,7 @@
 //! * turning: `t ← (1 − rate_slip |ω|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
 //! * frame: the pose's x axis points `mounting` from the robot's, its origin stands at `origin`.
 
-use crate::constants::Quantity;
+use crate::constants::{ClockZero, Quantity};
 use crate::drive::Drive;
 use crate::kinematics::{Geometry, Kinematics};
 use crate::settings::SETTINGS;
@@ -30,6 +30,7 @@ pub(crate) struct Laws {
     pub(crate) sideslip: f64,
     pub(crate) cornering: [f64; 2],
     pub(crate) clock: [f64; 2],
+    pub(crate) clock_zero: ClockZero,
 }
 
 impl Laws {
@@ -48,6 +49,7 @@ impl Laws {
             sideslip: 0.0,
             cornering: [0.0; 2],
             clock: [0.0; 2],
+            clock_zero: ClockZero::Middle,
         }
     }
 
@@ -76,7 +78,7 @@ impl Laws {
                 Quantity::CorneringForward => out.cornering[0] = value,
                 Quantity::CorneringSideways => out.cornering[1] = value,
                 Quantity::ClockOffset => out.clock[0] = value,
-                Quantity::ClockRate => out.clock[1] = value,
+                Quantity::ClockRate(zero) => (out.clock[1], out.clock_zero) = (value, zero),
             }
         }
         out
@@ -100,7 +102,7 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
         pose = moved(pose, framed(laws, step));
         path.push(pose);
     }
-    if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock) }
+    if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock, laws.clock_zero) }
 }
 
 /// A row's motion less its slip.

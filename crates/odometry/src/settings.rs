@@ -112,6 +112,8 @@
 
     /// Usual sizes of causes: one sigma about none.
     usual: Usual {
+        /// Times its usual size beyond which a constant's own distance is taken as usual.
+        far: f64 = 2.0, "1", "guess; two sigmas";
         /// Radius, relative.
         radius: f64 = 0.1, "1", "guess";
         /// Distances between wheels, relative.
@@ -240,7 +242,13 @@
         /// Largest rate that is tried, and its step.
         rate: [f64; 2] = [0.04, 0.0025], "1", "timers are a few per cent off at most";
         /// Largest offset that is tried, and its step.
-        offset: [f64; 2] = [3.0, 0.1], "s", "guess; logs are started by hand";
+        offset: [f64; 2] = [25.0, 0.1], "s", "guess; logs are started by hand, one after the other";
+        /// Grid of the speeds by counts, which are looked up at any instant.
+        fine: f64 = 0.02, "s", "guess; a hundredth of a second is the finest offset that is looked for";
+        /// Times that the steps are halved about the best of the grid.
+        halvings: usize = 4, "1", "guess; to a hundredth of a second";
+        /// Difference of a drive's offset from that of most beyond which its counts are moved first.
+        apart: f64 = 0.15, "s", "guess; beyond it a fit about the common offset is not linear";
         /// Grid on which rates are compared.
         step: f64 = 0.2, "s", "guess";
         /// Clocks are looked at where speeds differ by more than this share of their mean.

@@ -130,7 +130,7 @@ fn remedy(quantity: Quantity) -> &'static str {
         Quantity::SteeringGain => "multiply the steering angle by it before it is used",
         Quantity::Mounting => "turn the pose by it where it is recorded",
         Quantity::OriginX | Quantity::OriginY => "shift the pose by it where it is recorded",
-        Quantity::ClockOffset | Quantity::ClockRate => "correct the time stamps of the counts by it",
+        Quantity::ClockOffset | Quantity::ClockRate(_) => "correct the time stamps of the counts by it",
         Quantity::RollerSlip
         | Quantity::TurnSlip
         | Quantity::TurnSlipRate
