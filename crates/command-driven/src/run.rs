@@ -79,8 +79,7 @@ impl ResponseRun {
         // Pieces are what all of them cover without a gap.
         let mut used: Vec<&Channel> = command.into_iter().chain(wheel).chain([turning]).collect();
         used.extend(place.into_iter().flatten());
-        let headings = unwrapped(turning.values());
-        let headings = if yaw.is_some() { headings } else { integral(turning) };
+        let headings = if yaw.is_some() { turning.unwrapped() } else { integral(turning) };
         let mut pieces = Vec::new();
         let stretches = stretches(&used);
         let first = stretches.first().map_or(0.0, |s| s[0]);
@@ -237,17 +236,6 @@ fn linear(c: &Channel, values: &[f64], t: f64) -> f64 {
     if t - a < STAMP { values[i] } else { values[i] + share * (values[i + 1] - values[i]) }
 }
 
-/// Angles without jumps by a turn.
-fn unwrapped(angles: &[f64]) -> Vec<f64> {
-    use std::f64::consts::{PI, TAU};
-    let mut out: Vec<f64> = Vec::with_capacity(angles.len());
-    for a in angles {
-        let next = out.last().map_or(*a, |last| last + ((a - last + PI).rem_euclid(TAU) - PI));
-        out.push(next);
-    }
-    out
-}
-
 /// Heading from the yaw rate, by the trapezoidal rule.
 fn integral(gyro: &Channel) -> Vec<f64> {
     let time: Vec<f64> = seconds(gyro).collect();
@@ -340,11 +328,5 @@ mod tests {
         // From 50 to 60 ms the first command still holds, from 60 to 75 ms and beyond the second.
         approx::assert_relative_eq!(means[0][0], 1.0 * 0.6, epsilon = 1e-9);
         approx::assert_relative_eq!(means[1][0], 1.0, epsilon = 1e-9);
-    }
-
-    #[test]
-    fn headings_lose_their_jumps() {
-        let turned = unwrapped(&[3.0, -3.0, -2.9]);
-        approx::assert_relative_eq!(turned[2] - turned[0], std::f64::consts::TAU - 5.9, epsilon = 1e-12);
     }
 }

@@ -3,6 +3,7 @@
 use recordings::{Channel, Recording, Signal, Unit, parse_unit};
 use robot_model::Robot;
 
+use crate::columns::consistent;
 use crate::settings::{Possible, SETTINGS};
 use inference::DiagnosisError;
 use inference::robust::{median, rms};
@@ -218,6 +219,7 @@ fn contradictions(recording: &Recording, robot: &Robot<f64>) -> Result<Option<St
             }
         }
     }
+    consistent(recording, robot)?;
     gravity(recording)
 }
 

@@ -53,6 +53,32 @@
         gravity: f64 = 1.5, "1", "guess; a slope of 45 degrees gives 1.4";
     }
 
+    /// Columns that contradict each other.
+    columns: Columns {
+        /// Time between rows on which channels are compared.
+        step: f64 = 0.2, "s", "guess; two samples of a pose at 10 Hz, and shorter than an acceleration";
+        /// Fewest rows that can show a contradiction.
+        rows: usize = 25, "1", "guess; 5 s";
+        /// Cosine from which two signals are alike.
+        alike: f64 = 0.7, "1", "guess";
+        /// Cosine beyond which two signals of devices whose clocks wander are alike, or opposite.
+        opposite: f64 = 0.5, "1", "guess; clocks that wander by a second leave 0.6 of 1 where the Husky turns every few seconds";
+        /// Cosine below which two signals are unlike.
+        unlike: f64 = 0.3, "1", "guess";
+        /// Yaw rate below which, in the root mean square, nothing is said of turning, and speed of wheels for set speeds.
+        turning: f64 = 0.05, "rad/s", "guess; five times the noise of a gyro";
+        /// Speed below which nothing is said of directions.
+        moving: f64 = 0.05, "m/s", "guess; noise of a pose over two rows";
+        /// Speed of wheels over which friction changes its sign.
+        rolling: f64 = 0.3, "rad/s", "guess; as in the grid of long recordings";
+        /// Specific force below which, in the root mean square, nothing is said of accelerometers.
+        pushed: f64 = 0.1, "m/s²", "guess; noise of an accelerometer over a row";
+        /// How much more the sum of the sides would turn the body than it turns, where one side has the wrong sign.
+        turned: f64 = 3.0, "1", "guess; wheels that are pushed aside turn up to twice as much as the body";
+        /// Factor from which a column is in another unit.
+        unit: f64 = 5.0, "1", "guess; the factors of wrong units are 6.3 (turns), 9.5 (rpm), 9.8 (kgf m), 57 (degrees), those of faults below 3";
+    }
+
     /// Recordings with fewer rows.
     thinning: Thinning {
         /// Time between the rows that are left.

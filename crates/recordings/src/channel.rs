@@ -120,6 +120,17 @@ impl Channel {
         self.t_ns.iter().copied().zip(self.values.iter().copied())
     }
 
+    /// The values as angles, rad, without jumps by a turn: each lies within half a turn of the one before.
+    pub fn unwrapped(&self) -> Vec<f64> {
+        use std::f64::consts::{PI, TAU};
+        let mut out: Vec<f64> = Vec::with_capacity(self.len());
+        for angle in &self.values {
+            let next = out.last().map_or(*angle, |last| last + ((angle - last + PI).rem_euclid(TAU) - PI));
+            out.push(next);
+        }
+        out
+    }
+
     /// The samples from index `at` on that lie before an instant, as a channel, when there are any; `at` moves behind them.
     pub(crate) fn until(&self, at: &mut usize, end_ns: i64) -> Option<Self> {
         let end = *at + self.t_ns[*at..].partition_point(|&t_ns| t_ns < end_ns);

@@ -4,6 +4,7 @@ use std::array::from_fn;
 
 use recordings::{Channel, Recording, Signal};
 
+use crate::grid::{binned, slope};
 use crate::settings::{Raster, SETTINGS};
 
 /// Signals of a row: what drives each side, wheel speeds, wheel accelerations, directions, yaw rate, specific force, one.
@@ -104,41 +105,4 @@ fn spacing(channel: &Channel) -> f64 {
     let mut gaps: Vec<i64> = channel.t_ns().windows(2).take(RASTER.spacings).map(|w| w[1] - w[0]).collect();
     let middle = gaps.len() / 2;
     if gaps.is_empty() { RASTER.coarsest } else { *gaps.select_nth_unstable(middle).1 as f64 * 1e-9 }
-}
-
-/// Mean of the samples in each step; short gaps are bridged by straight lines.
-fn binned(channel: &Channel, from_ns: i64, step_ns: f64, count: usize) -> Vec<f64> {
-    let (mut sum, mut number) = (vec![0.0; count], vec![0_u32; count]);
-    for (t_ns, value) in channel.samples() {
-        let k = ((t_ns - from_ns) as f64 / step_ns).floor();
-        if k >= 0.0 && (k as usize) < count {
-            sum[k as usize] += value;
-            number[k as usize] += 1;
-        }
-    }
-    let mut out: Vec<f64> =
-        sum.iter().zip(&number).map(|(s, &n)| if n > 0 { s / f64::from(n) } else { f64::NAN }).collect();
-    let mut last: Option<usize> = None;
-    for k in 0..count {
-        if out[k].is_nan() {
-            continue;
-        }
-        if let Some(before) = last.filter(|&before| k - before > 1 && k - before <= RASTER.bridged) {
-            let (a, b) = (out[before], out[k]);
-            for i in before + 1..k {
-                out[i] = a + (b - a) * (i - before) as f64 / (k - before) as f64;
-            }
-        }
-        last = Some(k);
-    }
-    out
-}
-
-/// Slope over two steps; NaN at the ends.
-fn slope(values: &[f64], period: f64) -> Vec<f64> {
-    let mut out = vec![f64::NAN; values.len()];
-    for k in 1..values.len().saturating_sub(1) {
-        out[k] = (values[k + 1] - values[k - 1]) / (2.0 * period);
-    }
-    out
 }

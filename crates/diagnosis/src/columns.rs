@@ -1,0 +1,360 @@
+//! Columns that contradict each other: exchanged, of the other sign, or in another unit. Told before anything is diagnosed,
+//! since a model that is fitted to such columns finds causes that are none.
+//!
+//! Each check asks what the other channels say that a column must show, and compares by the cosine between both: nothing
+//! that robots do turns a column into its negative or into the other side's. Only what is clear is refused.
+
+use std::array::from_fn;
+
+use recordings::{Recording, Signal};
+use robot_model::Robot;
+
+use crate::grid::slope;
+use crate::settings::{Columns, SETTINGS};
+use inference::DiagnosisError;
+use inference::robust::mean;
+
+mod motion;
+
+use motion::{Motion, Sides, combined, follows_heading, likeness, likeness_of_changes};
+
+const COLUMNS: Columns = SETTINGS.columns;
+
+/// Refuses a recording whose columns are exchanged, have the other sign or another unit than the mapping says.
+///
+/// # Errors
+/// Which columns, what shows it, and what to change.
+pub(crate) fn consistent(recording: &Recording, robot: &Robot<f64>) -> Result<(), DiagnosisError> {
+    let motion = Motion::of(recording);
+    let found = mirrored_pose(recording, robot, &motion)
+        .or_else(|| opposed_gyro(recording, robot, &motion))
+        .or_else(|| wheels(recording, robot, &motion))
+        .or_else(|| commands(recording, &motion))
+        .or_else(|| torques(recording, robot, &motion))
+        .or_else(|| forces(recording, robot, &motion));
+    match found {
+        None => Ok(()),
+        Some(what) => Err(DiagnosisError::Impossible { recording: recording.name().to_owned(), what }),
+    }
+}
+
+/// `gyro_z (column 'wz')`.
+fn named(recording: &Recording, signal: Signal) -> String {
+    let column = recording.get(signal).map_or("", |channel| channel.column());
+    format!("{signal} (column '{column}')")
+}
+
+fn both(recording: &Recording, [a, b]: [Signal; 2]) -> String {
+    format!("{} and {}", named(recording, a), named(recording, b))
+}
+
+/// Yaw rate that the wheels give the body if they roll, rad/s.
+fn turn_of_wheels(robot: &Robot<f64>, [left, right]: &Sides) -> Vec<f64> {
+    let lever = robot.wheel_radius / (2.0 * robot.half_track);
+    combined(lever, right, -lever, left)
+}
+
+/// A pose whose place turns the other way than its heading.
+fn mirrored_pose(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
+    let [heading, rate] = motion.heading.as_ref()?;
+    let [follows, mirrored] = follows_heading(motion.travel.as_ref()?, heading)?;
+    if !(mirrored > COLUMNS.alike && follows < COLUMNS.unlike) {
+        return None;
+    }
+    // Who turns as the wheels or the gyro do is right.
+    let by_wheels = motion.wheels.as_ref().map(|(speeds, _)| turn_of_wheels(robot, speeds));
+    let witness = motion.gyro.as_ref().or(by_wheels.as_ref());
+    let heading_is_right =
+        witness.and_then(|turn| likeness_of_changes(rate, turn, COLUMNS.turning)).map(|l| l.cosine > 0.0);
+    let place = both(recording, [Signal::PoseX, Signal::PoseY]);
+    let yaw = named(recording, Signal::PoseYaw);
+    let remedy = match heading_is_right {
+        Some(true) => format!("exchange {place} in the mapping, or write `sign = -1` for one of them"),
+        Some(false) => format!("write `sign = -1` for {yaw} in the mapping"),
+        None => format!("exchange {place} in the mapping, or write `sign = -1` for {yaw}"),
+    };
+    Some(format!(
+        "the place of the pose turns to the other side than its heading: the direction of travel follows the heading \
+         mirrored ({mirrored:.2} of 1) and not as it is ({follows:.2}); {remedy}"
+    ))
+}
+
+/// A gyro that turns to the other side than the heading, or than the wheels where there is no heading.
+fn opposed_gyro(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
+    let gyro = motion.gyro.as_ref()?;
+    let heading = motion.heading.as_ref().map(|[_, rate]| rate);
+    let likeness_to_heading = heading.and_then(|rate| likeness_of_changes(gyro, rate, COLUMNS.turning))?;
+    if likeness_to_heading.cosine > -COLUMNS.opposite {
+        return None;
+    }
+    let shows = format!(
+        "{} and {} turn to opposite sides (cosine {:.2})",
+        named(recording, Signal::GyroZ),
+        named(recording, Signal::PoseYaw),
+        likeness_to_heading.cosine
+    );
+    let wheels = motion.wheels.as_ref().map(|(speeds, _)| turn_of_wheels(robot, speeds));
+    let gyro_is_right =
+        wheels.and_then(|turn| likeness_of_changes(gyro, &turn, COLUMNS.turning)).map(|l| l.cosine > 0.0);
+    Some(match gyro_is_right {
+        Some(false) => {
+            format!("{shows}, and the wheels turn as the pose does: write `sign = -1` for gyro_z in the mapping")
+        }
+        Some(true) => {
+            format!("{shows}, and the wheels turn as the gyro does: write `sign = -1` for pose_yaw in the mapping")
+        }
+        None => format!("{shows}; write `sign = -1` for the wrong one in the mapping"),
+    })
+}
+
+/// What can be wrong with the columns of two sides.
+const MISTAKES: [Mistake; 6] = [
+    Mistake { exchanged: false, signs: [-1.0, 1.0] },
+    Mistake { exchanged: false, signs: [1.0, -1.0] },
+    Mistake { exchanged: false, signs: [-1.0, -1.0] },
+    Mistake { exchanged: true, signs: [1.0, 1.0] },
+    Mistake { exchanged: true, signs: [-1.0, 1.0] },
+    Mistake { exchanged: true, signs: [1.0, -1.0] },
+];
+
+/// Columns of two sides as they may have been mapped by mistake.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Mistake {
+    exchanged: bool,
+    /// Signs of what is mapped to left and right.
+    signs: [f64; 2],
+}
+
+impl Mistake {
+    const NONE: Self = Self { exchanged: false, signs: [1.0; 2] };
+
+    /// The columns as they would be without this mistake.
+    fn undone(self, shown: &Sides) -> Sides {
+        from_fn(|side| {
+            let from = if self.exchanged { 1 - side } else { side };
+            shown[from].iter().map(|v| self.signs[from] * v).collect()
+        })
+    }
+
+    /// How well the columns show what they must, were this the mistake: mean cosine of the sums of both sides, and of
+    /// their differences, of those of the two in which anything moves.
+    fn cosine(self, shown: &Sides, expected: &Sides, least: f64) -> Option<f64> {
+        let [left, right] = self.undone(shown);
+        let of_sums_and_differences = [1.0, -1.0].map(|sign| {
+            let expected = combined(1.0, &expected[0], sign, &expected[1]);
+            Some(likeness(&combined(1.0, &left, sign, &right), &expected, least)?.cosine)
+        });
+        mean(of_sums_and_differences.into_iter().flatten())
+    }
+
+    /// What to change.
+    fn remedy(self, recording: &Recording, signals: [Signal; 2]) -> String {
+        let negative: Vec<String> =
+            (0..2).filter(|&side| self.signs[side] < 0.0).map(|side| named(recording, signals[side])).collect();
+        let sign = format!("write `sign = -1` for {} in the mapping", negative.join(" and "));
+        match (self.exchanged, negative.is_empty()) {
+            (true, true) => format!("exchange {} in the mapping", both(recording, signals)),
+            (true, false) => format!("{sign}, and exchange {}", both(recording, signals)),
+            (false, _) => sign,
+        }
+    }
+}
+
+/// Two columns and what the other channels say that they must show.
+struct Compared<'a> {
+    recording: &'a Recording,
+    signals: [Signal; 2],
+    shown: &'a Sides,
+    expected: &'a Sides,
+    /// What says so.
+    by: &'static str,
+    /// Root mean square of [`Self::expected`] below which nothing is said.
+    least: f64,
+    /// What units these columns may be in.
+    units: &'static str,
+}
+
+impl Compared<'_> {
+    /// The mistake that makes the columns agree with what they must show, where as they are they do not; or that they are in
+    /// another unit.
+    fn contradiction(&self) -> Option<String> {
+        self.mistake().or_else(|| self.other_unit())
+    }
+
+    fn mistake(&self) -> Option<String> {
+        let cosine = |mistake: Mistake| mistake.cosine(self.shown, self.expected, self.least);
+        let as_mapped = cosine(Mistake::NONE)?;
+        let tried = MISTAKES.into_iter().filter_map(|mistake| Some((mistake, cosine(mistake)?)));
+        let (best, corrected) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (as_mapped < COLUMNS.unlike && corrected > COLUMNS.alike).then(|| {
+            format!(
+                "{} contradict {} (cosine {as_mapped:.2}; corrected, it would be {corrected:.2}): {}",
+                both(self.recording, self.signals),
+                self.by,
+                best.remedy(self.recording, self.signals)
+            )
+        })
+    }
+
+    /// By the sums of both sides: what turns pushes aside, of which little is known, is not in them.
+    fn other_unit(&self) -> Option<String> {
+        let [shown, expected] = [self.shown, self.expected].map(|[left, right]| combined(0.5, left, 0.5, right));
+        let found = likeness(&shown, &expected, self.least)?;
+        let ratio = found.ratio;
+        let clear = found.cosine > COLUMNS.alike && ratio.ln().abs() > COLUMNS.unit.ln();
+        clear.then(|| {
+            format!(
+                "{} follow {}, but with {ratio:.4} times its size: {}",
+                both(self.recording, self.signals),
+                self.by,
+                self.units
+            )
+        })
+    }
+}
+
+/// What to do about columns of speeds in another unit.
+const UNITS_OF_SPEED: &str = "write the unit of these columns in the mapping (1 rad/s is 9.549 rpm, 57.30 deg/s and 0.1592 \
+                              rev/s), or the factor that makes a speed of the ground one of the wheel";
+
+/// Wheels that turn the other way than the body moves, or in another unit.
+fn wheels(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
+    let (speeds, signals) = motion.wheels.as_ref()?;
+    let turn = motion.gyro.as_ref().or_else(|| motion.heading.as_ref().map(|[_, rate]| rate))?;
+    let r = robot.wheel_radius;
+    if let Some(forward) = motion.forward() {
+        let expected = [-1.0, 1.0].map(|side| combined(1.0 / r, &forward, side * robot.half_track / r, turn));
+        let (by, least) = ("the motion of the pose", COLUMNS.moving / r);
+        let (shown, expected) = (speeds, &expected);
+        let units = UNITS_OF_SPEED;
+        return Compared { recording, signals: *signals, shown, expected, by, least, units }.contradiction();
+    }
+    // Without a pose the difference of the sides must turn the body, and not their sum.
+    let lever = r / (2.0 * robot.half_track);
+    let by_difference = likeness_of_changes(&turn_of_wheels(robot, speeds), turn, COLUMNS.turning)?;
+    let by_sum = likeness_of_changes(&combined(lever, &speeds[0], lever, &speeds[1]), turn, COLUMNS.turning)?;
+    let shown_by = if motion.gyro.is_some() { Signal::GyroZ } else { Signal::PoseYaw };
+    let gyro = named(recording, shown_by);
+    if by_difference.cosine < -COLUMNS.opposite {
+        return Some(format!(
+            "{} turn the body to the other side than {gyro} shows (cosine {:.2}): exchange left and right in the \
+             mapping, or write `sign = -1` for {shown_by}, or for both wheels if the robot drove backward",
+            both(recording, *signals),
+            by_difference.cosine
+        ));
+    }
+    if by_sum.cosine.abs() > COLUMNS.alike
+        && by_difference.cosine.abs() < COLUMNS.unlike
+        && by_sum.ratio < COLUMNS.turned
+    {
+        let side = usize::from(by_sum.cosine < 0.0);
+        return Some(format!(
+            "the sum of {} goes with the turning that {gyro} shows (cosine {:.2}), and their difference does not \
+             ({:.2}): write `sign = -1` for {} in the mapping",
+            both(recording, *signals),
+            by_sum.cosine,
+            by_difference.cosine,
+            named(recording, signals[side])
+        ));
+    }
+    (by_difference.cosine > COLUMNS.opposite && by_difference.ratio > COLUMNS.unit).then(|| {
+        format!(
+            "{} turn the body at {:.1} times the rate that {gyro} shows: {UNITS_OF_SPEED}",
+            both(recording, *signals),
+            by_difference.ratio
+        )
+    })
+}
+
+/// Set speeds that the wheels do not follow as they are mapped.
+fn commands(recording: &Recording, motion: &Motion) -> Option<String> {
+    let (expected, wheels) = motion.wheels.as_ref()?;
+    let shown = motion.commands.as_ref()?;
+    let signals = [Signal::CommandSpeedLeft, Signal::CommandSpeedRight];
+    if *wheels == signals {
+        return None;
+    }
+    let (by, least, units) = ("the wheels' measured speeds", COLUMNS.turning, UNITS_OF_SPEED);
+    Compared { recording, signals, shown, expected, by, least, units }.contradiction()
+}
+
+/// Torques that do not drive the wheels of their side.
+fn torques(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
+    let (speeds, _) = motion.wheels.as_ref()?;
+    let shown = motion.torques.as_ref()?;
+    let signals = [Signal::TorqueLeft, Signal::TorqueRight];
+    let expected = &torque_of_motion(robot, speeds);
+    let (by, least) = ("the torque that the robot of the file needs for the motion of its wheels", dry_friction(robot));
+    let units = "write the factor that makes it N m at the wheels in the mapping (1 N m is 0.1020 kgf m; a torque at the \
+                 motor times the gear ratio is one at the wheels)";
+    Compared { recording, signals, shown, expected, by, least, units }.contradiction()
+}
+
+/// Dry friction of a side's drive, N m: with less torque nothing drives.
+fn dry_friction(robot: &Robot<f64>) -> f64 {
+    f64::midpoint(robot.coulomb[0], robot.coulomb[1])
+}
+
+/// Torque of each side that moves the robot as its wheels turn, if they roll: inertia, friction of drive and rolling, and
+/// the scrub of wheels that are pushed aside in a turn, N m. Rough: cosines are all that is asked of it.
+fn torque_of_motion(robot: &Robot<f64>, speeds: &Sides) -> Sides {
+    let r = robot.wheel_radius;
+    let rates: Sides = from_fn(|side| slope(&speeds[side], COLUMNS.step));
+    let turn = turn_of_wheels(robot, speeds);
+    let (along, about) = (robot.mass * r * r / 4.0, robot.yaw_inertia * (r / robot.half_track).powi(2) / 4.0);
+    let of_wheels = robot.motor_inertia + 2.0 * robot.wheel_inertia;
+    let weight = robot.mass * robot.gravity;
+    let scrub = robot.adhesion * robot.lateral_factor * weight * robot.half_wheelbase * r / (2.0 * robot.half_track);
+    from_fn(|side| {
+        let (own, other) = (&rates[side], &rates[1 - side]);
+        let aside = if side == 0 { -scrub } else { scrub };
+        let friction = robot.coulomb[side] + robot.rolling_resistance * weight * r / 2.0;
+        (0..turn.len())
+            .map(|k| {
+                let speed = speeds[side][k];
+                (along + about + of_wheels) * own[k]
+                    + (along - about) * other[k]
+                    + friction * (speed / COLUMNS.rolling).tanh()
+                    + robot.viscous[side] * speed
+                    + aside * (turn[k] / COLUMNS.turning).tanh()
+            })
+            .collect()
+    })
+}
+
+/// Accelerometers whose axes are exchanged, of the other sign or in another unit: what turns pushes outward.
+fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
+    let (speeds, _) = motion.wheels.as_ref()?;
+    let turn = motion.gyro.as_ref()?;
+    let shown = motion.force.as_ref()?;
+    let forward = combined(robot.wheel_radius / 2.0, &speeds[0], robot.wheel_radius / 2.0, &speeds[1]);
+    let aside: Vec<f64> = forward.iter().zip(turn).map(|(v, w)| v * w).collect();
+    let [along, left] = [0, 1].map(|axis| likeness_of_changes(&shown[axis], &aside, COLUMNS.pushed));
+    let (along, left) = (along?, left?);
+    let speeding_up = likeness_of_changes(&shown[0], &slope(&forward, COLUMNS.step), COLUMNS.pushed);
+    let turned = speeding_up.is_some_and(|l| l.cosine < -COLUMNS.unlike);
+    let [x, y] = [Signal::AccelX, Signal::AccelY].map(|signal| named(recording, signal));
+
+    let (shows, remedy) = if left.cosine < -COLUMNS.alike {
+        let also = if turned { " and for accel_x" } else { "" };
+        (format!("{y} pushes inward in turns"), format!("write `sign = -1` for it{also} in the mapping"))
+    } else if along.cosine.abs() > COLUMNS.alike && left.cosine.abs() < COLUMNS.unlike {
+        let sign = if along.cosine < 0.0 { ", with `sign = -1` for accel_y" } else { "" };
+        (
+            format!("{x} shows the push of turns, and {y} does not"),
+            format!("the sensor is mounted turned by a right angle: exchange the two in the mapping{sign}"),
+        )
+    } else if left.cosine > COLUMNS.alike && left.ratio < 1.0 / COLUMNS.unit {
+        let remedy = "it may be in g: if so, write `unit = \"g\"` for all accelerations in the mapping";
+        (format!("{y} shows {:.3} times the push of turns", left.ratio), remedy.to_owned())
+    } else {
+        return None;
+    };
+    Some(format!(
+        "{shows}, by the speed of the wheels times the yaw rate (cosine {:.2} for accel_x, {:.2} for accel_y); {remedy}",
+        along.cosine, left.cosine
+    ))
+}
+
+#[cfg(test)]
+mod tests;
