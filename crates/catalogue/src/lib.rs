@@ -62,14 +62,17 @@ pub fn find(name: &str) -> Option<Entry> {
     Some(Entry { id, effect, cause })
 }
 
-/// Whether an effect needs a hand on the robot: its mass, motors and wheels do not change by themselves.
+/// Whether an effect needs a hand on the robot: its mass, motors and wheels do not change by themselves, and nothing hangs
+/// itself on its hitch.
 pub fn needs_a_hand(id: &str) -> bool {
     use robot_model::effects::{
-        com_offset, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity, wheel_radius_mismatch,
+        com_offset, constant_pull, motor_lag, payload, torque_constant, torque_saturation, wheel_eccentricity,
+        wheel_radius_mismatch,
     };
     let by_hand = [
         payload::SPEC.id,
         com_offset::SPEC.id,
+        constant_pull::SPEC.id,
         torque_constant::SPEC.id,
         torque_saturation::SPEC.id,
         motor_lag::SPEC.id,

@@ -15,6 +15,8 @@ use crate::words::{any_of, change, compared, how_it_stands, other_ground, record
 
 const SENTENCES: Sentences = NAMING.sentences;
 const ANSWER: Answer = NAMING.answer;
+/// How [`quantity`] ends.
+const NINETY_PER_CENT: &str = " (90 %)";
 
 /// The first sentences; `of_loads` is the verdict of the loads alone, `theirs` what they are compared with.
 pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
@@ -183,11 +185,16 @@ fn named(d: &Diagnosis) -> Vec<String> {
     let of_loads = |class: &&Vec<String>| class.iter().all(|id| *id != catalogue::speed_driven::STANDING.id);
     let mut out = Vec::new();
     for class in d.indistinguishable.iter().filter(of_loads) {
-        let names = names(d, class);
-        let size = d.ranked.iter().find(|c| Some(&c.effect) == class.first()).map_or(String::new(), quantity);
-        let tail =
-            if names.len() > 1 { "; these recordings cannot tell which".to_owned() } else { format!(", {size}") };
-        out.push(format!("Missing: {}{tail}.", any_of(&names)));
+        let sized = |id: &String| {
+            let Some(cause) = d.ranked.iter().find(|c| c.effect == *id) else { return id.clone() };
+            let size = quantity(cause);
+            // Said once, behind the last one.
+            let size = size.trim_end_matches(NINETY_PER_CENT);
+            if size.is_empty() { cause.name.clone() } else { format!("{} by {size}", cause.name) }
+        };
+        let sized: Vec<String> = class.iter().map(sized).collect();
+        let tail = if sized.len() > 1 { "; these recordings cannot tell which" } else { "" };
+        out.push(format!("Missing: {}{NINETY_PER_CENT}{tail}.", any_of(&sized)));
         out.extend(apart(class));
     }
     out

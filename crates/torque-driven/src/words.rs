@@ -55,8 +55,17 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
             if out.is_empty()
                 && let Some(c) = causes.first()
             {
-                let p = probability(c.probability);
-                out.push(format!("Most likely missing: {}, {} (probability {p}).", c.name, quantity(c)));
+                let of = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability);
+                let nothing = of(NONE.id);
+                out.push(format!(
+                    "No cause stands out: something of the catalogue is missing with probability {}, nothing with {}; the \
+                     likeliest cause is {}, {} ({}).",
+                    probability(1.0 - nothing - of(UNKNOWN.id)),
+                    probability(nothing),
+                    c.name,
+                    quantity(c),
+                    probability(c.probability)
+                ));
             }
         }
         Verdict::Withheld => out.push("These recordings permit no answer.".to_owned()),
