@@ -1,18 +1,15 @@
 //! One drive that was given twice: it cannot be both right and wrong, and counts once.
 
-use std::collections::{HashMap, HashSet};
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::collections::HashMap;
 
 use anyhow::{Result, bail};
-use recordings::{Read, Recording, Signal};
+use recordings::{Fingerprint, Read, Signal};
 
 use crate::case_folder::{CaseFolder, FOLDERS};
 
-/// Consecutive samples of a sensor by which a stretch of a drive is known.
-const PATTERN: usize = 8;
-/// Patterns that tell a drive, at least.
-const LEAST: usize = 20;
-/// Share of them that two recordings of one drive have in common.
+/// Samples of a sensor that tell a drive, at least.
+const LEAST: usize = 50;
+/// Share of a sensor's content that two recordings of one drive have in common: the fingerprint's share is known to 3 %.
 const SAME: f64 = 0.9;
 /// Sensors whose noise, or motion, no two drives share; commands may be the same in many.
 const SENSORS: [Signal; 6] =
@@ -64,40 +61,25 @@ impl CaseFolder {
     }
 }
 
-/// A drive by patterns of its sensors.
+/// What the sensors of a drive show.
 struct Drive {
     name: String,
-    /// Of each sensor that is there, the hash of every pattern.
-    patterns: Vec<(Signal, HashSet<u64>)>,
+    /// Of each sensor that is there and moves.
+    content: Vec<(Signal, Fingerprint)>,
 }
 
 impl Drive {
     fn of(read: &Read) -> Self {
-        let recording: &Recording = &read.recording;
-        let of = |signal: Signal| {
-            let values = recording.get(signal)?.values();
-            let moves = |w: &&[f64]| w.iter().any(|x| *x != w[0]);
-            let hash = |w: &[f64]| {
-                let mut hasher = DefaultHasher::new();
-                for x in w {
-                    x.to_bits().hash(&mut hasher);
-                }
-                hasher.finish()
-            };
-            Some((signal, values.windows(PATTERN).filter(moves).map(hash).collect()))
-        };
-        Self { name: recording.name().to_owned(), patterns: SENSORS.into_iter().filter_map(of).collect() }
+        let long = |signal: Signal| read.recording.get(signal).filter(|channel| channel.len() >= LEAST);
+        let of = |signal: Signal| Some((signal, Fingerprint::of_channel(long(signal)?)));
+        let content = SENSORS.into_iter().filter_map(of).filter(|(_, print)| !print.says_nothing()).collect();
+        Self { name: read.recording.name().to_owned(), content }
     }
 
-    /// Whether one of both is the other, or a part of it, by the first sensor that both have.
+    /// Whether one of both is the other, or a part of it, by every sensor that both have.
     fn is(&self, other: &Self) -> bool {
-        let both = self.patterns.iter().find_map(|(signal, own)| {
-            let theirs = &other.patterns.iter().find(|(of, _)| of == signal)?.1;
-            (own.len().min(theirs.len()) >= LEAST).then_some((own, theirs))
-        });
-        both.is_some_and(|(own, theirs)| {
-            let shared = own.intersection(theirs).count() as f64;
-            shared >= SAME * own.len().min(theirs.len()) as f64
-        })
+        let theirs = |signal: Signal| other.content.iter().find(|(of, _)| *of == signal).map(|(_, print)| print);
+        let mut shares = self.content.iter().filter_map(|(signal, own)| Some(own.shared(theirs(*signal)?))).peekable();
+        shares.peek().is_some() && shares.all(|share| share >= SAME)
     }
 }

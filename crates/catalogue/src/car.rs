@@ -270,6 +270,20 @@ pub const CAR_CLOCK_DELAY: CauseSpec = CauseSpec {
     resembles: "steering_delay with drive_lag; gyro_delay",
 };
 
+/// The clocks of car and pose run at unlike rates.
+pub const CAR_CLOCK_RATE: CauseSpec = CauseSpec {
+    id: "car_clock_rate",
+    name: "clocks of car and pose run at unlike rates",
+    robots: ROBOTS,
+    meaning: "The clock of the car's channels is slow or fast against that of the pose, and may have started apart from it; or both \
+              logs were joined by hand.",
+    size: "share by which the car's clock is slow; below zero it is fast",
+    unit: "-",
+    recognised: "Gyro and encoder agree with the pose once the car's time is shifted and stretched",
+    revealed_by: "long drives with turns and stops",
+    resembles: "nothing else: a delay does not grow",
+};
+
 /// Scale of the gyro.
 pub const GYRO_SCALE: CauseSpec = CauseSpec {
     id: "car_gyro_scale",
@@ -338,7 +352,7 @@ pub const ENCODER_DELAY: CauseSpec = CauseSpec {
 };
 
 /// All of them, from the command to the report.
-pub const ALL: [&CauseSpec; 25] = [
+pub const ALL: [&CauseSpec; 26] = [
     &STEERING_COMMAND_GAIN,
     &STEERING_CENTRE,
     &STEERING_MAP,
@@ -359,6 +373,7 @@ pub const ALL: [&CauseSpec; 25] = [
     &TRACKED_POINT,
     &TRACKED_AXES,
     &CAR_CLOCK_DELAY,
+    &CAR_CLOCK_RATE,
     &GYRO_SCALE,
     &GYRO_BIAS,
     &GYRO_DELAY,

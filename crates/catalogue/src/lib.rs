@@ -62,6 +62,16 @@ pub fn find(name: &str) -> Option<Entry> {
     Some(Entry { id, effect, cause })
 }
 
+/// A label of a verdict for people: an id, `radius_of_one_wheel (left)`, as its name; anything else as it is.
+pub fn for_people(label: &str) -> String {
+    let (id, place) = label.split_at(label.find(' ').unwrap_or(label.len()));
+    match find(id).map(|entry| entry.label()) {
+        // Some names begin with their id.
+        Some(name) if !label.starts_with(name) => format!("{name}{place}"),
+        _ => label.to_owned(),
+    }
+}
+
 /// Whether an effect needs a hand on the robot: its mass, motors and wheels do not change by themselves, and nothing hangs
 /// itself on its hitch.
 pub fn needs_a_hand(id: &str) -> bool {

@@ -63,3 +63,14 @@ fn every_term_of_the_load_has_its_one_effect() {
         assert_eq!(effects().filter(|e| e.load_term == Some(term)).count(), 1, "{term:?}");
     }
 }
+
+#[test]
+fn labels_are_names_for_people() {
+    assert_eq!(catalogue::for_people("radius_of_one_wheel (left)"), "radius of one wheel (left)");
+    assert_eq!(catalogue::for_people("clock_rate"), "clocks of counts and pose run at unlike rates");
+    // What is a name already stays as it is.
+    for entry in catalogue::names().filter_map(catalogue::find) {
+        assert_eq!(catalogue::for_people(entry.label()), entry.label());
+        assert_eq!(catalogue::for_people(&format!("{}: left", entry.label())), format!("{}: left", entry.label()));
+    }
+}

@@ -5,7 +5,7 @@ use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::settings::SETTINGS;
 use crate::telling::{Found, free_runs};
-use catalogue::odometry::RADIUS_OF_ALL_WHEELS;
+use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
 use verdict::Diagnosis;
 
 /// The verdict of findings, with the forecasts of sessions that were left out.
@@ -24,15 +24,15 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     };
     let mut out = found.verdict(table.by_session.iter().flat_map(of_session).collect());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
-    out.sentences = sentences(findings, &out, has_references);
-    out.sentences.extend(found.causes(RADIUS_OF_ALL_WHEELS.id, &out.free_runs));
+    out.sentences = sentences(findings, &found, &out, has_references);
+    out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));
     out
 }
 
-fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<String> {
+fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
     let stated = if has_references { "the references" } else { "the robot file" };
     let mut text = Vec::new();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
@@ -49,11 +49,10 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
             text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
         }
         Answer::Named => {
-            let labels: Vec<&str> = findings.named.iter().map(|c| c.spec.name).collect();
             text.push(format!(
                 "Wheels and pose disagree by more than {stated} leaves open: {} (window errors fall from {given:.1} over \
                  {tuned:.1} re-tuned to {best:.1} % of the motion).",
-                labels.join("; ")
+                found.names()
             ));
         }
         Answer::Unknown => text.push(format!(

@@ -13,6 +13,9 @@ pub struct Cause {
     pub of: Option<String>,
     /// Directions in which it moves the constants: weights by constant; each with its usual size, one sigma.
     pub directions: Vec<(Vec<(usize, f64)>, f64)>,
+    /// The constant, of those that it moves, that cannot be negative if this is the cause: a share that slip loses. Not those
+    /// that grow with a speed: below zero they forecast one of four open robots better than nothing does, whatever they stand for.
+    pub at_least_zero: Option<usize>,
 }
 
 impl Cause {
@@ -21,11 +24,14 @@ impl Cause {
         self.of.as_ref().map_or_else(|| self.spec.id.to_owned(), |of| format!("{} ({of})", self.spec.id))
     }
 
-    /// Indices of the constants that it moves, each once.
+    /// Indices of the constants that it moves, each once, the one first whose value is its size.
     pub fn moves(&self) -> Vec<usize> {
-        let mut out: Vec<usize> = self.directions.iter().flat_map(|(d, _)| d.iter().map(|(k, _)| *k)).collect();
-        out.sort_unstable();
-        out.dedup();
+        let mut out: Vec<usize> = Vec::new();
+        for k in self.directions.iter().flat_map(|(d, _)| d.iter().map(|(k, _)| *k)) {
+            if !out.contains(&k) {
+                out.push(k);
+            }
+        }
         out
     }
 }
@@ -37,7 +43,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
         (0..constants.len()).filter(|&k| matches!(constants[k].quantity, Quantity::Radius(_))).collect();
     let usual = radii.iter().map(|&k| constants[k].usual).fold(f64::INFINITY, f64::min);
     let all = (radii.iter().map(|&k| (k, 1.0)).collect(), usual);
-    out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all] });
+    out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all], at_least_zero: None });
 
     let measured = robot.measured();
     for (k, constant) in constants.iter().enumerate() {
@@ -63,9 +69,10 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             _ => None,
         };
         let direction = (vec![(k, 1.0)], constant.usual);
+        let is_loss = matches!(constant.quantity, Quantity::TurnSlip | Quantity::RollerSlip);
         match out.iter_mut().find(|cause| cause.spec == spec && of.is_none()) {
             Some(cause) => cause.directions.push(direction),
-            None => out.push(Cause { spec, of, directions: vec![direction] }),
+            None => out.push(Cause { spec, of, directions: vec![direction], at_least_zero: is_loss.then_some(k) }),
         }
     }
     // Clocks that run apart agree at some instant, which may be any.

@@ -12,7 +12,7 @@ use crate::error::OdometryError;
 use crate::findings::{Answer, Estimate, Findings, NamedCause};
 use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
-use crate::name::{Named, name};
+use crate::name::{Named, covariance, name_from};
 use crate::settings::SETTINGS;
 use crate::traces::trace;
 use crate::weigh::{Evidence, Posterior};
@@ -177,20 +177,30 @@ fn take_as_usual(constants: &mut [Constant], prior: &Prior, values: &[f64]) -> b
 /// What is known before the recordings if every cause may be there.
 fn wide(prior: &Prior, causes: &[Cause]) -> Prior {
     let every: Vec<usize> = (0..causes.len()).collect();
-    Prior { mean: prior.mean.clone(), covariance: crate::name::covariance(&prior.covariance, causes, &every) }
+    Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) }
 }
 
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
 fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
     let mut fit = fit(data, &wide(prior, causes), start)?;
-    let weighed = |fit: &Fit| {
+    let weighed = |fit: &Fit, from: &[usize]| {
         let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
-        name(&evidence, &prior.covariance, causes)
+        name_from(&evidence, &prior.covariance, causes, from)
     };
-    let first = weighed(&fit)?;
-    fit.theta = first.posterior.mean.iter().copied().collect();
-    fit.sessions = equations(data, &fit.theta, fit.scale);
-    let named = weighed(&fit)?;
+    let first = weighed(&fit, &[])?;
+    let set: Vec<usize> = first.chosen.iter().map(|c| c.cause).collect();
+    let [of_all, of_first] =
+        [&DVector::from_column_slice(&fit.theta), &first.posterior.mean].map(|at| share(data, at).1);
+    let mut theta: Vec<f64> = first.posterior.mean.iter().copied().collect();
+    // Equations about the fit of all causes lead astray where a constant is far off, and then from one equal answer to the other.
+    let is_astray = !set.is_empty() && of_first > SETTINGS.fitting.astray * of_all;
+    if is_astray {
+        let covariance = covariance(&prior.covariance, causes, &set);
+        theta = self::fit(data, &Prior { mean: prior.mean.clone(), covariance }, theta)?.theta;
+    }
+    fit.sessions = equations(data, &theta, fit.scale);
+    fit.theta = theta;
+    let named = weighed(&fit, if is_astray { &set } else { &[] })?;
     Some((fit, named))
 }
 

@@ -7,6 +7,7 @@
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
+//! * `alignment`: offset and rate of two devices' clocks by the speeds that both measure.
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables.
@@ -15,6 +16,7 @@
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
+pub mod alignment;
 mod answer;
 mod case;
 mod cause;

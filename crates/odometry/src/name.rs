@@ -6,6 +6,7 @@ use crate::cause::Cause;
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
 use inference::evidence::{is_within_odds, logistic};
+use inference::robust::normal_cdf;
 
 /// A cause with what speaks for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,16 +38,21 @@ pub struct Named {
 
 /// Names causes by evidence: one joins while its log odds pass the threshold, and leaves when it no longer earns its place.
 pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
+    name_from(evidence, known, causes, &[])
+}
+
+/// The same from causes that are there already.
+pub(crate) fn name_from(
+    evidence: &Evidence,
+    known: &DMatrix<f64>,
+    causes: &[Cause],
+    already: &[usize],
+) -> Option<Named> {
     let rules = SETTINGS.naming;
-    let score = |set: &[usize]| evidence.of(&covariance(known, causes, set)).unwrap_or(f64::NEG_INFINITY);
-    let mut set: Vec<usize> = Vec::new();
+    let score = |set: &[usize]| score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
+    let mut set: Vec<usize> = already.to_vec();
     let mut current = score(&set);
-    while set.len() < rules.most {
-        let open = (0..causes.len()).filter(|c| !set.contains(c));
-        let joined = open.map(|c| (score(&with(&set, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((best, cause)) = joined.filter(|(best, _)| best - current + rules.odds > rules.named) else { break };
-        set.push(cause);
-        current = best;
+    loop {
         // What joined may stand for what was there.
         while let Some((without, c)) = set
             .iter()
@@ -57,6 +63,14 @@ pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Opti
             set = less(&set, c);
             current = without;
         }
+        if set.len() >= rules.most {
+            break;
+        }
+        let open = (0..causes.len()).filter(|c| !set.contains(c));
+        let joined = open.map(|c| (score(&with(&set, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((best, cause)) = joined.filter(|(best, _)| best - current + rules.odds > rules.named) else { break };
+        set.push(cause);
+        current = best;
     }
 
     let mut chosen: Vec<Weighed> = Vec::new();
@@ -97,6 +111,28 @@ pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Opti
         placebo,
         rival,
     })
+}
+
+/// Evidence of a set of causes, nats; `None` where a constant that cannot be negative would be so by more than its sigma: about
+/// such a fit its other numbers mean nothing, whatever they gain. Of such constants the prior is the positive half of the Gaussian,
+/// which multiplies the evidence by `2 Φ(mean/σ)` of the posterior.
+fn score(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> Option<f64> {
+    let covariance = covariance(known, causes, set);
+    let gaussian = evidence.of(&covariance)?;
+    let halves: Vec<usize> = set.iter().filter_map(|&c| causes[c].at_least_zero).collect();
+    if halves.is_empty() {
+        return Some(gaussian);
+    }
+    let posterior = evidence.posterior(&covariance)?;
+    let mut of_halves = 0.0;
+    for k in halves {
+        let sigmas = posterior.mean[k] / posterior.covariance[(k, k)].sqrt();
+        if sigmas < -1.0 {
+            return None;
+        }
+        of_halves += (2.0 * normal_cdf(sigmas)).ln();
+    }
+    Some(gaussian + of_halves)
 }
 
 fn with(set: &[usize], cause: usize) -> Vec<usize> {

@@ -74,6 +74,8 @@
         rounds: usize = 4, "1", "guess; two are enough where nothing is an outlier";
         /// Logarithm of the change of the scale below which it is at rest.
         same_scale: f64 = 0.01, "1", "guess; a hundredth";
+        /// Remaining error with the named causes, over that with all, beyond which they are fitted anew from there.
+        astray: f64 = 1.5, "1", "guess; equations that hold leave as much";
     }
 
     /// Turning at which slip is half of what it becomes.

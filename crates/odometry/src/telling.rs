@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use crate::findings::{Answer, Estimate, NamedCause};
 use crate::settings::SETTINGS;
 use catalogue::answer::{NONE, UNKNOWN};
+use catalogue::for_people;
+use catalogue::odometry::{SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use inference::evidence::none_of;
 use inference::experiment::Standing;
 use inference::robust::NINETY;
@@ -79,7 +81,7 @@ impl Found<'_> {
         for (label, probability) in self.others.iter().map(|(label, p)| (label, p * trust)) {
             if probability >= SETTINGS.naming.listed {
                 let id = label.split(' ').next().unwrap_or(label);
-                out.push(Cause { name: label.clone(), ..Cause::plain(id, label, probability) });
+                out.push(Cause::plain(id, label, probability));
             }
         }
         let none = match self.answer {
@@ -95,9 +97,15 @@ impl Found<'_> {
         out
     }
 
-    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scale`: the effect whose size
-    /// is a factor on all counts, of which familiar values are told.
-    pub fn causes<'a>(&'a self, scale: &'a str, free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
+    /// Names of the named causes, with their places.
+    pub fn names(&self) -> String {
+        let names: Vec<String> = self.named.iter().map(|c| for_people(&c.label)).collect();
+        names.join("; ")
+    }
+
+    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scales`: the effects whose
+    /// size is a factor on counts, of which familiar values are told.
+    pub fn causes<'a>(&'a self, scales: &'a [&str], free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
         self.named.iter().enumerate().map(move |(k, named)| {
             let values = named.estimates.iter().map(|e| {
                 let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
@@ -105,12 +113,32 @@ impl Found<'_> {
             });
             let alike = match self.alike(k, free_runs) {
                 alike if alike.is_empty() => String::new(),
-                alike => format!("; these drives cannot tell it from {}", alike.join(", ")),
+                alike => {
+                    let names: Vec<String> = alike.iter().map(|label| for_people(label)).collect();
+                    format!("; these drives cannot tell it from {}", names.join(", "))
+                }
             };
-            let familiar = if named.spec.id == scale { familiar(named) } else { String::new() };
-            format!("{}: {}{familiar}{alike}.", named.label, values.collect::<Vec<_>>().join("; "))
+            let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
+            let gain = if gains(named) { NO_SLIP } else { "" };
+            let name = sentence_case(&for_people(&named.label));
+            format!("{name}: {}{familiar}{gain}{alike}.", values.collect::<Vec<_>>().join("; "))
         })
     }
+}
+
+/// What is said of a slip below zero.
+const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; it forecasts \
+                       these drives better, and what it stands for is not known";
+
+/// Whether a cause is a slip that would be a gain.
+fn gains(named: &NamedCause) -> bool {
+    [SLIP_WITH_TURNING.id, SLIP_WITH_SPEED.id].contains(&named.spec.id)
+        && named.estimates.first().is_some_and(|e| e.value < 0.0)
+}
+
+fn sentence_case(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn cause(named: &NamedCause) -> Cause {
@@ -153,7 +181,7 @@ fn number(e: &Estimate) -> String {
     format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
 }
 
-/// Tells a factor on all counts that is a familiar one.
+/// Tells a factor on counts that is a familiar one.
 fn familiar(named: &NamedCause) -> String {
     let Some(first) = named.estimates.first() else { return String::new() };
     let factor = first.value / first.given;

@@ -9,10 +9,10 @@ const KINDS: [Kind; 4] = [Kind::Differential, Kind::Tricycle, Kind::Omni3, Kind:
 
 fn expected(hidden: Hidden) -> &'static str {
     match hidden {
-        Hidden::Nothing => "",
+        Hidden::Nothing | Hidden::GainInTurns => "",
         Hidden::OneRadius => "radius_of_one_wheel",
         Hidden::AllRadii | Hidden::DoubledCounts => "radius_of_all_wheels",
-        Hidden::Distance => "wheel_distance",
+        Hidden::Distance | Hidden::FarDistance => "wheel_distance",
         Hidden::SteeringZero => "steering_zero",
         Hidden::Mounting => "pose_mounting",
         Hidden::Origin => "pose_origin",
@@ -125,6 +125,29 @@ fn a_slip_that_is_whole_in_slow_turns_is_no_other_radius() {
         assert_eq!(named, ["slip_in_turns"], "{kind:?}");
         let rate = findings.named[0].estimates.iter().find(|e| e.unit == "rad/s").expect("a turning rate");
         assert!((rate.value - 0.015).abs() < rate.half_width, "{kind:?}: {rate:?}");
+    }
+}
+
+#[test]
+fn a_distance_that_is_far_off_is_found_where_it_is() {
+    for kind in KINDS {
+        let findings = found(&drawn(kind, Hidden::FarDistance, 4, 60.0, 57 + kind as u64));
+        let named: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+        let [given, _, best] = findings.shares;
+        assert_eq!((findings.answer, &*named), (Answer::Named, &["wheel_distance"][..]), "{kind:?}");
+        assert!(best < 0.1 * given, "{kind:?}: {:?}", findings.shares);
+    }
+}
+
+#[test]
+fn a_body_that_gets_ahead_of_its_wheels_is_no_slip() {
+    for kind in KINDS {
+        let findings = found(&drawn(kind, Hidden::GainInTurns, 4, 60.0, 91 + kind as u64));
+        let is_gain = |c: &&odometry::NamedCause| {
+            ["slip_in_turns", "roller_slip"].contains(&c.spec.id) && c.estimates[0].value < 0.0
+        };
+        let gains: Vec<&odometry::NamedCause> = findings.named.iter().filter(is_gain).collect();
+        assert!(gains.is_empty() && findings.answer != Answer::Nothing, "{kind:?}: {gains:?}");
     }
 }
 

@@ -6,6 +6,7 @@
 )]
 
 use crate::words::{free_runs as title_of_free_runs, is_no_cause, probability, size, where_and_when as place};
+use catalogue::for_people;
 use verdict::{Advice, Cause, Claim, Diagnosis};
 
 use crate::sections::{heading, listed};
@@ -61,7 +62,7 @@ fn causes(ranked: &[Cause]) -> String {
     let mut table = TextTable::new(&["cause", ">probability", "size (90 %)", "where and when"]);
     let shown = ranked.iter().filter(|c| c.probability >= SHOWN || is_no_cause(c));
     for c in shown.take(ROWS + 2) {
-        table.row([c.name.clone(), probability(c.probability), size(c).join(" ").trim().to_owned(), place(c)]);
+        table.row([for_people(&c.name), probability(c.probability), size(c).join(" ").trim().to_owned(), place(c)]);
     }
     format!("\n{}{}", heading("Causes"), table.render())
 }

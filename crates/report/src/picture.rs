@@ -1,5 +1,6 @@
 //! One picture of a diagnosis, as SVG: how probable the causes are, and how much better the corrected model forecasts.
 
+use catalogue::for_people;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use verdict::{Cause, Diagnosis, FreeRun};
@@ -121,7 +122,7 @@ impl Errors {
 }
 
 fn cause(root: &Area<'_>, c: &Cause, y: i32) -> Result<(), PictureError> {
-    let name = clip(&c.name, width(PANEL - NUMBERS, LABEL, LETTER));
+    let name = clip(&for_people(&c.name), width(PANEL - NUMBERS, LABEL, LETTER));
     text(root, &name, [MARGIN, y], LABEL, INK, HPos::Left)?;
     let p = c.probability.clamp(0.0, 1.0);
     let colour = if is_no_cause(c) { NO_CAUSE } else { CORRECTED };

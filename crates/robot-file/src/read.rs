@@ -58,6 +58,13 @@ impl RobotSpec {
         }
 
         let value: serde_json::Value = serde_json::from_str(text).map_err(|e| source.json(&e))?;
+        if ["format", "diagnosis"].iter().all(|key| value.get(key).is_some()) {
+            let message = format!(
+                "this is a verdict and no robot file; write its corrected robot with `lacuna export {file} --to toml -o robot.toml` \
+                 and give that"
+            );
+            return Err(RobotFileError::Syntax { place: Spot::file(file), message });
+        }
         let full = ["parameters", "name", "causality"].iter().any(|key| value.get(key).is_some());
         if full {
             let parsed: File = serde_json::from_str(text).map_err(|e| source.json(&e))?;

@@ -185,4 +185,10 @@ mod tests {
         let e = RobotSpec::parse("r.toml", &wrong).expect_err("refused").to_string();
         assert!(e.contains("takes no number `Tc`") && e.contains("Tb"), "{e}");
     }
+
+    #[test]
+    fn a_verdict_in_the_place_of_a_robot_file_is_told_with_the_way_to_its_robot() {
+        let e = RobotSpec::parse("v.json", "{ \"format\": 4, \"diagnosis\": {} }").expect_err("refused").to_string();
+        assert!(e.contains("verdict") && e.contains("lacuna export v.json --to toml -o robot.toml"), "{e}");
+    }
 }

@@ -27,14 +27,14 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     };
     let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
-    out.sentences = sentences(findings, &out, has_references);
-    out.sentences.extend(found.causes(ENCODER_SCALE.id, &out.free_runs));
+    out.sentences = sentences(findings, &found, &out, has_references);
+    out.sentences.extend(found.causes(&[ENCODER_SCALE.id], &out.free_runs));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, table, has_references));
     out
 }
 
-fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<String> {
+fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
     let stated = if has_references { "the references" } else { "the robot file" };
     let mut text = Vec::new();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
@@ -51,11 +51,10 @@ fn sentences(findings: &Findings, out: &Diagnosis, has_references: bool) -> Vec<
             text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
         }
         Answer::Named => {
-            let labels: Vec<&str> = findings.named.iter().map(|c| c.spec.name).collect();
             text.push(format!(
                 "The car moves otherwise than throttle and steering imply, by more than {stated} leaves open: {} (errors after a \
                  second fall from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
-                labels.join("; ")
+                found.names()
             ));
         }
         Answer::Unknown if findings.is_scattered => text.push(format!(

@@ -15,7 +15,9 @@ pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
         let direction = (vec![(k, 1.0)], constant.usual);
         match out.iter_mut().find(|cause| cause.spec == constant.cause) {
             Some(cause) => cause.directions.push(direction),
-            None => out.push(Cause { spec: constant.cause, of: None, directions: vec![direction] }),
+            None => {
+                out.push(Cause { spec: constant.cause, of: None, directions: vec![direction], at_least_zero: None });
+            }
         }
     }
     out

@@ -1,9 +1,12 @@
 //! From a case to what was found.
 
+use std::borrow::Cow;
+
 use odometry::weighing::{Posterior, Weighed};
 use odometry::{Answer, Estimate, NamedCause};
 
 use crate::case::Case;
+use crate::clock::{self, Apart};
 use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
@@ -13,6 +16,7 @@ use crate::model::{Laws, STEP};
 use crate::settings::SETTINGS;
 use crate::solve::{Solved, solve};
 use crate::traces::predicted;
+use catalogue::car::CAR_CLOCK_DELAY;
 use inference::robust::NINETY;
 use verdict::{PredictedPath, Trace};
 
@@ -47,6 +51,8 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings with a pose beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// Usual offset, s, and rate of the car's clock, where they were measured before the fit.
+    pub(crate) clock: Option<[f64; 2]>,
     /// Re-tuned, with the named causes.
     pub(crate) laws: [Laws; 2],
 }
@@ -55,7 +61,12 @@ impl Findings {
     /// The pose of a drive from throttle and steering alone, on the grid of the model.
     pub fn predict(&self, drive: &Drive) -> PredictedPath {
         let [retuned, corrected] = &self.laws;
-        let (corrected, retuned) = (predicted(corrected, drive), predicted(retuned, drive));
+        let retuned = predicted(retuned, drive);
+        let mut in_time = Cow::Borrowed(drive);
+        if let Some(clock) = self.clock {
+            in_time.to_mut().set_clock(clock);
+        }
+        let corrected = predicted(corrected, &in_time);
         let time = (0..corrected.len()).map(|k| drive.start + STEP * k as f64).collect();
         PredictedPath { name: drive.name.clone(), time, corrected, retuned }
     }
@@ -70,10 +81,11 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, CarErr
         return Err(CarError::Empty);
     }
     progress("fitting the car to its drives");
+    let (case, apart) = clock::joined(case);
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let solved = solve(&case.car, &case.references, &all)?;
     progress("naming what would make them agree");
-    Ok(findings(case, &solved))
+    Ok(findings(&case, &solved, apart.as_ref()))
 }
 
 /// The same with the forecasts of drives that are left out in turn, from one fit.
@@ -85,12 +97,13 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
         return Err(CarError::Empty);
     }
     progress("fitting the car to its drives");
+    let (case, apart) = clock::joined(case);
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let solved = solve(&case.car, &case.references, &all)?;
-    Ok((findings(case, &solved), left_out_of(&solved, progress)))
+    Ok((findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress)))
 }
 
-fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
+fn findings(case: &Case, solved: &Solved<'_>, apart: Option<&Apart>) -> Findings {
     let Solved { data, causes, prior, fit, named } = solved;
     let estimates = |posterior: &Posterior| -> Vec<Estimate> {
         data.constants.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
@@ -108,7 +121,11 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
             intervals: Vec::new(),
         }
     };
-    let named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
+    let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
+    if let Some(apart) = apart {
+        let rest = data.constants.iter().position(|c| c.cause == &CAR_CLOCK_DELAY);
+        apart.lead(&mut named_causes, rest.map(|k| &all[k]));
+    }
 
     let rules = SETTINGS.naming;
     let is_left =
@@ -135,7 +152,8 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
         others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
         unstated: data.constants.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
         constants: all,
-        rival: named.rival.map(|c| causes[c].label()),
+        // Of the clocks that were measured before the fit there is none.
+        rival: named.rival.filter(|_| apart.is_none()).map(|c| causes[c].label()),
         retuned,
         noise: fit.noise.sigma,
         scatter: fit.factor,
@@ -148,6 +166,7 @@ fn findings(case: &Case, solved: &Solved<'_>) -> Findings {
         ],
         told,
         traces: data.shown.iter().filter_map(|shown| solved.trace(shown, false)).collect(),
+        clock: apart.map(|apart| apart.usual),
         laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.constants, p.mean.as_slice())),
     }
 }

@@ -67,6 +67,13 @@ impl Command {
         self.sums[k] + (place - k as f64) * (self.sums[k + 1] - self.sums[k])
     }
 
+    /// The same command on another clock, which shows `time` as `start + pace time`.
+    fn retimed(&self, start: f64, pace: f64) -> Self {
+        let before = self.sum(start);
+        let sum = |step: usize| (self.sum(start + pace * STEP * step as f64) - before) / pace;
+        Self { sums: (0..self.sums.len()).map(sum).collect(), ends: self.ends }
+    }
+
     /// Mean over the step that begins at a time, s from the start of the drive.
     pub(crate) fn mean(&self, time: f64) -> f64 {
         (self.sum(time + STEP) - self.sum(time)) / STEP
@@ -192,6 +199,38 @@ impl Drive {
     /// From its first row to its last, s.
     pub fn duration(&self) -> f64 {
         STEP * self.steps as f64
+    }
+
+    /// Brings the car's channels to the pose's clock, which the car's is behind by `offset + rate t`.
+    pub(crate) fn set_clock(&mut self, [offset, rate]: [f64; 2]) {
+        let pace = 1.0 - rate;
+        self.steering = self.steering.retimed(-offset, pace);
+        self.throttle = self.throttle.retimed(-offset, pace);
+        for message in &mut self.messages {
+            message.time = (message.time + offset) / pace;
+        }
+    }
+
+    /// The same by a clock that was measured, with a sentence on it; the pose is taken as not seen where the car sent nothing.
+    pub(crate) fn correct_clock(&mut self, clock: [f64; 2]) {
+        let [offset, rate] = clock;
+        self.set_clock(clock);
+        let ends = [self.messages.first(), self.messages.last()].map(|m| m.map_or(0.0, |m| m.time));
+        for (step, pose) in self.pose.iter_mut().enumerate() {
+            let time = STEP * step as f64;
+            if time < ends[0] || time > ends[1] {
+                *pose = [f64::NAN; 3];
+            }
+        }
+        self.told.push(format!(
+            "recording '{}': by gyro and encoder beside the pose the car's channels are {:.2} s {} at the start and their clock is {:.2} % \
+             {}; they were brought to the pose's clock before the comparison",
+            self.name,
+            offset.abs(),
+            if offset < 0.0 { "late" } else { "early" },
+            100.0 * rate.abs(),
+            if rate < 0.0 { "fast" } else { "slow" }
+        ));
     }
 
     /// Steps of the grid.

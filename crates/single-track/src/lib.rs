@@ -3,6 +3,7 @@
 //! # Files
 //!
 //! * `car`, `constants`, `constant_table`, `laws`: a car as its owner states it, and the constants on which its motion depends.
+//! * `clock`: clocks of car and pose that start or run apart.
 //! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
 //! * `model`: steering, drive, tyres and motion of the single-track car.
 //! * `rates`: velocities from poses.
@@ -18,6 +19,7 @@ mod answer;
 mod car;
 mod case;
 mod cause;
+mod clock;
 mod constant_table;
 mod constants;
 mod diagnose;

@@ -4,6 +4,20 @@
     /// Tuned numbers of the comparison of cars with the single-track model.
     pub(crate) struct Settings;
 
+    /// Clocks of car and pose that are farther apart than a fit finds. Grids and limits are those of wheel counts.
+    clock: Clock {
+        /// Delay up to which a fit finds it by itself.
+        apart: f64 = 0.4, "s", "guess; the fit is linear over the time in which a car turns in";
+        /// Longest time between messages that a line bridges.
+        held: f64 = 0.3, "s", "guess; three messages at 10 Hz";
+        /// What offsets and rates of single drives are resolved to, one sigma.
+        resolution: [f64; 2] = [0.03, 3e-4], "s, 1", "guess; a third of the time between messages, over a minute and a half";
+        /// Sigmas from which a rate is one.
+        sure: f64 = 3.0, "1", "guess";
+        /// Probability of what is measured so.
+        probability: f64 = 0.99, "1", "guess; gyro and encoder agree with the pose by it, and with nothing else";
+    }
+
     /// Rows of a recording and the grid of the model.
     grid: Grid {
         /// Step of the model.

@@ -2,8 +2,8 @@
 
 mod drawn;
 
-use drawn::{Hidden, case, columns};
-use single_track::{Answer, CORRECTED, Columns, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
+use drawn::{Hidden, car, case, columns};
+use single_track::{Answer, CORRECTED, Case, Columns, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
 
 fn found(hidden: Hidden, seed: u64) -> Findings {
     diagnose(&case(hidden, seed), &|_| {}).expect("an answer")
@@ -126,4 +126,48 @@ fn columns_in_other_units_or_with_another_sign_are_refused_by_name() {
     let mut gear = right;
     gear.encoder.iter_mut().for_each(|v| *v *= 2.0);
     assert!(Drive::new("gear", &gear).is_ok());
+}
+
+/// Drives whose pose is that of `(1 + rate) t + offset` at each time: the car's clock is fast by the rate, its channels late.
+fn apart(hidden: Hidden, [offset, rate]: [f64; 2], seed: u64) -> Vec<Drive> {
+    let drive = |k: u64| {
+        let mut columns = columns(hidden, seed + k);
+        let (time, pose) = (columns.time.clone(), columns.pose.clone());
+        let step = time[1] - time[0];
+        let at = |t: f64| {
+            let row = ((1.0 + rate) * t + offset) / step;
+            let (before, share) = (row.floor(), row - row.floor());
+            let inside = before >= 0.0 && before + 1.0 < pose.len() as f64;
+            let between = |k: usize, axis: usize| pose[k][axis] + share * (pose[k + 1][axis] - pose[k][axis]);
+            if inside { [0, 1, 2].map(|axis| between(before as usize, axis)) } else { [f64::NAN; 3] }
+        };
+        columns.pose = time.iter().map(|t| at(*t)).collect();
+        Drive::new(&format!("run-{k}"), &columns).expect("a drive")
+    };
+    (0..3).map(drive).collect()
+}
+
+#[test]
+fn clocks_of_car_and_pose_that_are_far_apart_are_told_with_their_sizes() {
+    let centre = Hidden { centre: 0.05, ..Hidden::default() };
+    let of = |references: Vec<Drive>, recordings: Vec<Drive>| {
+        diagnose(&Case { car: car(), references, recordings }, &|_| {}).expect("an answer")
+    };
+    for (clocks, id, size) in [
+        ([0.0, 0.03], "car_clock_rate", -0.03),
+        ([2.0, -0.02], "car_clock_rate", 0.02),
+        ([-1.5, 0.0], "car_clock_delay", -1.5),
+    ] {
+        let findings = of(Vec::new(), apart(centre, clocks, 5));
+        let [first, second] = [0, 1].map(|k| findings.named.get(k).map_or("", |c| c.spec.id));
+        assert_eq!((first, second), (id, "steering_centre"), "{clocks:?}");
+        let told = &findings.named[0].estimates[0];
+        assert!((told.value - size).abs() < told.half_width.max(0.06 * size.abs()), "{clocks:?}: {told:?}");
+        assert!(findings.told.iter().any(|t| t.contains("brought to the pose's clock")), "{:?}", findings.told);
+    }
+    // What references show as well is not what differs.
+    let clocks = [0.0, 0.03];
+    let findings = of(apart(Hidden::default(), clocks, 15), apart(centre, clocks, 5));
+    let named: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+    assert_eq!(named, ["steering_centre"]);
 }

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use verdict::{Load, Loads, Quantity, Ratio};
 
 use crate::pieces;
-use crate::settings::{MEASURING, NAMING, measuring::Ratios};
+use crate::settings::{MEASURING, NAMING, measuring::Ratios, measuring::Scatter};
 use inference::robust::NINETY;
 
 const RATIOS: Ratios = MEASURING.ratios;
+const SCATTER: Scatter = MEASURING.scatter;
 
 /// A reference value of a quantity: logarithm (or value), its standard error, its speeds.
 #[derive(Debug, Clone)]
@@ -47,6 +48,16 @@ pub(crate) fn judgement(r: &Ratio) -> Judgement {
 /// The ratio, or difference, of what is alike.
 pub(crate) fn no_difference(quantity: Quantity) -> f64 {
     if quantity.is_difference() { 0.0 } else { 1.0 }
+}
+
+/// Scatter of a quantity from run to run, one sigma on the scale on which it is compared.
+pub(crate) fn scatter(quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::StraightLoad => SCATTER.straight,
+        Quantity::EffectiveTrack => SCATTER.track,
+        Quantity::Asymmetry => SCATTER.asymmetry,
+        Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => SCATTER.turning,
+    }
 }
 
 /// How many sigmas a ratio is away from no difference.
@@ -92,7 +103,7 @@ pub(crate) fn references(loads: &[Load]) -> Vec<Reference> {
             let (mut w, mut sum, mut speed) = (0.0, 0.0, [0.0; 2]);
             for l in list {
                 let (centre, error) = scaled(l);
-                let weight = 1.0 / (error.powi(2) + quantity.scatter().powi(2));
+                let weight = 1.0 / (error.powi(2) + scatter(quantity).powi(2));
                 w += weight;
                 sum += weight * centre;
                 speed[0] += weight * l.speed[0];
@@ -122,7 +133,7 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
             && loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad);
         let Some((r, other)) = matching(l, references).filter(|_| !parted) else { continue };
         let (centre, error) = scaled(l);
-        let e = (error.powi(2) + l.quantity.scatter().powi(2) + r.error.powi(2)).sqrt();
+        let e = (error.powi(2) + scatter(l.quantity).powi(2) + r.error.powi(2)).sqrt();
         singles.push(ratio(l.recording.clone(), l, centre - r.centre, e, other));
         groups.entry(l.quantity).or_default().push((l, r, other));
     }
@@ -134,16 +145,16 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
         let n = list.len() as f64;
 
         let d: Vec<f64> = list.iter().map(|(l, r, _)| scaled(l).0 - r.centre).collect();
-        let w: Vec<f64> = list.iter().map(|(l, ..)| 1.0 / (scaled(l).1.powi(2) + quantity.scatter().powi(2))).collect();
+        let w: Vec<f64> = list.iter().map(|(l, ..)| 1.0 / (scaled(l).1.powi(2) + scatter(quantity).powi(2))).collect();
         let total: f64 = w.iter().sum();
         let mean = d.iter().zip(&w).map(|(d, w)| d * w).sum::<f64>() / total;
         let sd = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
         // Recordings that differ by more than the usual scatter are not one load.
-        if sd > RATIOS.most_spread * quantity.scatter() {
+        if sd > RATIOS.most_spread * scatter(quantity) {
             continue;
         }
 
-        let sd = sd.max(quantity.scatter());
+        let sd = sd.max(scatter(quantity));
         let inverse: f64 = list.iter().map(|(l, ..)| scaled(l).1.powi(-2)).sum();
         let reference = list.iter().map(|(_, r, _)| r.error).fold(0.0, f64::max);
         let e = (sd * sd / n + 1.0 / inverse + reference.powi(2)).sqrt();
@@ -231,7 +242,7 @@ mod tests {
         // Two on the same ground, one on another: nothing is pooled.
         let (singles, pooled) = pooled(&[40.0, 41.0, 60.0]);
         assert_eq!((singles.len(), pooled.len()), (3, 0));
-        let scatter = Quantity::StraightLoad.scatter();
+        let scatter = scatter(Quantity::StraightLoad);
         let (_, pooled) = self::pooled(&[40.0, 40.0 * (2.7 * scatter).exp()]);
         assert_eq!(pooled.len(), 1, "a spread below twice the scatter of runs is one load");
     }
@@ -255,5 +266,16 @@ mod tests {
         let (_, other) = matching(&load("r", Quantity::StraightLoad, 1.0, 0.8), alone).expect("a reference");
         assert!(other);
         assert!(matching(&load("r", Quantity::SpinSum, 1.0, 0.8), &refs).is_none());
+    }
+
+    #[test]
+    fn runs_scatter_more_the_more_the_ground_and_the_drive_train_have_to_do_with_a_quantity() {
+        use Quantity::{ArcSum, Asymmetry, EffectiveTrack, SpinSum, StraightLoad, TurningLoad};
+        let [track, straight, turning, asymmetry] =
+            [EffectiveTrack, StraightLoad, TurningLoad, Asymmetry].map(super::scatter);
+        assert!(0.0 < track && track < straight && straight < turning && turning < asymmetry);
+        assert_eq!([ArcSum, SpinSum].map(super::scatter), [turning; 2], "turning dominates the sums");
+        // Seen between runs on one floor: 1 % (straight), 4 to 5 % (turning); a side keeps up to a fifth of its load.
+        assert!(straight > 0.01 && (0.05..0.1).contains(&turning) && asymmetry < 0.2);
     }
 }

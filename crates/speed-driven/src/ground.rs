@@ -10,6 +10,7 @@ use robot_model::Robot;
 use robot_model::effects::{rolling_resistance, turning_resistance};
 use verdict::Quantity;
 
+use crate::compare::scatter;
 use crate::model::{Operating, predicted};
 use crate::name::Difference;
 use crate::settings::NAMING;
@@ -37,7 +38,7 @@ pub(crate) struct Track {
 impl Track {
     /// From the differences that are tracks; `None` without any.
     pub(crate) fn of(differences: &[&Difference]) -> Option<Self> {
-        let scatter = Quantity::EffectiveTrack.scatter();
+        let scatter = scatter(Quantity::EffectiveTrack);
         let weight = |d: &Difference| 1.0 / (d.here.error.powi(2) + scatter.powi(2));
         let total: f64 = differences.iter().map(|d| weight(d)).sum();
         if differences.is_empty() {

@@ -14,6 +14,7 @@ use robot_model::effects::grade;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::Quantity;
 
+use crate::compare::scatter;
 use crate::ground::{self, Track};
 use crate::model::{Measured, Operating, Tuned, predicted, sensitivity};
 use crate::settings::NAMING;
@@ -141,7 +142,7 @@ fn covariance(d: &[Difference], robot: &Robot<f64>, sigma: &[f64; NUISANCES], ca
         let same = x.here.at.quantity == y.here.at.quantity;
         let mut c = tuning[(a, b)];
         if a == b {
-            c += x.here.error.powi(2) + x.here.at.quantity.scatter().powi(2);
+            c += x.here.error.powi(2) + scatter(x.here.at.quantity).powi(2);
         }
         if same && x.reference.value == y.reference.value {
             c += x.reference.error.powi(2);

@@ -11,6 +11,7 @@ use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::{Advice, Contender, Course, Manoeuvre, Quantity, WIDENING};
 
+use crate::compare::scatter;
 use crate::settings::{NAMING, naming::NextDrive};
 use crate::{Named, Naming, Operating, Tuned, predicted, sensitivity};
 use inference::advice::{LEAST_BITS, among, nothing_to_split, sorted};
@@ -138,7 +139,7 @@ fn doubt(at: &[Operating], by_constants: &Mat<f64>, calibrated: &Tuned) -> Mat<f
     let unnamed = (NAMING.priors.unnamed_straight.ln() / NINETY).powi(2);
     let straight = |o: &Operating| o.quantity == Quantity::StraightLoad;
     Mat::from_fn(at.len(), at.len(), |a, b| {
-        let own = if a == b { at[a].quantity.scatter().powi(2) + NEXT.measured.powi(2) } else { 0.0 };
+        let own = if a == b { scatter(at[a].quantity).powi(2) + NEXT.measured.powi(2) } else { 0.0 };
         own + tuning[(a, b)] + if straight(&at[a]) && straight(&at[b]) { unnamed } else { 0.0 }
     })
 }
@@ -196,7 +197,7 @@ fn views(model: &Robot<f64>, at: &[Operating], doubt: &Mat<f64>, rivals: &[Rival
 /// The load in which two rivals differ most.
 fn why(at: &[Operating], model: &Robot<f64>, k: &Rival<'_>, l: &Rival<'_>) -> String {
     let (a, b) = (loads(model, at, k.named), loads(model, at, l.named));
-    let far = |i: usize| ((a[i] - b[i]) / at[i].quantity.scatter()).abs();
+    let far = |i: usize| ((a[i] - b[i]) / scatter(at[i].quantity)).abs();
     let Some(i) = (0..at.len()).max_by(|i, j| far(*i).total_cmp(&far(*j))) else { return String::new() };
     let quantity = at[i].quantity;
     let how = if quantity.is_difference() {

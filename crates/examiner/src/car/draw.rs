@@ -47,6 +47,8 @@ struct Sensors {
     point: [f64; 2],
     axes: f64,
     clock: f64,
+    /// By how much later the car's channels come with every second.
+    clock_rate: f64,
     gyro_scale: f64,
     gyro_bias: f64,
     gyro_delay: f64,
@@ -117,6 +119,7 @@ fn stated(s: &mut Stream) -> Whole {
         point: [wheelbase * s.uniform(0.0, 0.6), 0.0],
         axes: 0.0,
         clock: 0.0,
+        clock_rate: 0.0,
         gyro_scale: 1.0,
         gyro_bias: 0.0,
         gyro_delay: 0.0,
@@ -154,6 +157,10 @@ fn of_drive(whole: &Whole, s: &mut Stream) -> Whole {
     out.car.dry *= 1.0 + s.normal(0.05);
     out.sensors.gyro_bias += s.normal(0.002);
     out.sensors.clock += s.normal(0.002);
+    // Two devices are started by hand, one after the other.
+    if out.sensors.clock_rate != 0.0 {
+        out.sensors.clock += s.uniform(-1.0, 1.0);
+    }
     if let Some(tyres) = &mut out.car.tyres {
         tyres.friction *= 1.0 + s.normal(0.02);
     }
@@ -234,6 +241,12 @@ fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stre
             sensors.clock = s.uniform(0.08, 0.25);
             note("clock", sensors.clock);
         }
+        CarHidden::ClockRate => {
+            sensors.clock = s.uniform(-1.0, 1.0);
+            sensors.clock_rate = s.sign() * s.uniform(0.01, 0.03);
+            // The car's clock shows `t` at `t - (clock + clock_rate t)` of the pose's.
+            note("clock_rate", 1.0 - 1.0 / (1.0 - sensors.clock_rate));
+        }
         CarHidden::GyroScale => {
             sensors.gyro_scale *= 1.0 + s.sign() * s.uniform(0.1, 0.3);
             note("gyro_scale", sensors.gyro_scale);
@@ -306,7 +319,8 @@ fn sheet(whole: &Whole, every: usize, s: &mut Stream) -> String {
     for k in (0..steps).step_by(every) {
         let time = STEP * k as f64;
         // What the car says in this row is of so long ago; the pose is of now.
-        let then = before(k, sensors.clock);
+        let late = sensors.clock + sensors.clock_rate * time;
+        let then = before(k, late);
         let command = given[then - then % every];
         let now = &motions[k];
         let (sin, cos) = now.yaw.sin_cos();
@@ -314,8 +328,8 @@ fn sheet(whole: &Whole, every: usize, s: &mut Stream) -> String {
         let x = now.x + cos * px - sin * py + s.normal(noise[0]);
         let y = now.y + sin * px + cos * py + s.normal(noise[0]);
         let yaw = (now.yaw + sensors.axes + s.normal(noise[1]) + PI).rem_euclid(TAU) - PI;
-        let gyro = sensors.gyro_scale * at(k, sensors.clock + sensors.gyro_delay).rate + sensors.gyro_bias;
-        let speed = sensors.encoder_scale * at(k, sensors.clock + sensors.encoder_delay).speed;
+        let gyro = sensors.gyro_scale * at(k, late + sensors.gyro_delay).rate + sensors.gyro_bias;
+        let speed = sensors.encoder_scale * at(k, late + sensors.encoder_delay).speed;
         let [gyro, speed] = [gyro + s.normal(noise[2]), speed + s.normal(noise[3])];
         let [throttle, steering] = command;
         let _ = writeln!(out, "{time:.4},{throttle:.4},{steering:.4},{x:.5},{y:.5},{yaw:.5},{gyro:.4},{speed:.4}");

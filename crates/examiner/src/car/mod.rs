@@ -45,6 +45,8 @@ pub enum CarHidden {
     TrackedAxes,
     /// All channels of the car are late.
     ClockDelay,
+    /// The car's clock is slow or fast, and started apart from that of the pose.
+    ClockRate,
     /// The gyro shows another scale.
     GyroScale,
     /// The gyro shows turning at rest.
@@ -59,7 +61,7 @@ pub enum CarHidden {
 
 impl CarHidden {
     /// All.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::SteeringGain,
         Self::SteeringCentre,
         Self::SteeringBend,
@@ -75,6 +77,7 @@ impl CarHidden {
         Self::TrackedPoint,
         Self::TrackedAxes,
         Self::ClockDelay,
+        Self::ClockRate,
         Self::GyroScale,
         Self::GyroBias,
         Self::GyroDelay,
@@ -100,6 +103,7 @@ impl CarHidden {
             Self::TrackedPoint => "tracked point",
             Self::TrackedAxes => "tracked axes",
             Self::ClockDelay => "delay of the car's clock",
+            Self::ClockRate => "rate of the car's clock",
             Self::GyroScale => "scale of the gyro",
             Self::GyroBias => "bias of the gyro",
             Self::GyroDelay => "delay of the gyro",
@@ -119,7 +123,7 @@ pub struct CarTruth {
     /// Whether the tyres give way, so that slip and limit are both there.
     pub has_tyres: bool,
     /// Numbers of what is hidden, SI, by what they are: `gain`, `centre`, `delay`, `lag`, `rate` (s/rad), `play`, `wheelbase`,
-    /// `front_compliance`, `rear_compliance`, `drive`, `dead_zone`, `point_x`, `point_y`, `axes`, `clock`, `gyro_scale`,
+    /// `front_compliance`, `rear_compliance`, `drive`, `dead_zone`, `point_x`, `point_y`, `axes`, `clock`, `clock_rate`, `gyro_scale`,
     /// `gyro_bias`, `gyro_delay`, `encoder_scale`, `encoder_delay`.
     pub numbers: BTreeMap<String, f64>,
 }
@@ -179,8 +183,8 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_in_turn() {
-        let all = CarPlan::set(1, 160);
-        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 40);
+        let all = CarPlan::set(1, 168);
+        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 42);
         for hidden in CarHidden::ALL {
             assert!(all.iter().filter(|p| p.hidden.contains(&hidden)).count() >= 6, "{hidden:?}");
         }

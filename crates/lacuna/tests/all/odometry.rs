@@ -102,7 +102,7 @@ fn a_wheel_that_is_too_large_is_named_with_its_radius() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--json", "out.json"]);
     assert_eq!(run.code(), Some(0), "{}", run.err());
-    for part in ["radius_of_one_wheel", "scale of the pose", "from counts alone", "OptiOdom"] {
+    for part in ["radius of one wheel (right)", "scale of the pose", "from counts alone", "OptiOdom"] {
         assert!(run.out().contains(part), "no `{part}` in {}", run.out());
     }
     let json: Value = serde_json::from_str(&bench.read("out.json")).unwrap();

@@ -58,6 +58,10 @@ pub(crate) enum Hidden {
     SlipInTurns,
     /// The same, whole in slow turns already.
     SlipInSlowTurns,
+    /// Wheels are much nearer to each other than stated.
+    FarDistance,
+    /// No slip does that: the body gets ahead of its wheels in turns.
+    GainInTurns,
     ClockOffset,
     ClockRate,
     LostCounts,
@@ -156,6 +160,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         // As many counts are recorded as the file says edges are twice: the body moves half as far per count.
         Hidden::DoubledCounts => truth.radius.iter_mut().for_each(|r| *r *= 0.5),
         Hidden::Distance => truth.base *= 1.0 + sign * draw.between(0.08, 0.2),
+        Hidden::FarDistance => truth.base *= 0.7,
         Hidden::SteeringZero => truth.steering = sign * draw.between(0.06, 0.12),
         Hidden::Mounting => truth.mounting = sign * draw.between(0.025, 0.08),
         Hidden::Origin => truth.origin = [sign * draw.between(0.02, 0.06), 0.0],
@@ -164,6 +169,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
             truth.slip = draw.between(0.06, 0.12);
             truth.slip_rate = 0.015;
         }
+        Hidden::GainInTurns => truth.slip = -draw.between(0.03, 0.08),
         Hidden::ClockOffset => truth.offset = sign * draw.between(0.15, 0.4),
         Hidden::ClockRate => truth.rate = sign * draw.between(0.01, 0.025),
         Hidden::LostCounts => truth.lost = Some((draw.uniform() * measured as f64) as usize % measured),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use catalogue::for_people;
 use verdict::{Cause, Diagnosis};
 
 use crate::page::Page;
@@ -39,7 +40,7 @@ pub(super) fn add(page: &mut Page, d: &Diagnosis) {
 fn apart(d: &Diagnosis) -> Option<String> {
     let names = |class: &Vec<String>| {
         let name = |id: &String| {
-            d.ranked.iter().find(|c| c.effect == *id).map_or_else(|| id.replace('_', " "), |c| c.name.clone())
+            d.ranked.iter().find(|c| c.effect == *id).map_or_else(|| for_people(id), |c| for_people(&c.name))
         };
         class.iter().map(name).collect::<Vec<_>>().join(", ")
     };
@@ -64,7 +65,7 @@ fn bars(causes: &[&Cause]) -> String {
         let _ = writeln!(
             out,
             "<li{class}><b>{}</b><span class=\"p\">{}</span><span class=\"bar\"><i style=\"width:{percent:.2}%\"></i></span>{more}</li>",
-            escape(&c.name),
+            escape(&for_people(&c.name)),
             probability(c.probability)
         );
     }

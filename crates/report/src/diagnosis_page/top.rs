@@ -1,5 +1,6 @@
 //! The verdict, and the picture that convinces.
 
+use catalogue::for_people;
 use verdict::{Compared, Diagnosis, FreeRun, Trace};
 
 use super::recordings::{plot, rms};
@@ -65,13 +66,13 @@ fn facts(d: &Diagnosis) -> String {
         let [value, interval] = size(c);
         let p = format!("probability {}", probability(c.probability));
         if value.is_empty() || is_no_cause(c) {
-            facts.add("", &c.name, &probability(c.probability), "probability");
+            facts.add("", &for_people(&c.name), &probability(c.probability), "probability");
         } else {
             let class = d.indistinguishable.iter().find(|class| class.len() > 1 && class.contains(&c.effect));
             let class = class.map_or_else(String::new, |l| format!("cannot be told from {} others", l.len() - 1));
             let parts = [p, interval, where_and_when(c), class];
             let parts: Vec<String> = parts.into_iter().filter(|s| !s.is_empty()).collect();
-            facts.add("", &c.name, &value, &parts.join(", "));
+            facts.add("", &for_people(&c.name), &value, &parts.join(", "));
         }
     }
     if let Some(q) = quantities(&d.free_runs).first() {
