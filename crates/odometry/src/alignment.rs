@@ -6,12 +6,12 @@ use crate::settings::{Clock, SETTINGS};
 
 const RULES: Clock = SETTINGS.clock;
 
-/// Speed, m/s, and turning rate, rad/s, of a path on a grid of [`Clock::step`] from its first row on.
+/// Speed, m/s, and turning rate, rad/s, of a path on a grid of 0.2 s from its first row on (`step` of the settings of clocks).
 pub fn speeds(time: &[f64], pose: &[[f64; 3]]) -> Vec<Option<[f64; 2]>> {
     on_grid(time, pose, RULES.step)
 }
 
-/// The same on a grid of [`Clock::fine`], to be looked up at any instant.
+/// The same on a grid of 0.02 s (`fine`), to be looked up at any instant.
 pub fn fine_speeds(time: &[f64], pose: &[[f64; 3]]) -> Vec<Option<[f64; 2]>> {
     on_grid(time, pose, RULES.fine)
 }
