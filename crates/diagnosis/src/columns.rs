@@ -6,13 +6,13 @@
 
 use std::array::from_fn;
 
-use recordings::{Recording, Signal};
+use recordings::{Recording, Signal, parse_unit};
 use robot_model::Robot;
 
 use crate::grid::slope;
 use crate::settings::{Columns, SETTINGS};
 use inference::DiagnosisError;
-use inference::robust::mean;
+use inference::robust::{mean, median};
 
 mod motion;
 
@@ -29,7 +29,7 @@ pub(crate) fn consistent(recording: &Recording, robot: &Robot<f64>) -> Result<()
     let found = mirrored_pose(recording, robot, &motion)
         .or_else(|| opposed_gyro(recording, robot, &motion))
         .or_else(|| wheels(recording, robot, &motion))
-        .or_else(|| commands(recording, &motion))
+        .or_else(|| commands(recording, robot, &motion))
         .or_else(|| torques(recording, robot, &motion))
         .or_else(|| forces(recording, robot, &motion));
     match found {
@@ -160,6 +160,30 @@ impl Mistake {
     }
 }
 
+/// By which factor columns in another unit are too large.
+enum Factors {
+    /// About one of these: nothing else is as far off.
+    OneOf(Vec<f64>),
+    /// Any, but set-points may be much larger than what is delivered: too large are only those beyond this limit.
+    Beyond(f64),
+}
+
+impl Factors {
+    /// Of speeds of wheels in rpm, degrees and turns per second, and metres per second.
+    fn of_speeds(robot: &Robot<f64>) -> Self {
+        let units = ["rpm", "deg/s", "rev/s"].into_iter().filter_map(parse_unit).map(|unit| 1.0 / unit.factor);
+        Self::OneOf(units.chain([robot.wheel_radius]).collect())
+    }
+
+    /// Whether columns with this largest value may be too large by this ratio.
+    fn explain(&self, ratio: f64, largest: f64) -> bool {
+        match self {
+            Self::OneOf(factors) => factors.iter().any(|f| (ratio / f).ln().abs() < COLUMNS.near.ln()),
+            Self::Beyond(limit) => ratio < 1.0 || largest > *limit,
+        }
+    }
+}
+
 /// Two columns and what the other channels say that they must show.
 struct Compared<'a> {
     recording: &'a Recording,
@@ -170,8 +194,10 @@ struct Compared<'a> {
     by: &'static str,
     /// Root mean square of [`Self::expected`] below which nothing is said.
     least: f64,
-    /// What units these columns may be in.
+    /// What to do about columns in another unit.
     units: &'static str,
+    /// By which factor columns may be too large.
+    factors: Factors,
 }
 
 impl Compared<'_> {
@@ -201,7 +227,9 @@ impl Compared<'_> {
         let [shown, expected] = [self.shown, self.expected].map(|[left, right]| combined(0.5, left, 0.5, right));
         let found = likeness(&shown, &expected, self.least)?;
         let ratio = found.ratio;
-        let clear = found.cosine > COLUMNS.alike && ratio.ln().abs() > COLUMNS.unit.ln();
+        let sizes = self.shown.iter().flatten().filter(|v| v.is_finite()).map(|v| v.abs());
+        let is_other = self.factors.explain(ratio, sizes.fold(0.0, f64::max));
+        let clear = found.cosine > COLUMNS.alike && ratio.ln().abs() > COLUMNS.unit.ln() && is_other;
         clear.then(|| {
             format!(
                 "{} follow {}, but with {ratio:.4} times its size: {}",
@@ -226,8 +254,8 @@ fn wheels(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
         let expected = [-1.0, 1.0].map(|side| combined(1.0 / r, &forward, side * robot.half_track / r, turn));
         let (by, least) = ("the motion of the pose", COLUMNS.moving / r);
         let (shown, expected) = (speeds, &expected);
-        let units = UNITS_OF_SPEED;
-        return Compared { recording, signals: *signals, shown, expected, by, least, units }.contradiction();
+        let (units, factors) = (UNITS_OF_SPEED, Factors::of_speeds(robot));
+        return Compared { recording, signals: *signals, shown, expected, by, least, units, factors }.contradiction();
     }
     // Without a pose the difference of the sides must turn the body, and not their sum.
     let lever = r / (2.0 * robot.half_track);
@@ -257,7 +285,7 @@ fn wheels(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
             named(recording, signals[side])
         ));
     }
-    (by_difference.cosine > COLUMNS.opposite && by_difference.ratio > COLUMNS.unit).then(|| {
+    (by_difference.cosine > COLUMNS.opposite && by_difference.ratio > COLUMNS.turned_unit).then(|| {
         format!(
             "{} turn the body at {:.1} times the rate that {gyro} shows: {UNITS_OF_SPEED}",
             both(recording, *signals),
@@ -267,15 +295,16 @@ fn wheels(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
 }
 
 /// Set speeds that the wheels do not follow as they are mapped.
-fn commands(recording: &Recording, motion: &Motion) -> Option<String> {
+fn commands(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<String> {
     let (expected, wheels) = motion.wheels.as_ref()?;
     let shown = motion.commands.as_ref()?;
     let signals = [Signal::CommandSpeedLeft, Signal::CommandSpeedRight];
     if *wheels == signals {
         return None;
     }
-    let (by, least, units) = ("the wheels' measured speeds", COLUMNS.turning, UNITS_OF_SPEED);
-    Compared { recording, signals, shown, expected, by, least, units }.contradiction()
+    let (by, least) = ("the wheels' measured speeds", COLUMNS.turning);
+    let (units, factors) = (UNITS_OF_SPEED, Factors::of_speeds(robot));
+    Compared { recording, signals, shown, expected, by, least, units, factors }.contradiction()
 }
 
 /// Torques that do not drive the wheels of their side.
@@ -287,7 +316,8 @@ fn torques(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option
     let (by, least) = ("the torque that the robot of the file needs for the motion of its wheels", dry_friction(robot));
     let units = "write the factor that makes it N m at the wheels in the mapping (1 N m is 0.1020 kgf m; a torque at the \
                  motor times the gear ratio is one at the wheels)";
-    Compared { recording, signals, shown, expected, by, least, units }.contradiction()
+    let factors = Factors::Beyond(COLUMNS.over_limit * robot.drive.limit);
+    Compared { recording, signals, shown, expected, by, least, units, factors }.contradiction()
 }
 
 /// Dry friction of a side's drive, N m: with less torque nothing drives.
@@ -344,7 +374,7 @@ fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
             format!("{x} shows the push of turns, and {y} does not"),
             format!("the sensor is mounted turned by a right angle: exchange the two in the mapping{sign}"),
         )
-    } else if left.cosine > COLUMNS.alike && left.ratio < 1.0 / COLUMNS.unit {
+    } else if left.cosine > COLUMNS.alike && is_in_g(recording, left.ratio) {
         let remedy = "it may be in g: if so, write `unit = \"g\"` for all accelerations in the mapping";
         (format!("{y} shows {:.3} times the push of turns", left.ratio), remedy.to_owned())
     } else {
@@ -354,6 +384,13 @@ fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
         "{shows}, by the speed of the wheels times the yaw rate (cosine {:.2} for accel_x, {:.2} for accel_y); {remedy}",
         along.cosine, left.cosine
     ))
+}
+
+/// Whether a specific force that is too small by this ratio is in units of gravity: an upward accelerometer does not show otherwise.
+fn is_in_g(recording: &Recording, ratio: f64) -> bool {
+    let Some(g) = parse_unit("g").map(|unit| unit.factor) else { return false };
+    let up = recording.get(Signal::AccelZ).and_then(|channel| median(channel.values().iter().copied()));
+    up.is_none_or(|up| up < g / COLUMNS.unit) && (ratio * g).ln().abs() < COLUMNS.near.ln()
 }
 
 #[cfg(test)]

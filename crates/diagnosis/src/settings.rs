@@ -77,6 +77,12 @@
         turned: f64 = 3.0, "1", "guess; wheels that are pushed aside turn up to twice as much as the body";
         /// Factor from which a column is in another unit.
         unit: f64 = 5.0, "1", "guess; the factors of wrong units are 6.3 (turns), 9.5 (rpm), 9.8 (kgf m), 57 (degrees), those of faults below 3";
+        /// Factor within which a ratio is that of a unit.
+        near: f64 = 1.3, "1", "guess; slip and another radius";
+        /// Factor on the torque limit beyond which a torque is in another unit: set-points beyond it are only limited.
+        over_limit: f64 = 1.5, "1", "guess";
+        /// Factor from which wheels turn in another unit where only a gyro tells: a robot that is stuck turns a tenth of what they ask.
+        turned_unit: f64 = 40.0, "1", "guess; degrees per second are 57 times radians";
     }
 
     /// Recordings with fewer rows.

@@ -122,7 +122,10 @@ fn wheels_are_held_against_the_gyro_where_there_is_no_pose() {
     let left = &WHEELS[..1];
     tells(&exchanged(without(&POSE), WHEELS), "turn the body to the other side", "exchange left and right");
     tells(&scaled(without(&POSE), left, -1.0), "their difference does not", "`sign = -1` for wheel_speed_left");
-    tells(&scaled(without(&POSE), &WHEELS, 9.549), "times the rate", "rpm");
+    tells(&scaled(without(&POSE), &WHEELS, 57.3), "times the rate", "deg/s");
+    // A robot that is stuck turns a tenth of what its wheels ask.
+    let measured_alone = without(&[&POSE[..], &COMMANDS, &TORQUES, &FORCES].concat());
+    assert_eq!(told(&scaled(measured_alone, &WHEELS, 10.0)), None);
 }
 
 #[test]
@@ -139,7 +142,17 @@ fn torques_are_held_against_the_motion_of_the_wheels() {
     tells(&exchanged(without(&[]), TORQUES), "the robot of the file needs", "exchange torque_left");
     tells(&scaled(without(&[]), &TORQUES[1..], -1.0), "needs", "`sign = -1` for torque_right");
     tells(&scaled(without(&[]), &TORQUES, -1.0), "needs", "torque_left (column 'torque_left_Nm') and torque_right");
-    tells(&scaled(without(&[]), &TORQUES, 9.81), "times its size", "kgf m");
+    tells(&scaled(without(&[]), &TORQUES, 100.0), "times its size", "kgf m");
+    tells(&scaled(without(&[]), &TORQUES, 0.102), "times its size", "kgf m");
+    // Set-points may be far beyond what a limit lets through.
+    let limit = robot().drive.limit;
+    let mut limited = scaled(without(&[]), &TORQUES, 100.0);
+    for (_, samples) in limited.iter_mut().filter(|(signal, _)| TORQUES.contains(signal)) {
+        for sample in samples.iter_mut() {
+            sample.1 = sample.1.clamp(-limit, limit);
+        }
+    }
+    assert_eq!(told(&limited), None);
 }
 
 #[test]
@@ -154,5 +167,9 @@ fn a_gyro_and_a_pose_are_held_against_each_other() {
 fn accelerometers_are_held_against_the_push_of_turns() {
     tells(&scaled(without(&[]), &FORCES, -1.0), "pushes inward", "for it and for accel_x");
     tells(&exchanged(without(&[]), FORCES), "turned by a right angle", "exchange the two");
-    tells(&scaled(without(&[]), &FORCES, 1.0 / 9.81), "times the push of turns", "unit = \"g\"");
+    let in_g = scaled(without(&[]), &FORCES, 1.0 / 9.81);
+    tells(&in_g, "times the push of turns", "unit = \"g\"");
+    // An upward accelerometer in m/s² shows that the wheels are off, and not the unit.
+    let with_gravity = [in_g, vec![(Signal::AccelZ, samples(ROWS, |_| 9.8))]].concat();
+    assert_eq!(told(&with_gravity), None);
 }
