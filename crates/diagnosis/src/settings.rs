@@ -57,6 +57,8 @@
     columns: Columns {
         /// Time between rows on which channels are compared.
         step: f64 = 0.2, "s", "guess; two samples of a pose at 10 Hz, and shorter than an acceleration";
+        /// Time between samples, in the mean, from which a channel shows no motion: a state every two seconds.
+        sparse: f64 = 0.5, "s", "guess; half of the shortest manoeuvre";
         /// Fewest rows that can show a contradiction.
         rows: usize = 25, "1", "guess; 5 s";
         /// Cosine from which two signals are alike.

@@ -38,7 +38,8 @@ impl Motion {
         let count = ((until_ns - from_ns) as f64 / step_ns).max(0.0) as usize;
         let rows = |channel: &Channel| binned(channel, from_ns, step_ns, count);
 
-        let value = |signal: Signal| recording.get(signal).map(rows);
+        let dense = |signal: Signal| recording.get(signal).filter(|channel| is_dense(channel));
+        let value = |signal: Signal| dense(signal).map(rows);
         let rate = |signal: Signal| Some(slope(&value(signal)?, COLUMNS.step));
         let turned = |channel: &Channel| {
             let clock = channel.clock();
@@ -60,7 +61,7 @@ impl Motion {
             commands,
             torques: both(&value, [Signal::TorqueLeft, Signal::TorqueRight]),
             gyro: value(Signal::GyroZ),
-            heading: recording.get(Signal::PoseYaw).and_then(turned),
+            heading: dense(Signal::PoseYaw).and_then(turned),
             travel: both(&rate, [Signal::PoseX, Signal::PoseY]),
             force: both(&value, [Signal::AccelX, Signal::AccelY]),
         }
@@ -71,6 +72,12 @@ impl Motion {
         let ([x, y], [heading, _]) = (self.travel.as_ref()?, self.heading.as_ref()?);
         Some((0..x.len()).map(|k| x[k] * heading[k].cos() + y[k] * heading[k].sin()).collect())
     }
+}
+
+/// Whether samples stand so near to each other that turns show between them; the others' rates are no rates.
+fn is_dense(channel: &Channel) -> bool {
+    let span = channel.span_ns().map_or(0, |(from, until)| until - from) as f64 * 1e-9;
+    span <= COLUMNS.sparse * channel.len() as f64
 }
 
 /// `factor a + other b`, row by row.

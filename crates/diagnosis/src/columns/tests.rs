@@ -173,3 +173,12 @@ fn accelerometers_are_held_against_the_push_of_turns() {
     let with_gravity = [in_g, vec![(Signal::AccelZ, samples(ROWS, |_| 9.8))]].concat();
     assert_eq!(told(&with_gravity), None);
 }
+
+#[test]
+fn a_state_every_two_seconds_contradicts_nothing() {
+    let mut sparse = scaled(without(&TORQUES), &[Signal::GyroZ], -1.0);
+    for (_, samples) in &mut sparse {
+        *samples = samples.iter().step_by(200).copied().collect();
+    }
+    assert_eq!(told(&sparse), None);
+}
