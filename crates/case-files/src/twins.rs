@@ -7,7 +7,7 @@ use recordings::{Fingerprint, Read, Signal};
 
 use crate::case_folder::{CaseFolder, FOLDERS};
 
-/// Samples of a sensor that tell a drive, at least.
+/// Samples of a sensor that tell a drive, at least: half a second of a simulation's log (guess).
 const LEAST: usize = 50;
 /// Share of a sensor's content that two recordings of one drive have in common: the fingerprint's share is known to 3 %.
 const SAME: f64 = 0.9;

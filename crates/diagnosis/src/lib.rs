@@ -12,8 +12,8 @@
 //! * `long/*`: long recordings: screened once by weak form (`law`, `rows`, `thin`), of which the
 //!   minutes that differ most from the references are kept (`pool`) for a diagnosis.
 //! * `possible`: values that no robot of the file can show, and the unit that would explain them.
-//! * `columns`, `columns/motion`: columns that are exchanged, of the other sign or in another unit, by what the other
-//!   channels say that they must show.
+//! * `columns`: columns that are exchanged, of the other sign or in another unit, by what the other channels say that they
+//!   must show (`columns/motion`), and both sides against that (`columns/sides`).
 //! * `grid`: samples of a channel on rows of equal distance.
 //! * `visits`: which drives are of one day, place and load, by when they were started.
 //! * `settings`: every tuned number, with unit and source.

@@ -71,8 +71,6 @@
         turning: f64 = 0.05, "rad/s", "guess; five times the noise of a gyro";
         /// Speed below which nothing is said of directions.
         moving: f64 = 0.05, "m/s", "guess; noise of a pose over two rows";
-        /// Speed of wheels over which friction changes its sign.
-        rolling: f64 = 0.3, "rad/s", "guess; as in the grid of long recordings";
         /// Specific force below which, in the root mean square, nothing is said of accelerometers.
         pushed: f64 = 0.1, "m/s²", "guess; noise of an accelerometer over a row";
         /// How much more the sum of the sides would turn the body than it turns, where one side has the wrong sign.

@@ -127,8 +127,8 @@ impl Found<'_> {
 }
 
 /// What is said of a slip below zero.
-const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; it forecasts \
-                       these drives better, and what it stands for is not known";
+const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; look at \
+                       track, tyres and clocks";
 
 /// Whether a cause is a slip that would be a gain.
 fn gains(named: &NamedCause) -> bool {

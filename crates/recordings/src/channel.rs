@@ -144,3 +144,15 @@ impl Channel {
         Some((*self.t_ns.first()?, *self.t_ns.last()?))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_lose_their_jumps() {
+        let channel = Channel::new(Signal::PoseYaw, 0, vec![0, 1, 2], vec![3.0, -3.0, -2.9]).expect("a channel");
+        let turned = channel.unwrapped();
+        assert!((turned[2] - turned[0] - (std::f64::consts::TAU - 5.9)).abs() < 1e-12, "{turned:?}");
+    }
+}

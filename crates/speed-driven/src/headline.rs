@@ -183,18 +183,19 @@ fn standing(all: &[Standstill]) -> Vec<String> {
 /// The causes that the loads name, and what tells the members of a class apart.
 fn named(d: &Diagnosis) -> Vec<String> {
     let of_loads = |class: &&Vec<String>| class.iter().all(|id| *id != catalogue::speed_driven::STANDING.id);
+    let of = |id: &String| d.ranked.iter().find(|c| c.effect == *id);
     let mut out = Vec::new();
     for class in d.indistinguishable.iter().filter(of_loads) {
-        let sized = |id: &String| {
-            let Some(cause) = d.ranked.iter().find(|c| c.effect == *id) else { return id.clone() };
-            let size = quantity(cause);
-            // Said once, behind the last one.
-            let size = size.trim_end_matches(NINETY_PER_CENT);
-            if size.is_empty() { cause.name.clone() } else { format!("{} by {size}", cause.name) }
+        let sizes: Vec<String> = class.iter().map(|id| of(id).map_or_else(String::new, quantity)).collect();
+        // Said once, behind the last one.
+        let interval = if sizes.iter().any(|size| size.ends_with(NINETY_PER_CENT)) { NINETY_PER_CENT } else { "" };
+        let sized = |(name, size): (String, &String)| match size.trim_end_matches(NINETY_PER_CENT) {
+            "" => name,
+            size => format!("{name} by {size}"),
         };
-        let sized: Vec<String> = class.iter().map(sized).collect();
+        let sized: Vec<String> = names(d, class).into_iter().zip(&sizes).map(sized).collect();
         let tail = if sized.len() > 1 { "; these recordings cannot tell which" } else { "" };
-        out.push(format!("Missing: {}{NINETY_PER_CENT}{tail}.", any_of(&sized)));
+        out.push(format!("Missing: {}{interval}{tail}.", any_of(&sized)));
         out.extend(apart(class));
     }
     out
