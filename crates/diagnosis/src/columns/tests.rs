@@ -145,8 +145,8 @@ fn torques_are_held_against_the_motion_of_the_wheels() {
     tells(&scaled(without(&[]), &TORQUES, 100.0), "times its size", "kgf m");
     tells(&scaled(without(&[]), &TORQUES, 0.102), "times its size", "kgf m");
     // Set-points may be far beyond what a limit lets through.
-    let limit = robot().drive.limit;
-    let mut limited = scaled(without(&[]), &TORQUES, 100.0);
+    let limit = 1.4 * robot().drive.limit;
+    let mut limited = scaled(without(&[]), &TORQUES, 12.0);
     for (_, samples) in limited.iter_mut().filter(|(signal, _)| TORQUES.contains(signal)) {
         for sample in samples.iter_mut() {
             sample.1 = sample.1.clamp(-limit, limit);
