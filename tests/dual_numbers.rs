@@ -81,13 +81,13 @@ fn end<T: Scalar>(by: By, d: T) -> [T; 8] {
     let mut velocity = [real::<T>(0.5), real(0.02)];
     start.yaw_rate = real(0.2);
     start.wheel_speed = [real(5.0), real(5.5)];
-    start.front_speed = start.wheel_speed;
+    start.passive = start.wheel_speed;
     match by {
         By::Constant(i) => (tunables::<T>()[i].apply)(&mut robot, d),
         By::Start(2) => start.yaw_rate += d,
         By::Start(3) => {
             start.wheel_speed[0] += d;
-            start.front_speed[0] += d;
+            start.passive[0] += d;
         }
         By::Start(i) => velocity[i] += d,
         By::Command(j) => command[j] += d,

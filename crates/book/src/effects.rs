@@ -113,6 +113,7 @@ fn section(out: &mut String, spec: &EffectSpec, effects: &[&EffectSpec]) {
     let lines = [
         ("One sees", spec.seen.to_owned()),
         ("Looked for", forms.join("; ") + sign),
+        ("On", spec.on().to_owned()),
         ("Axes", spec.axes.join(", ")),
         ("Matters from", interest),
         ("Revealed by", spec.revealed_by.to_owned()),

@@ -7,7 +7,7 @@
 use std::array::from_fn;
 
 use recordings::{Recording, Signal, parse_unit};
-use robot_model::Robot;
+use robot_model::{Chassis, Robot};
 
 use crate::grid::slope;
 use crate::settings::{Columns, SETTINGS};
@@ -190,9 +190,14 @@ fn torque_of_motion(robot: &Robot<f64>, speeds: &Sides) -> Sides {
     let rates: Sides = from_fn(|side| slope(&speeds[side], COLUMNS.step));
     let turn = turn_of_wheels(robot, speeds);
     let (along, about) = (robot.mass * r * r / 4.0, robot.yaw_inertia * (r / robot.half_track).powi(2) / 4.0);
-    let of_wheels = robot.motor_inertia + 2.0 * robot.wheel_inertia;
+    let of_wheels = robot.side_inertia();
     let weight = robot.mass * robot.gravity;
-    let scrub = robot.adhesion * robot.lateral_factor * weight * robot.half_wheelbase * r / (2.0 * robot.half_track);
+    let scrub = match robot.chassis {
+        Chassis::SkidSteer => {
+            robot.adhesion * robot.lateral_factor * weight * robot.half_wheelbase * r / (2.0 * robot.half_track)
+        }
+        Chassis::Differential => 0.0,
+    };
     from_fn(|side| {
         let (own, other) = (&rates[side], &rates[1 - side]);
         let aside = if side == 0 { -scrub } else { scrub };

@@ -95,6 +95,7 @@ impl<'a> Draw<'a> {
             None => Constants::nominal(seed, settings.class, law),
             Some(mass) => Constants::of_mass(seed, mass, law),
         };
+        let nominal = if settings.casters { nominal.on_casters(seed) } else { nominal };
         let recordings = settings.recordings.unwrap_or(3 + s.index(2));
         let drives = kinds(&mut s, settings.references.max(1));
         Ok(Self {
@@ -210,7 +211,8 @@ impl<'a> Draw<'a> {
     fn causes(&self) -> Vec<Cause> {
         let mut s = Stream::new(self.seed, "causes", 0);
         let mut any = |physical: bool| {
-            let all: Vec<_> = EffectId::ALL.into_iter().filter(|e| !physical || !e.is_sensor()).collect();
+            let all: Vec<_> =
+                EffectId::of(self.settings.casters).into_iter().filter(|e| !physical || !e.is_sensor()).collect();
             all[s.index(all.len())]
         };
         match &self.settings.content {
@@ -227,7 +229,8 @@ impl<'a> Draw<'a> {
             }
             Content::Outsider(kind) => vec![Cause::Outsider(*kind)],
             Content::AnyOutsider => {
-                vec![Cause::Outsider(Outsider::ALL[s.index(Outsider::ALL.len())])]
+                let all = Outsider::of(self.settings.casters);
+                vec![Cause::Outsider(all[s.index(all.len())])]
             }
         }
     }

@@ -182,7 +182,8 @@ impl Controller {
             heading,
             sums: [0.0; 2],
             radius: c.radius,
-            arm: 1.5 * c.half_track,
+            // Four wheels slide sideways when they turn, two do not.
+            arm: if c.casters.is_some() { c.half_track } else { 1.5 * c.half_track },
             gain: gain * (0.055 * c.torque_scale()),
             limit: c.torque_limit,
             friction: [c.coulomb[0], c.viscous[0]],

@@ -38,10 +38,11 @@ pub enum EffectId {
     GyroBias,
     GyroScale,
     EncoderDropout,
+    CasterDrag,
 }
 
 impl EffectId {
-    /// All of them.
+    /// Those of a robot on four wheels.
     pub const ALL: [Self; 23] = [
         Self::ViscousFriction,
         Self::Stiction,
@@ -67,6 +68,14 @@ impl EffectId {
         Self::GyroScale,
         Self::EncoderDropout,
     ];
+
+    /// Those that a robot on casters, or on four wheels, may have. Wheels that do not skid show next to nothing of
+    /// another lateral grip.
+    pub fn of(casters: bool) -> Vec<Self> {
+        let of_four = [Self::BeltLoss, Self::TurningResistance];
+        let on_casters = Self::ALL.into_iter().filter(|e| !of_four.contains(e)).chain([Self::CasterDrag]);
+        if casters { on_casters.collect() } else { Self::ALL.to_vec() }
+    }
 
     /// Whether it changes only what a sensor says.
     pub fn is_sensor(self) -> bool {
@@ -137,7 +146,9 @@ pub(crate) fn hide(id: EffectId, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidden)
         }
         EffectId::ComOffset => {
             let axis = s.index(2);
-            let size = z.draw(s, [0.15, 0.26, 0.46].map(|k| k * c.half_base), 0.5);
+            // On casters the room between what bears the robot is smaller.
+            let room = if c.casters.is_some() { 0.5 } else { 1.0 };
+            let size = room * z.draw(s, [0.15, 0.26, 0.46].map(|k| k * c.half_base), 0.5);
             h.centre[axis] = sign * size;
             e.axis = Some(["x", "y"][axis].to_owned());
             sign * size
@@ -245,6 +256,10 @@ pub(crate) fn hide(id: EffectId, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidden)
             sided(&mut e);
             h.frozen[side] = z.draw(s, [0.035, 0.07, 0.125], 0.6);
             h.frozen[side]
+        }
+        EffectId::CasterDrag => {
+            h.caster_drag = z.draw(s, [0.12, 0.2, 0.35], 0.45);
+            h.caster_drag
         }
     };
     e

@@ -52,6 +52,8 @@ pub(crate) struct Hidden {
     pub drift_time: f64,
     pub gyro_bias: f64,
     pub gyro_scale: f64,
+    /// Rolling resistance added to the casters.
+    pub caster_drag: f64,
     /// Fraction of rows with a frozen encoder.
     pub frozen: [f64; 2],
     pub laws: Laws,
@@ -128,6 +130,7 @@ impl Default for Hidden {
             drift_time: 6.0,
             gyro_bias: 0.0,
             gyro_scale: 0.0,
+            caster_drag: 0.0,
             frozen: [0.0; 2],
             laws: Laws::default(),
             foreign: Foreign::default(),

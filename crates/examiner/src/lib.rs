@@ -20,6 +20,7 @@
 
 pub mod car;
 mod case;
+mod casters;
 pub mod command;
 mod contact;
 mod course;

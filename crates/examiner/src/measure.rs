@@ -35,7 +35,7 @@ impl Draw<'_> {
                     without[j][c] += lacking[c] * lacking[c];
                 }
                 let Cause::Effect(id) = cause else { continue };
-                let Some(found) = presence(*id, h, run, self.row, [self.robot.half_base, self.robot.half_track]) else {
+                let Some(found) = presence(*id, h, run, self.row, &self.robot.wheels()) else {
                     continue;
                 };
                 let share: f64 = found.iter().map(|f| f[1] - f[0]).sum::<f64>();
@@ -94,8 +94,8 @@ pub(crate) fn note_coverage(effects: &mut [EffectTruth], runs: &[Run]) {
     }
 }
 
-/// When a local effect was present: while at least two wheels were inside, or from its instant on.
-fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64, half: [f64; 2]) -> Option<Vec<[f64; 2]>> {
+/// When a local effect was present: while at least half of the wheels were inside, or from its instant on.
+fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64, wheels: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
     let end = run.rows.len() as f64 * row;
     let disc = match id {
         EffectId::AdhesionPatch => h.ice?.0,
@@ -109,13 +109,12 @@ fn presence(id: EffectId, h: &Hidden, run: &Run, row: f64, half: [f64; 2]) -> Op
     let mut was = false;
     let clean = |t: f64| (t * 1000.0).round() / 1000.0;
     for (k, s) in run.seen.iter().enumerate() {
-        // The ground acts on wheels: it is there while at least two of them are on it.
+        // The ground acts on wheels: it is there while at least half of them are on it.
         let (sin, cos) = s.body[2].sin_cos();
         let on = |ahead: f64, left: f64| {
             disc.holds(s.body[0] + cos * ahead - sin * left, s.body[1] + sin * ahead + cos * left)
         };
-        let [a, b] = half;
-        let is = [on(a, b), on(a, -b), on(-a, b), on(-a, -b)].iter().filter(|&&on| on).count() >= 2;
+        let is = 2 * wheels.iter().filter(|[ahead, left]| on(*ahead, *left)).count() >= wheels.len();
         let now = clean(k as f64 * row);
         if is && !was {
             found.push([now, clean(end)]);
@@ -159,6 +158,7 @@ fn lacks(h: &Hidden, id: EffectId) -> Hidden {
         EffectId::GyroBias => out.gyro_bias = none.gyro_bias,
         EffectId::GyroScale => out.gyro_scale = none.gyro_scale,
         EffectId::EncoderDropout => out.frozen = none.frozen,
+        EffectId::CasterDrag => out.caster_drag = none.caster_drag,
     }
     out
 }

@@ -62,6 +62,11 @@ impl Outsider {
         Self::Ratchet,
     ];
 
+    /// Those that a robot on casters, or on four wheels, may have.
+    pub fn of(casters: bool) -> Vec<Self> {
+        Self::ALL.into_iter().filter(|kind| !casters || *kind != Self::ContactLoss).collect()
+    }
+
     /// Short, irregular events: sets draw them only when asked for.
     pub const EVENTS: [Self; 3] = [Self::TouchingBrake, Self::TorqueDropouts, Self::ContactLoss];
 

@@ -1,5 +1,6 @@
 //! The true robot: four wheels with carcasses, belts, bearings with presliding, lagged loads.
 
+use crate::casters::Casters;
 use crate::contact::Contact;
 use crate::events::{Events, inside};
 use crate::hidden::Hidden;
@@ -9,7 +10,8 @@ use crate::robot::{Constants, GRAVITY};
 pub(crate) const N: usize = 31;
 /// Places in a state: pose (3), velocity of the geometric centre in body axes and yaw rate (3),
 /// then by wheel (FL, RL, FR, RR) speed, angle, dry friction share, carcass deflection along and
-/// across, by side belt twist, and the lagged specific force (2) and the shifted cargo.
+/// across, by side belt twist, and the lagged specific force (2) and the shifted cargo. On casters FL and FR are these,
+/// and of them nothing but the angle counts.
 pub(crate) const VELOCITY: usize = 3;
 pub(crate) const YAW_RATE: usize = 5;
 pub(crate) const SPEED: usize = 6;
@@ -42,14 +44,14 @@ pub(crate) struct Moment {
 pub(crate) struct Plant {
     pub hidden: Hidden,
     c: Constants,
-    mass: f64,
+    pub(crate) mass: f64,
     inertia: f64,
-    height: f64,
+    pub(crate) height: f64,
     centre: [f64; 2],
     radius: [f64; 2],
     contact: Contact,
     /// Places of the wheels, ahead and to the left.
-    at: [[f64; 4]; 2],
+    pub(crate) at: [[f64; 4]; 2],
     /// Relative loss of friction per newton of load.
     load_loss: f64,
     per_presliding: f64,
@@ -70,7 +72,14 @@ impl Plant {
             centre: [0, 1].map(|i| c.centre[i] + hidden.centre[i]),
             radius: hidden.radius.map(|r| c.radius * (1.0 + r)),
             contact: Contact::new(c, hidden),
-            at: [[1.0, -1.0, 1.0, -1.0].map(|k| k * c.half_base), [1.0, 1.0, -1.0, -1.0].map(|k| k * c.half_track)],
+            at: match c.casters {
+                None => {
+                    [[1.0, -1.0, 1.0, -1.0].map(|k| k * c.half_base), [1.0, 1.0, -1.0, -1.0].map(|k| k * c.half_track)]
+                }
+                Some(Casters { places: [[x, y], [x2, y2]], .. }) => {
+                    [[x, 0.0, x2, 0.0], [y, c.half_track, y2, -c.half_track]]
+                }
+            },
             load_loss: c.load_loss / (0.25 * mass * GRAVITY),
             per_presliding: 1.0 / c.presliding,
             per_inertia: [1.0 / c.wheel_inertia, 1.0 / (c.wheel_inertia + c.motor_inertia)],
@@ -128,6 +137,9 @@ impl Plant {
         if self.rough_ground {
             self.ground(s, [sin, cos], &mut grip, &mut rolling);
         }
+        if c.casters.is_some() {
+            (grip[0], grip[2]) = (0.0, 0.0);
+        }
         let slip = [
             std::array::from_fn(|i| omega[i] * radius[i] - vx + w * self.at[1][i]),
             std::array::from_fn(|i| -vy - w * self.at[0][i]),
@@ -141,22 +153,32 @@ impl Plant {
         let mut force = [along.iter().sum::<f64>(), across.iter().sum::<f64>()];
         let mut moment: f64 =
             (0..4).map(|i| (self.at[0][i] - centre[0]) * across[i] - (self.at[1][i] - centre[1]) * along[i]).sum();
+        if let Some(casters) = &c.casters {
+            for k in 0..2 {
+                let push = self.push(casters, k, s, loads[2 * k], rolling[2 * k] - c.rolling);
+                d[ANGLE + 2 * k] = push.swing;
+                force = [force[0] + push.force[0], force[1] + push.force[1]];
+                moment += (push.at[0] - centre[0]) * push.force[1] - (push.at[1] - centre[1]) * push.force[0];
+            }
+        }
         let drive = self.belts(s, m, &mut d);
-        for i in 0..4 {
-            // Half of a side's friction sits at each wheel.
+        let driven = if c.casters.is_some() { [1, 3].as_slice() } else { &[0, 1, 2, 3] };
+        // Every wheel of a side bears its share of that side's friction.
+        let part = 2.0 / driven.len() as f64;
+        for i in driven.iter().copied() {
             let side = i / 2;
-            let mut dry = 0.5 * (c.coulomb[side] + h.coulomb[side] + m.coulomb).max(0.0);
+            let mut dry = part * (c.coulomb[side] + h.coulomb[side] + m.coulomb).max(0.0);
             if h.stiction > 0.0 {
-                dry += 0.5 * h.stiction * (-power((omega[i] / h.stribeck_speed).abs(), h.laws.stribeck)).exp();
+                dry += part * h.stiction * (-power((omega[i] / h.stribeck_speed).abs(), h.laws.stribeck)).exp();
             }
             if omega[i] < 0.0 {
-                dry += 0.5 * f.ratchet;
+                dry += part * f.ratchet;
             }
-            dry += 0.5 * m.touch[side];
+            dry += part * m.touch[side];
             dry += rolling[i] * loads[i] * radius[i];
             let share = s[DRY + i];
             d[DRY + i] = (omega[i] - omega[i].abs() * share) * self.per_presliding;
-            let viscous = 0.5 * (c.viscous[side] + h.viscous);
+            let viscous = part * (c.viscous[side] + h.viscous);
             let loss = dry * share + viscous * omega[i] + radius[i] * along[i];
             d[SPEED + i] = (drive[i] - loss) * self.per_inertia[i % 2];
             d[ANGLE + i] = omega[i];
@@ -213,6 +235,9 @@ impl Plant {
     /// Torques that reach the wheels through motors and belts; sets the rates of the belts.
     fn belts(&self, s: &State, m: &Moment, d: &mut State) -> [f64; 4] {
         let mut drive = [0.0; 4];
+        if self.c.casters.is_some() {
+            return [0.0, m.torque[0], 0.0, m.torque[1]];
+        }
         for side in 0..2 {
             let (front, rear) = (2 * side, 2 * side + 1);
             let play = s[SPEED + rear] - s[SPEED + front];
@@ -232,7 +257,10 @@ impl Plant {
         let quarter = 0.25 * self.mass;
         let pitch = (GRAVITY * centre[0] - s[LOAD] * self.height) / self.c.half_base;
         let roll = (GRAVITY * centre[1] - s[LOAD + 1] * self.height) / self.c.half_track;
-        let mut n = [pitch + roll, roll - pitch, pitch - roll, -pitch - roll].map(|x| quarter * (GRAVITY + x).max(0.0));
+        let mut n = match &self.c.casters {
+            None => [pitch + roll, roll - pitch, pitch - roll, -pitch - roll].map(|x| quarter * (GRAVITY + x).max(0.0)),
+            Some(casters) => self.loads_on_casters(casters, s, centre, [s[LOAD], s[LOAD + 1]]),
+        };
         if let Some(wheel) = m.lifted {
             // The wheel's share goes to the other wheel of its axle.
             let lost = 0.85 * n[wheel];
@@ -295,6 +323,14 @@ impl Plant {
             let [along, across] = self.contact.steady(slip, rolled.abs());
             s[ALONG + wheel] = along;
             s[ACROSS + wheel] = across;
+        }
+        if let Some(casters) = &self.c.casters {
+            for (k, [x, y]) in casters.places.into_iter().enumerate() {
+                // Long dragged along, and ahead where the robot stands.
+                let pivot = [seen[3] - seen[5] * y, seen[4] + seen[5] * x];
+                s[ANGLE + 2 * k] = if pivot == [0.0; 2] { 0.0 } else { pivot[1].atan2(pivot[0]) };
+                (s[SPEED + 2 * k], s[DRY + 2 * k], s[ALONG + 2 * k], s[ACROSS + 2 * k]) = (0.0, 0.0, 0.0, 0.0);
+            }
         }
         s[LOAD + 1] = seen[3] * seen[5];
         s[CARGO] = (seen[5] / 0.1).tanh();

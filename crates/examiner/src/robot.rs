@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::casters::Casters;
 use crate::random::Stream;
 use crate::{RobotClass, TyreLaw};
 
@@ -78,6 +79,8 @@ pub(crate) struct Constants {
     pub belt_stiffness: f64,
     pub belt_damping: f64,
     pub law: TyreLaw,
+    /// Casters, of a robot that stands on two driven wheels and these.
+    pub casters: Option<Casters>,
 }
 
 /// Rounded to five significant digits, as a data sheet has it.
@@ -164,7 +167,28 @@ impl Constants {
             belt_stiffness: 3.2 * mass * GRAVITY * radius * 2.0,
             belt_damping: 0.006 * mass * GRAVITY * radius,
             law,
+            casters: None,
         }
+    }
+
+    /// The same on two driven wheels and casters.
+    pub(crate) fn on_casters(self, seed: u64) -> Self {
+        let mut s = Stream::new(seed, "casters", 0);
+        let casters = Casters::draw(&mut s, self.half_track, self.radius, self.mass);
+        let casters = Casters {
+            places: casters.places.map(|place| place.map(digits)),
+            trail: digits(casters.trail),
+            rolling: digits(casters.rolling),
+            ..casters
+        };
+        let centre = [digits(casters.centre(&mut s)), 0.0];
+        Self { centre, casters: Some(casters), ..self }
+    }
+
+    /// Where the wheels stand that are driven or coupled, ahead and to the left.
+    pub(crate) fn wheels(&self) -> Vec<[f64; 2]> {
+        let (a, b) = (self.half_base, self.half_track);
+        if self.casters.is_some() { vec![[0.0, b], [0.0, -b]] } else { vec![[a, b], [a, -b], [-a, b], [-a, -b]] }
     }
 
     /// The true robot behind the user's values.
@@ -186,7 +210,7 @@ impl Constants {
             motor_inertia: self.motor_inertia * off(SIGMAS.motor_inertia),
             ..*self
         };
-        c.centre = [s.normal(SIGMAS.centre), s.normal(SIGMAS.centre)];
+        c.centre = self.centre.map(|at| at + s.normal(SIGMAS.centre));
         c.peak_slip = match c.law {
             TyreLaw::Brush => s.uniform(0.14, 0.24),
             TyreLaw::Pacejka => s.uniform(0.1, 0.18),
@@ -198,6 +222,10 @@ impl Constants {
         c.relaxation = self.radius * s.uniform(0.1, 0.3);
         c.load_lag = s.uniform(0.02, 0.05);
         c.presliding = s.uniform(0.008, 0.02);
+        if let Some(casters) = &mut c.casters {
+            casters.rolling *= s.normal(SIGMAS.rolling).exp();
+            casters.trail *= s.uniform(0.9, 1.1);
+        }
         c
     }
 
@@ -241,8 +269,8 @@ impl Constants {
             ("mass", self.mass / n.mass),
             ("yaw_inertia", self.yaw_inertia / n.yaw_inertia),
             ("com_height", self.height / n.height),
-            ("com_x_m", self.centre[0]),
-            ("com_y_m", self.centre[1]),
+            ("com_x_m", self.centre[0] - n.centre[0]),
+            ("com_y_m", self.centre[1] - n.centre[1]),
             ("adhesion", self.adhesion / n.adhesion),
             ("rolling_resistance", self.rolling / n.rolling),
             ("coulomb_left", self.coulomb[0] / n.coulomb[0]),

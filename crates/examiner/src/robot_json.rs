@@ -1,7 +1,8 @@
 //! robot.json: what the user knows.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
+use crate::casters::Casters;
 use crate::robot::{Constants, GRAVITY, SIGMAS};
 use crate::sensors::Sheet;
 
@@ -13,15 +14,15 @@ pub(crate) fn describe(c: &Constants, sheet: &Sheet, row_rate: f64) -> Value {
          pose run on their own clocks and each sample is written in the first row at or after its \
          instant; accelerometer gives specific force at the reference point"
     );
-    json!({
+    let mut robot = json!({
         "description": "four-wheeled skid-steer, front and rear wheel of each side belt-coupled, \
             one motor and one encoder per side (on the rear wheel); axes x forward, y left, z up; \
             reference point = geometric centre",
         "mass_kg": c.mass,
         "yaw_inertia_kg_m2": c.yaw_inertia,
         "com_height_m": c.height,
-        "com_x_m": 0.0,
-        "com_y_m": 0.0,
+        "com_x_m": c.centre[0],
+        "com_y_m": c.centre[1],
         "half_wheelbase_m": c.half_base,
         "half_track_m": c.half_track,
         "wheel_radius_m": c.radius,
@@ -73,5 +74,32 @@ pub(crate) fn describe(c: &Constants, sheet: &Sheet, row_rate: f64) -> Value {
             "note": note,
         },
         "gravity_m_s2": GRAVITY,
-    })
+    });
+    if let (Some(casters), Some(robot)) = (&c.casters, robot.as_object_mut()) {
+        describe_casters(robot, casters);
+    }
+    robot
+}
+
+/// What a robot on casters says instead of a wheelbase.
+fn describe_casters(robot: &mut Map<String, Value>, casters: &Casters) {
+    let [[x, y], [second_x, second_y]] = casters.places;
+    robot.remove("half_wheelbase_m");
+    robot.remove("rear_hitch_x_m");
+    robot.extend([
+        (
+            "description".to_owned(),
+            json!(
+                "two driven wheels on one axle, one motor and one encoder each, and casters; axes x forward, y left, z \
+                up; reference point = middle of the axle"
+            ),
+        ),
+        ("chassis".to_owned(), json!("differential")),
+        ("caster_x_m".to_owned(), json!(x)),
+        ("caster_y_m".to_owned(), json!(y)),
+        ("second_caster_x_m".to_owned(), json!(second_x)),
+        ("second_caster_y_m".to_owned(), json!(second_y)),
+        ("caster_trail_m".to_owned(), json!(casters.trail)),
+        ("caster_rolling_coefficient".to_owned(), json!(casters.rolling)),
+    ]);
 }

@@ -53,8 +53,9 @@ pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
     let shares = [mix.null, mix.single, mix.pair, mix.outsider, mix.triple].map(|s| s.max(0.0));
     let counts = apportion(n, shares);
     let mut s = Stream::new(seed, "set", 0);
-    let mut singles = turns(&mut s, &EffectId::ALL, counts[1]);
-    let physical: Vec<_> = EffectId::ALL.into_iter().filter(|e| !e.is_sensor()).collect();
+    let effects = EffectId::of(settings.casters);
+    let mut singles = turns(&mut s, &effects, counts[1]);
+    let physical: Vec<_> = effects.into_iter().filter(|e| !e.is_sensor()).collect();
     let firsts = turns(&mut s, &physical, counts[2]);
     let mut seconds = turns(&mut s, &physical, counts[2]);
     for i in 0..counts[2] {
@@ -68,7 +69,7 @@ pub fn set(seed: u64, n: usize, mix: Mix, settings: &Settings) -> Vec<Plan> {
     contents.extend(singles.drain(..).map(|e| Content::Effects(vec![e])));
     let pairs = firsts.into_iter().zip(seconds);
     contents.extend(pairs.map(|(a, b)| Content::Effects(vec![a, b])));
-    let outsiders = turns(&mut s, &Outsider::ALL, counts[3]);
+    let outsiders = turns(&mut s, &Outsider::of(settings.casters), counts[3]);
     contents.extend(outsiders.into_iter().map(Content::Outsider));
     let mut threes = Turns::new(&physical, Stream::new(seed, "three at once", 0));
     contents.extend((0..counts[4]).map(|_| Content::Effects(threes.different(3))));

@@ -99,6 +99,8 @@ pub struct Settings {
     pub class: RobotClass,
     /// Middle of the mass, kg, between 2 and 500; lengths, inertias and friction follow those of the classes.
     pub mass_kg: Option<f64>,
+    /// Whether the robot stands on two driven wheels and casters instead of four wheels.
+    pub casters: bool,
     /// Rows per second: 50, 100 or 200 (any divisor of 4000 works).
     pub row_rate_hz: f64,
     /// Whether pose samples are there.
@@ -145,6 +147,7 @@ impl Default for Settings {
             law: None,
             class: RobotClass::Medium,
             mass_kg: None,
+            casters: false,
             row_rate_hz: 100.0,
             pose: true,
             accelerometer: true,

@@ -3,7 +3,7 @@
 use robot_model::constants::NO_LIMIT;
 use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
-use robot_model::{Active, Effect, EffectSpec, Robot};
+use robot_model::{Active, Chassis, Effect, EffectSpec, Robot};
 
 use verdict::{EffectAt, Side};
 
@@ -214,17 +214,17 @@ impl Variant {
     }
 }
 
-/// All forms of all effects of the catalogue that show in the motion, in its order.
+/// All forms of all effects of the catalogue that show in the motion of a skid-steer robot, in its order.
 ///
 /// Without a pose nothing but the motion can tell a fault of the gyro from turning: then it is one of them.
 pub fn variants(pose: bool) -> Vec<Variant> {
-    variants_of(KnownEffects::default(), pose)
+    variants_of(KnownEffects::default(), Chassis::SkidSteer, pose)
 }
 
-/// The same with effects of one's own, which come last.
-pub fn variants_of(known: KnownEffects, pose: bool) -> Vec<Variant> {
+/// The same of robots on any chassis, with effects of one's own, which come last.
+pub fn variants_of(known: KnownEffects, chassis: Chassis, pose: bool) -> Vec<Variant> {
     let mut out = Vec::new();
-    for effect in known.all() {
+    for effect in known.all().filter(|effect| effect.spec().is_of(chassis)) {
         let spec = effect.spec();
         let of_gyro = matches!(spec.redundancy, Redundancy::GyroOffset | Redundancy::GyroGain);
         if spec.redundancy != Redundancy::None && (pose || !of_gyro) {

@@ -1,6 +1,8 @@
 //! What the ground does to each wheel, in the numbers that engines take.
 
-use robot_model::contact::Stance;
+use std::ops::Range;
+
+use robot_model::{Chassis, Robot};
 
 use crate::vehicle::Vehicle;
 
@@ -23,12 +25,28 @@ pub(crate) struct Grip {
     pub(crate) viscous: f64,
 }
 
-/// The four wheels.
+/// The four wheels; or casters and two wheels, casters as spheres that slide as hard as they roll.
 pub(crate) fn grips(v: &Vehicle) -> [Grip; 4] {
     let (r, w) = (&v.robot, &v.coefficients);
-    let stance = Stance::new(r.mass, r.gravity, r.half_wheelbase, r.half_track, r.com);
+    let stance = r.stance();
+    let wheels = wheels(r);
+    // Every wheel of a side bears its share of that side's friction.
+    let part = 2.0 / wheels.len() as f64;
     std::array::from_fn(|i| {
         let even = stance.static_load[i];
+        if !wheels.contains(&i) {
+            let (load, slides) = (even.max(0.0), w.rolling[i]);
+            let grip = Grip {
+                load,
+                friction: [slides; 2],
+                compliance: 0.0,
+                adhesion: slides,
+                slip_at_peak: 1.0,
+                dry: 0.0,
+                viscous: 0.0,
+            };
+            return grip;
+        }
         let twist = if i == 0 || i == 3 { -w.twist } else { w.twist };
         let load = (even + twist).max(0.0);
         // Engines have one coefficient where the law has a peak and a share of it that remains: the middle of both. Where
@@ -40,13 +58,48 @@ pub(crate) fn grips(v: &Vehicle) -> [Grip; 4] {
             compliance: w.slip_at_peak[i] / (2.0 * w.adhesion[i].max(1e-3)),
             adhesion: w.adhesion[i],
             slip_at_peak: w.slip_at_peak[i],
-            dry: (0.5 * w.coulomb[i % 2] + w.rolling[i] * load * w.radius[i]).max(0.0),
-            viscous: 0.5 * w.viscous[i % 2],
+            dry: (part * w.coulomb[i % 2] + w.rolling[i] * load * w.radius[i]).max(0.0),
+            viscous: part * w.viscous[i % 2],
         }
     })
 }
 
-/// Names of the wheels.
-pub(crate) const WHEELS: [&str; 4] = ["front_left", "front_right", "rear_left", "rear_right"];
+/// Which contacts are wheels: the others are casters.
+pub(crate) fn wheels(robot: &Robot<f64>) -> Range<usize> {
+    match robot.chassis {
+        Chassis::SkidSteer => 0..4,
+        Chassis::Differential => 2..4,
+    }
+}
+
+/// Which contacts are casters: one that counts as two stands once.
+pub(crate) fn casters(robot: &Robot<f64>) -> Range<usize> {
+    match robot.chassis {
+        Chassis::SkidSteer => 0..0,
+        Chassis::Differential if robot.casters[0] == robot.casters[1] => 0..1,
+        Chassis::Differential => 0..2,
+    }
+}
+
+/// Names of the contacts; the last two turn with the motors of the sides.
+pub(crate) const fn names(robot: &Robot<f64>) -> [&'static str; 4] {
+    match robot.chassis {
+        Chassis::SkidSteer => ["front_left", "front_right", "rear_left", "rear_right"],
+        Chassis::Differential => ["caster_1", "caster_2", "left_wheel", "right_wheel"],
+    }
+}
+
+/// Name of the wheel that a side's motor turns.
+pub(crate) const fn driven(robot: &Robot<f64>, side: usize) -> &'static str {
+    names(robot)[2 + side]
+}
+
+/// Which wheels take the torque of a side, for people.
+pub(crate) const fn driven_wheels(robot: &Robot<f64>) -> &'static str {
+    match robot.chassis {
+        Chassis::SkidSteer => "rear wheel",
+        Chassis::Differential => "wheel",
+    }
+}
 /// Names of the sides.
 pub(crate) const SIDES: [&str; 2] = ["left", "right"];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::contact::{Grip, WHEELS};
+use crate::contact::{Grip, names, wheels};
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
@@ -20,7 +20,7 @@ pub(crate) fn slip_plugin(v: &Vehicle, grips: &[Grip; 4]) -> Element {
         let [along, across] =
             [v.coefficients.lateral[i], v.coefficients.traction[i]].map(|k| compliance(grips[i].adhesion * k));
         element("wheel")
-            .with("link_name", WHEELS[i])
+            .with("link_name", names(&v.robot)[i])
             .value("slip_compliance_lateral", &along)
             .value("slip_compliance_longitudinal", &across)
             .value("wheel_normal_force", &[grips[i].load])
@@ -29,7 +29,7 @@ pub(crate) fn slip_plugin(v: &Vehicle, grips: &[Grip; 4]) -> Element {
     element("plugin")
         .with("filename", "gz-sim-wheel-slip-system")
         .with("name", "gz::sim::systems::WheelSlip")
-        .children((0..4).map(wheel))
+        .children(wheels(&v.robot).map(wheel))
 }
 
 /// Place of a wheel's shape in its link: at angle zero the axle is `cosine` higher above the ground than its middle.

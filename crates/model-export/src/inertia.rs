@@ -1,5 +1,6 @@
 //! Masses and inertias of the parts, which sum up to those of the robot.
 
+use crate::contact::wheels;
 use crate::vehicle::Vehicle;
 
 /// Roll and pitch inertia over yaw inertia of chassis and load. A planar robot does not know them; they decide how fast
@@ -24,7 +25,7 @@ pub(crate) struct Part {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Parts {
     pub(crate) chassis: Part,
-    /// Front left, front right, rear left, rear right.
+    /// As [`names`](crate::contact::names); casters weigh nothing.
     pub(crate) wheels: [Part; 4],
     pub(crate) payload: Option<Part>,
 }
@@ -50,11 +51,15 @@ impl Parts {
 
     fn with_wheels_of(v: &Vehicle, mass: f64, rotor: f64) -> Self {
         let r = &v.robot;
+        let (contacts, turning) = (r.contacts(), wheels(r));
         let wheels = std::array::from_fn(|i| {
+            let [x, y] = contacts[i];
+            let centre = [x, y, r.wheel_radius];
+            if !turning.contains(&i) {
+                return Part { mass: 0.0, centre, inertia: [0.0; 3] };
+            }
             let spin = r.wheel_inertia + if i < 2 { 0.0 } else { rotor };
             let across = ACROSS * spin;
-            let (front, left) = ([1.0, -1.0][i / 2], [1.0, -1.0][i % 2]);
-            let centre = [front * r.half_wheelbase, left * r.half_track, r.wheel_radius];
             Part { mass, centre, inertia: [across, spin, across] }
         });
         let payload = v.payload.map(|p| Part {

@@ -13,7 +13,9 @@ from math import cos, exp, hypot, sin, tanh
 import mujoco
 import numpy as np
 
-WHEELS = ["front_left", "front_right", "rear_left", "rear_right"]
+# Bodies of the contacts, casters first where there are some, and contacts of the wheels.
+WHEELS = BODIES
+CONTACTS = PAIRS
 # WORDS
 
 
@@ -24,7 +26,7 @@ def sign(speed):
 
 
 class Residual:
-    """Adds torques at the rear wheel joints and a force and a moment on the chassis."""
+    """Adds torques at the driven wheel joints and a force and a moment on the chassis."""
 
     def __init__(self, model, start=0.0):
         """`start` is the simulation's time at which the run began, s."""
@@ -35,7 +37,7 @@ class Residual:
         self.drives = [model.actuator(name).id for name in ("left", "right")]
         self.chassis = model.body("chassis").id
         self.wheels = [model.body(name).id for name in WHEELS]
-        self.pairs = [model.pair(name).id for name in WHEELS]
+        self.pairs = [model.pair(name).id for name in CONTACTS]
         self.friction = model.pair_friction[self.pairs, :2].copy()
 
     def apply(self, data):
@@ -61,7 +63,7 @@ class Residual:
         torque, force, moment = [0.0, 0.0], [0.0, 0.0], 0.0
         # GROUND
         # FORCES
-        self.model.pair_friction[self.pairs, :2] = self.friction * np.array(grip)[:, None]
+        self.model.pair_friction[self.pairs, :2] = self.friction * np.array(grip[-len(self.pairs) :])[:, None]
         data.qfrc_applied[:] = 0.0
         push = np.array([ch * force[0] - sh * force[1], sh * force[0] + ch * force[1], 0.0])
         mujoco.mj_applyFT(

@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::{SIDES, WHEELS, grips};
+use crate::contact::{casters, driven, driven_wheels, grips, names, wheels};
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
@@ -29,8 +29,9 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         .child(robot(model, v));
     added::comments(element("sdf").with("version", "1.11").child(world), v, Engine::Sdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
-         the middle of the wheels. The rear wheel joints take the torque of a side.",
-        model.name
+         the middle of the wheels. The {} joints take the torque of a side.",
+        model.name,
+        driven_wheels(&v.robot)
     )])
 }
 
@@ -77,7 +78,7 @@ fn robot(model: &Model<'_>, v: &Vehicle) -> Element {
             .child(fixed.leaf("parent", "chassis").leaf("child", "payload"));
     }
     out = out.comments(v.comments(Section::Wheels)).comments(v.comments(Section::Drive));
-    for i in 0..4 {
+    for i in wheels(&v.robot) {
         out = out.child(wheel(v, &parts, i)).child(axle(v, i));
     }
     out.child(slip_plugin(v, &grips(v)))
@@ -97,7 +98,19 @@ fn chassis(v: &Vehicle, parts: &Parts) -> Element {
         .with("name", "chassis")
         .leaf("pose", pose([0.0, 0.0, r.wheel_radius], [0.0; 3]))
         .child(element("geometry").child(element("box").value("size", &size)));
-    element("link").with("name", "chassis").child(inertial(&parts.chassis, [0.0; 3])).child(visual).child(imu(v))
+    let link = element("link").with("name", "chassis").child(inertial(&parts.chassis, [0.0; 3])).child(visual);
+    link.children(casters(r).map(|i| caster(v, parts, i))).child(imu(v))
+}
+
+/// A caster: a sphere that slides as hard as it rolls.
+fn caster(v: &Vehicle, parts: &Parts, i: usize) -> Element {
+    let [along, across] = grips(v)[i].friction;
+    let sphere = element("sphere").value("radius", &[v.robot.wheel_radius]);
+    element("collision")
+        .with("name", names(&v.robot)[i])
+        .leaf("pose", pose(parts.wheels[i].centre, [0.0; 3]))
+        .child(element("geometry").child(sphere))
+        .child(friction(along, across, None))
 }
 
 /// The IMU; a constant error is the mean of the noise, because Gazebo flips the sign of a bias at random.
@@ -128,7 +141,7 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
             .child(element("geometry").child(cylinder))
     };
     element("link")
-        .with("name", WHEELS[i])
+        .with("name", names(&v.robot)[i])
         .leaf("pose", pose(part.centre, [0.0; 3]))
         .child(inertial(part, part.centre))
         .child(shape("visual"))
@@ -142,16 +155,16 @@ fn axle(v: &Vehicle, i: usize) -> Element {
     let mut axis = element("axis").leaf("xyz", "0 1 0").child(dynamics);
     let limit = v.robot.drive.limit;
     if i < 2 {
-        let rear = element("mimic").with("joint", format!("rear_{}_joint", SIDES[i])).with("axis", "axis");
+        let rear = element("mimic").with("joint", format!("{}_joint", driven(&v.robot, i))).with("axis", "axis");
         axis = axis.child(rear.leaf("multiplier", "1").leaf("offset", "0").leaf("reference", "0"));
     } else if limit < NO_LIMIT {
         axis = axis.child(element("limit").leaf("effort", number(limit)));
     }
     // Links, joints and frames of a model share one space of names from SDF 1.7 on.
     element("joint")
-        .with("name", format!("{}_joint", WHEELS[i]))
+        .with("name", format!("{}_joint", names(&v.robot)[i]))
         .with("type", "revolute")
         .leaf("parent", "chassis")
-        .leaf("child", WHEELS[i])
+        .leaf("child", names(&v.robot)[i])
         .child(axis)
 }

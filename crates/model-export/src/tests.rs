@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use inference::KnownEffects;
 use robot_model::effects::catalogue;
-use robot_model::{EffectSpec, Robot, paper};
+use robot_model::{Chassis, EffectSpec, Robot, paper};
 use verdict::{EffectAt, Side};
 
 use crate::at::At;
@@ -18,6 +18,29 @@ fn robot() -> Robot<f64> {
     (r.viscous, r.motor_inertia, r.com[0], r.com[1]) = ([0.1, 0.12], 0.02, 0.01, -0.02);
     (r.drive.lag, r.drive.limit) = (0.01, 15.0);
     r
+}
+
+fn on_casters() -> Robot<f64> {
+    let given = [
+        ("mass", 12.0),
+        ("yaw_inertia", 0.3),
+        ("com_x", -0.03),
+        ("com_height", 0.1),
+        ("track", 0.32),
+        ("caster_x", -0.18),
+        ("caster_y", 0.05),
+        ("second_caster_x", 0.15),
+        ("wheel_radius", 0.07),
+        ("wheel_inertia", 0.002),
+        ("motor_inertia", 0.01),
+        ("adhesion", 0.8),
+        ("rolling_resistance", 0.02),
+        ("coulomb", 0.2),
+        ("viscous", 0.02),
+        ("motor_lag", 0.01),
+        ("torque_limit", 6.0),
+    ];
+    Robot::on_chassis(Chassis::Differential, &given).expect("a robot")
 }
 
 /// An effect at a small size that no robot refuses.
@@ -34,10 +57,9 @@ fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported 
 
 #[test]
 fn every_effect_of_the_catalogue_is_translated_for_every_engine() {
-    let robot = robot();
-    for effect in catalogue::<f64>() {
+    for (effect, robot) in catalogue::<f64>().into_iter().flat_map(|e| [robot(), on_casters()].map(|r| (e, r))) {
         let spec = effect.spec();
-        for engine in Engine::ALL {
+        for engine in Engine::ALL.into_iter().filter(|_| spec.is_of(robot.chassis)) {
             let plain = export(&robot, &[], engine);
             let with = export(&robot, &[at(spec, Some(Side::Left))], engine);
             let way = way(engine, spec.id).unwrap_or_else(|| panic!("{} has no translation", spec.id));
@@ -78,12 +100,15 @@ fn text(node: roxmltree::Node<'_, '_>, child: &str) -> f64 {
 
 #[test]
 fn masses_and_inertias_sum_up_to_those_of_the_robot() {
-    let robot = robot();
+    [robot(), on_casters()].iter().for_each(sum_up);
+}
+
+fn sum_up(robot: &Robot<f64>) {
     let payload = catalogue::<f64>().into_iter().find(|e| e.spec().id == "payload").expect("payload");
     let load = at(payload.spec(), None);
     let known = KnownEffects::default();
-    let model = Model { name: "tested", robot: &robot, effects: &[load], known, before: None, causes: &[] };
-    let mut expected = robot;
+    let model = Model { name: "tested", robot, effects: &[load], known, before: None, causes: &[] };
+    let mut expected = *robot;
     payload.robot(At::new(&model.effects[0], known).expect("values").values(), &mut expected);
     for engine in Engine::ALL {
         let v = vehicle(&model, engine).expect("a vehicle");

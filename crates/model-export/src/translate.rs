@@ -1,5 +1,6 @@
 //! Effects into a vehicle: what an engine holds becomes a value, what it does not becomes a residual.
 
+use robot_model::Chassis;
 use robot_model::effect::export::{Carrier, Engine, Residual as Lines, Way};
 use robot_model::effects::catalogue;
 
@@ -78,9 +79,11 @@ fn carry(carrier: Carrier, at: &At<'_>, v: &mut Vehicle) {
         },
         Carrier::WheelCentre => {
             for side in sides() {
-                let [_, _, front_cosine, front_sine, ..] = *at.values();
-                add([a + front_cosine, b + front_sine], &mut v.eccentric[side]);
-                add([a - front_cosine, b - front_sine], &mut v.eccentric[side + 2]);
+                // A wheel that is alone on its side has nothing that another one lacks.
+                let [_, _, cosine, sine, ..] = *at.values();
+                let [cosine, sine] = if v.robot.chassis == Chassis::SkidSteer { [cosine, sine] } else { [0.0; 2] };
+                add([a + cosine, b + sine], &mut v.eccentric[side]);
+                add([a - cosine, b - sine], &mut v.eccentric[side + 2]);
             }
         }
         Carrier::Drag => v.drag += a,

@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::{SIDES, WHEELS, grips};
+use crate::contact::{casters, driven, driven_wheels, grips, names, wheels};
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
@@ -31,16 +31,22 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         .child(joint("imu", "fixed").child(origin([0.0; 3], imu_angles(v))))
         .comments(v.comments(Section::Wheels))
         .comments(v.comments(Section::Drive));
-    for i in 0..4 {
+    let (on_casters, on_wheels) = (casters(&v.robot), wheels(&v.robot));
+    for i in on_casters.clone() {
+        root = root
+            .child(caster(v, i))
+            .child(joint(names(&v.robot)[i], "fixed").child(origin(parts.wheels[i].centre, [0.0; 3])));
+    }
+    for i in on_wheels.clone() {
         root = root.child(wheel(v, &parts, i)).child(axle(v, &parts, i));
     }
     root = root.comments(v.comments(Section::Ground)).comments(["mu1 is along the axle, mu2 across it.".to_owned()]);
     let all = grips(v);
-    for i in 0..4 {
+    for i in on_casters.chain(on_wheels) {
         let [along, across] = all[i].friction;
         root = root.child(
             element("gazebo")
-                .with("reference", WHEELS[i])
+                .with("reference", names(&v.robot)[i])
                 .value("mu1", &[along])
                 .value("mu2", &[across])
                 .leaf("fdir1", "0 1 0"),
@@ -49,8 +55,9 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
     root = root.child(element("gazebo").child(slip_plugin(v, &all)));
     added::comments(root, v, Engine::Urdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
-         the middle of the wheels. The rear wheel joints take the torque of a side.",
-        model.name
+         the middle of the wheels. The {} joints take the torque of a side.",
+        model.name,
+        driven_wheels(&v.robot)
     )])
 }
 
@@ -92,21 +99,28 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     };
     let part = &parts.wheels[i];
     element("link")
-        .with("name", WHEELS[i])
+        .with("name", names(&v.robot)[i])
         .child(inertial(part, part.centre))
         .child(shape("visual"))
         .child(shape("collision"))
 }
 
+/// A caster: a sphere that slides as hard as it rolls.
+fn caster(v: &Vehicle, i: usize) -> Element {
+    let sphere = || element("geometry").child(element("sphere").num("radius", v.robot.wheel_radius));
+    let shape = |kind: &'static str| element(kind).child(sphere());
+    element("link").with("name", names(&v.robot)[i]).child(shape("visual")).child(shape("collision"))
+}
+
 fn axle(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let grip = &grips(v)[i];
-    let axle = joint(WHEELS[i], "continuous")
+    let axle = joint(names(&v.robot)[i], "continuous")
         .child(origin(parts.wheels[i].centre, [0.0; 3]))
         .child(element("axis").with("xyz", "0 1 0"))
         .child(element("dynamics").num("damping", grip.viscous).num("friction", grip.dry));
     let limit = v.robot.drive.limit;
     if i < 2 {
-        let rear = format!("rear_{}_joint", SIDES[i]);
+        let rear = format!("{}_joint", driven(&v.robot, i));
         axle.child(element("mimic").with("joint", rear).num("multiplier", 1.0).num("offset", 0.0))
     } else if limit < NO_LIMIT {
         axle.child(element("limit").num("effort", limit).num("velocity", ANY_SPEED))

@@ -1,13 +1,13 @@
 //! What robot the wheels of a model make.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use crate::error::ImportError;
 use crate::import::Rollers;
 use crate::model::Model;
 use crate::settings::SETTINGS;
 use crate::source::Source;
-use crate::wheels::{Ground, Hangs, Wheel};
+use crate::wheels::{Ground, Hangs, Slider, Wheel};
 
 /// How a robot turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +46,8 @@ pub(crate) struct Robot<'a> {
     /// Wheels that keep the robot's direction or steer it; casters apart.
     pub(crate) wheels: Vec<Wheel>,
     pub(crate) casters: Vec<Wheel>,
+    /// Spheres that slide along the ground.
+    pub(crate) sliders: Vec<Slider>,
     /// Direction of driving.
     pub(crate) forward: Vector3<f64>,
     /// Height of the ground, m.
@@ -75,9 +77,6 @@ impl<'a> Robot<'a> {
                 ground.without_radius.join(", ")
             ));
         }
-        if !ground.sliders.is_empty() {
-            notes.push(format!("spheres that slide along the ground were left out: {}", ground.sliders.join(", ")));
-        }
 
         let layout = layout(source, model, &wheels, &ground.without_radius, told, &mut notes)?;
         let forward = forward(layout, &wheels);
@@ -86,7 +85,12 @@ impl<'a> Robot<'a> {
                 "the model does not drive along its x axis; lengths are measured along the way it drives".to_owned(),
             );
         }
-        Ok(Self { model, layout, wheels, casters, forward, ground: ground.height, notes })
+        if !ground.sliders.is_empty() && layout != Layout::Differential {
+            let names: Vec<&str> = ground.sliders.iter().map(|slider| slider.name.as_str()).collect();
+            notes.push(format!("spheres that slide along the ground were left out: {}", names.join(", ")));
+        }
+        let (sliders, ground) = (ground.sliders, ground.height);
+        Ok(Self { model, layout, wheels, casters, sliders, forward, ground, notes })
     }
 
     /// Direction to the left.
@@ -96,7 +100,12 @@ impl<'a> Robot<'a> {
 
     /// Place of a wheel: forward and to the left of the model's origin.
     pub(crate) fn place(&self, wheel: &Wheel) -> [f64; 2] {
-        [self.forward, self.left()].map(|axis| wheel.centre.coords.dot(&axis))
+        self.seen_from_origin(&wheel.centre)
+    }
+
+    /// The same of any point.
+    pub(crate) fn seen_from_origin(&self, point: &Point3<f64>) -> [f64; 2] {
+        [self.forward, self.left()].map(|axis| point.coords.dot(&axis))
     }
 
     /// Wheels that are steered, or not.

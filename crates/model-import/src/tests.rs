@@ -74,6 +74,39 @@ fn a_robot_that_was_exported_reads_back_the_same() {
 }
 
 #[test]
+fn a_robot_on_casters_that_was_exported_reads_back_the_same() {
+    let given = [
+        ("mass", 12.0),
+        ("yaw_inertia", 0.3),
+        ("com_x", -0.03),
+        ("com_height", 0.1),
+        ("track", 0.32),
+        ("caster_x", -0.18),
+        ("caster_y", 0.05),
+        ("second_caster_x", 0.15),
+        ("wheel_radius", 0.07),
+        ("wheel_inertia", 0.002),
+        ("motor_inertia", 0.01),
+        ("adhesion", 0.8),
+        ("rolling_resistance", 0.02),
+        ("coulomb", 0.2),
+        ("viscous", 0.02),
+    ];
+    let robot = robot_model::Robot::on_chassis(robot_model::Chassis::Differential, &given).expect("a robot");
+    for engine in [Engine::Urdf, Engine::Sdf, Engine::Mjcf] {
+        let text = exported("mine", &robot, engine);
+        let made = import("again.xml", &text, &of_kind(Kind::TorqueDriven)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let again = RobotSpec::parse("again.toml", &made.text).expect("a robot file").robot;
+        assert_eq!(again.chassis, robot.chassis);
+        let pairs = [(again.mass, robot.mass), (again.yaw_inertia, robot.yaw_inertia), (again.com[0], robot.com[0])];
+        let places = again.casters.into_iter().flatten().zip(robot.casters.into_iter().flatten());
+        for (a, b) in pairs.into_iter().chain(places).chain([(again.wheel_inertia, robot.wheel_inertia)]) {
+            assert!((a - b).abs() <= 2e-3 * b.abs() + 1e-4, "{}: {a}, {b}\n{text}", made.text);
+        }
+    }
+}
+
+#[test]
 fn two_wheels_and_a_caster_are_a_differential_drive_without_any_mass() {
     let caster = "<link name=\"fork\"/><joint name=\"swivel\" type=\"continuous\"><parent link=\"base_link\"/><child \
                   link=\"fork\"/><origin xyz=\"-0.15 0 0.08\"/><axis xyz=\"0 0 1\"/></joint>\n";
@@ -90,9 +123,57 @@ fn two_wheels_and_a_caster_are_a_differential_drive_without_any_mass() {
 
     let refusal = refused(&urdf(&parts), &of_kind(Kind::TorqueDriven));
     assert!(
-        refusal.contains("a differential drive with 2 wheels and 1 casters") && refusal.contains("--kind"),
+        refusal.contains("no link states a mass, but torque-driven robots need mass") && refusal.contains("--kind"),
         "{refusal}"
     );
+    let alone = refused(
+        &urdf(&[wheel("left", "0 0.2 0.05", ""), wheel("right", "0 -0.2 0.05", "")].concat()),
+        &of_kind(Kind::TorqueDriven),
+    );
+    assert!(alone.contains("a differential drive with 2 wheels and 0 casters"), "{alone}");
+}
+
+/// Mass and inertia of a link, its centre of mass at a height.
+fn weighs(mass: f64, inertia: f64, height: f64) -> String {
+    let [kind, number] = ["ixx", "iyy"].map(|axis| format!("{axis}=\"{inertia}\""));
+    format!(
+        "<inertial><origin xyz=\"-0.02 0 {height}\"/><mass value=\"{mass}\"/><inertia {kind} {number} izz=\"{inertia}\" \
+         ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+    )
+}
+
+#[test]
+fn two_wheels_and_casters_with_masses_are_a_torque_driven_robot_on_casters() {
+    let swivel = "<link name=\"fork\"/><joint name=\"swivel\" type=\"continuous\"><parent link=\"base_link\"/><child \
+                  link=\"fork\"/><origin xyz=\"-0.15 0.01 0.08\"/><axis xyz=\"0 0 1\"/></joint>\n";
+    let trailing = wheel("back", "-0.03 0 -0.03", "").replace("parent link=\"base_link\"", "parent link=\"fork\"");
+    let slider = "<link name=\"ball\"><collision><geometry><sphere radius=\"0.02\"/></geometry></collision></link>\n<joint \
+                  name=\"ball_joint\" type=\"fixed\"><parent link=\"base_link\"/><child link=\"ball\"/><origin \
+                  xyz=\"0.12 0 0.02\"/></joint>\n";
+    let wheels = [wheel("left", "0 0.2 0.05", ""), wheel("right", "0 -0.2 0.05", "")].concat();
+    let model = |parts: &[&str]| {
+        let parts = urdf(&(wheels.clone() + &parts.concat()));
+        parts.replace(
+            "<link name=\"base_link\"/>",
+            &format!("<link name=\"base_link\">{}</link>", weighs(9.0, 0.2, 0.1)),
+        )
+    };
+    let made = |text: &str| import("mine.urdf", text, &of_kind(Kind::TorqueDriven)).unwrap_or_else(|e| panic!("{e}"));
+
+    let both = made(&model(&[swivel, &trailing, slider]));
+    let robot = RobotSpec::parse("mine.toml", &both.text).unwrap_or_else(|e| panic!("{e}\n{}", both.text)).robot;
+    assert_eq!((robot.chassis, robot.mass), (robot_model::Chassis::Differential, 9.0));
+    for (found, placed) in robot.casters.as_flattened().iter().zip([-0.15, 0.01, 0.12, 0.0]) {
+        approx::assert_abs_diff_eq!(*found, placed, epsilon = 1e-12);
+    }
+    approx::assert_abs_diff_eq!(robot.caster_trail, 0.03, epsilon = 1e-12);
+    assert!((robot.half_wheelbase - 0.075).abs() < 1e-12 && !both.text.contains("wheelbase"), "{}", both.text);
+    assert!(both.numbers.iter().any(|n| n.name == "caster_x" && n.is_stated), "{:?}", both.numbers);
+
+    // A sphere that slides is a caster whose trail nobody states; one caster counts twice.
+    let ball = made(&model(&[&slider.replace("0.12 0 0.02", "-0.12 0 0.02")]));
+    let robot = RobotSpec::parse("mine.toml", &ball.text).expect("a robot file").robot;
+    assert_eq!((robot.casters, robot.caster_trail), ([[-0.12, 0.0]; 2], 0.025));
 }
 
 #[test]

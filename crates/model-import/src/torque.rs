@@ -1,9 +1,9 @@
-//! Robot files of four wheels, coupled by side.
+//! Robot files of four wheels, coupled by side, and of two wheels and casters.
 
 use robot_file::{Causality, RobotSpec, Size};
-use robot_model::Robot as Plant;
 use robot_model::constants::Usual;
 use robot_model::tunable::{Tuning, place_of, tunables};
+use robot_model::{Chassis, Robot as Plant};
 
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
@@ -31,16 +31,17 @@ pub(crate) fn file(
     causality: Causality,
 ) -> Result<Imported, ImportError> {
     let sides = robot.sides();
-    if robot.layout != Layout::SkidSteer || sides.iter().any(|side| side.len() != 2) {
+    let casters = Caster::of(robot);
+    let Some(chassis) = chassis(robot, &sides, &casters) else {
         return Err(source.whole(format!(
-            "the model is {} with {} wheels and {} casters, but {} robots have four fixed wheels, two on each side; make it \
-             of another kind with --kind odometry",
+            "the model is {} with {} wheels and {} casters, but {} robots have four fixed wheels, two on each side, or two and \
+             one or two casters; make it of another kind with --kind odometry",
             robot.layout.name(),
             robot.wheels.len(),
-            robot.casters.len(),
+            casters.len(),
             kind.name()
         )));
-    }
+    };
     let model = robot.model;
     let Some(whole) = model.solid(&model.of_robot()) else {
         return Err(source.whole(format!(
@@ -51,16 +52,20 @@ pub(crate) fn file(
     };
 
     let mut notes = robot.notes.clone();
-    let size = size(robot, &sides, whole.mass);
+    let size = size(robot, &sides, &casters, whole.mass);
     let cannot_be = |e: robot_model::ModelError| source.whole(format!("no robot can be so: {e}"));
     let mut spec = RobotSpec::of_size(name, &size).map_err(cannot_be)?;
-    let stated = constants(robot, &sides, &whole, &spec.robot, &mut notes);
+    spec.robot.chassis = chassis;
+    let stated = constants(robot, &sides, &casters, &whole, &spec.robot, &mut notes);
     spec.causality = causality;
     spec.description = Some(format!("Made from a model in {}, {}", model.form, robot.layout.name()));
     for constant in Plant::<f64>::CONSTANTS {
         if let Some(s) = stated.iter().rfind(|s| constant.is_called(s.id)) {
             (constant.set)(&mut spec.robot, s.value);
         }
+    }
+    if chassis == Chassis::Differential {
+        stand_on_casters(&mut spec.robot, &casters);
     }
     let spec = with_spreads(spec, &stated, model.form);
     let spec = RobotSpec { robot: spec.robot.checked().map_err(cannot_be)?, ..spec };
@@ -82,10 +87,11 @@ fn numbers(spec: &RobotSpec, stated: &[Stated]) -> Vec<Number> {
     let is_default = |c: &robot_model::Constant<f64>| match c.usual {
         Usual::Needed => false,
         Usual::Value(usual) => (c.get)(&spec.robot) == usual,
-        Usual::Unlimited | Usual::RearAxle => true,
+        Usual::Unlimited | Usual::RearAxle | Usual::As(_) => true,
     };
     let mut out: Vec<Number> = Plant::<f64>::CONSTANTS
         .iter()
+        .filter(|c| c.is_of(spec.robot.chassis))
         .filter(|c| stated.iter().any(|s| c.is_called(s.id)) || !is_default(c))
         .map(|c| Number {
             name: c.id.to_owned(),
@@ -104,14 +110,62 @@ fn middle(robot: &Robot<'_>) -> [f64; 2] {
     [0, 1].map(|axis| mean(robot.wheels.iter().map(|w| robot.place(w)[axis])))
 }
 
-fn size(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], mass: f64) -> Size {
+/// A caster as a model has it.
+struct Caster {
+    /// Its pivot, ahead of the axle of the wheels and to the left of their middle, m.
+    place: [f64; 2],
+    /// From there to its wheel, m; `None` of a sphere that slides.
+    trail: Option<f64>,
+}
+
+impl Caster {
+    fn of(robot: &Robot<'_>) -> Vec<Self> {
+        let [x, y] = middle(robot);
+        let from_middle = |[px, py]: [f64; 2]| [px - x, py - y];
+        let wheels = robot.casters.iter().map(|wheel| {
+            let at = robot.place(wheel);
+            let pivot = wheel.pivot.map_or(at, |pivot| robot.seen_from_origin(&pivot));
+            Self { place: from_middle(pivot), trail: Some((at[0] - pivot[0]).hypot(at[1] - pivot[1])) }
+        });
+        let sliders = robot.sliders.iter();
+        let sliders =
+            sliders.map(|slider| Self { place: from_middle(robot.seen_from_origin(&slider.centre)), trail: None });
+        wheels.chain(sliders).collect()
+    }
+}
+
+/// What such a robot stands on; `None` where it is neither.
+fn chassis(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], casters: &[Caster]) -> Option<Chassis> {
+    let each = |n: usize| sides.iter().all(|side| side.len() == n);
+    match robot.layout {
+        Layout::SkidSteer if each(2) => Some(Chassis::SkidSteer),
+        Layout::Differential if each(1) && (1..=2).contains(&casters.len()) => Some(Chassis::Differential),
+        _ => None,
+    }
+}
+
+/// What follows from where the casters stand.
+fn stand_on_casters(robot: &mut Plant<f64>, casters: &[Caster]) {
+    let far = casters.iter().map(|caster| caster.place[0].abs()).fold(0.0, f64::max);
+    robot.half_wheelbase = 0.5 * far;
+    robot.hitch_x = 0.0;
+    robot.caster_rolling = robot.rolling_resistance;
+    let trail = Plant::<f64>::CONSTANTS.iter().find(|c| c.id == "caster_trail").map(|c| c.usual);
+    if let (Some(Usual::Value(usual)), true) = (trail, robot.caster_trail == 0.0) {
+        robot.caster_trail = usual;
+    }
+}
+
+fn size(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], casters: &[Caster], mass: f64) -> Size {
     let y = |side: usize| mean(sides[side].iter().map(|w| robot.place(w)[1]));
     let [x, _] = middle(robot);
+    let between_axles = 2.0 * mean(robot.wheels.iter().map(|w| (robot.place(w)[0] - x).abs()));
+    let to_casters = casters.iter().map(|caster| caster.place[0].abs()).fold(0.0, f64::max);
     Size {
         mass,
         wheel_radius: mean(robot.wheels.iter().map(|w| w.radius)),
         track: y(0) - y(1),
-        wheelbase: 2.0 * mean(robot.wheels.iter().map(|w| (robot.place(w)[0] - x).abs())),
+        wheelbase: if robot.layout == Layout::Differential { to_casters } else { between_axles },
     }
 }
 
@@ -119,6 +173,7 @@ fn size(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], mass: f64) -> Size {
 fn constants(
     robot: &Robot<'_>,
     sides: &[Vec<&Wheel>; 2],
+    casters: &[Caster],
     whole: &Solid,
     usual: &Plant<f64>,
     notes: &mut Vec<String>,
@@ -126,7 +181,7 @@ fn constants(
     let (model, form) = (robot.model, robot.model.form);
     let all: Vec<&Wheel> = robot.wheels.iter().collect();
     let [x, y] = middle(robot);
-    let Size { wheel_radius: radius, track, wheelbase, .. } = size(robot, sides, whole.mass);
+    let Size { wheel_radius: radius, track, wheelbase, .. } = size(robot, sides, casters, whole.mass);
     if all.iter().any(|w| (w.radius - radius).abs() > SETTINGS.spreads.stated * radius) {
         notes.push("its wheels have different radii; their mean was taken".to_owned());
     }
@@ -153,7 +208,20 @@ fn constants(
         SETTINGS.spreads.stated_inertia,
         "centre of mass of all links, above the ground",
     );
-    say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
+    if usual.chassis == Chassis::SkidSteer {
+        say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
+    }
+    let ids = [["caster_x", "caster_y"], ["second_caster_x", "second_caster_y"]];
+    // One caster counts as two at one place.
+    for (caster, ids) in casters.iter().chain(casters).zip(ids) {
+        for (id, at) in ids.into_iter().zip(caster.place) {
+            say(id, at, SETTINGS.spreads.stated, "place of the caster's pivot, from the middle of the wheels");
+        }
+    }
+    let trails = casters.iter().filter_map(|caster| caster.trail).filter(|trail| *trail > 0.0);
+    if let Some(trail) = trails.reduce(f64::midpoint) {
+        say("caster_trail", trail, SETTINGS.spreads.stated, "from a caster's pivot to its wheel");
+    }
     say("track", track, SETTINGS.spreads.stated, "places of the wheel joints");
     let of = match all[0].radius_of {
         RadiusOf::Contact | RadiusOf::Rollers => "collision shapes of the wheels",

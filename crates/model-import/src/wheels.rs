@@ -24,6 +24,8 @@ pub(crate) struct Wheel {
     /// Direction of the axle of its lowest roller.
     pub(crate) roller: Option<Vector3<f64>>,
     pub(crate) hangs: Hangs,
+    /// Where what swivels or steers it is hinged.
+    pub(crate) pivot: Option<Point3<f64>>,
     /// Friction coefficients of its shapes.
     pub(crate) friction: Vec<f64>,
 }
@@ -52,12 +54,21 @@ pub(crate) enum Hangs {
     Caster,
 }
 
+/// A sphere that slides along the ground: a caster, to many models.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slider {
+    /// Its link's name.
+    pub(crate) name: String,
+    /// Its middle.
+    pub(crate) centre: Point3<f64>,
+}
+
 /// What stands on the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ground {
     pub(crate) wheels: Vec<Wheel>,
-    /// Spheres that slide along, as the names of their links.
-    pub(crate) sliders: Vec<String>,
+    /// Spheres that slide along.
+    pub(crate) sliders: Vec<Slider>,
     /// Joints that turn without end about a level axis, whose radius is not in the file.
     pub(crate) without_radius: Vec<String>,
     /// Height of the ground in the model, m.
@@ -92,8 +103,14 @@ pub(crate) fn wheels(model: &Model, told: Option<f64>) -> Ground {
         _ => false,
     };
     let free = of_robot.iter().filter(|k| !of_wheels.contains(k));
-    let sliders = free.filter(|&&k| model.links[k].shapes.iter().any(slides));
-    let sliders = sliders.map(|&k| model.links[k].name.clone()).collect();
+    let sliders = free.flat_map(|&k| {
+        let of = |shape: &Shape| Slider {
+            name: model.links[k].name.clone(),
+            centre: Point3::from(shape.place.translation.vector),
+        };
+        model.links[k].shapes.iter().filter(|shape| slides(shape)).map(of).collect::<Vec<_>>()
+    });
+    let sliders = sliders.collect();
     Ground { wheels: found, sliders, without_radius, height }
 }
 
@@ -135,6 +152,7 @@ fn wheel(model: &Model, k: usize, told: Option<f64>) -> Option<Wheel> {
         axle: joint.axis,
         roller: roller.map(|(axle, _)| axle),
         hangs: hangs(model, joint, &centre, radius),
+        pivot: swivel(model, joint).map(|swivel| swivel.at),
         friction: shapes(&links).into_iter().filter(|s| s.touches).flat_map(|s| s.friction).collect(),
         links,
     })
@@ -166,10 +184,15 @@ fn lowest_roller(model: &Model, axle: &Joint, links: &[usize]) -> Option<(Vector
     (reach + own > 0.0).then_some((lowest.axis, reach + own))
 }
 
+/// What above an axle turns about an upright axis.
+fn swivel<'a>(model: &'a Model, axle: &Joint) -> Option<&'a Joint> {
+    let is_swivel = |j: &&Joint| j.motion == Motion::Turn && j.axis.z.abs() > SETTINGS.wheels.upright;
+    model.ancestors(axle.parent).find(is_swivel)
+}
+
 /// Whether something above an axle turns about an upright axis.
 fn hangs(model: &Model, axle: &Joint, centre: &Point3<f64>, radius: f64) -> Hangs {
-    let is_swivel = |j: &&Joint| j.motion == Motion::Turn && j.axis.z.abs() > SETTINGS.wheels.upright;
-    let Some(swivel) = model.ancestors(axle.parent).find(is_swivel) else { return Hangs::Fixed };
+    let Some(swivel) = swivel(model, axle) else { return Hangs::Fixed };
     // Along the way it rolls: a wheel beside its steering axis is none that follows.
     let ahead = axle.axis.cross(&Vector3::z()).normalize();
     let trail = (centre - swivel.at).dot(&ahead).abs();

@@ -27,9 +27,12 @@ impl Hidden {
     /// Every effect that is known on this scale of sizes, or why it cannot be hidden.
     pub(crate) fn all(
         known: KnownEffects,
-        sizes: Sizes,
-    ) -> impl Iterator<Item = Result<Self, (&'static EffectSpec, &'static str)>> {
-        known.all().map(move |effect| {
+        sizes: &Sizes,
+    ) -> impl Iterator<Item = Result<Self, (&'static EffectSpec, &'static str)>> + use<> {
+        let sizes = *sizes;
+        let can_be =
+            move |effect: &&dyn Effect<f64>| sizes.robot.is_none_or(|robot| effect.spec().is_of(robot.chassis));
+        known.all().filter(can_be).map(move |effect| {
             let spec = effect.spec();
             if spec.export.robot_file == Way::ON_SAMPLES {
                 Err((spec, ON_SAMPLES))
@@ -101,7 +104,7 @@ mod tests {
 
     fn hidden(id: &str) -> Hidden {
         let sizes = Sizes { largest_torque: 5.0, robot: Some(testing::robot()) };
-        Hidden::all(KnownEffects::default(), sizes)
+        Hidden::all(KnownEffects::default(), &sizes)
             .filter_map(Result::ok)
             .find(|h| h.spec().id == id)
             .expect("can be hidden")
@@ -112,8 +115,8 @@ mod tests {
         let sizes = Sizes { largest_torque: 5.0, robot: Some(testing::robot()) };
         let law = "T_right = -0.5 [N m] * sgn(omega, 0.3)".parse().expect("a law");
         let known = KnownEffects::with(vec![OwnEffect::new("my-law", law).expect("an effect")]);
-        assert!(Hidden::all(known, sizes).filter_map(Result::ok).any(|hidden| hidden.spec().id == "my-law"));
-        for hidden in Hidden::all(known, sizes).filter_map(Result::ok) {
+        assert!(Hidden::all(known, &sizes).filter_map(Result::ok).any(|hidden| hidden.spec().id == "my-law"));
+        for hidden in Hidden::all(known, &sizes).filter_map(Result::ok) {
             for replica in 0..4 {
                 let Some(dose) = hidden.dose(1.0, 3, replica) else { panic!("{}: no dose", hidden.spec().id) };
                 let strengths: Vec<usize> = hidden.spec().strengths().collect();
@@ -143,7 +146,7 @@ mod tests {
     #[test]
     fn what_cannot_be_hidden_has_its_reason() {
         let why = |id: &str| {
-            let refused = Hidden::all(KnownEffects::default(), Sizes::default())
+            let refused = Hidden::all(KnownEffects::default(), &Sizes::default())
                 .filter_map(Result::err)
                 .find(|(spec, _)| spec.id == id);
             refused.map(|(_, why)| why)

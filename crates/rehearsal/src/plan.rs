@@ -88,7 +88,7 @@ impl Plan {
     }
 
     /// The effects that were asked for and can be hidden, and those that cannot, with the reason.
-    pub(crate) fn effects(&self, known: KnownEffects, sizes: Sizes) -> (Vec<Hidden>, Vec<NotRehearsed>) {
+    pub(crate) fn effects(&self, known: KnownEffects, sizes: &Sizes) -> (Vec<Hidden>, Vec<NotRehearsed>) {
         let (mut hidden, mut left_out) = (Vec::new(), Vec::new());
         for effect in Hidden::all(known, sizes) {
             match effect {
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn only_what_was_asked_for_is_hidden_or_left_out() {
         let plan = Plan { effects: vec!["payload".to_owned(), "clock_drift".to_owned()], ..Plan::default() };
-        let (hidden, left_out) = plan.effects(KnownEffects::default(), Sizes::default());
+        let (hidden, left_out) = plan.effects(KnownEffects::default(), &Sizes::default());
         assert_eq!(hidden.iter().map(|h| h.spec().id).collect::<Vec<_>>(), ["payload"]);
         assert_eq!(left_out.iter().map(|l| l.effect.as_str()).collect::<Vec<_>>(), ["clock_drift"]);
     }

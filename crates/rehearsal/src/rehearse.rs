@@ -84,7 +84,7 @@ impl<'a> Rehearsing<'a> {
             largest_torque: largest_torque.fold(0.0, |most: f64, torque| most.max(torque.abs())),
             robot: Some(case.robot),
         };
-        let (all, mut left_out) = plan.effects(options.known, sizes);
+        let (all, mut left_out) = plan.effects(options.known, &sizes);
         let mut effects = Vec::new();
         for hidden in all {
             match unseen(&common, &plan, &hidden) {

@@ -9,6 +9,7 @@ use robot_model::tunable::USUAL_POSE_SIGMA;
 use robot_model::{ModelError, Robot};
 use serde::Deserialize;
 
+use crate::full::ChassisName;
 use crate::keys::USUAL_GEOMETRY_SIGMA;
 use crate::keys::{Given, spreads};
 use crate::text::RobotText;
@@ -27,7 +28,14 @@ pub(crate) struct FlatRobot {
     com_x_m: f64,
     #[serde(default)]
     com_y_m: f64,
-    half_wheelbase_m: f64,
+    chassis: Option<ChassisName>,
+    half_wheelbase_m: Option<f64>,
+    caster_x_m: Option<f64>,
+    caster_y_m: Option<f64>,
+    second_caster_x_m: Option<f64>,
+    second_caster_y_m: Option<f64>,
+    caster_trail_m: Option<f64>,
+    caster_rolling_coefficient: Option<f64>,
     half_track_m: f64,
     wheel_radius_m: f64,
     wheel_inertia_kg_m2: f64,
@@ -135,7 +143,13 @@ impl FlatRobot {
             ("com_height_m", "com_height", Some(self.com_height_m)),
             ("com_x_m", "com_x", Some(self.com_x_m)),
             ("com_y_m", "com_y", Some(self.com_y_m)),
-            ("half_wheelbase_m", "wheelbase", Some(self.half_wheelbase_m)),
+            ("half_wheelbase_m", "wheelbase", self.half_wheelbase_m),
+            ("caster_x_m", "caster_x", self.caster_x_m),
+            ("caster_y_m", "caster_y", self.caster_y_m),
+            ("second_caster_x_m", "second_caster_x", self.second_caster_x_m),
+            ("second_caster_y_m", "second_caster_y", self.second_caster_y_m),
+            ("caster_trail_m", "caster_trail", self.caster_trail_m),
+            ("caster_rolling_coefficient", "caster_rolling", self.caster_rolling_coefficient),
             ("half_track_m", "track", Some(self.half_track_m)),
             ("wheel_radius_m", "wheel_radius", Some(self.wheel_radius_m)),
             ("wheel_inertia_kg_m2", "wheel_inertia", Some(self.wheel_inertia_kg_m2)),
@@ -182,7 +196,8 @@ impl FlatRobot {
     pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let values = self.values();
         let constants: Vec<(&'static str, f64)> = values.iter().map(|v| (v.constant, v.value * v.times)).collect();
-        let robot = Robot::from_constants(&constants).map_err(|error| refusal(error, &values, source))?;
+        let robot = Robot::on_chassis(ChassisName::chassis(self.chassis), &constants)
+            .map_err(|error| refusal(error, &values, source))?;
         self.check_spreads(source)?;
         Ok(RobotSpec {
             name: name_of(source.file),
@@ -238,7 +253,19 @@ impl FlatRobot {
 
 /// What is wrong with a constant, by the file's own key and value.
 fn refusal(error: ModelError, values: &[Entry], source: RobotText<'_>) -> RobotFileError {
+    let whole = |message: String| RobotFileError::Syntax { place: Spot::file(source.file), message };
     let found = match &error {
+        // Of the two that a chassis needs; the others are needed by the form.
+        ModelError::Missing { name, unit } => {
+            let key = if *name == "wheelbase" { "half_wheelbase_m" } else { "caster_x_m" };
+            let (key, expected) = (key.to_owned(), (*unit).to_owned());
+            return RobotFileError::Missing { place: Spot::file(source.file), key, expected };
+        }
+        ModelError::Foreign { name, .. } | ModelError::Caster { name, .. } => {
+            let given = values.iter().find(|v| v.constant == *name);
+            let place = given.map_or_else(|| Spot::file(source.file), |v| source.at(v.key));
+            return RobotFileError::Syntax { place, message: error.to_string() };
+        }
         ModelError::Value { name, must, .. } => {
             let row = Robot::<f64>::CONSTANTS.iter().find(|row| row.id == *name);
             values.iter().find(|v| row.is_some_and(|row| row.is_called(v.constant))).map(|v| (v, *must))
@@ -249,6 +276,6 @@ fn refusal(error: ModelError, values: &[Entry], source: RobotText<'_>) -> RobotF
         Some((v, must)) => {
             RobotFileError::Model { place: source.at(v.key), key: v.key.to_owned(), value: v.value, must }
         }
-        None => RobotFileError::Syntax { place: Spot::file(source.file), message: error.to_string() },
+        None => whole(error.to_string()),
     }
 }

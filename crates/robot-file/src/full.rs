@@ -5,7 +5,7 @@ use std::fmt;
 use inference::KnownEffects;
 use recordings::{Spot, parse_unit, suggest};
 use robot_model::tunable::USUAL_POSE_SIGMA;
-use robot_model::{ModelError, Robot};
+use robot_model::{Chassis, ModelError, Robot};
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
@@ -39,6 +39,9 @@ pub(crate) struct File {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) description: Option<String>,
     pub(crate) causality: Causality,
+    /// What the robot stands on; four wheels if it says nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) chassis: Option<ChassisName>,
     pub(crate) parameters: Parameters,
     /// What the simulation is given beside its constants.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -46,6 +49,32 @@ pub(crate) struct File {
     /// Response to commands, of a command-driven robot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) response: Option<ResponseModel>,
+}
+
+/// A chassis as files name it.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ChassisName {
+    SkidSteer,
+    Differential,
+}
+
+impl ChassisName {
+    /// The chassis that a file names, or four wheels.
+    pub(crate) fn chassis(name: Option<Self>) -> Chassis {
+        match name {
+            None | Some(Self::SkidSteer) => Chassis::SkidSteer,
+            Some(Self::Differential) => Chassis::Differential,
+        }
+    }
+
+    /// What a file says of it, if it must.
+    pub(crate) fn of(chassis: Chassis) -> Option<Self> {
+        match chassis {
+            Chassis::SkidSteer => None,
+            Chassis::Differential => Some(Self::Differential),
+        }
+    }
 }
 
 /// The parameters of a file, each with its key.
@@ -97,7 +126,7 @@ impl File {
     /// The robot of this file.
     pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let given = self.parameters.0.iter().map(|p| in_key_unit(p, source)).collect::<Result<Vec<_>, _>>()?;
-        let robot = robot(&given, source)?;
+        let robot = robot(ChassisName::chassis(self.chassis), &given, source)?;
         let beside = |key: &str| given.iter().find(|g| g.key == key);
         for g in [TORQUE_PER_CURRENT, POSE_NOISE].into_iter().filter_map(beside) {
             if g.value <= 0.0 {
@@ -110,6 +139,16 @@ impl File {
                 place: source.at_effect(n),
                 message: nearest(&error, known),
             })?;
+            let spec = known.find(&effect.effect).map(robot_model::Effect::spec);
+            if let Some(only) = spec.ok().and_then(|spec| spec.chassis).filter(|only| *only != robot.chassis) {
+                return Err(RobotFileError::Effect {
+                    place: source.at_effect(n),
+                    message: format!(
+                        "effect `{}` is of {only} robots, and this one is {}",
+                        effect.effect, robot.chassis
+                    ),
+                });
+            }
         }
         if let Some(response) = &self.response {
             response.checked().map_err(|error| RobotFileError::Effect {
@@ -140,9 +179,9 @@ impl File {
 }
 
 /// The robot of these constants.
-fn robot(given: &[Given], source: RobotText<'_>) -> Result<Robot<f64>, RobotFileError> {
+fn robot(chassis: Chassis, given: &[Given], source: RobotText<'_>) -> Result<Robot<f64>, RobotFileError> {
     let constants = given.iter().filter(|g| is_constant(g.key)).map(|g| (g.key, g.value));
-    Robot::from_constants(&constants.collect::<Vec<_>>()).map_err(|error| match error {
+    Robot::on_chassis(chassis, &constants.collect::<Vec<_>>()).map_err(|error| match error {
         ModelError::Missing { name, unit } => {
             RobotFileError::Missing { place: Spot::file(source.file), key: name.to_owned(), expected: unit.to_owned() }
         }
@@ -152,6 +191,9 @@ fn robot(given: &[Given], source: RobotText<'_>) -> Result<Robot<f64>, RobotFile
             let is_given = |key: &&str| given.iter().any(|g| g.key == *key);
             let key = [Some(name), row.and_then(|row| row.both)].into_iter().flatten().find(is_given).unwrap_or(name);
             RobotFileError::Model { place: source.at(key), key: key.to_owned(), value, must }
+        }
+        ModelError::Foreign { name, .. } | ModelError::Caster { name, .. } => {
+            RobotFileError::Syntax { place: source.at(name), message: error.to_string() }
         }
         other => RobotFileError::Syntax { place: Spot::file(source.file), message: other.to_string() },
     })

@@ -8,7 +8,7 @@ use robot_model::constants::{NO_LIMIT, Usual};
 use robot_model::tunable::{Tunable, Tuning, USUAL_POSE_SIGMA, tunables};
 use verdict::Correction;
 
-use crate::full::{File, Parameters, Quantity};
+use crate::full::{ChassisName, File, Parameters, Quantity};
 use crate::keys::{GEOMETRY, KEYS, POSE_NOISE, TORQUE_PER_CURRENT, USUAL_GEOMETRY_SIGMA, keys_of};
 use crate::{DiagnosisError, RobotFileError, RobotSpec};
 
@@ -69,6 +69,7 @@ impl RobotSpec {
             name: self.name.clone(),
             description: self.description.clone(),
             causality: self.causality,
+            chassis: ChassisName::of(self.robot.chassis),
             parameters: Parameters(KEYS.iter().filter_map(|key| Some((*key, quantity(key.name, key.unit)?))).collect()),
             effects: self.effects.clone(),
             response: self.response.clone(),
@@ -94,7 +95,7 @@ impl RobotSpec {
 /// Every parameter that a file of this robot names, by name, in the unit that the file gives it.
 fn values(spec: &RobotSpec) -> BTreeMap<&'static str, f64> {
     let mut out = BTreeMap::new();
-    for constant in Robot::<f64>::CONSTANTS {
+    for constant in Robot::<f64>::CONSTANTS.iter().filter(|c| c.is_of(spec.robot.chassis)) {
         let value = (constant.get)(&spec.robot);
         let is_no_limit = constant.usual == Usual::Unlimited && value >= NO_LIMIT;
         // Under the key of both sides stands the left one, beside which the right one is told where it is another.

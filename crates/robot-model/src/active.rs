@@ -38,7 +38,7 @@ impl<T: Scalar> Active<T> {
         } else {
             let mut changed = *c;
             self.effect.apply(self.values(), at, &mut changed);
-            c.blend(&changed, self.presence.at(at));
+            c.blend(&changed, self.presence.at(at), at.chassis);
         }
     }
 

@@ -3,8 +3,7 @@
 //! A new constant is a field of [`Robot`], its row here, and its use in the plant. The checks of a robot, what a diagnosis
 //! may re-tune and what robot files hold follow from the rows.
 
-use nalgebra::RealField;
-
+use crate::chassis::Chassis;
 use crate::error::{ModelError, finite, not_negative, positive, within};
 use crate::robot::{Robot, USUAL_REST_SPEED, USUAL_SLIDING_SHARE};
 use crate::scalar::{Scalar, real};
@@ -21,7 +20,7 @@ pub enum Bounds {
     Finite,
     /// In this interval.
     Within(f64, f64),
-    /// At most half a wheelbase from the middle.
+    /// At most half a wheelbase from the middle; of a robot on casters from the rearmost to the foremost of what holds it up.
     BetweenAxles,
     /// At most half a track from the middle.
     BetweenWheels,
@@ -43,8 +42,10 @@ pub enum Usual {
     Value(f64),
     /// So much that it limits nothing: [`NO_LIMIT`].
     Unlimited,
-    /// The place of the rear axle, seen from the geometric centre.
+    /// The place of the rear axle, or of the driven one where casters hold the robot up.
     RearAxle,
+    /// What another constant is, which stands before it.
+    As(&'static str),
 }
 
 /// A torque beyond any robot's, N m: stands for a limit that nobody gave.
@@ -63,6 +64,8 @@ pub struct Constant<T: Scalar> {
     pub bounds: Bounds,
     /// What it is when nobody says it.
     pub usual: Usual,
+    /// The chassis that alone has it, or that alone derives it from others; `None` where every robot has it.
+    pub of: Option<Chassis>,
     /// Where it acts, for people.
     pub acts: &'static str,
     /// How a diagnosis re-tunes it, with its usual spread; `None` for what a user measures well enough or what
@@ -79,6 +82,17 @@ impl<T: Scalar> Constant<T> {
     const fn of_side(mut self, both: &'static str) -> Self {
         self.both = Some(both);
         self
+    }
+
+    /// A constant of this chassis alone.
+    const fn only_of(mut self, chassis: Chassis) -> Self {
+        self.of = Some(chassis);
+        self
+    }
+
+    /// Whether a robot on this chassis is given it.
+    pub fn is_of(&self, chassis: Chassis) -> bool {
+        self.of.is_none_or(|of| of == chassis)
     }
 
     /// Re-tuned by `exp(δ)`; `sigma` is relative.
@@ -146,6 +160,10 @@ impl Constant<f64> {
             Bounds::NotNegative => not_negative(name, value),
             Bounds::Finite => finite(name, value),
             Bounds::Within(low, high) => within(name, value, low, high),
+            Bounds::BetweenAxles if robot.chassis == Chassis::Differential => {
+                let along = robot.casters.map(|caster| caster[0]);
+                within(name, value, along[0].min(along[1]).min(0.0), along[0].max(along[1]).max(0.0))
+            }
             Bounds::BetweenAxles => within(name, value, -a, a),
             Bounds::BetweenWheels => within(name, value, -b, b),
         }
@@ -164,6 +182,7 @@ macro_rules! row {
             unit: $unit,
             bounds: $bounds,
             usual: $usual,
+            of: None,
             acts: $acts,
             tuning: None,
             get: $get,
@@ -183,6 +202,9 @@ const WEATHER: f64 = 0.6;
 const LOAD: f64 = 0.6;
 const FORM: f64 = 0.25;
 
+/// Trail of a caster, m (guess: half the wheel of a small one).
+const USUAL_TRAIL: f64 = 0.025;
+
 /// Largest share of the adhesion that is left in full sliding.
 const MOST_SHARE: f64 = 1.3;
 const SHARES: Bounds = Bounds::Within(0.0, MOST_SHARE);
@@ -201,6 +223,16 @@ impl<T: Scalar> Robot<T> {
         row!("yaw_inertia", "kg m2", Bounds::Positive, Usual::Needed, "turning", |r| r.yaw_inertia)
             .factor(6, 0.06, GUESS, |r, d| r.yaw_inertia *= d.exp())
             .between_visits(LOAD),
+        row!("caster_x", "m", Bounds::Finite, Usual::Needed, "where the casters stand", |r| r.casters[0][0])
+            .only_of(Chassis::Differential),
+        row!("caster_y", "m", Bounds::Finite, Usual::Value(0.0), "where the casters stand", |r| r.casters[0][1])
+            .only_of(Chassis::Differential),
+        row!("second_caster_x", "m", Bounds::Finite, Usual::As("caster_x"), "where the casters stand", |r| r.casters[1][0])
+            .only_of(Chassis::Differential),
+        row!("second_caster_y", "m", Bounds::Finite, Usual::As("caster_y"), "where the casters stand", |r| r.casters[1][1])
+            .only_of(Chassis::Differential),
+        row!("caster_trail", "m", Bounds::Positive, Usual::Value(USUAL_TRAIL), "casters", |r| r.caster_trail)
+            .only_of(Chassis::Differential),
         row!("com_x", "m", Bounds::BetweenAxles, Usual::Value(0.0), "wheel loads", |r| r.com[0])
             .offset(7, 0.004, GUESS, |r, d| r.com[0] += d)
             .between_visits(LOAD),
@@ -211,7 +243,8 @@ impl<T: Scalar> Robot<T> {
             .factor(13, 0.05, GUESS, |r, d| r.com[2] *= d.exp())
             .between_visits(LOAD),
         row!("wheelbase", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
-            |r| r.half_wheelbase + r.half_wheelbase, |r, x| r.half_wheelbase = x * real(0.5)),
+            |r| r.half_wheelbase + r.half_wheelbase, |r, x| r.half_wheelbase = x * real(0.5))
+            .only_of(Chassis::SkidSteer),
         row!("track", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
             |r| r.half_track + r.half_track, |r, x| r.half_track = x * real(0.5)),
         row!("wheel_radius", "m", Bounds::Positive, Usual::Needed, "wheels", |r| r.wheel_radius),
@@ -237,6 +270,8 @@ impl<T: Scalar> Robot<T> {
         row!("rolling_resistance", "-", Bounds::NotNegative, Usual::Needed, "ground", |r| r.rolling_resistance)
             .factor(2, 0.13, GUESS, |r, d| r.rolling_resistance *= d.exp())
             .between_visits(WEATHER),
+        row!("caster_rolling", "-", Bounds::NotNegative, Usual::As("rolling_resistance"), "casters", |r| r.caster_rolling)
+            .only_of(Chassis::Differential),
         row!("coulomb_left", "N m", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.coulomb[0])
             .of_side("coulomb")
             .factor(3, 0.14, GUESS, |r, d| r.coulomb[0] *= d.exp())
@@ -280,60 +315,6 @@ impl<T: Scalar> Robot<T> {
         row!("torque_limit", "N m", Bounds::Positive, Usual::Unlimited, "motors", |r| r.drive.limit),
         row!("gravity", "m/s2", Bounds::Positive, Usual::Value(9.81), "weight", |r| r.gravity),
     ];
-}
-
-impl<T: Scalar + RealField> Robot<T> {
-    /// A robot from constants by their names, as [`Robot::CONSTANTS`] lists them; those that are not given are usual.
-    /// Needed are nine: mass, inertias, height of the centre of mass, wheels, adhesion and rolling resistance.
-    ///
-    /// ```
-    /// use robot_model::{ModelError, Robot};
-    ///
-    /// let given = [
-    ///     ("mass", 75.0),
-    ///     ("yaw_inertia", 5.0),
-    ///     ("com_height", 0.2),
-    ///     ("wheelbase", 0.512),
-    ///     ("track", 0.5708),
-    ///     ("wheel_radius", 0.1651),
-    ///     ("wheel_inertia", 0.044),
-    ///     ("adhesion", 0.6),
-    ///     ("rolling_resistance", 0.03),
-    ///     ("coulomb", 3.0), // both sides
-    /// ];
-    /// let robot = Robot::from_constants(&given)?;
-    /// assert_eq!((robot.half_track, robot.coulomb, robot.gravity), (0.2854, [3.0, 3.0], 9.81));
-    ///
-    /// // The second entry of a name counts: a table of constants can be changed by adding to it.
-    /// let weightless = Robot::from_constants(&[&given[..], &[("mass", 0.0)]].concat());
-    /// assert_eq!(weightless.unwrap_err().to_string(), "mass is 0, but it must be larger than zero");
-    /// # Ok::<(), ModelError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A name that no constant has, one that must be given and is not, and a value that no robot can have.
-    pub fn from_constants(given: &[(&'static str, T)]) -> Result<Self, ModelError> {
-        if let Some((name, _)) = given.iter().find(|(name, _)| !Self::CONSTANTS.iter().any(|c| c.is_called(name))) {
-            return Err(ModelError::Unknown { name });
-        }
-        let find = |name: &str| given.iter().rev().find(|g| g.0 == name).map(|g| g.1);
-
-        let mut out = Self::blank();
-        for constant in Self::CONSTANTS {
-            let said = find(constant.id).or_else(|| constant.both.and_then(find));
-            let value = match (said, constant.usual) {
-                (Some(value), _) => value,
-                (None, Usual::Value(usual)) => real(usual),
-                (None, Usual::Unlimited) => real(NO_LIMIT),
-                (None, Usual::RearAxle) => -out.half_wheelbase,
-                (None, Usual::Needed) => {
-                    return Err(ModelError::Missing { name: constant.id, unit: constant.unit });
-                }
-            };
-            (constant.set)(&mut out, value);
-        }
-        out.checked()
-    }
 }
 
 #[cfg(test)]

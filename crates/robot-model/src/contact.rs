@@ -49,6 +49,9 @@ pub struct Stance<T> {
     pub roll: T,
     /// Position of each wheel relative to the centre of mass, m.
     pub wheel: [[T; 2]; 4],
+    /// Change of load of each contact per longitudinal and per lateral specific force, kg, where contacts are not at the
+    /// corners of a rectangle; `None` where they are, and `pitch` and `roll` say it.
+    pub per_force: Option<[[T; 2]; 4]>,
 }
 
 /// Signs of the wheels: +1 in front / on the left.
@@ -78,6 +81,39 @@ impl<T: Scalar> Stance<T> {
             pitch: mass * com[2] * quarter / half_wheelbase,
             roll: mass * com[2] * quarter / half_track,
             wheel,
+            per_force: None,
+        }
+    }
+
+    /// The stance of a rigid body on four contacts at these places from its centre of mass, m, as on equal springs:
+    /// `N_i = α + β x_i + γ y_i`, of which no part but a tilt of the body makes one load differ from another.
+    ///
+    /// Two contacts at one place share the load of one. The contacts must not all lie on one line.
+    pub(crate) fn on(wheel: [[T; 2]; 4], mass: T, gravity: T, com_height: T) -> Self {
+        let (mut s, mut m) = ([T::zero(); 3], [T::zero(); 2]);
+        for [x, y] in wheel {
+            s = [s[0] + x * x, s[1] + x * y, s[2] + y * y];
+            m = [m[0] + x, m[1] + y];
+        }
+        let n = real::<T>(4.0);
+
+        // Sum of loads, and of their moments: Σ [1, x, y]ᵀ [1, x, y] (α, β, γ) = (m g, −m h s_x, −m h s_y).
+        let minors = [
+            [s[0] * s[2] - s[1] * s[1], s[1] * m[1] - m[0] * s[2], m[0] * s[1] - s[0] * m[1]],
+            [s[1] * m[1] - m[0] * s[2], n * s[2] - m[1] * m[1], m[0] * m[1] - n * s[1]],
+            [m[0] * s[1] - s[0] * m[1], m[0] * m[1] - n * s[1], n * s[0] - m[0] * m[0]],
+        ];
+        let inverse = T::one() / (n * minors[0][0] + m[0] * minors[0][1] + m[1] * minors[0][2]);
+        let share = |[x, y]: [T; 2], k: usize| (minors[0][k] + x * minors[1][k] + y * minors[2][k]) * inverse;
+
+        let (weight, lever) = (mass * gravity, mass * com_height);
+        Self {
+            mass,
+            static_load: wheel.map(|at| share(at, 0) * weight),
+            pitch: T::zero(),
+            roll: T::zero(),
+            wheel,
+            per_force: Some(wheel.map(|at| [-(share(at, 1) * lever), -(share(at, 2) * lever)])),
         }
     }
 
@@ -88,10 +124,13 @@ impl<T: Scalar> Stance<T> {
     /// A wheel never pulls on the ground: negative loads are set to zero.
     #[inline(always)]
     pub fn settle(&self, k: &[[T; 2]; 4]) -> Balance<T> {
-        self.settle_twisted(k, T::zero())
+        match &self.per_force {
+            None => self.settle_twisted(k, T::zero()),
+            Some(per_force) => self.settle_apart(k, per_force),
+        }
     }
 
-    /// The same on ground, or with a frame, that is twisted: four wheels are one more than statics needs, so that a
+    /// The same of four wheels at the corners of a rectangle on ground, or with a frame, that is twisted: four wheels are one more than statics needs, so that a
     /// load `twist` may move from each wheel of one diagonal (front left) to each of the other and change no balance.
     #[inline(always)]
     pub fn settle_twisted(&self, k: &[[T; 2]; 4], twist: T) -> Balance<T> {
@@ -110,7 +149,34 @@ impl<T: Scalar> Stance<T> {
         let inv = T::one() / (a11 * a22 - a12 * a21);
         let (ax, ay) = ((b[0] * a22 - a12 * b[1]) * inv, (a11 * b[1] - a21 * b[0]) * inv);
         let (dp, dr) = (p * ax, r * ay);
-        let load = [s[0] - dp - dr, s[1] - dp + dr, s[2] + dp - dr, s[3] + dp + dr].map(|n| n.max(T::zero()));
+        self.balance(k, [s[0] - dp - dr, s[1] - dp + dr, s[2] + dp - dr, s[3] + dp + dr])
+    }
+
+    /// The same where each contact's load depends on the specific force in a way of its own.
+    #[inline(always)]
+    fn settle_apart(&self, k: &[[T; 2]; 4], per_force: &[[T; 2]; 4]) -> Balance<T> {
+        let m = self.mass;
+        let (mut b, mut a) = ([T::zero(); 2], [[m, T::zero()], [T::zero(), m]]);
+        for i in 0..4 {
+            for j in 0..2 {
+                b[j] += self.static_load[i] * k[i][j];
+                a[j][0] -= per_force[i][0] * k[i][j];
+                a[j][1] -= per_force[i][1] * k[i][j];
+            }
+        }
+        let inv = T::one() / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
+        let (ax, ay) = ((b[0] * a[1][1] - a[0][1] * b[1]) * inv, (a[0][0] * b[1] - a[1][0] * b[0]) * inv);
+        let mut load = self.static_load;
+        for i in 0..4 {
+            load[i] += per_force[i][0] * ax + per_force[i][1] * ay;
+        }
+        self.balance(k, load)
+    }
+
+    /// What the contacts do under these loads, none of which pulls.
+    #[inline(always)]
+    fn balance(&self, k: &[[T; 2]; 4], load: [T; 4]) -> Balance<T> {
+        let load = load.map(|n| n.max(T::zero()));
         let mut out = Balance { load, force: [[T::zero(); 2]; 4], total: [T::zero(); 2], yaw_moment: T::zero() };
         for i in 0..4 {
             let f = [load[i] * k[i][0], load[i] * k[i][1]];

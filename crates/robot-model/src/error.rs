@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::chassis::Chassis;
+
 /// A parameter that no robot can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -24,12 +26,41 @@ pub enum ModelError {
         /// Its unit.
         unit: &'static str,
     },
+    /// A constant of robots on another chassis.
+    #[error("a {chassis} robot has no `{name}`; {}", why_foreign(*chassis))]
+    Foreign {
+        /// The name given.
+        name: &'static str,
+        /// The chassis of the robot.
+        chassis: Chassis,
+    },
+    /// Casters that hold nothing up.
+    #[error(
+        "{name} is {value}: a caster so near to the driven axle does not hold the robot up; give its place ahead of \
+        the axle, or behind it with a minus"
+    )]
+    Caster {
+        /// Name of the constant.
+        name: &'static str,
+        /// The value given, m.
+        value: f64,
+    },
     /// No constant has this name.
     #[error("a robot has no constant `{name}`; `Robot::CONSTANTS` lists them")]
     Unknown {
         /// The name given.
         name: &'static str,
     },
+}
+
+/// What to do about a constant of another chassis.
+const fn why_foreign(chassis: Chassis) -> &'static str {
+    match chassis {
+        Chassis::SkidSteer => {
+            "leave it out, or write chassis = \"differential\" if it stands on two wheels and casters"
+        }
+        Chassis::Differential => "leave it out: the places of its casters say where it stands",
+    }
 }
 
 /// What a quantity must do, to be that of a robot.

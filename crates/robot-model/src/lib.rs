@@ -1,11 +1,11 @@
-//! A four-wheeled skid-steer robot with wheel slip.
+//! Wheeled robots with wheel slip: four wheels on two sides, or two driven wheels and casters.
 //!
 //! Two plants share the contact patch of [`contact`]:
 //! * [`paper`]: the robot of Hendzel & Trojnacki 2014, Eq. 8 taken literally, closed by planar body dynamics;
 //! * [`plant`]: the robot of a user's simulation, torque-driven or speed-driven, which any [`Effect`] may change.
 //!
 //! Axes: x forward, y left, z up. Wheels: 0 front left, 1 front right, 2 rear left, 3 rear right
-//! (the paper's 1, 2, 3, 4). Sides: 0 left, 1 right. All quantities in SI units and radians.
+//! (the paper's 1, 2, 3, 4); where casters hold a robot up, 0 and 1 are these. Sides: 0 left, 1 right. All quantities in SI units and radians.
 //!
 //! The crate needs neither the standard library nor an allocator, and is generic over the scalar:
 //! `f32`, `f64`, dual numbers for derivatives, or [`Lanes`] for several robots at once.
@@ -14,8 +14,11 @@
 //!
 //! * `constants`: the table of constants; bounds, tuning and the keys of robot files follow from
 //!   its rows.
-//! * `robot`: the constants of a user's robot, checked; `tunable`: those that a fit may change.
-//! * `plant`: the step, torque-driven and speed-driven; `contact`: slip, tyre law, wheel loads.
+//! * `given`: robots from constants by their names;
+//!   `robot`: the constants of a user's robot, checked; `tunable`: those that a fit may change.
+//! * `plant`: the step, torque-driven and speed-driven; `on_casters`: the same with casters;
+//!   `contact`: slip, tyre law, wheel loads.
+//! * `chassis`: what a robot stands on, and how a caster swings.
 //! * `state`: what moves; `settle`: steady motion of a speed-driven robot.
 //! * `effect/*`: what an effect is: the trait, its specification, how engines get it.
 //! * `effects/*`: the catalogue, one file for each effect; the build script finds them.
@@ -27,11 +30,14 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod active;
+pub mod chassis;
 pub mod constants;
 pub mod contact;
 mod disturbance;
 pub mod effect;
 mod error;
+mod given;
+mod on_casters;
 pub mod paper;
 pub mod plant;
 pub mod presence;
@@ -48,6 +54,7 @@ pub mod effects {
 
 pub use ::scalar::Lanes;
 pub use active::Active;
+pub use chassis::Chassis;
 pub use constants::Constant;
 pub use disturbance::Disturbance;
 pub use effect::{Coefficients, Effect, EffectSpec, Kind, OperatingPoint, Parameter, Readings, Role};

@@ -2,6 +2,7 @@
 //! body motion and torque out).
 
 use crate::active::Active;
+use crate::chassis::{Chassis, dragged};
 use crate::contact::{Stance, combined};
 use crate::disturbance::Disturbance;
 use crate::effect::{Coefficients, OperatingPoint, Readings};
@@ -10,28 +11,28 @@ use crate::scalar::{Scalar, bell, real, smooth_sign};
 use crate::state::State;
 
 /// Wheel speed over which dry friction changes its sign, rad/s.
-const FRICTION_REST: f64 = 0.15;
+pub(crate) const FRICTION_REST: f64 = 0.15;
 /// Wheel speed over which the Stribeck rise decays, rad/s.
 const STRIBECK_SPEED: f64 = 0.6;
 
 /// A robot with its active effects, ready to step.
 pub struct Plant<'a, T: Scalar> {
-    robot: Robot<T>,
-    stance: Stance<T>,
+    pub(crate) robot: Robot<T>,
+    pub(crate) stance: Stance<T>,
     coefficients: Coefficients<T>,
     active: &'a [Active<T>],
     disturbance: Option<&'a dyn Disturbance<T>>,
-    step: T,
+    pub(crate) step: T,
     keep: [T; 2],
     inverse_mass: T,
     inverse_yaw_inertia: T,
 }
 
 /// Forces of an instant, before any speed has moved.
-struct Contacts<T> {
-    force: [[T; 2]; 4],
-    stiffness: [T; 4],
-    rolling: [T; 4],
+pub(crate) struct Contacts<T> {
+    pub(crate) force: [[T; 2]; 4],
+    pub(crate) stiffness: [T; 4],
+    pub(crate) rolling: [T; 4],
 }
 
 impl<'a, T: Scalar> Plant<'a, T> {
@@ -76,6 +77,16 @@ impl<'a, T: Scalar> Plant<'a, T> {
     pub fn set_velocity(&self, s: &mut State<T>, reference: [T; 2]) {
         let w = s.yaw_rate;
         s.velocity = [reference[0] - w * self.robot.com[1], reference[1] + w * self.robot.com[0]];
+        if self.robot.chassis == Chassis::Differential {
+            s.passive = [dragged(self.pivot(s, 0)), dragged(self.pivot(s, 1))];
+        }
+    }
+
+    /// Turns the wheels that a belt couples to the driven ones with them.
+    pub(crate) fn turn_passive(&self, s: &mut State<T>, speed: [T; 2]) {
+        if self.robot.chassis == Chassis::SkidSteer {
+            s.passive = speed;
+        }
     }
 
     /// Sets the drive to a torque command that has been held for long.
@@ -138,24 +149,30 @@ impl<'a, T: Scalar> Plant<'a, T> {
 
     #[inline(always)]
     fn speeds(s: &State<T>) -> [T; 4] {
-        [s.front_speed[0], s.front_speed[1], s.wheel_speed[0], s.wheel_speed[1]]
+        [s.passive[0], s.passive[1], s.wheel_speed[0], s.wheel_speed[1]]
+    }
+
+    /// Force per load of a wheel that turns at `speed`, and the stiffness of that along the wheel.
+    #[inline(always)]
+    pub(crate) fn tyre(&self, s: &State<T>, c: &Coefficients<T>, i: usize, speed: T) -> ([T; 2], T) {
+        let rest2 = self.robot.rest_speed * self.robot.rest_speed;
+        let [x, y] = self.stance.wheel[i];
+        let rim = speed * c.radius[i];
+        let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
+        let (per_speed, stiff) = combined(slip, rim * rim + rest2, c.slip_at_peak[i], self.robot.sliding_share);
+        let mu = c.adhesion[i] * per_speed;
+        let k = [mu * slip[0] * c.traction[i], mu * slip[1] * c.lateral[i]];
+        (k, c.adhesion[i] * stiff * c.traction[i])
     }
 
     /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
     #[inline(always)]
     fn contacts(&self, s: &State<T>, c: &Coefficients<T>) -> Contacts<T> {
         let speed = Self::speeds(s);
-        let rest2 = self.robot.rest_speed * self.robot.rest_speed;
         let mut k = [[T::zero(); 2]; 4];
         let mut stiffness = [T::zero(); 4];
         for i in 0..4 {
-            let [x, y] = self.stance.wheel[i];
-            let rim = speed[i] * c.radius[i];
-            let slip = [rim - (s.velocity[0] - s.yaw_rate * y), -(s.velocity[1] + s.yaw_rate * x)];
-            let (per_speed, stiff) = combined(slip, rim * rim + rest2, c.slip_at_peak[i], self.robot.sliding_share);
-            let mu = c.adhesion[i] * per_speed;
-            k[i] = [mu * slip[0] * c.traction[i], mu * slip[1] * c.lateral[i]];
-            stiffness[i] = c.adhesion[i] * stiff * c.traction[i];
+            (k[i], stiffness[i]) = self.tyre(s, c, i, speed[i]);
         }
         let balance = self.stance.settle_twisted(&k, c.twist);
         let mut rolling = [T::zero(); 4];
@@ -168,7 +185,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
 
     /// Torque of a side's drivetrain friction at wheel speed `w`, without rolling resistance.
     #[inline(always)]
-    fn friction(c: &Coefficients<T>, j: usize, w: T, sign: T) -> T {
+    pub(crate) fn friction(c: &Coefficients<T>, j: usize, w: T, sign: T) -> T {
         let mut dry = c.coulomb[j];
         if c.stribeck[j] != T::zero() {
             dry += c.stribeck[j] * bell(w * real(1.0 / STRIBECK_SPEED));
@@ -198,13 +215,16 @@ impl<'a, T: Scalar> Plant<'a, T> {
             self.change(s, torque, &mut changed);
             &changed
         };
+        if self.robot.chassis == Chassis::Differential {
+            return self.step_on_casters(s, torque, c);
+        }
         let Contacts { mut force, stiffness, rolling } = self.contacts(s, c);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
         for j in 0..2 {
             let mut inertia = [jw, jw + jm];
             let mut impulse = [T::zero(), h * (torque[j] + c.torque[j])];
             let mut ahead = [T::zero(); 2];
-            let speed = [s.front_speed[j], s.wheel_speed[j]];
+            let speed = [s.passive[j], s.wheel_speed[j]];
             for n in 0..2 {
                 let i = j + 2 * n;
                 let radius = c.radius[i];
@@ -229,7 +249,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
                 let i = j + 2 * n;
                 force[i][0] += stiffness[i] * (c.radius[i] * change[n] - ahead[n]);
             }
-            s.front_speed[j] = speed[0] + change[0];
+            s.passive[j] = speed[0] + change[0];
             s.wheel_speed[j] = speed[1] + change[1];
             s.wheel_angle[j] += h * s.wheel_speed[j];
         }
@@ -241,7 +261,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     pub fn step_at_speed(&self, s: &mut State<T>, speed: [T; 2], rate: [T; 2]) {
         let h = self.step;
         s.wheel_speed = speed;
-        s.front_speed = speed;
+        self.turn_passive(s, speed);
         let mut changed;
         let c = if self.active.is_empty() && self.disturbance.is_none() {
             &self.coefficients
@@ -250,8 +270,11 @@ impl<'a, T: Scalar> Plant<'a, T> {
             self.change(s, s.needed.map(|t| t * self.robot.drive.gain), &mut changed);
             &changed
         };
+        if self.robot.chassis == Chassis::Differential {
+            return self.step_on_casters_at_speed(s, speed, rate, c);
+        }
         let Contacts { force, rolling, .. } = self.contacts(s, c);
-        let inertia = self.robot.wheel_inertia * real(2.0) + self.robot.motor_inertia;
+        let inertia = self.robot.side_inertia();
         for j in 0..2 {
             let sign = smooth_sign(speed[j] * real(1.0 / FRICTION_REST));
             s.needed[j] = inertia * rate[j] + Self::friction(c, j, speed[j], sign);
@@ -265,7 +288,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     #[inline(always)]
-    fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], c: &Coefficients<T>) {
+    pub(crate) fn move_body(&self, s: &mut State<T>, force: &[[T; 2]; 4], c: &Coefficients<T>) {
         let (h, half) = (self.step, real::<T>(0.5));
         let mut total = c.force;
         let mut ground = [T::zero(); 2];

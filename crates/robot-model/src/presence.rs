@@ -1,5 +1,6 @@
 //! Where and when an effect is present: a limit that any law may be given.
 
+use crate::chassis::Chassis;
 use crate::effect::{Coefficients, OperatingPoint};
 use crate::scalar::{Scalar, real, smooth_sign};
 
@@ -41,7 +42,7 @@ impl<T: Scalar> Presence<T> {
         *self == Self::default()
     }
 
-    /// Share of the effect under each wheel, 0 to 1.
+    /// Share of the effect under each wheel, 0 to 1. Casters count as at the middle of the driven axle, and as of no side.
     #[inline(always)]
     pub fn at(&self, at: &OperatingPoint<T>) -> [T; 4] {
         let (zero, one) = (T::zero(), T::one());
@@ -50,8 +51,10 @@ impl<T: Scalar> Presence<T> {
         if let Some(disc) = self.disc {
             let ([c, s], [a, b]) = (at.heading, at.half_base);
             for (i, share) in share.iter_mut().enumerate() {
-                let x = if i < 2 { a } else { -a };
-                let y = if i % 2 == 0 { b } else { -b };
+                let (mut x, mut y) = (if i < 2 { a } else { -a }, if i % 2 == 0 { b } else { -b });
+                if at.chassis == Chassis::Differential {
+                    (x, y) = (zero, if i < 2 { zero } else { y });
+                }
                 let dx = at.position[0] + c * x - s * y - disc.centre[0];
                 let dy = at.position[1] + s * x + c * y - disc.centre[1];
                 let inside = disc.radius - (dx * dx + dy * dy).sqrt();
@@ -62,17 +65,23 @@ impl<T: Scalar> Presence<T> {
             let other = 1 - side.min(1);
             share[other] = zero;
             share[other + 2] = zero;
+            if at.chassis == Chassis::Differential {
+                share[side.min(1)] = zero;
+            }
         }
         share
     }
 }
 
 impl<T: Scalar> Coefficients<T> {
-    /// Takes `share` of what `other` changes, wheel by wheel; sides and the body take the mean of their wheels.
+    /// Takes `share` of what `other` changes, wheel by wheel; sides and the body take the mean of their driven wheels.
     #[inline(always)]
-    pub(crate) fn blend(&mut self, other: &Self, share: [T; 4]) {
+    pub(crate) fn blend(&mut self, other: &Self, share: [T; 4], chassis: Chassis) {
         let half = real::<T>(0.5);
-        let side = [half * (share[0] + share[2]), half * (share[1] + share[3])];
+        let side = match chassis {
+            Chassis::SkidSteer => [half * (share[0] + share[2]), half * (share[1] + share[3])],
+            Chassis::Differential => [share[2], share[3]],
+        };
         let body = half * (side[0] + side[1]);
         let mix = |own: &mut T, with: T, part: T| *own += part * (with - *own);
         for i in 0..4 {

@@ -2,6 +2,7 @@
 
 use nalgebra::RealField;
 
+use crate::chassis::Chassis;
 use crate::contact::Stance;
 use crate::error::ModelError;
 use crate::paper;
@@ -25,16 +26,20 @@ pub struct Drive<T> {
     pub dead_band: T,
 }
 
-/// A four-wheeled skid-steer robot whose wheels are coupled by a belt on each side, one motor per side.
+/// A robot with one motor per side: four wheels coupled by a belt on each side, or two driven wheels and casters.
+///
+/// Its geometric centre lies in the middle of its wheels, or of the driven axle where casters hold it up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot<T> {
+    /// What it stands on.
+    pub chassis: Chassis,
     /// Mass m, kg.
     pub mass: T,
     /// Inertia about the vertical through the centre of mass I_z, kg m².
     pub yaw_inertia: T,
     /// Centre of mass from the geometric centre on the ground (x, y, height), m.
     pub com: [T; 3],
-    /// Half the wheelbase a, m.
+    /// Half the wheelbase a, m; with casters half the distance from the axle to the farther of them.
     pub half_wheelbase: T,
     /// Half the track b, m.
     pub half_track: T,
@@ -62,6 +67,12 @@ pub struct Robot<T> {
     pub viscous: [T; 2],
     /// Rise of the dry friction of each side towards rest (Stribeck), N m.
     pub stribeck: T,
+    /// Where the casters' pivots are from the geometric centre, m; one caster counts as two at one place.
+    pub casters: [[T; 2]; 2],
+    /// Distance by which a caster's wheel trails its pivot, m.
+    pub caster_trail: T,
+    /// Rolling resistance coefficient of the casters.
+    pub caster_rolling: T,
     /// Where a trailer is hitched, m ahead of the geometric centre.
     pub hitch_x: T,
     /// From command to torque.
@@ -79,9 +90,12 @@ impl<T: Scalar + RealField> Robot<T> {
         let robot = self.cast::<f64>();
         // A bound that another constant sets means something only once that one is as it must be.
         for is_relative in [false, true] {
-            let rows = Robot::CONSTANTS.iter().filter(|constant| constant.bounds.is_relative() == is_relative);
-            for constant in rows {
+            let rows = Robot::CONSTANTS.iter().filter(|constant| constant.is_of(robot.chassis));
+            for constant in rows.filter(|constant| constant.bounds.is_relative() == is_relative) {
                 constant.check(&robot)?;
+            }
+            if robot.chassis == Chassis::Differential {
+                robot.check_casters()?;
             }
         }
         Ok(self)
@@ -89,14 +103,29 @@ impl<T: Scalar + RealField> Robot<T> {
 
     /// The same robot in another scalar.
     pub fn cast<U: Scalar>(&self) -> Robot<U> {
-        Robot::assemble(|constant| real(nalgebra::try_convert::<T, f64>(constant(self)).unwrap_or(f64::NAN)))
+        Robot::assemble(self.chassis, |constant| {
+            real(nalgebra::try_convert::<T, f64>(constant(self)).unwrap_or(f64::NAN))
+        })
+    }
+}
+
+impl Robot<f64> {
+    /// Refuses casters by which the robot does not stand.
+    fn check_casters(&self) -> Result<(), ModelError> {
+        let [[first, _], [second, _]] = self.casters;
+        // Their wheels would be in each other's way.
+        let least = 0.5 * self.wheel_radius.min(self.half_track);
+        if first.abs().max(second.abs()) < least {
+            return Err(ModelError::Caster { name: "caster_x", value: first });
+        }
+        Ok(())
     }
 }
 
 impl<U: Scalar> Robot<U> {
     /// A robot each of whose constants is made from the same constant of other robots: `make` gets what reads it.
-    pub fn assemble<T: Scalar>(make: impl Fn(fn(&Robot<T>) -> T) -> U) -> Self {
-        let mut out = Self::blank();
+    pub fn assemble<T: Scalar>(chassis: Chassis, make: impl Fn(fn(&Robot<T>) -> T) -> U) -> Self {
+        let mut out = Self { chassis, ..Self::blank() };
         for (to, from) in Self::CONSTANTS.iter().zip(Robot::<T>::CONSTANTS) {
             (to.set)(&mut out, make(from.get));
         }
@@ -107,6 +136,7 @@ impl<U: Scalar> Robot<U> {
     pub(crate) fn blank() -> Self {
         let o = U::zero();
         Self {
+            chassis: Chassis::SkidSteer,
             mass: o,
             yaw_inertia: o,
             com: [o; 3],
@@ -124,6 +154,9 @@ impl<U: Scalar> Robot<U> {
             coulomb: [o; 2],
             viscous: [o; 2],
             stribeck: o,
+            casters: [[o; 2]; 2],
+            caster_trail: o,
+            caster_rolling: o,
             hitch_x: o,
             drive: Drive { gain: o, lag: o, extra_lag: o, delay: o, limit: o, dead_band: o },
             gravity: o,
@@ -133,8 +166,39 @@ impl<U: Scalar> Robot<U> {
 
 impl<T: Scalar> Robot<T> {
     /// Where the wheels stand and how they are loaded.
-    pub(crate) fn stance(&self) -> Stance<T> {
-        Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
+    pub fn stance(&self) -> Stance<T> {
+        match self.chassis {
+            Chassis::SkidSteer => Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com),
+            Chassis::Differential => {
+                let from_com = self.contacts().map(|[x, y]| [x - self.com[0], y - self.com[1]]);
+                Stance::on(from_com, self.mass, self.gravity, self.com[2])
+            }
+        }
+    }
+
+    /// Inertia of the wheels of a side and of its motor, seen at a wheel, kg m².
+    pub fn side_inertia(&self) -> T {
+        let wheels = match self.chassis {
+            Chassis::SkidSteer => 2.0,
+            Chassis::Differential => 1.0,
+        };
+        self.wheel_inertia * real(wheels) + self.motor_inertia
+    }
+
+    /// The same of the wheels that are driven or coupled to such: without casters.
+    pub fn wheels(&self) -> impl ExactSizeIterator<Item = [T; 2]> + Clone {
+        let first = if self.chassis == Chassis::Differential { 2 } else { 0 };
+        self.contacts().into_iter().skip(first)
+    }
+
+    /// Where it touches the ground, from the geometric centre in body axes, m: front left, front right, rear left and rear
+    /// right wheel, or the first and second caster and the left and right wheel.
+    pub fn contacts(&self) -> [[T; 2]; 4] {
+        let (a, b) = (self.half_wheelbase, self.half_track);
+        match self.chassis {
+            Chassis::SkidSteer => [[a, b], [a, -b], [-a, b], [-a, -b]],
+            Chassis::Differential => [self.casters[0], self.casters[1], [T::zero(), b], [T::zero(), -b]],
+        }
     }
 }
 
@@ -143,6 +207,7 @@ impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
     fn from(p: &paper::Parameters) -> Self {
         let (o, half) = (T::zero(), 0.5);
         Self {
+            chassis: Chassis::SkidSteer,
             mass: real(p.mass),
             yaw_inertia: real(p.yaw_inertia),
             com: [real(half * p.wheelbase - p.com_to_front_axle), o, real(p.com_height)],
@@ -161,6 +226,9 @@ impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
             coulomb: [real(2.0 * p.coulomb_torque); 2],
             viscous: [o; 2],
             stribeck: o,
+            casters: [[o; 2]; 2],
+            caster_trail: o,
+            caster_rolling: o,
             hitch_x: real(-half * p.wheelbase),
             drive: Drive { gain: T::one(), lag: o, extra_lag: o, delay: o, limit: real(UNLIMITED), dead_band: o },
             gravity: real(p.gravity),

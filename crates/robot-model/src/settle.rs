@@ -54,7 +54,7 @@ impl<T: Scalar + RealField> Plant<'_, T> {
         }
         let (left, needed) = rate(s, [s.velocity[0], s.velocity[1], s.yaw_rate]);
         s.wheel_speed = speed;
-        s.front_speed = speed;
+        self.turn_passive(s, speed);
         s.needed = needed;
         left.amax()
     }

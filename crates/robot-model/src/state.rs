@@ -17,8 +17,9 @@ pub struct State<T> {
     pub yaw_rate: T,
     /// Speed of the driven (rear) wheel of each side, rad/s.
     pub wheel_speed: [T; 2],
-    /// Speed of the belt-driven front wheel of each side, rad/s.
-    pub front_speed: [T; 2],
+    /// What no motor turns: of four wheels, the speed of the belt-driven front wheel of each side, rad/s; of a robot on
+    /// casters, the angle at which each rolls in the body, rad.
+    pub passive: [T; 2],
     /// Angle of the driven wheel of each side, rad.
     pub wheel_angle: [T; 2],
     /// Torque after the current loop of each side, N m.
@@ -44,7 +45,7 @@ impl<T: Scalar> Default for State<T> {
             velocity: oo,
             yaw_rate: o,
             wheel_speed: oo,
-            front_speed: oo,
+            passive: oo,
             wheel_angle: oo,
             torque: oo,
             lagged: oo,

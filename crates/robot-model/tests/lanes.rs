@@ -55,7 +55,7 @@ fn torque(k: usize, i: usize) -> [f64; 2] {
 #[test]
 fn every_lane_has_the_bits_of_a_plant_of_its_own() {
     let robots = robots();
-    let side_by_side = Robot::assemble(|constant| Lanes(robots.each_ref().map(constant)));
+    let side_by_side = Robot::assemble(robots[0].chassis, |constant| Lanes(robots.each_ref().map(constant)));
     for (effect, in_lanes) in effects::catalogue::<f64>().into_iter().zip(effects::catalogue::<Lanes<N>>()) {
         let doses: [_; N] = std::array::from_fn(|i| values(effect, i));
         for kind in 0..4 {

@@ -4,7 +4,7 @@ use faer::Mat;
 use inference::least_squares::{Constant, Residuals, Settings};
 use inference::robust::{mean, rms};
 use robot_model::tunable::COUNT as NUISANCES;
-use robot_model::{Active, Plant, Robot, State};
+use robot_model::{Active, Chassis, Plant, Robot, State};
 use verdict::Quantity;
 
 use crate::run::SpeedRun;
@@ -24,6 +24,14 @@ pub(crate) struct Operating {
     pub(crate) speed: [f64; 2],
 }
 
+/// Track over which a search for the steady yaw rate begins, m: wheels that skid turn a body less than rolling ones.
+fn first_track(robot: &Robot<f64>) -> f64 {
+    match robot.chassis {
+        Chassis::SkidSteer => PLANT.first_track * robot.half_track,
+        Chassis::Differential => 2.0 * robot.half_track,
+    }
+}
+
 /// Means of a steady drive over all headings: torque of each side, yaw rate.
 fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
@@ -32,7 +40,7 @@ fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64
     let turning = (speed[1] - speed[0]).abs() > 1e-6;
     // A slope pulls differently around a turn; a straight drive keeps its heading.
     let headings = if turning { PLANT.headings } else { 1 };
-    let yaw = (speed[1] - speed[0]) / (PLANT.first_track * robot.half_track);
+    let yaw = (speed[1] - speed[0]) / first_track(robot);
     let mut s = State { yaw_rate: yaw, ..State::default() };
     plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
     let (mut torque, mut turned) = ([0.0; 2], 0.0);
@@ -163,7 +171,7 @@ pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose])
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let plant = Plant::new(robot, &active, PLANT.step);
     let radius = robot.wheel_radius;
-    let inertia = 2.0 * robot.wheel_inertia + robot.motor_inertia;
+    let inertia = robot.side_inertia();
     let rows = run.time.len();
 
     let mut out = Rows { torque: [vec![None; rows], vec![None; rows]], yaw_rate: vec![None; rows] };
@@ -172,7 +180,7 @@ pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose])
         let span = run.time[i] - run.time[i - 1];
         let speed = [run.speed[0][i], run.speed[1][i]];
         // The body follows its wheels within a tenth of a second: rows are longer than that.
-        s.yaw_rate = (speed[1] - speed[0]) / (PLANT.first_track * robot.half_track);
+        s.yaw_rate = (speed[1] - speed[0]) / first_track(robot);
         plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
         plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
         out.yaw_rate[i] = Some(s.yaw_rate).filter(|w| w.is_finite());

@@ -9,7 +9,7 @@ use inference::hypothesis::Sizes;
 use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
-use verdict::{Advice, Contender, Course, Manoeuvre, Quantity, WIDENING};
+use verdict::{Advice, Contender, Course, Manoeuvre, Quantity};
 
 use crate::compare::scatter;
 use crate::settings::{NAMING, naming::NextDrive};
@@ -123,7 +123,7 @@ pub(crate) fn advise_steady(
 fn course(drive: &Drive, robot: &Robot<f64>) -> Course {
     let mut levels: Vec<[f64; 2]> = Vec::new();
     for ([l, r], _) in &drive.levels {
-        let level = [0.5 * (l + r), 0.5 * (r - l) / (WIDENING * robot.half_track)];
+        let level = [0.5 * (l + r), 0.5 * (r - l) / robot.turning_lever()];
         if levels.last() != Some(&level) {
             levels.push(level);
         }

@@ -39,7 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("scalar", 1, clock::timed(rounds, run).0)
         }
         Some("lanes") => {
-            let mut wide: Robot<Lanes<WIDTH>> = Robot::assemble(|constant| Lanes::real(constant(&robot)));
+            let mut wide: Robot<Lanes<WIDTH>> =
+                Robot::assemble(robot.chassis, |constant| Lanes::real(constant(&robot)));
             for (i, mass) in wide.mass.0.iter_mut().enumerate() {
                 *mass += 0.01 * i as f64;
             }

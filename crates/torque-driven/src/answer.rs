@@ -170,7 +170,7 @@ impl Judged<'_> {
     /// When at least half of the wheels were inside the disc, in each recording.
     fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
         const FINE: usize = ANSWER.path_parts;
-        let (a, b) = (self.problem.robot.half_wheelbase, self.problem.robot.half_track);
+        let wheels = self.problem.robot.wheels();
         let mut out = BTreeMap::new();
         for cut in self.problem.cuts {
             let window = cut.rows_per_window as f64 * cut.period;
@@ -180,14 +180,14 @@ impl Judged<'_> {
                     let f = (i as f64 + 0.5) / FINE as f64;
                     let at = |k: usize| ends[0][k] * (1.0 - f) + ends[1][k] * f;
                     let (sin, cos) = at(2).sin_cos();
-                    let inside = [[a, b], [a, -b], [-a, b], [-a, -b]]
-                        .iter()
+                    let inside = wheels
+                        .clone()
                         .filter(|[x, y]| {
                             let wheel = [at(0) + cos * x - sin * y, at(1) + sin * x + cos * y];
                             (wheel[0] - disc[0]).hypot(wheel[1] - disc[1]) < disc[2]
                         })
                         .count();
-                    if inside >= 2 {
+                    if 2 * inside >= wheels.len() {
                         let from = cut.from + (w as f64 + i as f64 / FINE as f64) * window;
                         let until = from + window / FINE as f64;
                         match list.last_mut() {

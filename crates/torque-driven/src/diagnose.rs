@@ -252,7 +252,7 @@ pub(crate) fn cut_all(
         pose_sigma: case.pose_sigma,
         gyro: sensors.gyro,
         wheel_radius: robot.wheel_radius,
-        half_base: [robot.half_wheelbase, robot.half_track],
+        contacts: robot.contacts(),
     };
     runs.iter()
         .map(|run| {

@@ -115,7 +115,8 @@ impl Problem<'_> {
     pub(crate) fn variants(&self) -> Vec<Variant> {
         // A forward velocity comes from a pose only.
         let segments = || self.cuts.iter().flat_map(|c| &c.segments);
-        let mut all = variants_of(self.known, segments().any(|s| s.shows(Channel::ForwardVelocity)));
+        let pose = segments().any(|s| s.shows(Channel::ForwardVelocity));
+        let mut all = variants_of(self.known, self.robot.chassis, pose);
         all.retain(|v| self.without != Some(v.spec().id));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all

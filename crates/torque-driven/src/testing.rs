@@ -31,7 +31,7 @@ pub(crate) fn cutting() -> CutOptions {
         pose_sigma: 1e-4,
         gyro: GyroError::default(),
         wheel_radius: r.wheel_radius,
-        half_base: [r.half_wheelbase, r.half_track],
+        contacts: r.contacts(),
     }
 }
 

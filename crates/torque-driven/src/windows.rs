@@ -97,8 +97,8 @@ pub(crate) struct CutOptions {
     pub(crate) pose_sigma: f64,
     pub(crate) gyro: GyroError,
     pub(crate) wheel_radius: f64,
-    /// Half wheelbase and half track, m.
-    pub(crate) half_base: [f64; 2],
+    /// Where the robot touches the ground, from its geometric centre, m.
+    pub(crate) contacts: [[f64; 2]; 4],
 }
 
 /// Cuts a run into segments of windows.
@@ -194,11 +194,7 @@ fn segment(
             let t = (row as f64 + (w as f64 + 0.5) * per_window as f64) * run.period;
             let p = smoothed.position(t);
             let (s, c) = interpolate(&smoothed.yaw, t / run.period).sin_cos();
-            std::array::from_fn(|i| {
-                let x = if i < 2 { o.half_base[0] } else { -o.half_base[0] };
-                let y = if i % 2 == 0 { o.half_base[1] } else { -o.half_base[1] };
-                [p[0] + c * x - s * y, p[1] + s * x + c * y]
-            })
+            o.contacts.map(|[x, y]| [p[0] + c * x - s * y, p[1] + s * x + c * y])
         })
         .collect();
 

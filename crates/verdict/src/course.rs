@@ -4,8 +4,6 @@
 const RAMP: [f64; 2] = [1.2, 3.0];
 /// Instants closer than this are one, s: far above rounding, far below a row.
 const INSTANT: f64 = 1e-9;
-/// Of the half track, the lever on which a wheel's speed turns the body: skidding wheels turn it less than rolling ones.
-pub const WIDENING: f64 = 1.5;
 
 /// Wanted speed and yaw rate over time, linear between points.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -69,8 +67,8 @@ fn ramp(from: [f64; 2], to: [f64; 2]) -> f64 {
     (0..2).map(|c| (to[c] - from[c]).abs() / RAMP[c]).fold(0.0, f64::max)
 }
 
-/// Speeds of the left and right wheel, rad/s, that drive a body so: `w = (v ∓ b ω) / r`; of a body that skids, b is
-/// [`WIDENING`] times the half track.
+/// Speeds of the left and right wheel, rad/s, that drive a body so: `w = (v ∓ b ω) / r`; of a body that skids, the lever b
+/// is longer than half the track.
 pub fn wheel_speeds([speed, turn]: [f64; 2], wheel_radius: f64, lever: f64) -> [f64; 2] {
     let lever = lever * turn;
     [(speed - lever) / wheel_radius, (speed + lever) / wheel_radius]

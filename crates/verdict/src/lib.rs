@@ -42,7 +42,7 @@ pub type Word = Cow<'static, str>;
 pub use advice::{Advice, Contender, Manoeuvre};
 pub use cause::{Cause, Estimate};
 pub use correction::{Correction, EffectAt, Side};
-pub use course::{Course, WIDENING, wheel_speeds};
+pub use course::{Course, wheel_speeds};
 pub use coverage::{Chosen, ComparedWith, Coverage, Why};
 pub use diagnosis::{Diagnosis, FORMAT, Verdict};
 pub use free_run::FreeRun;

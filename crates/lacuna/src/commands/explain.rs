@@ -100,6 +100,7 @@ fn effect(spec: &EffectSpec) -> String {
             ("sign", if spec.signed { "either" } else { "" }),
             ("axes", &spec.axes.join(", ")),
             ("looked for", &spec.scopes.forms().collect::<Vec<_>>().join("; ")),
+            ("on", spec.on()),
             ("revealed by", spec.revealed_by),
             ("resembles", spec.resembles),
             ("shows in", spec.redundancy.shows_in().unwrap_or_default()),

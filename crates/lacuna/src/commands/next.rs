@@ -13,7 +13,7 @@ use robot_file::Causality;
 use robot_model::Robot;
 use serde_json::json;
 use verdict::Advice;
-use verdict::{Manoeuvre, WIDENING, wheel_speeds};
+use verdict::{Manoeuvre, wheel_speeds};
 
 use super::diagnose::{self, Input, NEXT_LENGTH};
 use super::{Outcome, OwnEffects, Usage, listed};
@@ -126,12 +126,13 @@ fn chosen<'a>(advice: &'a Advice, name: Option<&str>) -> Result<Option<&'a Manoe
 /// Wheels of a skid-steered body turn it less than rolling ones; those of a command-driven robot get the commands that
 /// its simulation takes for the wanted twist.
 fn profile(m: &Manoeuvre, robot: &Robot<f64>, causality: Causality) -> String {
-    let lever = if causality == Causality::CommandDriven { 1.0 } else { WIDENING };
+    let commanded = causality == Causality::CommandDriven;
+    let lever = if commanded { robot.half_track } else { robot.turning_lever() };
     let mut out = "t_s,v_m_s,omega_rad_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,torque_free\n".to_owned();
     for k in 0..=(m.length() * RATE).round() as usize {
         let t = k as f64 / RATE;
         let wanted = m.wanted(t);
-        let [left, right] = wheel_speeds(wanted, robot.wheel_radius, lever * robot.half_track);
+        let [left, right] = wheel_speeds(wanted, robot.wheel_radius, lever);
         let free = u8::from(m.is_torque_free(t));
         out += &format!("{t:.2},{:.4},{:.4},{left:.4},{right:.4},{free}\n", wanted[0], wanted[1]);
     }

@@ -4,7 +4,7 @@
 //! `R = A (1 − d)/d`, A the inverse inertia of the contact and d the impedance of `solimp`. A tyre creeps in proportion to
 //! the speed of its rim, `F = 2 μ N s/(λp u)`; MuJoCo's contact knows no rim. So the creep is that at one rim speed.
 
-use crate::contact::{WHEELS, grips};
+use crate::contact::{casters, grips, names, wheels};
 use crate::inertia::Parts;
 use crate::number::number;
 use crate::vehicle::Vehicle;
@@ -15,6 +15,8 @@ pub(super) const HALF_WIDTH: f64 = 0.002;
 /// Reference speed `sqrt((ω r)² + v0²)` whose creep the contacts have, m/s: free runs of four drawn robots came closest to
 /// the planar plant at 0.7 to 0.8.
 const CREEP_AT: f64 = 0.75;
+/// Speed over which the friction of a caster builds up, m/s.
+const SLIDES_AT: f64 = 0.02;
 /// Damping b of the friction, 1/s. It must be fast against turning, or friction points the wrong way: MuJoCo balances
 /// accelerations in axes that turn with the wheel. More of it changes nothing.
 const DAMPING: f64 = 400.0;
@@ -26,15 +28,18 @@ const CONTACTS: f64 = 2.0;
 /// Contacts of the wheels with the floor.
 pub(super) fn pairs(v: &Vehicle, parts: &Parts) -> Element {
     let inverse = inverse_mass(parts);
+    let on_casters = casters(&v.robot);
     let pair = |i: usize| {
         let grip = &grips(v)[i];
-        let slope = 2.0 * grip.adhesion * grip.load / (grip.slip_at_peak * CREEP_AT) / CONTACTS;
+        // Dry from the start where nothing rolls: casters.
+        let (peak, creeps_at) = if on_casters.contains(&i) { (1.0, SLIDES_AT) } else { (grip.slip_at_peak, CREEP_AT) };
+        let slope = 2.0 * grip.adhesion * grip.load / (peak * creeps_at) / CONTACTS;
         let impedance = 1.0 / (1.0 + DAMPING / (slope.max(1.0) * inverse[i]));
         let [along, across] = grip.friction;
         element("pair")
-            .with("name", WHEELS[i])
+            .with("name", names(&v.robot)[i])
             .with("geom1", "floor")
-            .with("geom2", WHEELS[i])
+            .with("geom2", names(&v.robot)[i])
             .with("condim", "3")
             // Along the axle and across it; the others are not used.
             .nums("friction", &[along.max(MIN_FRICTION), across.max(MIN_FRICTION), 0.0, 0.0, 0.0])
@@ -46,7 +51,7 @@ pub(super) fn pairs(v: &Vehicle, parts: &Parts) -> Element {
     let comment = format!(
         "Sliding friction along and across the axle; solimp and solreffriction make it creep like the tyre does at {CREEP_AT} m/s.",
     );
-    element("contact").comments([comment]).children((0..4).map(pair))
+    element("contact").comments([comment]).children(casters(&v.robot).chain(wheels(&v.robot)).map(pair))
 }
 
 /// Least friction that MuJoCo's cones take.

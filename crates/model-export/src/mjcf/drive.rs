@@ -1,9 +1,10 @@
 //! Belts and drives in MJCF.
 
+use robot_model::Chassis;
 use robot_model::effect::export::Section;
 
 use super::step::STEP;
-use crate::contact::SIDES;
+use crate::contact::{SIDES, driven, names};
 use crate::number::number;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
@@ -15,7 +16,8 @@ const LEAST_LAG: f64 = 1e-5;
 
 /// Front wheels that turn with the rear ones: an equality of joints, or a tendon whose dry friction is the belt's limit.
 pub(super) fn couplings(mut root: Element, v: &Vehicle) -> Element {
-    let wheels = |side: usize| (format!("front_{}", SIDES[side]), format!("rear_{}", SIDES[side]));
+    let wheels = |side: usize| (names(&v.robot)[side], driven(&v.robot, side));
+    let has_belts = v.robot.chassis == Chassis::SkidSteer;
     let mut tendons = Vec::new();
     let mut equalities = Vec::new();
     for side in 0..2 {
@@ -23,7 +25,10 @@ pub(super) fn couplings(mut root: Element, v: &Vehicle) -> Element {
         let joint = |name: &str, coefficient: f64| element("joint").with("joint", name).num("coef", coefficient);
         if v.sensors.encoder[side] != 1.0 {
             let name = format!("encoder_{}", SIDES[side]);
-            tendons.push(element("fixed").with("name", name).child(joint(&rear, v.sensors.encoder[side])));
+            tendons.push(element("fixed").with("name", name).child(joint(rear, v.sensors.encoder[side])));
+        }
+        if !has_belts {
+            continue;
         }
         if let Some(most) = v.belt(side) {
             let belt = element("fixed")
@@ -31,7 +36,7 @@ pub(super) fn couplings(mut root: Element, v: &Vehicle) -> Element {
                 .num("frictionloss", most)
                 .with("solreffriction", "0.004 1")
                 .with("solimpfriction", "0.99 0.999 0.001");
-            tendons.push(belt.child(joint(&front, 1.0)).child(joint(&rear, -1.0)));
+            tendons.push(belt.child(joint(front, 1.0)).child(joint(rear, -1.0)));
         } else {
             equalities.push(
                 element("joint")
@@ -61,10 +66,8 @@ pub(super) fn actuators(v: &Vehicle) -> Element {
     let delay = (d.delay + quick).max(0.0);
     let lag = slow + (d.delay + quick).min(0.0);
     let motor = |side: usize| {
-        let mut motor = element("general")
-            .with("name", SIDES[side])
-            .with("joint", format!("rear_{}", SIDES[side]))
-            .num("gainprm", d.gain);
+        let mut motor =
+            element("general").with("name", SIDES[side]).with("joint", driven(&v.robot, side)).num("gainprm", d.gain);
         if d.limit < NO_LIMIT {
             // What is limited is the torque before the lag: the command times the gain.
             motor = motor.nums("ctrlrange", &[-d.limit / d.gain, d.limit / d.gain]);

@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::WHEELS;
+use crate::contact::{casters, names, wheels};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
 use crate::number::number;
@@ -93,7 +93,8 @@ fn chassis(v: &Vehicle, parts: &Parts) -> Element {
     if let Some(load) = &parts.payload {
         body = body.child(element("body").with("name", "payload").child(inertial(load, [0.0; 3])));
     }
-    body.comments(v.comments(Section::Wheels)).children((0..4).map(|i| wheel(v, parts, i)))
+    let casters = casters(r).map(|i| caster(v, parts, i));
+    body.comments(v.comments(Section::Wheels)).children(casters).children(wheels(r).map(|i| wheel(v, parts, i)))
 }
 
 /// A sphere whose blunt drag in the thin medium is `F = ρ C π R² v²` (MuJoCo has no factor of one half there).
@@ -106,6 +107,12 @@ fn drag(v: &Vehicle) -> Element {
         .with("rgba", "0 0 0 0")
 }
 
+/// A caster: a sphere that slides as hard as it rolls.
+fn caster(v: &Vehicle, parts: &Parts, i: usize) -> Element {
+    let sphere = element("geom").with("name", names(&v.robot)[i]).with("type", "sphere");
+    invisible(sphere.num("size", v.robot.wheel_radius).nums("pos", &parts.wheels[i].centre))
+}
+
 /// A wheel: a capsule so short that it is a disc, because the contacts of capsules lie along their axis and so tell
 /// friction along the axle from friction across it.
 fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
@@ -113,13 +120,13 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
     let [cosine, sine] = v.eccentric[i];
     // At angle zero the axle is `cosine` higher above the ground than the middle of the wheel.
     let shape = element("geom")
-        .with("name", WHEELS[i])
+        .with("name", names(&v.robot)[i])
         .with("type", "capsule")
         .with("size", format!("{} {}", number(v.coefficients.radius[i]), number(contact::HALF_WIDTH)))
         .with("zaxis", "0 1 0")
         .nums("pos", &[sine, 0.0, -cosine]);
     let mut joint = element("joint")
-        .with("name", WHEELS[i])
+        .with("name", names(&v.robot)[i])
         .with("axis", "0 1 0")
         .num("damping", grip.viscous)
         .num("frictionloss", grip.dry);
@@ -127,7 +134,7 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
         joint = joint.num("armature", v.robot.motor_inertia);
     }
     element("body")
-        .with("name", WHEELS[i])
+        .with("name", names(&v.robot)[i])
         .nums("pos", &part.centre)
         .child(joint)
         .child(inertial(part, part.centre))

@@ -3,7 +3,7 @@
 use robot_model::effect::export::Section;
 
 use super::step::STEP;
-use crate::contact::SIDES;
+use crate::contact::{SIDES, driven};
 use crate::number::number;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
@@ -31,7 +31,7 @@ pub(super) fn sensors(v: &Vehicle) -> Element {
     let encoder = |side: usize| {
         let name = format!("encoder_{}", SIDES[side]);
         if v.sensors.encoder[side] == 1.0 {
-            named("jointvel", name).with("joint", format!("rear_{}", SIDES[side]))
+            named("jointvel", name).with("joint", driven(&v.robot, side))
         } else {
             named("tendonvel", name.clone()).with("tendon", name)
         }

@@ -45,6 +45,7 @@ Examples:
   cargo xtask blind --quick --judge                    12 cases; fails when a target is missed
   cargo xtask blind --draw-only --count 20 --out DIR   cases and truth for other tools
   cargo xtask blind --wide                             robots, sensors and visits of every sort
+  cargo xtask blind --robots differential              two driven wheels and casters
   cargo xtask blind --kind speed --count 200           speed-driven cases
   cargo xtask blind --kind command --count 200         command-driven cases
   cargo xtask blind --kind odometry --count 240        wheel counts and a pose
@@ -186,9 +187,9 @@ fn examine(args: &Args, plans: &[&Plan], layout: &Layout, seals: &seal::Seals, p
     let figures = if args.drawing.is_wide() { wide::figures(&rows, failed) } else { figures::figures(&rows, failed) };
     let page = write::all(layout, &args.drawing.described(), &rows, &figures)?;
     if args.running.docs {
-        let name = if args.drawing.is_wide() { "blind-wide.md" } else { "blind.md" };
+        let name = args.drawing.page();
         output::into_docs(name, MARKS, &output::below_title(&page)?)?;
-        if !args.drawing.is_wide() {
+        if name == "blind.md" {
             let picture = output::docs("blind-reliability.svg");
             fs::copy(layout.root().join(write::PICTURE), &picture)
                 .with_context(|| format!("cannot write '{}'", picture.display()))?;

@@ -1,12 +1,21 @@
 //! Which cases are drawn.
 
 use anyhow::{Result, ensure};
-use clap::Args as ClapArgs;
 use clap::builder::{PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
+use clap::{Args as ClapArgs, ValueEnum};
 use examiner::{Mix, Plan, RobotClass, Setting, Settings, TyreLaw};
 
 /// Cases of `--quick`: with the usual mix at least one of each kind.
 const QUICK: usize = 12;
+
+/// What robots stand on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Robots {
+    /// Four wheels, coupled by side.
+    SkidSteer,
+    /// Two driven wheels and casters.
+    Differential,
+}
 
 /// How a set is drawn.
 #[derive(Debug, ClapArgs)]
@@ -37,6 +46,9 @@ pub(super) struct Drawing {
         ("small", RobotClass::Small), ("medium", RobotClass::Medium), ("large", RobotClass::Large),
     ]))]
     class: RobotClass,
+    /// What the robots stand on: four wheels coupled by side, or two driven wheels and casters.
+    #[arg(long, value_enum, default_value_t = Robots::SkidSteer)]
+    robots: Robots,
     /// Rows per second.
     #[arg(long, value_name = "HZ", default_value_t = Settings::default().row_rate_hz)]
     rate: f64,
@@ -55,7 +67,7 @@ pub(super) struct Drawing {
     /// Robots of 5 to 300 kg, 20 to 1000 rows/s, sensors left out, none to ten references, constants that moved, heavy
     /// tails, laws by another hand, up to three effects at once: each case has its own.
     #[arg(long, conflicts_with_all = [
-        "mix", "law", "setting", "class", "rate", "noise", "duration", "references", "moved", "no_pose", "no_accel",
+        "mix", "law", "setting", "class", "robots", "rate", "noise", "duration", "references", "moved", "no_pose", "no_accel",
     ])]
     wide: bool,
     /// Leave out the pose.
@@ -69,6 +81,15 @@ pub(super) struct Drawing {
 impl Drawing {
     pub(super) fn is_wide(&self) -> bool {
         self.wide
+    }
+
+    /// The page of the documentation that shows such a set.
+    pub(super) fn page(&self) -> &'static str {
+        match self.robots {
+            _ if self.wide => "blind-wide.md",
+            Robots::SkidSteer => "blind.md",
+            Robots::Differential => "blind-differential.md",
+        }
     }
 
     fn count(&self) -> usize {
@@ -88,6 +109,7 @@ impl Drawing {
             setting: self.setting,
             law: self.law,
             class: self.class,
+            casters: self.robots == Robots::Differential,
             row_rate_hz: self.rate,
             pose: !self.no_pose,
             accelerometer: !self.no_accel,
@@ -114,10 +136,11 @@ impl Drawing {
             (false, false) => "",
         };
         format!(
-            "Set of {} cases, seed {}: {law}, {setting} effects, {} robots, {} rows/s, {} s, noise x {}, {} references, constants moved by up to {} sigma{without}.",
+            "Set of {} cases, seed {}: {law}, {setting} effects, {} {} robots, {} rows/s, {} s, noise x {}, {} references, constants moved by up to {} sigma{without}.",
             self.count(),
             self.seed,
             format!("{:?}", self.class).to_lowercase(),
+            if self.robots == Robots::Differential { "differential" } else { "skid-steer" },
             self.rate,
             self.duration,
             self.noise,

@@ -2,6 +2,7 @@
 
 use core::any::Any;
 
+use crate::chassis::Chassis;
 use crate::robot::{Robot, UNLIMITED};
 use crate::scalar::{Scalar, real};
 
@@ -30,6 +31,8 @@ pub trait Effect<T: Scalar>: Any + Sync {
 /// All that the law of an instant may depend on.
 #[derive(Debug, Clone, Copy)]
 pub struct OperatingPoint<T> {
+    /// What the robot stands on.
+    pub chassis: Chassis,
     /// Time since the start of the recording, s.
     pub time: T,
     /// Geometric centre on the ground, m.
@@ -50,13 +53,16 @@ pub struct OperatingPoint<T> {
     pub gravity: T,
     /// Hitch from the centre of mass in body axes, m.
     pub hitch: [T; 2],
-    /// Wheel positions from the geometric centre in body axes, m.
+    /// Half the wheelbase and half the track, m.
     pub half_base: [T; 2],
     /// Torque that the drive of each side delivers, N m; of a speed-driven robot, that of the step before.
     pub torque: [T; 2],
 }
 
 /// What the ground, the drivetrain and the surroundings do at an instant: all that a law may change.
+///
+/// Wheels are those of [`Robot::contacts`]: of a robot with casters these come first, and nothing but their rolling
+/// resistance counts.
 #[derive(Debug, Clone, Copy)]
 pub struct Coefficients<T> {
     /// Peak adhesion under each wheel.
@@ -117,6 +123,7 @@ impl<T: Scalar> Robot<T> {
     #[inline(always)]
     pub fn at_rest(&self) -> OperatingPoint<T> {
         OperatingPoint {
+            chassis: self.chassis,
             time: T::zero(),
             position: [T::zero(); 2],
             heading: [T::one(), T::zero()],
@@ -138,7 +145,13 @@ impl<T: Scalar> Robot<T> {
             adhesion: [self.adhesion; 4],
             slip_at_peak: [self.slip_at_peak; 4],
             lateral: [self.lateral_factor; 4],
-            rolling: [self.rolling_resistance; 4],
+            rolling: match self.chassis {
+                Chassis::SkidSteer => [self.rolling_resistance; 4],
+                Chassis::Differential => {
+                    let (caster, wheel) = (self.caster_rolling, self.rolling_resistance);
+                    [caster, caster, wheel, wheel]
+                }
+            },
             radius: [self.wheel_radius; 4],
             traction: [T::one(); 4],
             twist: T::zero(),

@@ -1,5 +1,6 @@
 //! The specification of an effect: all that is known about it besides its law, as plain data.
 
+use crate::chassis::Chassis;
 use crate::effect::Export;
 use crate::robot::Robot;
 
@@ -309,6 +310,8 @@ pub struct EffectSpec {
     pub axes: &'static [&'static str],
     /// Where and when it may be present.
     pub scopes: Scopes,
+    /// The chassis on which alone it can be; `None` for any.
+    pub chassis: Option<Chassis>,
     /// Sensor redundancy in which it shows, if any.
     pub redundancy: Redundancy,
     /// Term of the torque law of a speed-driven robot that it stands for, if any.
@@ -345,6 +348,7 @@ impl EffectSpec {
         signed: false,
         axes: &[],
         scopes: Scopes::WHOLE,
+        chassis: None,
         redundancy: Redundancy::None,
         load_term: None,
         sized_by: SizedBy::Itself,
@@ -360,6 +364,20 @@ impl EffectSpec {
     pub const COMMAND: Self = Self { kind: Kind::Command, export: Export::DRIVE, ..Self::PHYSICS };
     /// What a sensor shows; the rest as of [`EffectSpec::PHYSICS`].
     pub const SENSOR: Self = Self { kind: Kind::Sensor, export: Export::SENSOR, ..Self::PHYSICS };
+
+    /// Whether it can be on a robot of this chassis.
+    pub fn is_of(&self, chassis: Chassis) -> bool {
+        self.chassis.is_none_or(|only| only == chassis)
+    }
+
+    /// The robots on which alone it can be, for people; nothing where it can be on any.
+    pub fn on(&self) -> &'static str {
+        match self.chassis {
+            None => "",
+            Some(Chassis::SkidSteer) => "robots on four wheels only",
+            Some(Chassis::Differential) => "robots on two wheels and casters only",
+        }
+    }
 
     /// Indices of the parameters that measure strength.
     pub fn strengths(&self) -> impl Iterator<Item = usize> + '_ {

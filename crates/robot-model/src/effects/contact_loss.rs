@@ -1,5 +1,6 @@
 //! A wheel that hangs in the air.
 
+use crate::chassis::Chassis;
 use crate::effect::export::{Section, Way};
 use crate::effect::{Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Values};
 use crate::scalar::{Scalar, real};
@@ -17,6 +18,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Two wheels on a diagonal carry the robot: it rocks, and turns differently both ways.",
     parameters: &[Parameter::strength("q", "-", [-1.0, 1.0], &[0.5])],
     signed: true,
+    chassis: Some(Chassis::SkidSteer),
     interest: 0.4,
     rarity: 6.0,
     revealed_by: "spins and tight arcs both ways",

@@ -1,5 +1,6 @@
 //! Wheels of one side out of true.
 
+use crate::chassis::Chassis;
 use crate::effect::export::{Carrier, Section, Way};
 use crate::effect::{
     Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, SizedBy, Values,
@@ -10,7 +11,7 @@ use crate::scalar::Scalar;
 /// grip and rolling resistance of each in proportion to its load, times 1 + κ e(θ), from 0 to 2
 ///
 /// Two wheels are out of true by amounts and at angles of their own; `√(e_c² + e_s² + d_c² + d_s²)` is the root mean
-/// square of their amounts. A wheel presses harder while its long side is down, by its stiffness over its load at rest, κ, if
+/// square of their amounts; where a side has one wheel, d does nothing. A wheel presses harder while its long side is down, by its stiffness over its load at rest, κ, if
 /// the body stays where it is; κ = 0 if the body follows every rise.
 pub struct Law;
 
@@ -54,7 +55,12 @@ impl<T: Scalar> Effect<T> for Law {
         for j in 0..2 {
             let (sin, cos) = at.wheel_angle[j].sin_cos();
             let rise = [(v[0] + v[2]) * cos + (v[1] + v[3]) * sin, (v[0] - v[2]) * cos + (v[1] - v[3]) * sin];
-            for (i, rise) in [(j, rise[0]), (j + 2, rise[1])] {
+            let wheels = match at.chassis {
+                Chassis::SkidSteer => [(j, rise[0]), (j + 2, rise[1])],
+                // One wheel, and d would say what e says: half of each of two like it.
+                Chassis::Differential => [(j, T::zero()), (j + 2, v[0] * cos + v[1] * sin)],
+            };
+            for (i, rise) in wheels {
                 // Not below nothing, and not above twice: it lifts its neighbour then.
                 let load = (T::one() + v[4] * rise).max(T::zero()).min(T::one() + T::one());
                 c.radius[i] += rise;

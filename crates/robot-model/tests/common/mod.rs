@@ -1,7 +1,7 @@
 //! What the tests of this crate share: a robot, a lively drive, and runs of it.
 
 use robot_model::robot::{Drive, Robot};
-use robot_model::{Active, Plant, Scalar, State};
+use robot_model::{Active, Chassis, Plant, Scalar, State};
 
 /// A 30 kg robot in which no constant is at a special value.
 pub(crate) fn robot() -> Robot<f64> {
@@ -23,10 +23,45 @@ pub(crate) fn robot() -> Robot<f64> {
         coulomb: [0.5, 0.4],
         viscous: [0.03, 0.04],
         stribeck: 0.1,
+        chassis: Chassis::SkidSteer,
+        casters: [[0.0; 2]; 2],
+        caster_trail: 0.0,
+        caster_rolling: 0.0,
         hitch_x: -0.25,
         drive: Drive { gain: 1.0, lag: 0.03, extra_lag: 0.0, delay: 0.02, limit: 15.0, dead_band: 0.0 },
         gravity: 9.81,
     }
+}
+
+/// A 12 kg robot on two driven wheels, a caster behind and one ahead, in which no constant is at a special value.
+pub(crate) fn on_casters() -> Robot<f64> {
+    let given = [
+        ("mass", 12.0),
+        ("yaw_inertia", 0.3),
+        ("com_x", -0.03),
+        ("com_y", 0.004),
+        ("com_height", 0.1),
+        ("track", 0.32),
+        ("caster_x", -0.18),
+        ("caster_y", 0.02),
+        ("second_caster_x", 0.15),
+        ("second_caster_y", -0.01),
+        ("caster_trail", 0.03),
+        ("caster_rolling", 0.05),
+        ("wheel_radius", 0.07),
+        ("wheel_inertia", 0.002),
+        ("motor_inertia", 0.01),
+        ("adhesion", 0.8),
+        ("sliding_share", 0.9),
+        ("rolling_resistance", 0.02),
+        ("coulomb_left", 0.2),
+        ("coulomb_right", 0.25),
+        ("viscous", 0.02),
+        ("stribeck", 0.05),
+        ("motor_lag", 0.02),
+        ("torque_limit", 6.0),
+    ];
+    Robot::on_chassis(Chassis::Differential, &given).expect("a robot")
 }
 
 /// A torque command that starts, turns both ways, brakes and reverses; held over 10 ms.
@@ -81,9 +116,9 @@ pub(crate) fn run<T: Scalar>(
 
 /// The state as numbers.
 pub(crate) fn numbers<T: Scalar>(s: &State<T>) -> Vec<T> {
-    let State { time, position, heading, velocity, yaw_rate, wheel_speed, front_speed, wheel_angle, .. } = *s;
+    let State { time, position, heading, velocity, yaw_rate, wheel_speed, passive, wheel_angle, .. } = *s;
     let State { torque, lagged, specific, rate, needed, .. } = *s;
-    let pairs = [position, heading, velocity, wheel_speed, front_speed, wheel_angle, torque, lagged, specific, needed];
+    let pairs = [position, heading, velocity, wheel_speed, passive, wheel_angle, torque, lagged, specific, needed];
     [time, yaw_rate].into_iter().chain(pairs.into_iter().flatten()).chain(rate).collect()
 }
 

@@ -1,7 +1,11 @@
 //! What the tests of this battery share.
 
 use robot_model::effect::Scopes;
-use robot_model::{Coefficients, Disc, EffectSpec, OperatingPoint, Presence, Scalar, State, effects, real};
+use robot_model::{
+    Chassis, Coefficients, Disc, EffectSpec, OperatingPoint, Presence, Robot, Scalar, State, effects, real,
+};
+
+use crate::common::{on_casters, robot};
 
 pub(crate) const H: f64 = 1e-3;
 
@@ -50,7 +54,7 @@ pub(crate) fn moving() -> [State<f64>; 3] {
         position: [0.4, -0.2],
         heading: [0.8, 0.6],
         wheel_speed: speed,
-        front_speed: speed.map(|w| 0.97 * w),
+        passive: speed.map(|w| 0.97 * w),
         wheel_angle: [1.0, 2.5],
         torque: [1.0, 1.5],
         lagged: [1.0, 1.5],
@@ -66,6 +70,7 @@ pub(crate) fn moving() -> [State<f64>; 3] {
 /// A robot that drives askew, and an instant of its surroundings.
 pub(crate) fn instant(heading: f64) -> (OperatingPoint<f64>, Coefficients<f64>) {
     let at = OperatingPoint {
+        chassis: Chassis::SkidSteer,
         time: 3.0,
         position: [1.0, -2.0],
         heading: [heading.cos(), heading.sin()],
@@ -106,4 +111,9 @@ pub(crate) fn numbers_of(c: &Coefficients<f64>) -> Vec<f64> {
     let wheels = [adhesion, slip_at_peak, lateral, rolling, radius, traction].into_iter().flatten();
     let sides = [coulomb, viscous, stribeck, torque, belt_limit, force, tilt].into_iter().flatten();
     wheels.chain(sides).chain([moment, twist]).collect()
+}
+
+/// A robot on each chassis that an effect may be on.
+pub(crate) fn robots_of(spec: &EffectSpec) -> Vec<Robot<f64>> {
+    [robot(), on_casters()].into_iter().filter(|robot| spec.is_of(robot.chassis)).collect()
 }

@@ -2,10 +2,10 @@
 
 use num_dual::Dual64;
 use proptest::prelude::*;
-use robot_model::{Active, Effect, Presence, Role, Scalar, State, effects};
+use robot_model::{Active, Effect, Presence, Robot, Role, Scalar, State, effects};
 
-use crate::battery::{H, linear_strengths, moving};
-use crate::common::{BOTH, Causality, numbers, robot, run};
+use crate::battery::{H, linear_strengths, moving, robots_of};
+use crate::common::{BOTH, Causality, numbers, run};
 
 fn dual(s: &State<f64>) -> State<Dual64> {
     let two = |x: [f64; 2]| x.map(Dual64::from_re);
@@ -16,7 +16,7 @@ fn dual(s: &State<f64>) -> State<Dual64> {
         velocity: two(s.velocity),
         yaw_rate: Dual64::from_re(s.yaw_rate),
         wheel_speed: two(s.wheel_speed),
-        front_speed: two(s.front_speed),
+        passive: two(s.passive),
         wheel_angle: two(s.wheel_angle),
         torque: two(s.torque),
         lagged: two(s.lagged),
@@ -32,11 +32,11 @@ fn advance<T: Scalar>(
     values: &[T],
     presence: Presence<T>,
     start: State<T>,
-    (causality, steps): (Causality, usize),
+    (robot, causality, steps): (&Robot<f64>, Causality, usize),
 ) -> Vec<T> {
     let active = [Active::new(effect, values, presence)];
     let mut gyro = T::zero();
-    let robot = robot().cast();
+    let robot = robot.cast();
     let end = run(&robot, &active, causality, (start, steps as f64 * H, H), |plant, s| {
         let mut y = plant.readings(s);
         plant.sense(&mut y);
@@ -50,7 +50,13 @@ fn advance<T: Scalar>(
 /// Largest difference of the dual derivative from a difference of second order, relative to the largest derivative. Of
 /// the central one and those of either side the nearest counts: where a law has a kink beside this strength, for example
 /// where a wheel loses its last load, only the difference of the side without the kink is the derivative.
-fn derivative_error(index: usize, parameter: usize, share: f64, start: &State<f64>, how: (Causality, usize)) -> f64 {
+fn derivative_error(
+    index: usize,
+    parameter: usize,
+    share: f64,
+    start: &State<f64>,
+    how: (&Robot<f64>, Causality, usize),
+) -> f64 {
     let (plain, duals) = (effects::catalogue::<f64>()[index], effects::catalogue::<Dual64>()[index]);
     let spec = plain.spec();
     let mut values: Vec<f64> =
@@ -81,11 +87,12 @@ fn derivative_error(index: usize, parameter: usize, share: f64, start: &State<f6
 #[test]
 fn dual_derivatives_equal_central_differences() {
     for (effect, parameter, spec) in linear_strengths() {
-        for causality in BOTH {
+        let robots = robots_of(spec);
+        for (robot, causality) in robots.iter().flat_map(|robot| BOTH.map(|how| (robot, how))) {
             for (n, start) in moving().iter().enumerate() {
                 // Over many steps a central difference may straddle a kink, where one branch of a law meets the next.
                 for (steps, bound) in [(1, 1e-6), (100, 1e-4)] {
-                    let error = derivative_error(effect, parameter, 1.0, start, (causality, steps));
+                    let error = derivative_error(effect, parameter, 1.0, start, (robot, causality, steps));
                     assert!(
                         error < bound,
                         "{} {parameter}, state {n}, {causality:?}, {steps} steps: {error:e}",
@@ -100,14 +107,15 @@ fn dual_derivatives_equal_central_differences() {
 #[test]
 fn dual_derivatives_exist_from_rest() {
     for (effect, parameter, spec) in linear_strengths() {
-        for causality in BOTH {
+        let robots = robots_of(spec);
+        for (robot, causality) in robots.iter().flat_map(|robot| BOTH.map(|how| (robot, how))) {
             let mut values = vec![Dual64::from_re(0.0); spec.parameters.len()];
             for (v, p) in values.iter_mut().zip(spec.parameters) {
                 *v = Dual64::from_re(p.neutral);
             }
             values[parameter].eps = 1.0;
             let law = effects::catalogue::<Dual64>()[effect];
-            let end = advance(law, &values, Presence::default(), State::default(), (causality, 500));
+            let end = advance(law, &values, Presence::default(), State::default(), (robot, causality, 500));
             assert!(end.iter().all(|x| x.re.is_finite() && x.eps.is_finite()), "{} {causality:?}: {end:?}", spec.id);
         }
     }
@@ -123,10 +131,12 @@ proptest! {
         share in 0.1..3.0_f64,
         state in 0_usize..3,
         speed_driven: bool,
+        casters: bool,
     ) {
         let all: Vec<_> = linear_strengths().collect();
         let (effect, parameter, spec) = all[pick % all.len()];
-        let how = (BOTH[usize::from(speed_driven)], 1);
+        let robots = robots_of(spec);
+        let how = (&robots[usize::from(casters) % robots.len()], BOTH[usize::from(speed_driven)], 1);
         let error = derivative_error(effect, parameter, share, &moving()[state], how);
         prop_assert!(error < 1e-5, "{} {parameter}: {error:e}", spec.id);
     }

@@ -1,15 +1,15 @@
 //! A mirrored robot drives the mirrored way.
 
 use proptest::prelude::*;
-use robot_model::{Active, Disc, Parameter, Plant, Presence, Robot, State, effects};
+use robot_model::{Active, Chassis, Disc, Parameter, Plant, Presence, Robot, State, effects};
 
-use crate::battery::{ANY, H, presences};
-use crate::common::{BOTH, Causality, distance, robot};
+use crate::battery::{ANY, H, presences, robots_of};
+use crate::common::{BOTH, Causality, distance};
 
 /// Effects whose sign tells one diagonal from the other.
 const DIAGONAL: [&str; 1] = ["contact_loss"];
 
-fn mirrored_state(s: &State<f64>) -> State<f64> {
+fn mirrored_state(s: &State<f64>, chassis: Chassis) -> State<f64> {
     let swap = |[a, b]: [f64; 2]| [b, a];
     let flip = |[a, b]: [f64; 2]| [a, -b];
     State {
@@ -19,7 +19,10 @@ fn mirrored_state(s: &State<f64>) -> State<f64> {
         velocity: flip(s.velocity),
         yaw_rate: -s.yaw_rate,
         wheel_speed: swap(s.wheel_speed),
-        front_speed: swap(s.front_speed),
+        passive: match chassis {
+            Chassis::SkidSteer => swap(s.passive),
+            Chassis::Differential => s.passive.map(|angle| -angle),
+        },
         wheel_angle: swap(s.wheel_angle),
         torque: swap(s.torque),
         lagged: swap(s.lagged),
@@ -54,6 +57,7 @@ proptest! {
         size in 0.0..1.0_f64,
         wear in 0_usize..5,
         speed_driven: bool,
+        casters: bool,
         commands in prop::collection::vec(prop::array::uniform2(-6.0..6.0_f64), 10),
     ) {
         let causality = BOTH[usize::from(speed_driven)];
@@ -71,15 +75,17 @@ proptest! {
             disc: presence.disc.map(|d| Disc { centre: [d.centre[0], -d.centre[1]], ..d }),
             ..presence
         };
-        let r = robot();
+        let robots = robots_of(spec);
+        let r = robots[usize::from(casters) % robots.len()];
         let mut m = r;
+        m.casters = r.casters.map(|[x, y]| [x, -y]);
         m.com[1] = -r.com[1];
         m.coulomb = [r.coulomb[1], r.coulomb[0]];
         m.viscous = [r.viscous[1], r.viscous[0]];
         let mirrored_commands: Vec<[f64; 2]> = commands.iter().map(|[a, b]| [*b, *a]).collect();
         let one = drive(&r, &[Active::new(effect, &values, presence)], causality, &commands);
         let other = drive(&m, &[Active::new(effect, &mirrored_values, mirrored_presence)], causality, &mirrored_commands);
-        let d = distance(&mirrored_state(&one), &other);
+        let d = distance(&mirrored_state(&one, r.chassis), &other);
         prop_assert!(d < 1e-8, "{}: {d:e}", spec.id);
     }
 }

@@ -71,7 +71,7 @@ fn gears_pass_their_efficiency_when_driving_and_hold_back_when_driven() {
     }
     // Torque-driven: the friction is that of the torque of this very step.
     let r = flat();
-    let turning = State { wheel_speed: [8.0; 2], front_speed: [8.0; 2], ..State::default() };
+    let turning = State { wheel_speed: [8.0; 2], passive: [8.0; 2], ..State::default() };
     let speed = |active: &[Active<f64>], torque: f64| {
         let mut s = turning;
         Plant::new(&r, active, H).step_under(&mut s, [torque; 2]);

@@ -4,7 +4,7 @@ use robot_model::effect::MAX_PARAMETERS;
 use robot_model::effect::export::Way;
 use robot_model::{Active, Effect, Kind, Plant, Presence, State, effects};
 
-use crate::battery::{H, at_rest, instant, linear_strengths, moving, numbers_of};
+use crate::battery::{H, at_rest, instant, linear_strengths, moving, numbers_of, robots_of};
 use crate::common::{Causality, distance, robot, run};
 
 /// An effect at its probe moves the robot by at least this, m and rad.
@@ -12,8 +12,11 @@ pub(crate) const LEAST: f64 = 1e-4;
 
 /// How far an effect at its probe moves the end of a drive.
 pub(crate) fn moved_by(effect: &'static dyn Effect<f64>) -> f64 {
-    let run = |active: &[Active<f64>]| run(&robot(), active, Causality::Torque, at_rest(2.0), |_, _| ());
-    distance(&run(&[at_probe(effect)]), &run(&[]))
+    let moved = robots_of(effect.spec()).into_iter().map(|robot| {
+        let run = |active: &[Active<f64>]| run(&robot, active, Causality::Torque, at_rest(2.0), |_, _| ());
+        distance(&run(&[at_probe(effect)]), &run(&[]))
+    });
+    moved.fold(f64::INFINITY, f64::min)
 }
 
 fn at_probe(effect: &'static dyn Effect<f64>) -> Active<f64> {

@@ -7,9 +7,9 @@ use robot_model::{Active, Effect, Lanes, Plant, Robot, Scalar, State, effects};
 
 use super::{Input, Start};
 
-/// Robots as one.
+/// Robots as one, all on the chassis of the first.
 pub fn robots<const N: usize>(robots: [&Robot<f64>; N]) -> Robot<Lanes<N>> {
-    Robot::assemble(|constant| Lanes(robots.map(constant)))
+    Robot::assemble(robots[0].chassis, |constant| Lanes(robots.map(constant)))
 }
 
 /// One effect at values and with a presence for each lane; `None` when the catalogue does not hold it.
@@ -57,7 +57,7 @@ pub fn states<const N: usize>(states: [&State<f64>; N]) -> State<Lanes<N>> {
         velocity: two(|s| s.velocity),
         yaw_rate: of(&|s| s.yaw_rate),
         wheel_speed: two(|s| s.wheel_speed),
-        front_speed: two(|s| s.front_speed),
+        passive: two(|s| s.passive),
         wheel_angle: two(|s| s.wheel_angle),
         torque: two(|s| s.torque),
         lagged: two(|s| s.lagged),

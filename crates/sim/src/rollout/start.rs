@@ -40,7 +40,7 @@ impl Start {
             velocity: self.velocity,
             yaw_rate: self.yaw_rate,
             wheel_speed: self.wheel_speed,
-            front_speed: self.wheel_speed,
+            passive: self.wheel_speed,
             wheel_angle: self.wheel_angle,
             ..State::default()
         }

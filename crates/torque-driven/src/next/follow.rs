@@ -10,7 +10,7 @@ use crate::settings::next::{Follow, SETTINGS};
 use crate::settings::preparation;
 use crate::windows::{Cut, Segment};
 use inference::hypothesis::Dose;
-use verdict::{Course, WIDENING, wheel_speeds};
+use verdict::{Course, wheel_speeds};
 
 const FOLLOW: Follow = SETTINGS.follower;
 
@@ -172,7 +172,7 @@ impl Input<f64> for Following<'_> {
         self.heading = self.turned + off;
         let turn = if self.ground { turn + FOLLOW.heading * off } else { turn };
 
-        let wanted = wheel_speeds([speed, turn], f.known.wheel_radius, WIDENING * f.known.half_track);
+        let wanted = wheel_speeds([speed, turn], f.known.wheel_radius, f.known.turning_lever());
         let command = if self.course.is_free(t) {
             self.sums = [0.0; 2];
             [0.0; 2]

@@ -6,7 +6,7 @@ use robot_model::Robot;
 use crate::channel::{Channel, Channels};
 use crate::settings::next::{Limits, Menu, SETTINGS};
 use crate::windows::{Cut, WINDOW};
-use verdict::{Course, WIDENING};
+use verdict::Course;
 
 const LIMITS: Limits = SETTINGS.scope;
 const MENU: Menu = SETTINGS.menu;
@@ -64,7 +64,7 @@ impl Scope {
         }
         let mut limit = |c: usize| select_quantile(&mut reached[c], LIMITS.reached).unwrap_or(0.0).max(LIMITS.least[c]);
         let mut limits = [limit(0), limit(1)];
-        limits[1] = limits[1].max(LIMITS.spin * limits[0] / (WIDENING * robot.half_track));
+        limits[1] = limits[1].max(LIMITS.spin * limits[0] / robot.turning_lever());
 
         let windows: Vec<[f64; 2]> =
             recordings.iter().take(1).flat_map(|c| c.segments.iter().flat_map(|s| s.observed.iter().map(of))).collect();

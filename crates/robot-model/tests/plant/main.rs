@@ -1,6 +1,8 @@
 //! Laws that the plant must obey: balances, presence, limits, convergence, single precision.
 
+#[path = "../common/mod.rs"]
 mod common;
+mod on_casters;
 
 use common::{BOTH, Causality, distance, robot, run};
 use robot_model::{Active, Disc, Effect, Plant, Presence, Robot, State, effects};
@@ -191,7 +193,7 @@ fn a_belt_that_never_slips_is_a_rigid_one() {
     let rigid = run(&robot(), &[], Causality::Torque, start(), |_, _| ());
     let strong = [active(&effects::belt_loss::Law, &[1e6])];
     let belt = run(&robot(), &strong, Causality::Torque, start(), |_, s| {
-        assert!((0..2).all(|j| near(s.front_speed[j], s.wheel_speed[j], 1e-9)));
+        assert!((0..2).all(|j| near(s.passive[j], s.wheel_speed[j], 1e-9)));
     });
     assert!(distance(&rigid, &belt) < 1e-8, "{:e}", distance(&rigid, &belt));
     // Without a belt the front wheel rolls freely and the state stays finite.
@@ -214,9 +216,9 @@ fn a_slipping_belt_slips_alike_both_ways() {
         s
     };
     let (forth, back) = (end(6.0), end(-6.0));
-    assert!(forth.wheel_speed[0] - forth.front_speed[0] > 1e-2, "{forth:?}");
+    assert!(forth.wheel_speed[0] - forth.passive[0] > 1e-2, "{forth:?}");
     assert!(near(forth.velocity[0], -back.velocity[0], 1e-9));
-    assert!(near(forth.front_speed[0], -back.front_speed[0], 1e-9));
+    assert!(near(forth.passive[0], -back.passive[0], 1e-9));
 }
 
 #[test]
