@@ -1,9 +1,9 @@
 //! Robot files of four wheels, coupled by side, and of two wheels and casters.
 
-use robot_file::{Causality, RobotSpec, Size};
+use robot_file::{Causality, RobotSpec, Size, Stands};
+use robot_model::Robot as Plant;
 use robot_model::constants::Usual;
 use robot_model::tunable::{Tuning, place_of, tunables};
-use robot_model::{Chassis, Robot as Plant};
 
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
@@ -32,7 +32,7 @@ pub(crate) fn file(
 ) -> Result<Imported, ImportError> {
     let sides = robot.sides();
     let casters = Caster::of(robot);
-    let Some(chassis) = chassis(robot, &sides, &casters) else {
+    if !stands(robot, &sides, &casters) {
         return Err(source.whole(format!(
             "the model is {} with {} wheels and {} casters, but {} robots have four fixed wheels, two on each side, or two and \
              one or two casters; make it of another kind with --kind odometry",
@@ -41,7 +41,7 @@ pub(crate) fn file(
             casters.len(),
             kind.name()
         )));
-    };
+    }
     let model = robot.model;
     let Some(whole) = model.solid(&model.of_robot()) else {
         return Err(source.whole(format!(
@@ -55,7 +55,6 @@ pub(crate) fn file(
     let size = size(robot, &sides, &casters, whole.mass);
     let cannot_be = |e: robot_model::ModelError| source.whole(format!("no robot can be so: {e}"));
     let mut spec = RobotSpec::of_size(name, &size).map_err(cannot_be)?;
-    spec.robot.chassis = chassis;
     let stated = constants(robot, &sides, &casters, &whole, &spec.robot, &mut notes);
     spec.causality = causality;
     spec.description = Some(format!("Made from a model in {}, {}", model.form, robot.layout.name()));
@@ -64,9 +63,7 @@ pub(crate) fn file(
             (constant.set)(&mut spec.robot, s.value);
         }
     }
-    if chassis == Chassis::Differential {
-        stand_on_casters(&mut spec.robot, &casters);
-    }
+    spec.robot.caster_rolling = spec.robot.rolling_resistance;
     let spec = with_spreads(spec, &stated, model.form);
     let spec = RobotSpec { robot: spec.robot.checked().map_err(cannot_be)?, ..spec };
 
@@ -134,25 +131,13 @@ impl Caster {
     }
 }
 
-/// What such a robot stands on; `None` where it is neither.
-fn chassis(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], casters: &[Caster]) -> Option<Chassis> {
+/// Whether it stands on four wheels, or on two and casters.
+fn stands(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], casters: &[Caster]) -> bool {
     let each = |n: usize| sides.iter().all(|side| side.len() == n);
     match robot.layout {
-        Layout::SkidSteer if each(2) => Some(Chassis::SkidSteer),
-        Layout::Differential if each(1) && (1..=2).contains(&casters.len()) => Some(Chassis::Differential),
-        _ => None,
-    }
-}
-
-/// What follows from where the casters stand.
-fn stand_on_casters(robot: &mut Plant<f64>, casters: &[Caster]) {
-    let far = casters.iter().map(|caster| caster.place[0].abs()).fold(0.0, f64::max);
-    robot.half_wheelbase = 0.5 * far;
-    robot.hitch_x = 0.0;
-    robot.caster_rolling = robot.rolling_resistance;
-    let trail = Plant::<f64>::CONSTANTS.iter().find(|c| c.id == "caster_trail").map(|c| c.usual);
-    if let (Some(Usual::Value(usual)), true) = (trail, robot.caster_trail == 0.0) {
-        robot.caster_trail = usual;
+        Layout::SkidSteer => each(2),
+        Layout::Differential => each(1) && (1..=2).contains(&casters.len()),
+        _ => false,
     }
 }
 
@@ -160,12 +145,16 @@ fn size(robot: &Robot<'_>, sides: &[Vec<&Wheel>; 2], casters: &[Caster], mass: f
     let y = |side: usize| mean(sides[side].iter().map(|w| robot.place(w)[1]));
     let [x, _] = middle(robot);
     let between_axles = 2.0 * mean(robot.wheels.iter().map(|w| (robot.place(w)[0] - x).abs()));
-    let to_casters = casters.iter().map(|caster| caster.place[0].abs()).fold(0.0, f64::max);
     Size {
         mass,
         wheel_radius: mean(robot.wheels.iter().map(|w| w.radius)),
         track: y(0) - y(1),
-        wheelbase: if robot.layout == Layout::Differential { to_casters } else { between_axles },
+        stands: match (robot.layout, casters) {
+            (Layout::Differential, [first, ..]) => {
+                Stands::Casters([first.place, casters.last().map_or(first.place, |last| last.place)])
+            }
+            _ => Stands::Axles(between_axles),
+        },
     }
 }
 
@@ -181,7 +170,7 @@ fn constants(
     let (model, form) = (robot.model, robot.model.form);
     let all: Vec<&Wheel> = robot.wheels.iter().collect();
     let [x, y] = middle(robot);
-    let Size { wheel_radius: radius, track, wheelbase, .. } = size(robot, sides, casters, whole.mass);
+    let Size { wheel_radius: radius, track, stands, .. } = size(robot, sides, casters, whole.mass);
     if all.iter().any(|w| (w.radius - radius).abs() > SETTINGS.spreads.stated * radius) {
         notes.push("its wheels have different radii; their mean was taken".to_owned());
     }
@@ -198,7 +187,7 @@ fn constants(
     say(
         "com_x",
         com_x,
-        SETTINGS.spreads.stated * wheelbase,
+        SETTINGS.spreads.stated * stands.length(),
         "centre of mass of all links, from the middle of the wheels",
     );
     say("com_y", com_y, SETTINGS.spreads.stated * track, "centre of mass of all links, from the middle of the wheels");
@@ -208,7 +197,7 @@ fn constants(
         SETTINGS.spreads.stated_inertia,
         "centre of mass of all links, above the ground",
     );
-    if usual.chassis == Chassis::SkidSteer {
+    if let Stands::Axles(wheelbase) = stands {
         say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
     }
     let ids = [["caster_x", "caster_y"], ["second_caster_x", "second_caster_y"]];

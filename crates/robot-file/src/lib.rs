@@ -22,7 +22,7 @@ use verdict::EffectAt;
 use verdict::ResponseModel;
 
 pub use error::RobotFileError;
-pub use of_size::Size;
+pub use of_size::{Size, Stands};
 pub use read::BUILT_IN;
 pub use spec::{Causality, RobotSpec};
 

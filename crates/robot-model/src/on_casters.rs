@@ -8,6 +8,7 @@ use crate::state::State;
 
 impl<T: Scalar> Plant<'_, T> {
     /// Velocity of a contact's place on the body, in body axes, m/s.
+    #[inline(always)]
     pub(crate) fn pivot(&self, s: &State<T>, contact: usize) -> [T; 2] {
         let [x, y] = self.stance.wheel[contact];
         [s.velocity[0] - s.yaw_rate * y, s.velocity[1] + s.yaw_rate * x]
@@ -16,8 +17,9 @@ impl<T: Scalar> Plant<'_, T> {
     /// Contact forces, the stiffness of those of the wheels, and the rolling resistance torque of these.
     ///
     /// A caster's wheel rolls along its own direction and, since it swings freely, slides sideways at no force:
-    /// `F = −f_r N sign v` along it, at its pivot. That the load follows the wheel about the pivot is left out: with it a
-    /// step takes more than twice as long, and of drawn robots no more is named.
+    /// `F = −f_r N sign v` along it, at its pivot. That the load follows the wheel about the pivot is left out: of sixty
+    /// drawn robots no more was named with it.
+    #[inline(always)]
     fn contacts_on_casters(&self, s: &State<T>, c: &Coefficients<T>) -> Contacts<T> {
         let mut k = [[T::zero(); 2]; 4];
         let mut stiffness = [T::zero(); 4];
@@ -41,6 +43,7 @@ impl<T: Scalar> Plant<'_, T> {
     }
 
     /// [`Plant::step_under`] of such a robot: each wheel bears all of its side's friction.
+    #[inline(always)]
     pub(crate) fn step_on_casters(&self, s: &mut State<T>, torque: [T; 2], c: &Coefficients<T>) {
         let h = self.step;
         let Contacts { mut force, stiffness, rolling } = self.contacts_on_casters(s, c);
@@ -63,6 +66,7 @@ impl<T: Scalar> Plant<'_, T> {
     }
 
     /// [`Plant::step_at_speed`] of such a robot.
+    #[inline(always)]
     pub(crate) fn step_on_casters_at_speed(&self, s: &mut State<T>, speed: [T; 2], rate: [T; 2], c: &Coefficients<T>) {
         let Contacts { force, rolling, .. } = self.contacts_on_casters(s, c);
         let inertia = self.robot.side_inertia();
@@ -76,6 +80,7 @@ impl<T: Scalar> Plant<'_, T> {
         self.move_on_casters(s, &force, c);
     }
 
+    #[inline(always)]
     fn move_on_casters(&self, s: &mut State<T>, force: &[[T; 2]; 4], c: &Coefficients<T>) {
         self.move_body(s, force, c);
         for i in 0..2 {

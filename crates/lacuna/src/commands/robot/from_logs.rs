@@ -5,12 +5,12 @@ use case_files::case_folder::{self, file_names};
 use case_files::envelope::Program;
 use inference::Options;
 use pages::text_table::{TextTable, number};
-use robot_file::{Causality, RobotSpec, Size};
+use robot_file::{Causality, RobotSpec, Size, Stands};
 use serde_json::json;
 use torque_driven::{FittedRobot, Run, fit_logs};
 
 use super::super::{Outcome, Usage, sources};
-use super::{Args, from_model};
+use super::{Args, Place, from_model};
 use crate::console::{Progress, emit, emit_json};
 
 /// Fits a robot to logs.
@@ -101,17 +101,21 @@ fn start(args: &Args) -> Result<RobotSpec> {
         }
         return Ok(spec);
     }
-    let sizes = [
-        ("--mass", args.mass),
-        ("--wheel-radius", args.wheel_radius),
-        ("--track", args.track),
-        ("--wheelbase", args.wheelbase),
-    ];
-    let [Some(mass), Some(wheel_radius), Some(track), Some(wheelbase)] = sizes.map(|(_, given)| given) else {
-        let missing: Vec<&str> = sizes.iter().filter(|(_, given)| given.is_none()).map(|(name, _)| *name).collect();
+    let stands = match (args.wheelbase, &args.caster[..]) {
+        (Some(wheelbase), _) => Some(Stands::Axles(wheelbase)),
+        (None, []) => None,
+        (None, [Place(only)]) => Some(Stands::Casters([*only; 2])),
+        (None, [Place(first), Place(second)]) => Some(Stands::Casters([*first, *second])),
+        (None, more) => bail!(Usage(format!("{} casters were given; a robot has one or two", more.len()))),
+    };
+    let sizes = [("--mass", args.mass), ("--wheel-radius", args.wheel_radius), ("--track", args.track)];
+    let ([Some(mass), Some(wheel_radius), Some(track)], Some(stands)) = (sizes.map(|(_, given)| given), stands) else {
+        let missing = sizes.iter().filter(|(_, given)| given.is_none()).map(|(name, _)| *name);
+        let base = stands.is_none().then_some("--wheelbase (or --caster)");
+        let missing: Vec<&str> = missing.chain(base).collect();
         bail!(Usage(format!("give {}, a model, or a robot to start from with --like", missing.join(", "))));
     };
-    Ok(RobotSpec::of_size(name(args), &Size { mass, wheel_radius, track, wheelbase })?)
+    Ok(RobotSpec::of_size(name(args), &Size { mass, wheel_radius, track, stands })?)
 }
 
 /// Name of the robot.

@@ -17,6 +17,8 @@ Examples:
   lacuna robot model.xml --from-logs logs/ -o robot.toml
   lacuna robot --from-logs sim_1.csv sim_2.csv --mass 20 --wheel-radius 0.1 \\
       --track 0.4 --wheelbase 0.36 -o robot.toml
+  lacuna robot --from-logs logs/ --mass 12 --wheel-radius 0.07 --track 0.3 \\
+      --caster -0.18 -o robot.toml                     two wheels and a caster
   lacuna robot --from-logs logs/ --like old.toml -o robot.toml
 
 A model is read with every joint at zero. Wheels are what turns without end
@@ -52,7 +54,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     reader: Reader,
     /// Robot file, or name of a built-in robot, from whose constants the fit to logs starts.
-    #[arg(long, value_name = "NAME|FILE", requires = "from_logs", conflicts_with_all = ["model", "mass", "wheel_radius", "track", "wheelbase"])]
+    #[arg(long, value_name = "NAME|FILE", requires = "from_logs", conflicts_with_all = ["model", "mass", "wheel_radius", "track", "wheelbase", "caster"])]
     like: Option<String>,
     /// Mass of the simulated robot, kg.
     #[arg(long, value_name = "KG", value_parser = positive, conflicts_with = "model")]
@@ -66,6 +68,10 @@ pub(crate) struct Args {
     /// Distance between its axles, m.
     #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "model")]
     wheelbase: Option<f64>,
+    /// Where a caster's pivot is from the middle of the driven axle, ahead and to the left, m, of a robot on two wheels and
+    /// casters; again for a second one.
+    #[arg(long, value_name = "X[,Y]", value_parser = place, allow_hyphen_values = true, conflicts_with_all = ["model", "wheelbase"])]
+    caster: Vec<Place>,
     /// Name of the robot; that of the model, or "simulated".
     #[arg(long)]
     name: Option<String>,
@@ -97,6 +103,19 @@ enum Rollers {
     Omni,
     /// At 45 degrees; the upper ones form an X seen from above.
     Mecanum,
+}
+
+/// A place on the ground, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place([f64; 2]);
+
+fn place(text: &str) -> Result<Place, String> {
+    let number = |text: &str| -> Result<f64, String> {
+        let given: f64 = text.trim().parse().map_err(|_| format!("'{text}' is no number"))?;
+        if given.is_finite() { Ok(given) } else { Err("must be finite".to_owned()) }
+    };
+    let (x, y) = text.split_once(',').unwrap_or((text, "0"));
+    Ok(Place([number(x)?, number(y)?]))
 }
 
 fn positive(text: &str) -> Result<f64, String> {
