@@ -266,6 +266,7 @@ impl CaseFolder {
             robot: self.robot.robot,
             sigma: self.robot.sigma,
             torque_sigma: torque_sigma / torque_per_current,
+            geometry_sigma: self.robot.geometry_sigma,
             references: runs(&self.reference)?,
             recordings: runs(&self.recordings)?,
         })

@@ -120,22 +120,45 @@ fn local_effects_say_when_they_were_present() {
 }
 
 #[test]
+fn a_robot_on_casters_is_described_by_where_they_stand() {
+    let described = |casters: bool| {
+        let case = draw(&Settings { casters, ..short(Content::Null) });
+        let (_, bytes) = case.files.into_iter().find(|(path, _)| path.ends_with("robot.json")).unwrap();
+        serde_json::from_slice::<serde_json::Value>(&bytes).unwrap()
+    };
+    let (four, on_casters) = (described(false), described(true));
+    assert!(four.get("half_wheelbase_m").is_some() && four.get("caster_x_m").is_none(), "{four}");
+    assert_eq!(on_casters["chassis"], "differential");
+    assert!(on_casters["caster_x_m"].is_f64() && on_casters.get("half_wheelbase_m").is_none(), "{on_casters}");
+    // Its weight lies between the axle and a caster.
+    let [com, first, second] =
+        ["com_x_m", "caster_x_m", "second_caster_x_m"].map(|key| on_casters[key].as_f64().unwrap());
+    assert!(com <= first.max(second).max(0.0) && com >= first.min(second).min(0.0), "{on_casters}");
+}
+
+#[test]
 fn every_cause_changes_the_recordings_and_none_the_references() {
     let text = |case: &DrawnCase, folder: &str| {
         let of = |p: &(std::path::PathBuf, Vec<u8>)| p.0.starts_with(folder);
         case.files.iter().filter(|f| of(f)).cloned().collect::<Vec<_>>()
     };
-    let fault_free = draw(&short(Content::Null));
-    let causes = EffectId::ALL.map(|e| Content::Effects(vec![e]));
-    let causes = causes.into_iter().chain(Outsider::ALL.map(Content::Outsider));
-    for content in causes {
+    let plain = |casters: bool| draw(&Settings { casters, ..short(Content::Null) });
+    let fault_free = [plain(false), plain(true)];
+    let causes = [false, true].into_iter().flat_map(|casters| {
+        let effects = EffectId::of(casters).into_iter().map(|e| Content::Effects(vec![e]));
+        let outsiders = Outsider::of(casters).into_iter().map(Content::Outsider);
+        effects.chain(outsiders).map(move |content| (casters, content))
+    });
+    for (casters, content) in causes {
+        let fault_free = &fault_free[usize::from(casters)];
         let case = draw(&Settings {
             // A short drive may miss a disc or a limit: then it is drawn again.
             least_excess: 1.05,
+            casters,
             ..short(content.clone())
         });
         // Compared outside of assert_eq, which would print the files.
-        let same = |folder| text(&case, folder) == text(&fault_free, folder);
+        let same = |folder| text(&case, folder) == text(fault_free, folder);
         assert!(same("reference"), "{content:?}");
         assert!(!same("recordings"), "{content:?}");
         let rows = table(&case, "recordings/run_1.csv").1;

@@ -78,7 +78,7 @@ pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result
     };
 
     let whole = model.solid(&model.of_robot());
-    let mut notes = robot.notes.clone();
+    let mut notes = robot.notes_without_casters();
     if whole.is_none() {
         notes.push("no link states a mass: mass, centre of mass and yaw inertia are those of a usual car".to_owned());
     }

@@ -85,12 +85,16 @@ impl<'a> Robot<'a> {
                 "the model does not drive along its x axis; lengths are measured along the way it drives".to_owned(),
             );
         }
-        if !ground.sliders.is_empty() && layout != Layout::Differential {
-            let names: Vec<&str> = ground.sliders.iter().map(|slider| slider.name.as_str()).collect();
-            notes.push(format!("spheres that slide along the ground were left out: {}", names.join(", ")));
-        }
         let (sliders, ground) = (ground.sliders, ground.height);
         Ok(Self { model, layout, wheels, casters, sliders, forward, ground, notes })
+    }
+
+    /// What is to be known of a robot file that has no place for casters: of spheres that slide, too.
+    pub(crate) fn notes_without_casters(&self) -> Vec<String> {
+        let names: Vec<&str> = self.sliders.iter().map(|slider| slider.name.as_str()).collect();
+        let left_out = (!names.is_empty())
+            .then(|| format!("spheres that slide along the ground were left out: {}", names.join(", ")));
+        self.notes.iter().cloned().chain(left_out).collect()
     }
 
     /// Direction to the left.

@@ -61,7 +61,7 @@ struct Columns {
 
 /// The robot file.
 pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result<Imported, ImportError> {
-    let mut notes = robot.notes.clone();
+    let mut notes = robot.notes_without_casters();
     let steering = robot.wheels.iter().find_map(|w| match w.hangs {
         Hangs::Steered(joint) => Some(robot.model.joints[joint].name.clone()),
         _ => None,

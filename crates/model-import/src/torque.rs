@@ -51,7 +51,10 @@ pub(crate) fn file(
         )));
     };
 
-    let mut notes = robot.notes.clone();
+    let mut notes = match robot.layout {
+        Layout::Differential => robot.notes.clone(),
+        _ => robot.notes_without_casters(),
+    };
     let size = size(robot, &sides, &casters, whole.mass);
     let cannot_be = |e: robot_model::ModelError| source.whole(format!("no robot can be so: {e}"));
     let mut spec = RobotSpec::of_size(name, &size).map_err(cannot_be)?;

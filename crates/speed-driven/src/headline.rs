@@ -23,14 +23,47 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let standing = standing(&loads.standstills);
     let leads = standing.is_empty();
     let rest = match of_loads {
-        Verdict::Explained => named(d),
-        Verdict::Unknown => unknown(loads, theirs),
+        Verdict::Explained => disagreeing(loads, theirs, named(d)),
+        Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
         Verdict::NoMismatch | Verdict::Withheld => {
             let differences = differences(d, loads, theirs);
             if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
         }
     };
     [standing, rest].concat()
+}
+
+/// What is said of all recordings together, behind the loads of which they show no one value: these are not pooled.
+fn disagreeing(loads: &Loads, theirs: &str, together: Vec<String>) -> Vec<String> {
+    let mut quantities: Vec<Quantity> = loads.ratios.iter().map(|r| r.quantity).collect();
+    quantities.sort_unstable();
+    quantities.dedup();
+    let is_pooled = |quantity: &Quantity| loads.pooled.iter().any(|r| r.quantity == *quantity);
+    // Sides differ with what lies under each: that is no ground of its own.
+    quantities.retain(|quantity| *quantity != Quantity::Asymmetry && !is_pooled(quantity));
+
+    let of = |quantity: Quantity| {
+        let own = || loads.ratios.iter().filter(|r| r.quantity == quantity && r.firm);
+        let least = own().min_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
+        let most = own().max_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
+        let (name, low, high) = (quantity.name(), least.ratio, most.ratio);
+        (most.interval[0] > least.interval[1]).then(|| {
+            format!(
+                "the {name} is {low:.2} times {theirs} in {} and {high:.2} times in {}",
+                least.recording, most.recording
+            )
+        })
+    };
+    let found: Vec<String> = quantities.into_iter().filter_map(of).collect();
+    if found.is_empty() {
+        return together;
+    }
+    let first = format!(
+        "The recordings disagree: {}, more than it varies from run to run. No one cause need be behind all of them: diagnose those \
+         apart that agree. Taken together:",
+        found.join("; ")
+    );
+    std::iter::once(first).chain(together).collect()
 }
 
 /// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.

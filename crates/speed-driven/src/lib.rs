@@ -99,6 +99,8 @@ pub struct SteadyCase {
     pub sigma: [f64; NUISANCES],
     /// One sigma of the torque per current, relative.
     pub torque_sigma: f64,
+    /// One sigma of the wheels' radius and of the track, relative.
+    pub geometry_sigma: [f64; 2],
     /// Recordings in which the simulation is right; without any, the robot file says what is right.
     pub references: Vec<SpeedRun>,
     /// Recordings in which it is not.
@@ -242,12 +244,13 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
             let at = Operating { quantity: r.quantity, speed: r.speed };
             let centre = predicted(robot, &[], at);
             let by_constants = sensitivity(robot, &case.sigma, &[0.0; NUISANCES], &[at]);
-            let torque = if matches!(r.quantity, Quantity::EffectiveTrack | Quantity::Asymmetry) {
-                0.0
-            } else {
-                case.torque_sigma
+            let [radius, track] = case.geometry_sigma;
+            let beside = match r.quantity {
+                Quantity::EffectiveTrack => radius.hypot(track),
+                Quantity::Asymmetry => 0.0,
+                _ => case.torque_sigma,
             };
-            let error = (0..NUISANCES).map(|k| by_constants[(0, k)].powi(2)).sum::<f64>().sqrt().hypot(torque);
+            let error = (0..NUISANCES).map(|k| by_constants[(0, k)].powi(2)).sum::<f64>().sqrt().hypot(beside);
             Reference { centre, error, ..r }
         })
         .collect()

@@ -154,6 +154,7 @@ pub(crate) fn diagnosis_with(recordings: &[&[Leg]], options: &Options) -> Diagno
         robot: robot(),
         sigma: tunables::<f64>().map(|constant| constant.sigma),
         torque_sigma: 0.1,
+        geometry_sigma: [0.01; 2],
         references: vec![drive(&rounds(3), false)],
         recordings: recordings.collect(),
     };

@@ -60,6 +60,24 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
 }
 
 #[test]
+fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
+    let on = |times: f64| -> Vec<Leg> {
+        let other = |leg: Leg| Leg { straight: times * leg.straight, scrub: times * leg.scrub, ..leg };
+        rounds(3).into_iter().map(other).collect()
+    };
+    let d = diagnosis(&[&on(1.0), &on(2.2)]);
+    assert!(matches!(d.verdict, Verdict::Explained | Verdict::Unknown), "{:?}", d.sentences);
+    let [first, second, ..] = &d.sentences[..] else { panic!("{:?}", d.sentences) };
+    assert!(first.starts_with("The recordings disagree: the straight load is 1.0"), "{first}");
+    assert!(first.contains(" in 0 and 2.") && first.contains(" times in 1, more than"), "{first}");
+    assert!(second.contains("Missing") || second.contains("Difference") || second.contains("catalogue"), "{second}");
+    agrees_with_itself(&d);
+
+    let alike = diagnosis(&[&on(2.2), &on(2.1)]);
+    assert!(alike.sentences.iter().all(|s| !s.contains("disagree")), "{:?}", alike.sentences);
+}
+
+#[test]
 fn the_verdict_never_contradicts_a_sentence() {
     for (scrub, straight) in
         [(20.0, 1.0), (23.0, 1.0), (26.0, 1.0), (32.0, 1.0), (14.0, 1.0), (20.0, 1.6), (20.0, 3.0), (10.0, 0.6)]

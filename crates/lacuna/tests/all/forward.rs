@@ -264,7 +264,10 @@ fn from_a_model_to_the_first_verdict_in_three_commands() {
 fn a_model_that_no_robot_file_can_be_made_of_is_refused_with_the_remedy() {
     let bench = Bench::empty();
     bench.write("cart.urdf", CART);
-    bench.run(&["robot", "cart.urdf", "--kind", "torque-driven"]).failed(&["--kind odometry", "four fixed wheels"]);
+    bench.run(&["robot", "cart.urdf", "--kind", "torque-driven"]).failed(&["--kind odometry", "no link states a mass"]);
+    bench.write("alone.urdf", &CART.lines().filter(|line| !line.contains("ball")).collect::<Vec<_>>().join("\n"));
+    let alone = bench.run(&["robot", "alone.urdf", "--kind", "torque-driven"]);
+    alone.failed(&["2 wheels and 0 casters", "four fixed wheels, two on each side, or two and one or two casters"]);
     bench.run(&["robot", "cart.urdf", "--kind", "car"]).failed(&["one steered and one fixed axle"]);
     bench.run(&["robot", "cart.urdf", "--from-logs", "none.csv"]).failed(&["leave out --from-logs"]);
     bench.run(&["robot", "none.urdf"]).failed(&["cannot read 'none.urdf'", "URDF, SDF or MJCF"]);

@@ -13,6 +13,7 @@ mod forward;
 mod long;
 mod next;
 mod odometry;
+mod on_casters;
 mod own_effects;
 mod rehearse;
 mod unknown_robots;
