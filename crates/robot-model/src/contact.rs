@@ -130,8 +130,9 @@ impl<T: Scalar> Stance<T> {
         }
     }
 
-    /// The same of four wheels at the corners of a rectangle on ground, or with a frame, that is twisted: four wheels are one more than statics needs, so that a
-    /// load `twist` may move from each wheel of one diagonal (front left) to each of the other and change no balance.
+    /// The same of four wheels at the corners of a rectangle, on ground or with a frame that is twisted: four wheels are one
+    /// more than statics needs, so that a load `twist` may move from each wheel of one diagonal (front left) to each of the
+    /// other and change no balance.
     #[inline(always)]
     pub fn settle_twisted(&self, k: &[[T; 2]; 4], twist: T) -> Balance<T> {
         let (m, p, r) = (self.mass, self.pitch, self.roll);

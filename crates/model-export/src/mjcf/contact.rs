@@ -33,7 +33,9 @@ pub(super) fn pairs(v: &Vehicle, parts: &Parts) -> Element {
         let grip = &grips(v)[i];
         // Dry from the start where nothing rolls: casters.
         let (peak, creeps_at) = if on_casters.contains(&i) { (1.0, SLIDES_AT) } else { (grip.slip_at_peak, CREEP_AT) };
-        let slope = 2.0 * grip.adhesion * grip.load / (peak * creeps_at) / CONTACTS;
+        // One caster stands for two at its place.
+        let load = if on_casters == (0..1) && i == 0 { 2.0 * grip.load } else { grip.load };
+        let slope = 2.0 * grip.adhesion * load / (peak * creeps_at) / CONTACTS;
         let impedance = 1.0 / (1.0 + DAMPING / (slope.max(1.0) * inverse[i]));
         let [along, across] = grip.friction;
         element("pair")

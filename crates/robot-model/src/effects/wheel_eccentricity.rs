@@ -11,8 +11,8 @@ use crate::scalar::Scalar;
 /// grip and rolling resistance of each in proportion to its load, times 1 + κ e(θ), from 0 to 2
 ///
 /// Two wheels are out of true by amounts and at angles of their own; `√(e_c² + e_s² + d_c² + d_s²)` is the root mean
-/// square of their amounts; where a side has one wheel, d does nothing. A wheel presses harder while its long side is down, by its stiffness over its load at rest, κ, if
-/// the body stays where it is; κ = 0 if the body follows every rise.
+/// square of their amounts; where a side has one wheel, d does nothing. A wheel presses harder while its long side is
+/// down, by its stiffness over its load at rest, κ, if the body stays where it is; κ = 0 if the body follows every rise.
 pub struct Law;
 
 /// What is known about it.
