@@ -3,6 +3,7 @@
 use faer::Mat;
 use inference::least_squares::{Constant, Residuals, Settings};
 use inference::robust::{mean, rms};
+use robot_model::effect::LoadTerm;
 use robot_model::tunable::COUNT as NUISANCES;
 use robot_model::{Active, Chassis, Plant, Robot, State};
 use verdict::Quantity;
@@ -32,14 +33,15 @@ fn first_track(robot: &Robot<f64>) -> f64 {
     }
 }
 
-/// Means of a steady drive over all headings: torque of each side, yaw rate.
+/// Means of a steady drive over all headings that matter: torque of each side, yaw rate.
 fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
     let plant = Plant::new(robot, &active, PLANT.step);
     let wheel = speed.map(|v| v / robot.wheel_radius);
     let turning = (speed[1] - speed[0]).abs() > 1e-6;
-    // A slope pulls differently around a turn; a straight drive keeps its heading.
-    let headings = if turning { PLANT.headings } else { 1 };
+    // A slope pulls differently around a turn; a straight drive keeps its heading, and nothing else asks for it.
+    let slopes = doses.iter().any(|dose| dose.effect.spec().load_term == Some(LoadTerm::Slope));
+    let headings = if turning && slopes { PLANT.headings } else { 1 };
     let yaw = (speed[1] - speed[0]) / first_track(robot);
     let mut s = State { yaw_rate: yaw, ..State::default() };
     plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);

@@ -1,8 +1,9 @@
 //! Laws that tell where they are fixed.
 
+use robot_model::effect::{LoadTerm, MAX_PARAMETERS};
 use robot_model::{Effect, effects};
 
-use crate::battery::instant;
+use crate::battery::{instant, numbers_of};
 
 #[test]
 fn a_grade_is_fixed_in_the_world_and_a_pull_in_the_robot() {
@@ -20,5 +21,22 @@ fn a_grade_is_fixed_in_the_world_and_a_pull_in_the_robot() {
         assert_eq!(w.force, [-4.0, 0.0]);
         // x Fy − y Fx at the hitch.
         assert!((w.moment - (at.hitch[0] * w.force[1] - at.hitch[1] * w.force[0])).abs() < 1e-12);
+    }
+}
+
+/// Steady loads of turns are averaged over headings only where a slope is among the causes.
+#[test]
+fn nothing_but_a_slope_asks_for_the_heading() {
+    for effect in effects::catalogue::<f64>() {
+        let spec = effect.spec();
+        let mut values = [0.0; MAX_PARAMETERS];
+        values.iter_mut().zip(spec.parameters).for_each(|(v, p)| *v = p.probes[0]);
+        let at_heading = |heading: f64| {
+            let (at, mut coefficients) = instant(heading);
+            effect.apply(&values, &at, &mut coefficients);
+            numbers_of(&coefficients)
+        };
+        let is_alike = at_heading(0.3) == at_heading(-1.9);
+        assert_eq!(is_alike, spec.load_term != Some(LoadTerm::Slope), "{}", spec.id);
     }
 }
