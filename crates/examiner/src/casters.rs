@@ -4,7 +4,7 @@ use crate::plant::{ANGLE, Plant, State, VELOCITY, YAW_RATE};
 use crate::random::Stream;
 use crate::robot::GRAVITY;
 
-/// Slowness of a caster's wheel over which its resistance changes sign, m/s.
+/// Speed of a caster's wheel over which its resistance changes sign, m/s.
 const ROLLS: f64 = 0.02;
 /// Rate of swinging over which the friction of its pivot changes sign, rad/s.
 const SWINGS: f64 = 0.5;
@@ -103,7 +103,7 @@ impl Plant {
         let sideways = casters.swivel * (swing / SWINGS).tanh() / casters.trail;
         Push {
             force: [-resistance * cos + sideways * sin, -resistance * sin - sideways * cos],
-            at: [x - casters.trail * cos, y - casters.trail * sin],
+            at: casters.touching(s)[k],
             swing,
         }
     }

@@ -249,3 +249,23 @@ pub fn variants_of(known: KnownEffects, chassis: Chassis, pose: bool) -> Vec<Var
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_chassis_has_the_effects_that_it_can_have() {
+        let has = |chassis: Chassis, id: &str| {
+            variants_of(KnownEffects::default(), chassis, true).iter().any(|v| v.spec().id == id)
+        };
+        for (id, four, on_casters) in [
+            ("belt_loss", true, false),
+            ("contact_loss", true, false),
+            ("caster_drag", false, true),
+            ("payload", true, true),
+        ] {
+            assert_eq!((has(Chassis::SkidSteer, id), has(Chassis::Differential, id)), (four, on_casters), "{id}");
+        }
+    }
+}

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use inference::KnownEffects;
 use robot_model::effects::catalogue;
-use robot_model::{Chassis, EffectSpec, Robot, paper};
+use robot_model::{EffectSpec, Robot, paper};
+use testing::on_casters;
 use verdict::{EffectAt, Side};
 
 use crate::at::At;
@@ -18,29 +19,6 @@ fn robot() -> Robot<f64> {
     (r.viscous, r.motor_inertia, r.com[0], r.com[1]) = ([0.1, 0.12], 0.02, 0.01, -0.02);
     (r.drive.lag, r.drive.limit) = (0.01, 15.0);
     r
-}
-
-fn on_casters() -> Robot<f64> {
-    let given = [
-        ("mass", 12.0),
-        ("yaw_inertia", 0.3),
-        ("com_x", -0.03),
-        ("com_height", 0.1),
-        ("track", 0.32),
-        ("caster_x", -0.18),
-        ("caster_y", 0.05),
-        ("second_caster_x", 0.15),
-        ("wheel_radius", 0.07),
-        ("wheel_inertia", 0.002),
-        ("motor_inertia", 0.01),
-        ("adhesion", 0.8),
-        ("rolling_resistance", 0.02),
-        ("coulomb", 0.2),
-        ("viscous", 0.02),
-        ("motor_lag", 0.01),
-        ("torque_limit", 6.0),
-    ];
-    Robot::on_chassis(Chassis::Differential, &given).expect("a robot")
 }
 
 /// An effect at a small size that no robot refuses.
@@ -96,6 +74,29 @@ fn is_well_formed(xml: &str) -> bool {
 fn text(node: roxmltree::Node<'_, '_>, child: &str) -> f64 {
     let child = node.children().find(|c| c.has_tag_name(child)).unwrap_or_else(|| panic!("no {child}"));
     child.text().and_then(|t| t.trim().parse().ok()).unwrap_or(f64::NAN)
+}
+
+#[test]
+fn a_caster_that_counts_as_two_stands_once_and_bears_the_load_of_both() {
+    let two = on_casters();
+    let one = Robot { casters: [two.casters[0]; 2], ..two };
+    for engine in Engine::ALL {
+        let [with_two, with_one] = [two, one].map(|robot| export(&robot, &[], engine).text);
+        assert!(with_two.contains("caster_1") && with_two.contains("caster_2"), "{}", engine.name());
+        assert!(with_one.contains("caster_1") && !with_one.contains("caster_2"), "{}", engine.name());
+    }
+    // The same load on two spheres almost at one place: each is half as stiff, d / (1 − d) in MuJoCo's impedance d.
+    let odds = |robot: &Robot<f64>| -> f64 {
+        let text = export(robot, &[], Engine::Mjcf).text;
+        let (_, pair) = text.split_once("<pair name=\"caster_1\"").expect("a pair");
+        let (_, solimp) = pair.split_once("solimp=\"").expect("solimp");
+        let d: f64 = solimp.split_whitespace().next().and_then(|x| x.parse().ok()).expect("a number");
+        d / (1.0 - d)
+    };
+    let [x, y] = one.casters[0];
+    let apart = Robot { casters: [[x, y + 1e-6], [x, y - 1e-6]], ..one };
+    let ratio = odds(&one) / odds(&apart);
+    assert!((ratio - 2.0).abs() < 1e-3, "{ratio}");
 }
 
 #[test]

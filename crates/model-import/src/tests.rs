@@ -75,24 +75,7 @@ fn a_robot_that_was_exported_reads_back_the_same() {
 
 #[test]
 fn a_robot_on_casters_that_was_exported_reads_back_the_same() {
-    let given = [
-        ("mass", 12.0),
-        ("yaw_inertia", 0.3),
-        ("com_x", -0.03),
-        ("com_height", 0.1),
-        ("track", 0.32),
-        ("caster_x", -0.18),
-        ("caster_y", 0.05),
-        ("second_caster_x", 0.15),
-        ("wheel_radius", 0.07),
-        ("wheel_inertia", 0.002),
-        ("motor_inertia", 0.01),
-        ("adhesion", 0.8),
-        ("rolling_resistance", 0.02),
-        ("coulomb", 0.2),
-        ("viscous", 0.02),
-    ];
-    let robot = robot_model::Robot::on_chassis(robot_model::Chassis::Differential, &given).expect("a robot");
+    let robot = testing::on_casters();
     for engine in [Engine::Urdf, Engine::Sdf, Engine::Mjcf] {
         let text = exported("mine", &robot, engine);
         let made = import("again.xml", &text, &of_kind(Kind::TorqueDriven)).unwrap_or_else(|e| panic!("{e}\n{text}"));

@@ -200,14 +200,15 @@ fn constants(
         SETTINGS.spreads.stated_inertia,
         "centre of mass of all links, above the ground",
     );
-    if let Stands::Axles(wheelbase) = stands {
-        say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
-    }
-    let ids = [["caster_x", "caster_y"], ["second_caster_x", "second_caster_y"]];
-    // One caster counts as two at one place.
-    for (caster, ids) in casters.iter().chain(casters).zip(ids) {
-        for (id, at) in ids.into_iter().zip(caster.place) {
-            say(id, at, SETTINGS.spreads.stated, "place of the caster's pivot, from the middle of the wheels");
+    match stands {
+        Stands::Axles(wheelbase) => {
+            say("wheelbase", wheelbase, SETTINGS.spreads.stated, "places of the wheel joints");
+        }
+        Stands::Casters(places) => {
+            let ids = ["caster_x", "caster_y", "second_caster_x", "second_caster_y"];
+            for (id, at) in ids.into_iter().zip(places.into_iter().flatten()) {
+                say(id, at, SETTINGS.spreads.stated, "place of the caster's pivot, from the middle of the wheels");
+            }
         }
     }
     let trails = casters.iter().filter_map(|caster| caster.trail).filter(|trail| *trail > 0.0);

@@ -6,10 +6,9 @@ use std::path::Path;
 use inference::KnownEffects;
 use recordings::Spot;
 use robot_model::tunable::USUAL_POSE_SIGMA;
-use robot_model::{ModelError, Robot};
+use robot_model::{Chassis, ModelError, Robot};
 use serde::Deserialize;
 
-use crate::full::ChassisName;
 use crate::keys::USUAL_GEOMETRY_SIGMA;
 use crate::keys::{Given, spreads};
 use crate::text::RobotText;
@@ -28,7 +27,7 @@ pub(crate) struct FlatRobot {
     com_x_m: f64,
     #[serde(default)]
     com_y_m: f64,
-    chassis: Option<ChassisName>,
+    chassis: Option<Chassis>,
     half_wheelbase_m: Option<f64>,
     caster_x_m: Option<f64>,
     caster_y_m: Option<f64>,
@@ -196,7 +195,7 @@ impl FlatRobot {
     pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let values = self.values();
         let constants: Vec<(&'static str, f64)> = values.iter().map(|v| (v.constant, v.value * v.times)).collect();
-        let robot = Robot::on_chassis(ChassisName::chassis(self.chassis), &constants)
+        let robot = Robot::on_chassis(self.chassis.unwrap_or_default(), &constants)
             .map_err(|error| refusal(error, &values, source))?;
         self.check_spreads(source)?;
         Ok(RobotSpec {

@@ -41,7 +41,7 @@ pub(crate) struct File {
     pub(crate) causality: Causality,
     /// What the robot stands on; four wheels if it says nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) chassis: Option<ChassisName>,
+    pub(crate) chassis: Option<Chassis>,
     pub(crate) parameters: Parameters,
     /// What the simulation is given beside its constants.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -49,32 +49,6 @@ pub(crate) struct File {
     /// Response to commands, of a command-driven robot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) response: Option<ResponseModel>,
-}
-
-/// A chassis as files name it.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum ChassisName {
-    SkidSteer,
-    Differential,
-}
-
-impl ChassisName {
-    /// The chassis that a file names, or four wheels.
-    pub(crate) fn chassis(name: Option<Self>) -> Chassis {
-        match name {
-            None | Some(Self::SkidSteer) => Chassis::SkidSteer,
-            Some(Self::Differential) => Chassis::Differential,
-        }
-    }
-
-    /// What a file says of it, if it must.
-    pub(crate) fn of(chassis: Chassis) -> Option<Self> {
-        match chassis {
-            Chassis::SkidSteer => None,
-            Chassis::Differential => Some(Self::Differential),
-        }
-    }
 }
 
 /// The parameters of a file, each with its key.
@@ -126,7 +100,7 @@ impl File {
     /// The robot of this file.
     pub(crate) fn spec(self, source: RobotText<'_>, known: KnownEffects) -> Result<RobotSpec, RobotFileError> {
         let given = self.parameters.0.iter().map(|p| in_key_unit(p, source)).collect::<Result<Vec<_>, _>>()?;
-        let robot = robot(ChassisName::chassis(self.chassis), &given, source)?;
+        let robot = robot(self.chassis.unwrap_or_default(), &given, source)?;
         let beside = |key: &str| given.iter().find(|g| g.key == key);
         for g in [TORQUE_PER_CURRENT, POSE_NOISE].into_iter().filter_map(beside) {
             if g.value <= 0.0 {

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use inference::Corrected as _;
-use robot_model::Robot;
 use robot_model::constants::{NO_LIMIT, Usual};
 use robot_model::tunable::{Tunable, Tuning, USUAL_POSE_SIGMA, tunables};
+use robot_model::{Chassis, Robot};
 use verdict::Correction;
 
-use crate::full::{ChassisName, File, Parameters, Quantity};
+use crate::full::{File, Parameters, Quantity};
 use crate::keys::{GEOMETRY, KEYS, POSE_NOISE, TORQUE_PER_CURRENT, USUAL_GEOMETRY_SIGMA, keys_of};
 use crate::{DiagnosisError, RobotFileError, RobotSpec};
 
@@ -69,7 +69,7 @@ impl RobotSpec {
             name: self.name.clone(),
             description: self.description.clone(),
             causality: self.causality,
-            chassis: ChassisName::of(self.robot.chassis),
+            chassis: Some(self.robot.chassis).filter(|chassis| *chassis != Chassis::default()),
             parameters: Parameters(KEYS.iter().filter_map(|key| Some((*key, quantity(key.name, key.unit)?))).collect()),
             effects: self.effects.clone(),
             response: self.response.clone(),

@@ -7,6 +7,7 @@ use crate::scalar::{Scalar, real};
 
 /// What a robot stands on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Chassis {
     /// Four wheels, those of a side coupled by a belt: turning makes them slide.
     #[default]
@@ -48,7 +49,7 @@ impl fmt::Display for Chassis {
 /// Square of a speed below which a caster does not swing, m²/s².
 const STANDING: f64 = 1e-20;
 /// Steps towards the direction in which a caster is dragged, each of which leaves a sixth of the cube of what is left.
-const TURNS: usize = 8;
+const TURNS: usize = 6;
 
 /// Rate at which a caster's wheel at angle `angle` would have to swing to follow its pivot, times its trail: the part of the
 /// pivot's velocity across the wheel, m/s.
@@ -76,7 +77,8 @@ pub(crate) fn swung<T: Scalar>(angle: T, pivot: [T; 2], yaw_rate: T, trail: T, s
 pub(crate) fn dragged<T: Scalar>(pivot: [T; 2]) -> T {
     let [x, y] = pivot;
     let per_speed = T::one() / (x * x + y * y + real(STANDING)).sqrt();
-    let mut angle = T::zero();
+    // From the right half of the circle: on the other one the steps below would be small.
+    let mut angle = x.if_less(T::zero(), real(core::f64::consts::PI), T::zero());
     for _ in 0..TURNS {
         angle += across(angle, pivot) * per_speed;
     }

@@ -113,8 +113,7 @@ impl Robot<f64> {
     /// Refuses casters by which the robot does not stand.
     fn check_casters(&self) -> Result<(), ModelError> {
         let [[first, _], [second, _]] = self.casters;
-        // Their wheels would be in each other's way.
-        let least = 0.5 * self.wheel_radius.min(self.half_track);
+        let least = NEAREST_CASTER * self.wheel_radius.min(self.half_track);
         if first.abs().max(second.abs()) < least {
             return Err(ModelError::Caster { name: "caster_x", value: first });
         }
@@ -235,6 +234,10 @@ impl<T: Scalar> From<&paper::Parameters> for Robot<T> {
         }
     }
 }
+
+/// Least distance of a caster from the driven axle, share of the smaller of wheel radius and half track (guess: nearer, its
+/// wheel and the driven ones would be in each other's way).
+const NEAREST_CASTER: f64 = 0.5;
 
 /// Share of the peak adhesion that remains in full sliding when nobody knows better: a plateau.
 pub const USUAL_SLIDING_SHARE: f64 = 1.0;

@@ -47,12 +47,9 @@ fn disagreeing(loads: &Loads, theirs: &str, together: Vec<String>) -> Vec<String
         let least = own().min_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
         let most = own().max_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
         let (name, low, high) = (quantity.name(), least.ratio, most.ratio);
-        (most.interval[0] > least.interval[1]).then(|| {
-            format!(
-                "the {name} is {low:.2} times {theirs} in {} and {high:.2} times in {}",
-                least.recording, most.recording
-            )
-        })
+        let [here, there] = [least, most].map(|r| recordings(&r.recording));
+        (most.interval[0] > least.interval[1])
+            .then(|| format!("the {name} is {low:.2} times {theirs} in {here} and {high:.2} times in {there}"))
     };
     let found: Vec<String> = quantities.into_iter().filter_map(of).collect();
     if found.is_empty() {

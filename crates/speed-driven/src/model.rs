@@ -5,7 +5,7 @@ use inference::least_squares::{Constant, Residuals, Settings};
 use inference::robust::{mean, rms};
 use robot_model::effect::LoadTerm;
 use robot_model::tunable::COUNT as NUISANCES;
-use robot_model::{Active, Chassis, Plant, Robot, State};
+use robot_model::{Active, Plant, Robot, State};
 use verdict::Quantity;
 
 use crate::run::SpeedRun;
@@ -25,14 +25,6 @@ pub(crate) struct Operating {
     pub(crate) speed: [f64; 2],
 }
 
-/// Track over which a search for the steady yaw rate begins, m: wheels that skid turn a body less than rolling ones.
-fn first_track(robot: &Robot<f64>) -> f64 {
-    match robot.chassis {
-        Chassis::SkidSteer => PLANT.first_track * robot.half_track,
-        Chassis::Differential => 2.0 * robot.half_track,
-    }
-}
-
 /// Means of a steady drive over all headings that matter: torque of each side, yaw rate.
 fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64) {
     let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
@@ -42,7 +34,7 @@ fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64
     // A slope pulls differently around a turn; a straight drive keeps its heading, and nothing else asks for it.
     let slopes = doses.iter().any(|dose| dose.effect.spec().load_term == Some(LoadTerm::Slope));
     let headings = if turning && slopes { PLANT.headings } else { 1 };
-    let yaw = (speed[1] - speed[0]) / first_track(robot);
+    let yaw = (speed[1] - speed[0]) / (2.0 * robot.turning_lever());
     let mut s = State { yaw_rate: yaw, ..State::default() };
     plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
     let (mut torque, mut turned) = ([0.0; 2], 0.0);
@@ -182,7 +174,7 @@ pub(crate) fn predicted_rows(run: &SpeedRun, robot: &Robot<f64>, doses: &[Dose])
         let span = run.time[i] - run.time[i - 1];
         let speed = [run.speed[0][i], run.speed[1][i]];
         // The body follows its wheels within a tenth of a second: rows are longer than that.
-        s.yaw_rate = (speed[1] - speed[0]) / first_track(robot);
+        s.yaw_rate = (speed[1] - speed[0]) / (2.0 * robot.turning_lever());
         plant.set_velocity(&mut s, [0.5 * (speed[0] + speed[1]), 0.0]);
         plant.settle_at_speed(&mut s, speed.map(|v| v / radius));
         out.yaw_rate[i] = Some(s.yaw_rate).filter(|w| w.is_finite());

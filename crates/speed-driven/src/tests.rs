@@ -3,8 +3,11 @@
 use verdict::{Diagnosis, Quantity, Ratio, Verdict};
 
 use inference::Options;
+use inference::robust::NINETY;
+use robot_model::tunable::tunables;
 
-use crate::testing::{Leg, diagnosis, diagnosis_with, rounds};
+use crate::testing::{Leg, diagnosis, diagnosis_with, drive, robot, rounds};
+use crate::{SteadyCase, diagnose_steady};
 
 fn ratio(d: &Diagnosis, quantity: Quantity) -> &Ratio {
     let loads = d.steady.as_ref().expect("loads");
@@ -60,6 +63,25 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
 }
 
 #[test]
+fn without_references_a_track_is_as_unsure_as_the_file_says_of_radius_and_track() {
+    let width = |sigma: f64| {
+        let case = SteadyCase {
+            robot: robot(),
+            sigma: tunables::<f64>().map(|constant| constant.sigma),
+            torque_sigma: 0.1,
+            geometry_sigma: [sigma, 0.0],
+            references: Vec::new(),
+            recordings: vec![drive(&rounds(3), false)],
+        };
+        let d = diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis");
+        let [low, high] = ratio(&d, Quantity::EffectiveTrack).interval;
+        (high / low).ln() / (2.0 * NINETY)
+    };
+    let (sure, unsure) = (width(1e-6), width(0.03));
+    assert!((unsure * unsure - sure * sure - 0.03 * 0.03).abs() < 1e-5, "{sure} {unsure}");
+}
+
+#[test]
 fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
     let on = |times: f64| -> Vec<Leg> {
         let other = |leg: Leg| Leg { straight: times * leg.straight, scrub: times * leg.scrub, ..leg };
@@ -69,7 +91,7 @@ fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
     assert!(matches!(d.verdict, Verdict::Explained | Verdict::Unknown), "{:?}", d.sentences);
     let [first, second, ..] = &d.sentences[..] else { panic!("{:?}", d.sentences) };
     assert!(first.starts_with("The recordings disagree: the straight load is 1.0"), "{first}");
-    assert!(first.contains(" in 0 and 2.") && first.contains(" times in 1, more than"), "{first}");
+    assert!(first.contains(" in recording 0 and 2.") && first.contains(" times in recording 1, more than"), "{first}");
     assert!(second.contains("Missing") || second.contains("Difference") || second.contains("catalogue"), "{second}");
     agrees_with_itself(&d);
 

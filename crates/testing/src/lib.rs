@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 use recordings::{Channel, Clock, Recording, Signal};
-use robot_model::Robot;
 use robot_model::robot::Drive;
+use robot_model::{Chassis, Robot};
 
 /// Time between rows, s.
 pub const PERIOD: f64 = 0.01;
@@ -27,7 +27,7 @@ pub fn robot() -> Robot<f64> {
         coulomb: [0.3; 2],
         viscous: [0.05; 2],
         stribeck: 0.0,
-        chassis: robot_model::Chassis::SkidSteer,
+        chassis: Chassis::SkidSteer,
         casters: [[0.0; 2]; 2],
         caster_trail: 0.0,
         caster_rolling: 0.0,
@@ -35,6 +35,33 @@ pub fn robot() -> Robot<f64> {
         drive: Drive { gain: 1.0, lag: 0.02, extra_lag: 0.0, delay: 0.0, limit: 20.0, dead_band: 0.0 },
         gravity: 9.81,
     }
+}
+
+/// A robot of 12 kg on two driven wheels, a caster behind and one ahead.
+///
+/// # Panics
+/// Never: these constants make a robot.
+pub fn on_casters() -> Robot<f64> {
+    let given = [
+        ("mass", 12.0),
+        ("yaw_inertia", 0.3),
+        ("com_x", -0.03),
+        ("com_height", 0.1),
+        ("track", 0.32),
+        ("caster_x", -0.18),
+        ("caster_y", 0.05),
+        ("second_caster_x", 0.15),
+        ("wheel_radius", 0.07),
+        ("wheel_inertia", 0.002),
+        ("motor_inertia", 0.01),
+        ("adhesion", 0.8),
+        ("rolling_resistance", 0.02),
+        ("coulomb", 0.2),
+        ("viscous", 0.02),
+        ("motor_lag", 0.01),
+        ("torque_limit", 6.0),
+    ];
+    Robot::on_chassis(Chassis::Differential, &given).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A recording of these channels on one clock; samples `(time in s, value)`.

@@ -15,7 +15,7 @@ pub(super) const HALF_WIDTH: f64 = 0.002;
 /// Reference speed `sqrt((ω r)² + v0²)` whose creep the contacts have, m/s: free runs of four drawn robots came closest to
 /// the planar plant at 0.7 to 0.8.
 const CREEP_AT: f64 = 0.75;
-/// Speed over which the friction of a caster builds up, m/s.
+/// Speed over which the friction of a caster builds up, m/s (guess: slow beside any drive).
 const SLIDES_AT: f64 = 0.02;
 /// Damping b of the friction, 1/s. It must be fast against turning, or friction points the wrong way: MuJoCo balances
 /// accelerations in axes that turn with the wheel. More of it changes nothing.

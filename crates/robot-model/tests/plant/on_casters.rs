@@ -78,9 +78,33 @@ fn casters_swing_round_when_the_robot_reverses_and_stay_where_it_stands() {
     let s = under(&r, s, [-1.2, -1.0], 3.0);
     assert!(s.velocity[0] < -0.5 && s.passive.iter().all(|angle| angle.cos() < -0.9), "{s:?}");
 
-    plant.set_velocity(&mut State { ..s }, [0.0; 2]);
     let still = under(&r, State::default(), [0.0; 2], 1.0);
     assert_eq!((still.passive, still.position), ([0.0; 2], [0.0; 2]));
+}
+
+#[test]
+fn a_motion_begins_with_casters_that_trail_whichever_way_it_goes() {
+    let r = on_casters();
+    let plant = Plant::new(&r, &[], H);
+    for (velocity, yaw_rate) in
+        [([0.4, 0.0], 0.0), ([-0.4, 0.0], 0.0), ([-0.4, 0.001], 0.0), ([0.1, 0.0], -2.0), ([0.0, 0.0], 3.0)]
+    {
+        let mut s = State { yaw_rate, ..State::default() };
+        plant.set_velocity(&mut s, velocity);
+        for (angle, [x, y]) in s.passive.into_iter().zip(r.casters) {
+            let pivot: [f64; 2] = [velocity[0] - yaw_rate * y, velocity[1] + yaw_rate * x];
+            let along = (pivot[0] * angle.cos() + pivot[1] * angle.sin()) / pivot[0].hypot(pivot[1]);
+            assert!(along > 1.0 - 1e-9, "{along} at {velocity:?} {yaw_rate}: {angle}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_turns_on_its_half_track_unless_it_skids() {
+    let (skids, rolls) = (common::robot(), on_casters());
+    assert_eq!((skids.turning_lever(), rolls.turning_lever()), (1.5 * skids.half_track, rolls.half_track));
+    let wheels = |r: &Robot<f64>| (r.side_inertia() - r.motor_inertia) / r.wheel_inertia;
+    assert!((wheels(&skids) - 2.0).abs() < 1e-12 && (wheels(&rolls) - 1.0).abs() < 1e-12);
 }
 
 #[test]

@@ -10,8 +10,6 @@
         step: f64 = 2e-3, "s", "guess";
         /// Headings over which a turn is averaged.
         headings: usize = 6, "1", "guess";
-        /// Effective track over half of the geometric one, from which the yaw rate of a steady turn is sought.
-        first_track: f64 = 3.0, "1", "guess";
         /// Speed below which a braking side reads its braking current, without sign.
         braking_reads: f64 = 0.12, "m/s", "chosen after a look at the open Husky runs";
     }
