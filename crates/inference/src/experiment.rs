@@ -153,7 +153,7 @@ impl Standing {
         if let (true, Some(ratio)) = (self.is_matched_by_placebo(), self.over_placebo) {
             let wrong = placebo.unwrap_or("a wrong cause with as many constants");
             return Some(format!(
-                "recordings left out of the fit are forecast as well with {wrong} in the place of the named cause (with \
+                "recordings left out of the fit are forecast as well or better with {wrong} in the place of the named cause (with \
                  the named cause the error is {ratio:.2} times as large): these recordings do not tell the two apart"
             ));
         }
@@ -236,7 +236,7 @@ mod tests {
         let objection = |rows: &[FreeRun]| Standing::new(rows).and_then(|s| s.objection(Some("drag")));
         assert_eq!(objection(&[row(2.0, 1.0, Some(1.5)), row(2.0, 1.1, None)]), None);
         let matched = objection(&[row(2.0, 1.0, Some(0.9)), row(2.0, 1.0, Some(1.0))]).expect("an objection");
-        assert!(matched.contains("forecast as well with drag") && matched.contains("1.05"), "{matched}");
+        assert!(matched.contains("forecast as well or better with drag") && matched.contains("1.05"), "{matched}");
         let idle = objection(&[row(1.0, 1.2, Some(1.5))]).expect("an objection");
         assert!(idle.contains("1.20 times"), "{idle}");
         // Shares count, whatever the quantities' sizes: half of one outweighs a fifth more of another.

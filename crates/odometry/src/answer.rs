@@ -33,24 +33,28 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
 }
 
 fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
-    let stated = if has_references { "the references" } else { "the robot file" };
+    let [stated, is_known, leaves] = if has_references {
+        ["the references", "are known", "leave"]
+    } else {
+        ["the robot file", "is known", "leaves"]
+    };
     let mut text = Vec::new();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
     match findings.answer {
         Answer::Nothing => text.push(format!(
-            "Nothing is missing: wheels and pose agree as well as {stated} is known (window errors are {given:.1} % of the \
+            "Nothing is missing: wheels and pose agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
              motion)."
         )),
         Answer::Retune => {
             text.push(format!(
-                "Re-tune: wheels and pose agree once constants are set within what {stated} leaves open (window errors \
-                 fall from {given:.1} to {tuned:.1} % of the motion)."
+                "Re-tune: wheels and pose agree once constants are set within what {stated} {leaves} open (window errors \
+                 go from {given:.1} to {tuned:.1} % of the motion)."
             ));
             text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
         }
         Answer::Named => {
             text.push(format!(
-                "Wheels and pose disagree by more than {stated} leaves open: {} (window errors fall from {given:.1} over \
+                "Wheels and pose disagree by more than {stated} {leaves} open: {} (window errors go from {given:.1} over \
                  {tuned:.1} re-tuned to {best:.1} % of the motion).",
                 found.names()
             ));

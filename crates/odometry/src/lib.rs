@@ -47,7 +47,7 @@ mod windows;
 /// sessions give normal equations.
 pub mod weighing {
     pub use crate::fit::{Marginal, Session};
-    pub use crate::name::{Named, Weighed, covariance, name};
+    pub use crate::name::{Named, Weighed, covariance, name, named_as, stand_ins};
     pub use crate::weigh::{Evidence, Posterior};
 }
 

@@ -72,10 +72,17 @@ pub(crate) fn name_from(
         set.push(cause);
         current = best;
     }
+    named_as(evidence, known, causes, &set)
+}
 
+/// The same of a set of causes that is given.
+pub fn named_as(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> Option<Named> {
+    let rules = SETTINGS.naming;
+    let score = |set: &[usize]| score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
+    let current = score(set);
     let mut chosen: Vec<Weighed> = Vec::new();
-    for &cause in &set {
-        let rest = less(&set, cause);
+    for &cause in set {
+        let rest = less(set, cause);
         let log_odds = current - score(&rest) + rules.odds;
         let mut rivals: Vec<(f64, usize)> = (0..causes.len())
             .filter(|c| !set.contains(c))
@@ -87,15 +94,15 @@ pub(crate) fn name_from(
         chosen.push(Weighed { cause, probability: logistic(log_odds), class });
     }
     // The first is that which the data would miss most.
-    let missed = |w: &Weighed| current - score(&less(&set, w.cause));
+    let missed = |w: &Weighed| current - score(&less(set, w.cause));
     chosen.sort_by(|a, b| missed(b).total_cmp(&missed(a)));
     let stands_in = |c: usize| chosen.iter().any(|w| w.class.contains(&c));
     let others = (0..causes.len())
         .filter(|c| !stands_in(*c))
-        .map(|c| (c, logistic(score(&with(&set, c)) - current + rules.odds)))
+        .map(|c| (c, logistic(score(&with(set, c)) - current + rules.odds)))
         .collect();
     let placebo = chosen.first().and_then(|first| {
-        let rest = less(&set, first.cause);
+        let rest = less(set, first.cause);
         let wrong = (0..causes.len()).filter(|c| !set.contains(c) && !first.class.contains(c));
         let (score, best) = wrong.map(|c| (score(&with(&rest, c)), c)).max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some((score, best, evidence.posterior(&covariance(known, causes, &with(&rest, best)))?))
@@ -104,13 +111,29 @@ pub(crate) fn name_from(
     let rival = rival.map(|(_, cause, _)| *cause);
     let placebo = placebo.map(|(_, cause, posterior)| (cause, posterior));
     Some(Named {
-        posterior: evidence.posterior(&covariance(known, causes, &set))?,
+        posterior: evidence.posterior(&covariance(known, causes, set))?,
         retuned: evidence.posterior(known)?,
         chosen,
         others,
         placebo,
         rival,
     })
+}
+
+/// Causes that could stand for one of a set, the best first, with their evidence in its place less that of the set, nats.
+pub fn stand_ins(
+    evidence: &Evidence,
+    known: &DMatrix<f64>,
+    causes: &[Cause],
+    (set, cause): (&[usize], usize),
+) -> Vec<(usize, f64)> {
+    let rest = less(set, cause);
+    let own = score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
+    let others = (0..causes.len()).filter(|c| !set.contains(c));
+    let mut out: Vec<(usize, f64)> =
+        others.filter_map(|c| Some((c, score(evidence, known, causes, &with(&rest, c))? - own))).collect();
+    out.sort_by(|a, b| b.1.total_cmp(&a.1));
+    out
 }
 
 /// Evidence of a set of causes, nats; `None` where a constant that cannot be negative would be so by more than its sigma: about

@@ -141,11 +141,17 @@ fn sentence_case(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// The unit of a constant as effects tell theirs.
+fn unit_of(e: &Estimate) -> &str {
+    if e.unit == "1" { "-" } else { e.unit }
+}
+
 fn cause(named: &NamedCause) -> Cause {
     let mut out = Cause::plain(named.spec.id, &named.label, named.probability);
     if let Some(first) = named.estimates.first() {
-        let factor = if first.given == 0.0 || first.unit == "rad" { 1.0 } else { first.given };
-        // Sizes of lengths are factors; the lengths themselves stand among the parameters.
+        // Sizes of lengths and gains are factors; these numbers themselves stand among the parameters.
+        let is_factor = first.given != 0.0 && unit_of(first) != named.spec.unit;
+        let factor = if is_factor { first.given } else { 1.0 };
         out.magnitude = Some(first.value / factor);
         out.sigma = Some(first.half_width / NINETY / factor.abs());
         out.unit = named.spec.unit.into();
@@ -166,7 +172,7 @@ fn cause(named: &NamedCause) -> Cause {
 fn retuned(e: &Estimate) -> Retuned {
     Retuned {
         constant: e.name.clone(),
-        unit: if e.unit == "1" { "-".to_owned() } else { e.unit.to_owned() },
+        unit: unit_of(e).to_owned(),
         from: e.given,
         to: e.value,
         half_width: e.half_width,

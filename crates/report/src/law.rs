@@ -33,6 +33,11 @@ fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
     Some(("lacks in every drive", text))
 }
 
+/// What the references hold of it.
+fn in_references(told: Option<String>) -> String {
+    told.map_or_else(String::new, |told| format!(" (references: {told})"))
+}
+
 /// Events that are listed one by one; of more, a line tells how many there are.
 const LISTED: usize = 12;
 
@@ -47,12 +52,12 @@ fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
         (
             "events",
             format!(
-                "{} in {} recordings, of {shortest:.1} to {longest:.1} s, in {:.0} % of the time (references: {:.1} %); \
+                "{} in {} recordings, of {shortest:.1} to {longest:.1} s, in {:.0} % of the time{}; \
                  free runs with them leave {:.0} % of what re-tuning leaves unexplained",
                 found.events.len(),
                 recordings.len(),
                 100.0 * found.filled,
-                100.0 * found.filled * found.in_references,
+                in_references(found.in_references.map(|share| format!("{:.1} %", 100.0 * found.filled * share))),
                 100.0 * found.left.max(0.0)
             ),
         ),
@@ -81,10 +86,10 @@ fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
         (
             "how much",
             format!(
-                "{:.2}{unit} rms (references: {:.0} % of its mean square); an input there that is another one every 0.1 s leaves {:.0} % of \
+                "{:.2}{unit} rms{}; an input there that is another one every 0.1 s leaves {:.0} % of \
                  what re-tuning leaves unexplained",
                 found.size,
-                100.0 * found.in_references,
+                in_references(found.in_references.map(|share| format!("{:.0} % of its mean square", 100.0 * share))),
                 100.0 * found.left.max(0.0)
             ),
         ),
@@ -140,6 +145,9 @@ fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {
     out.extend(proof(&law.free_runs).map(|text| ("proof", text)));
     let alike = if law.alike.is_empty() { "none".to_owned() } else { law.alike.join(" | ") };
     out.push(("cannot be told from", alike));
+    if law.in_references.is_none() {
+        out.push(("without references", "it may be what the simulation lacks in every drive of this robot".to_owned()));
+    }
     out
 }
 

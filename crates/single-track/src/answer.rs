@@ -35,25 +35,29 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
 }
 
 fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
-    let stated = if has_references { "the references" } else { "the robot file" };
+    let [stated, is_known, leaves] = if has_references {
+        ["the references", "are known", "leave"]
+    } else {
+        ["the robot file", "is known", "leaves"]
+    };
     let mut text = Vec::new();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
     match findings.answer {
         Answer::Nothing => text.push(format!(
-            "Nothing is missing: the car moves as throttle and steering imply, as well as {stated} is known (errors after a \
+            "Nothing is missing: the car moves as throttle and steering imply, as well as {stated} {is_known} (errors after a \
              second are {given:.1} % of the motion, {tuned:.1} % with the drive train fitted)."
         )),
         Answer::Retune => {
             text.push(format!(
-                "Re-tune: the car moves as throttle and steering imply once constants are set within what {stated} leaves open \
-                 (errors after a second fall from {given:.1} to {tuned:.1} % of the motion)."
+                "Re-tune: the car moves as throttle and steering imply once constants are set within what {stated} {leaves} open \
+                 (errors after a second go from {given:.1} to {tuned:.1} % of the motion)."
             ));
             text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
         }
         Answer::Named => {
             text.push(format!(
-                "The car moves otherwise than throttle and steering imply, by more than {stated} leaves open: {} (errors after a \
-                 second fall from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
+                "The car moves otherwise than throttle and steering imply, by more than {stated} {leaves} open: {} (errors after a \
+                 second go from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
                 found.names()
             ));
         }

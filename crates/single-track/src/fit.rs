@@ -264,6 +264,16 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     Some(out)
 }
 
+/// One fit with the scales of errors and the scatter of drives of another.
+pub(crate) fn fit_like(data: &Data<'_>, prior: &Prior, start: Vec<f64>, like: &Fit) -> Option<Fit> {
+    let rules = SETTINGS.fitting;
+    let information = prior.covariance.clone().cholesky()?.inverse();
+    let settings = Settings { iterations: rules.again, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let problem = Driven { data, prior, information, scatter: data.scatter(like.factor), noise: like.noise };
+    let Point { theta, sessions } = minimise(&problem, problem.at(start), &settings).at;
+    Some(Fit { theta, sessions, noise: like.noise, factor: like.factor })
+}
+
 /// Of two values of the constants those that are more probable; `None` where a prior is no covariance.
 pub(crate) fn likelier(data: &Data<'_>, prior: &Prior, noise: Noise, both: [Vec<f64>; 2]) -> Option<Vec<f64>> {
     let information = prior.covariance.clone().cholesky()?.inverse();

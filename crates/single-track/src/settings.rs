@@ -102,6 +102,8 @@
         rounds: usize = 2, "1", "guess";
         /// Linearisations of a round at most.
         iterations: usize = 15, "1", "guess";
+        /// The same of a fit with another cause, which starts where the equations end.
+        again: usize = 6, "1", "guess";
         /// Relative fall of the cost below which a round is at rest.
         fall: f64 = 1e-4, "1", "guess";
         /// Factors on the usual scatter of drives that are tried.
@@ -308,6 +310,22 @@
         near_share: f64 = 0.04, "1", "guess; twice what a good answer leaves";
         /// Fits with what was named before, at most.
         rounds: usize = 4, "1", "guess; two are usual";
+        /// Named causes for which fits with others in their place are tried: those that the data would miss most.
+        exchanged: usize = 2, "1", "guess; each takes a fit or two";
+        /// Evidence within which a cause with a fit of its own cannot be told from another.
+        alike: f64 = 3.0, "nat", "a factor of 20";
+        /// Others that are tried, of the equations about the re-tuned car and about the answer each.
+        stand_ins: usize = 2, "1", "guess; each takes a fit";
+        /// Evidence by the equations that another may lack before it is tried.
+        near_enough: f64 = 60.0, "nat", "guess; a straight line errs by tens of them";
+        /// Evidence within which it cannot, where both leave about the same errors.
+        alike_by_errors: f64 = 15.0, "nat", "five times the usual: two cars of another simulator whose steering gain was told as their wheelbase lay 10 apart";
+        /// Share by which the errors may then differ.
+        leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";
+        /// Sigmas of what is known by which one that may stand for another must move a constant.
+        moved: f64 = 1.0, "1", "guess";
+        /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas.
+        nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
         left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
         /// Remaining error over the way, beyond which nothing is explained, however much more was left before.

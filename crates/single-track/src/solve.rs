@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 use odometry::Cause;
-use odometry::weighing::{Evidence, Named, covariance, name};
+use odometry::weighing::{Evidence, Named, Posterior, covariance, name, named_as, stand_ins};
 
 use crate::car::Car;
 use crate::cause::causes;
 use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::{Data, Fit, Prior, fit, likelier, sessions, without};
+use crate::fit::{Data, Fit, Prior, fit, fit_like, likelier, sessions, without};
 use crate::settings::SETTINGS;
 use inference::robust::NINETY;
 
@@ -30,13 +30,17 @@ pub(crate) fn solve<'a>(car: &Car, references: &[Drive], drives: &[&'a Drive]) -
     let mut prior = data.prior();
     if !references.is_empty() {
         let right = Data::new(car, &references.iter().collect::<Vec<_>>())?;
-        let (fit, named) = weigh(&right, &prior, &causes, prior.mean.as_slice().to_vec()).ok_or_else(short)?;
+        // What they may be told to lack is of no interest: constants and scatter are.
+        let of_right = answered(&right, &prior, &causes, prior.mean.as_slice().to_vec());
+        let (fit, named) = of_right.map(|(of, _)| told(&right, &prior, &causes, of)).ok_or_else(short)?;
         let scatter = right.scatter(fit.factor);
         let between = DMatrix::from_diagonal(&scatter.component_mul(&scatter));
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
     }
     let start = prior.mean.as_slice().to_vec();
-    let (fit, named) = weigh(&data, &prior, &causes, start).ok_or_else(short)?;
+    let found = answered(&data, &prior, &causes, start);
+    let best = found.and_then(|(best, retuned)| exchanged(&data, &prior, &causes, &retuned, best)).ok_or_else(short)?;
+    let (fit, named) = told(&data, &prior, &causes, best);
     Ok(Solved { data, causes, prior, fit, named })
 }
 
@@ -67,33 +71,32 @@ struct Answered {
 }
 
 /// Fits constants and names causes from what is known; where much is left, also from where every cause is free, and takes what
-/// is more probable.
-fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
-    let near = settled(data, prior, causes, fit(data, prior, start.clone())?)?;
+/// is more probable; also the fit without any cause.
+fn answered(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Answered, Fit)> {
+    let retuned = fit(data, prior, start.clone())?;
+    let near = settled(data, prior, causes, retuned.clone())?;
     let best = if data.share(&near.fit.theta) > SETTINGS.naming.near_share {
         let every: Vec<usize> = (0..causes.len()).collect();
         let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
         let far = settled(data, prior, causes, fit(data, &wide, start)?)?;
-        // Errors count in the same sigmas, those of the fit that leaves less.
-        let noise = near.fit.noise.least(far.fit.noise);
-        let score = |of: &Answered| {
-            let sessions = sessions(data, &of.fit.theta, noise);
-            let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
-            let known = covariance(&prior.covariance, causes, &of.set);
-            evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)
-        };
-        if score(&far) > score(&near) { far } else { near }
+        let [of_far, of_near] = scores(data, prior, causes, [&far, &near]);
+        if of_far > of_near { far } else { near }
     } else {
         near
     };
-    let Answered { fit, mut named, set } = best;
+    Some((best, retuned))
+}
+
+/// What is told of an answer.
+fn told(data: &Data<'_>, prior: &Prior, causes: &[Cause], answer: Answered) -> (Fit, Named) {
+    let Answered { fit, mut named, set } = answer;
     // About where it stands the fit is what it was fitted to be.
     if named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)) {
         named.posterior.mean = DVector::from_column_slice(&fit.theta);
     }
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);
-    Some((fit, named))
+    (fit, named)
 }
 
 /// Weighs the causes about a fit, and fits anew with what they name, until the same are named.
@@ -119,14 +122,107 @@ fn settled(data: &Data<'_>, prior: &Prior, causes: &[Cause], from: Fit) -> Optio
     Some(out)
 }
 
+/// Evidence of two answers, nats. Errors count in the same sigmas, those of the fit that leaves less.
+fn scores(data: &Data<'_>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
+    let noise = both[0].fit.noise.least(both[1].fit.noise);
+    both.map(|of| {
+        let sessions = sessions(data, &of.fit.theta, noise);
+        let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
+        let known = covariance(&prior.covariance, causes, &of.set);
+        evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)
+    })
+}
+
+/// The same with others that may stand for its first causes, each by a fit of its own: about a fit with one of two causes that do
+/// much the same, the equations, which are straight lines, leave too much to the other one.
+///
+/// Another one that leaves hardly more of the errors is hard to tell from it: evidence counts all errors as noise, and laws of tyres
+/// and servos are not known that well. Of such two that leads which asks the constants for far fewer sigmas of what is known.
+fn exchanged(data: &Data<'_>, prior: &Prior, causes: &[Cause], retuned: &Fit, mut best: Answered) -> Option<Answered> {
+    let rules = SETTINGS.naming;
+    let lines = |fit: &Fit| Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean);
+    for place in 0..best.named.chosen.len().min(rules.exchanged) {
+        let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
+        let cause = set[place];
+        let fitted = |with: Vec<usize>| {
+            let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
+            let ends = within_bounds(data, &lines(retuned)?.posterior(&narrow.covariance)?.mean);
+            let start = likelier(data, &narrow, retuned.noise, [retuned.theta.clone(), ends])?;
+            let fit = fit_like(data, &narrow, start, &best.fit)?;
+            let mut named = named_as(&lines(&fit)?, &prior.covariance, causes, &with)?;
+            named.posterior.mean = DVector::from_column_slice(&fit.theta);
+            Some(Answered { fit, named, set: with })
+        };
+        // By the equations about the re-tuned car and about the answer: the one knows no cause yet, the other too much of its own.
+        let mut candidates: Vec<usize> = Vec::new();
+        for fit in [retuned, &best.fit] {
+            let own = stand_ins(&lines(fit)?, &prior.covariance, causes, (&set, cause));
+            let near = own.into_iter().filter(|(_, by)| *by > -rules.near_enough);
+            candidates.extend(near.map(|(c, _)| c).take(rules.stand_ins));
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        let others: Vec<(usize, Answered)> = candidates
+            .into_iter()
+            .filter_map(|c| Some((c, fitted(set.iter().map(|&s| if s == cause { c } else { s }).collect())?)))
+            .collect();
+
+        let own = data.share(&best.fit.theta);
+        let mut alike: Vec<(f64, usize, Answered)> = Vec::new();
+        for (candidate, other) in others {
+            // What does not move stands for nothing: re-tuning does it.
+            if sigmas(prior, &other, causes[candidate].moves()) < rules.moved {
+                continue;
+            }
+            let [of_other, of_best] = scores(data, prior, causes, [&other, &best]);
+            let leaves_as_much = data.share(&other.fit.theta) < (1.0 + rules.leaves_more) * own;
+            let odds = if leaves_as_much { rules.alike_by_errors } else { rules.alike };
+            if of_other > of_best - odds {
+                alike.push((of_other - of_best, candidate, other));
+            }
+        }
+        alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let much_nearer = |(_, candidate, other): &(f64, usize, Answered)| {
+            let both = || causes[cause].moves().into_iter().chain(causes[*candidate].moves());
+            rules.nearer * sigmas(prior, other, both()) < sigmas(prior, &best, both())
+        };
+        let leads = |other: &(f64, usize, Answered)| {
+            is_moved(&causes[other.1], prior, &other.2.named.posterior) && (other.0 > rules.alike || much_nearer(other))
+        };
+        let leader = alike.iter().position(leads);
+        let mut class: Vec<usize> = alike.iter().map(|(_, c, _)| *c).collect();
+        let mut leads = cause;
+        if let Some(k) = leader {
+            (_, leads, best) = alike.swap_remove(k);
+            class.retain(|c| *c != leads);
+            class.push(cause);
+        }
+        if let Some(own) = best.named.chosen.iter_mut().find(|w| w.cause == leads) {
+            let new = class.into_iter().filter(|c| !own.class.contains(c)).collect::<Vec<_>>();
+            own.class.extend(new);
+        }
+    }
+    Some(best)
+}
+
+/// By how many sigmas of what was known these constants moved, the most of them.
+fn sigmas(prior: &Prior, answer: &Answered, constants: impl IntoIterator<Item = usize>) -> f64 {
+    let of = |k: usize| (answer.fit.theta[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
+    constants.into_iter().map(of).fold(0.0, f64::max)
+}
+
 /// A cause whose constants are all where they were known to be, by their 90 % intervals, is none.
 fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
     let Named { chosen, posterior, .. } = named;
-    let is_moved = |&k: &usize| {
+    chosen.retain(|w| is_moved(&causes[w.cause], prior, posterior));
+}
+
+/// Whether one of a cause's constants is elsewhere than it was known to be, by its 90 % interval.
+fn is_moved(cause: &Cause, prior: &Prior, posterior: &Posterior) -> bool {
+    cause.moves().into_iter().any(|k| {
         let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
         (posterior.mean[k] - prior.mean[k]).abs() > NINETY * sd
-    };
-    chosen.retain(|w| causes[w.cause].moves().iter().any(is_moved));
+    })
 }
 
 /// Keeps constants within what they can be.

@@ -56,6 +56,20 @@ fn other_distances_of_the_axles_are_not_re_tuned_away() {
 }
 
 #[test]
+fn a_larger_gain_of_the_steering_is_not_told_as_another_distance_of_the_axles() {
+    for (gain, seed) in [(0.15, 41), (0.2, 51)] {
+        let findings = found(Hidden { gain, ..Hidden::default() }, seed);
+        let told: Vec<&str> = findings
+            .named
+            .iter()
+            .flat_map(|c| std::iter::once(c.label.as_str()).chain(c.alike.iter().map(String::as_str)))
+            .collect();
+        assert_eq!(findings.answer, Answer::Named, "{gain}: {told:?}");
+        assert!(told.contains(&"steering_command_gain"), "{gain}: {told:?} {:?}", findings.others);
+    }
+}
+
+#[test]
 fn nothing_is_named_of_a_car_as_stated() {
     let named: Vec<Vec<&str>> = (0..5)
         .map(|seed| found(Hidden::default(), 100 + 10 * seed))

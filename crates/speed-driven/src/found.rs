@@ -62,7 +62,7 @@ fn differs(r: &Ratio) -> f64 {
 }
 
 /// Another effective track; a longer one may be soft ground.
-fn tracks(r: &Ratio) -> Vec<Cause> {
+pub(crate) fn tracks(r: &Ratio) -> Vec<Cause> {
     let spec = EFFECTIVE_TRACK;
     let soft = (r.ratio > 1.0).then(|| Cause::plain(SOFT_GROUND.id, SOFT_GROUND.name, ANSWER.soft * differs(r)));
     let measured = Cause {

@@ -10,8 +10,9 @@ use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{longest, strongest};
+use crate::groups::{Disagreement, disagreements};
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
-use crate::words::{any_of, change, compared, how_it_stands, other_ground, recordings, turning_change};
+use crate::words::{any_of, change, compared, group, how_it_stands, other_ground, recordings, turning_change};
 
 const SENTENCES: Sentences = NAMING.sentences;
 const ANSWER: Answer = NAMING.answer;
@@ -33,34 +34,28 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     [standing, rest].concat()
 }
 
-/// What is said of all recordings together, behind the loads of which they show no one value: these are not pooled.
+/// What is said of all recordings together, behind the loads of which they show no one value and the recordings that agree.
 fn disagreeing(loads: &Loads, theirs: &str, together: Vec<String>) -> Vec<String> {
-    let mut quantities: Vec<Quantity> = loads.ratios.iter().map(|r| r.quantity).collect();
-    quantities.sort_unstable();
-    quantities.dedup();
-    let is_pooled = |quantity: &Quantity| loads.pooled.iter().any(|r| r.quantity == *quantity);
-    // Sides differ with what lies under each: that is no ground of its own.
-    quantities.retain(|quantity| *quantity != Quantity::Asymmetry && !is_pooled(quantity));
-
-    let of = |quantity: Quantity| {
-        let own = || loads.ratios.iter().filter(|r| r.quantity == quantity && r.firm);
-        let least = own().min_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
-        let most = own().max_by(|a, b| a.ratio.total_cmp(&b.ratio))?;
-        let (name, low, high) = (quantity.name(), least.ratio, most.ratio);
-        let [here, there] = [least, most].map(|r| recordings(&r.recording));
-        (most.interval[0] > least.interval[1])
-            .then(|| format!("the {name} is {low:.2} times {theirs} in {here} and {high:.2} times in {there}"))
+    let of = |d: Disagreement<'_>| {
+        let [here, there] = [d.least, d.most].map(|r| recordings(&r.recording));
+        let (name, low, high) = (d.quantity.name(), d.least.ratio, d.most.ratio);
+        format!("the {name} is {low:.2} times {theirs} in {here} and {high:.2} times in {there}")
     };
-    let found: Vec<String> = quantities.into_iter().filter_map(of).collect();
+    let found: Vec<String> = disagreements(loads).into_iter().map(of).collect();
     if found.is_empty() {
         return together;
     }
     let first = format!(
-        "The recordings disagree: {}, more than it varies from run to run. No one cause need be behind all of them: diagnose those \
-         apart that agree. Taken together:",
+        "The recordings disagree: {}, more than it varies from run to run. No one cause need be behind all of them; those that \
+         agree, each by itself:",
         found.join("; ")
     );
-    std::iter::once(first).chain(together).collect()
+    let apart = loads.groups.iter().map(|g| group(g, theirs));
+    let mut together = together;
+    if let Some(leads) = together.first_mut() {
+        leads.insert_str(0, "All recordings together: ");
+    }
+    std::iter::once(first).chain(apart).chain(together).collect()
 }
 
 /// Nothing differs over whole recordings, or nothing can be compared; what changes inside them.

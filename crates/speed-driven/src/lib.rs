@@ -16,9 +16,10 @@
 //! * `guesses`: what a mapping may have wrong.
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
+//! * `mounting`: how the inertial unit leans in the body.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
-//! * `grounds`, `ground`: several grounds in one recording, soft ground as one cause.
+//! * `grounds`, `groups`, `ground`: several grounds in one recording or in several, soft ground as one cause.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
 //! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
@@ -35,6 +36,7 @@ mod forecast;
 mod found;
 mod ground;
 mod grounds;
+mod groups;
 mod guesses;
 mod heading;
 mod headline;
@@ -42,6 +44,7 @@ mod jumps;
 mod law;
 mod level;
 mod model;
+mod mounting;
 mod name;
 mod next;
 mod pieces;
@@ -140,7 +143,11 @@ pub fn diagnose_steady(
     };
 
     // What changes inside a recording is reported by itself: the load of the whole recording is measured without it.
-    attitude::set_level(&case.references, &mut marked.recordings);
+    let leans = [
+        (mounting::set_upright(&mut marked.references), "references"),
+        (mounting::set_upright(&mut marked.recordings), "recordings"),
+    ];
+    attitude::set_level(&marked.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
@@ -182,6 +189,8 @@ pub fn diagnose_steady(
     let open = Open { same_robot: options.same_robot, one_slope: one_place && one_way };
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
     let naming = comparison.as_ref().and_then(|c| name(c, open));
+    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
+    loads.groups = groups::groups(&loads, &differences, &usual, open);
 
     progress("forecasting recordings that were not used");
     let fits = Fits {
@@ -211,6 +220,7 @@ pub fn diagnose_steady(
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
     out.limits.extend(standing_references.iter().map(words::standing_reference));
+    out.limits.extend(leans.into_iter().filter_map(|(lean, of)| mounting::told(lean, of)));
     if of_loads == Verdict::Explained {
         let wrong = placebo.map(Named::name);
         out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
@@ -287,6 +297,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         changes: Changes::default(),
         turning_changes: Vec::new(),
         grounds: Vec::new(),
+        groups: Vec::new(),
         turning: Vec::new(),
         standstills: Vec::new(),
         forecasts: Vec::new(),

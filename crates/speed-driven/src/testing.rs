@@ -150,15 +150,20 @@ pub(crate) fn diagnosis(recordings: &[&[Leg]]) -> Diagnosis {
 pub(crate) fn diagnosis_with(recordings: &[&[Leg]], options: &Options) -> Diagnosis {
     let recordings =
         recordings.iter().enumerate().map(|(k, legs)| SpeedRun { name: k.to_string(), ..drive(legs, false) });
-    let case = SteadyCase {
+    let case = case(vec![drive(&rounds(3), false)], recordings.collect());
+    diagnose_steady(&case, options, &|_| {}).expect("a diagnosis")
+}
+
+/// A case of these drives.
+pub(crate) fn case(references: Vec<SpeedRun>, recordings: Vec<SpeedRun>) -> SteadyCase {
+    SteadyCase {
         robot: robot(),
         sigma: tunables::<f64>().map(|constant| constant.sigma),
         torque_sigma: 0.1,
         geometry_sigma: [0.01; 2],
-        references: vec![drive(&rounds(3), false)],
-        recordings: recordings.collect(),
-    };
-    diagnose_steady(&case, options, &|_| {}).expect("a diagnosis")
+        references,
+        recordings,
+    }
 }
 
 /// A load of a recording.

@@ -89,14 +89,26 @@ fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
     };
     let d = diagnosis(&[&on(1.0), &on(2.2)]);
     assert!(matches!(d.verdict, Verdict::Explained | Verdict::Unknown), "{:?}", d.sentences);
-    let [first, second, ..] = &d.sentences[..] else { panic!("{:?}", d.sentences) };
+    let [first, usual, other, together, ..] = &d.sentences[..] else { panic!("{:?}", d.sentences) };
     assert!(first.starts_with("The recordings disagree: the straight load is 1.0"), "{first}");
     assert!(first.contains(" in recording 0 and 2.") && first.contains(" times in recording 1, more than"), "{first}");
-    assert!(second.contains("Missing") || second.contains("Difference") || second.contains("catalogue"), "{second}");
+    assert_eq!(usual, "Recording 0 alone: no load differs from that of the references.");
+    assert!(other.starts_with("Recording 1 alone: what fits these loads best is "), "{other}");
+    assert!(together.starts_with("All recordings together: "), "{together}");
     agrees_with_itself(&d);
+    let groups = |d: &Diagnosis| d.steady.as_ref().map(|loads| loads.groups.clone()).unwrap_or_default();
+    // All its loads are 2.2 times as large.
+    assert_eq!(groups(&d)[1].causes.first().map(String::as_str), Some("torque_constant"));
+
+    // Each is named as if it had been recorded with those that agree with it, and no others.
+    let mixed = groups(&diagnosis(&[&on(2.2), &on(1.0), &on(2.1)]));
+    let of: Vec<Vec<String>> = mixed.iter().map(|g| g.recordings.clone()).collect();
+    assert_eq!(of, [vec!["1"], vec!["2", "0"]]);
+    assert_eq!(mixed.iter().map(|g| g.differs).collect::<Vec<_>>(), [false, true]);
 
     let alike = diagnosis(&[&on(2.2), &on(2.1)]);
     assert!(alike.sentences.iter().all(|s| !s.contains("disagree")), "{:?}", alike.sentences);
+    assert_eq!(groups(&alike), []);
 }
 
 #[test]

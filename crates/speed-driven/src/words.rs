@@ -4,7 +4,10 @@ use crate::Alignment;
 use crate::compare::{Judgement, judgement, no_difference};
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
-use verdict::{ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, Standstill, Turning, TurningChange, Way};
+use verdict::{
+    ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, RecordingGroup, Standstill, Turning, TurningChange,
+    Way,
+};
 
 const SENTENCES: Sentences = NAMING.sentences;
 
@@ -174,18 +177,30 @@ pub(crate) fn other_ground(g: &OtherGround, theirs: &str) -> String {
     let [from, until] = g.interval;
     let differs = g.ratios.iter().filter(|r| judgement(r) == Judgement::Differs);
     let loads: Vec<String> = differs.map(|r| format!("the {} is {}", r.quantity.name(), compared(r, theirs))).collect();
+    format!(
+        "{}, from {from:.1} s until {until:.1} s, other ground: {}. {}.",
+        titled(&g.recording),
+        loads.join(", "),
+        fitting_best(&g.causes)
+    )
+}
+
+/// "What fits these loads best is soft ground".
+fn fitting_best(causes: &[String]) -> String {
     let name = |id: &String| catalogue::find(id).map_or(id.clone(), |entry| entry.label().to_owned());
-    let names: Vec<String> = g.causes.iter().map(name).collect();
-    let causes = match names.len() {
+    let names: Vec<String> = causes.iter().map(name).collect();
+    match names.len() {
         0 => "No effect of the catalogue fits these loads".to_owned(),
         1 => format!("What fits these loads best is {}", any_of(&names)),
         _ => format!("What fits these loads best is {}; these loads do not tell which", any_of(&names)),
-    };
-    format!(
-        "{}, from {from:.1} s until {until:.1} s, other ground: {}. {causes}.",
-        titled(&g.recording),
-        loads.join(", ")
-    )
+    }
+}
+
+/// What could be behind recordings that agree among each other.
+pub(crate) fn group(g: &RecordingGroup, theirs: &str) -> String {
+    let who = titled(&g.recordings.join(", "));
+    let what = if g.differs { fitting_best(&g.causes) } else { format!("No load differs from {theirs}") };
+    format!("{who} alone: {}.", what.replacen(['W', 'N'], &what[..1].to_lowercase(), 1))
 }
 
 /// "a", "a or b", "a, b or c".

@@ -241,7 +241,9 @@ impl Judged<'_> {
             .collect();
         let fault_free = fault_free_cost(p, &self.calibration.regimes.scatter);
         let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| self.decision.level.share());
-        let standing = Standing::new(&forecasts.free_runs).filter(|_| verdict == Verdict::Explained);
+        // What a sensor shows wrongly is no part of the motion that is forecast.
+        let forecasts_tell = verdict == Verdict::Explained && !self.is_of_sensors_alone();
+        let standing = Standing::new(&forecasts.free_runs).filter(|_| forecasts_tell);
         let as_good = forecasts.placebo.as_ref().filter(|_| standing.is_some_and(|s| s.is_matched_by_placebo()));
         let indistinguishable = self.rivals(&ranked, verdict, as_good);
         let tuning = tunables::<f64>().iter().zip(theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
@@ -348,15 +350,41 @@ impl Judged<'_> {
             .map(|c| c.probability)
             .fold(0.0, f64::max);
         let as_good = as_good.map_or_else(Vec::new, |s| s.trial.hypothesis.ids());
+        let weighed: Vec<(Vec<&str>, f64)> =
+            self.decision.scored.iter().map(|s| (s.trial.hypothesis.ids(), s.probability)).collect();
         let rivals: Vec<String> = ranked
             .iter()
             .filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id && !members.contains(&c.effect.as_str()))
             .filter(|c| {
-                let competes = c.probability > ANSWER.rival * best && !self.is_of_sensor(&c.effect);
+                let competes =
+                    instead(&weighed, &members, &c.effect) > ANSWER.rival * best && !self.is_of_sensor(&c.effect);
                 competes || as_good.contains(&c.effect.as_str())
             })
             .map(|c| c.effect.clone())
             .collect();
         (!rivals.is_empty()).then(|| members.iter().map(|m| (*m).to_owned()).chain(rivals).collect())
+    }
+}
+
+/// Probability that an effect is there and a member of the best hypothesis is not: what is likely only beside that hypothesis is no
+/// alternative to it.
+fn instead(weighed: &[(Vec<&str>, f64)], members: &[&str], effect: &str) -> f64 {
+    let lacks_a_member = |ids: &[&str]| members.iter().any(|m| !ids.contains(m));
+    weighed.iter().filter(|(ids, _)| ids.contains(&effect) && lacks_a_member(ids)).map(|(_, p)| p).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::instead;
+
+    #[test]
+    fn what_is_likely_only_beside_the_best_hypothesis_is_no_alternative_to_it() {
+        let weighed =
+            [(vec!["pull"], 0.6), (vec!["pull", "gain"], 0.2), (vec!["scrub"], 0.15), (vec!["scrub", "gain"], 0.05)];
+        let of = |effect: &str| instead(&weighed, &["pull"], effect);
+        approx::assert_abs_diff_eq!(of("gain"), 0.05);
+        approx::assert_abs_diff_eq!(of("scrub"), 0.2);
+        // Of two members either may be the one that is not there.
+        approx::assert_abs_diff_eq!(instead(&weighed, &["pull", "gain"], "scrub"), 0.2);
     }
 }

@@ -135,6 +135,8 @@ impl Calibrated {
         }
         // Without references, and with one, the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
         let is_noise_learnt = self.references.len() < CALIBRATING.enough_references;
+        // A law is compared with what a tuned simulation usually leaves: noise that is learnt holds what the law is to explain.
+        let usual = self.references.is_empty().then(|| (calibration.clone(), found.retuned.clone(), decision.clone()));
         for _ in 1..if is_noise_learnt { CALIBRATING.most_searches } else { 1 } {
             let before = problem(&robot, case, &recordings, &calibration, largest, options);
             let best = decision.scored.first().filter(|s| s.probability > decision.none);
@@ -162,7 +164,17 @@ impl Calibrated {
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
             progress("looking for a law without a name");
-            let law = unnamed::tell(&answer, &found.retuned, &out);
+            let law = match &usual {
+                Some((calibration, retuned, decision)) => {
+                    let problem = self::problem(&robot, case, &recordings, calibration, largest, options);
+                    unnamed::tell(
+                        &self.judged(case, options, &sensors, (&problem, calibration), decision),
+                        retuned,
+                        &out,
+                    )
+                }
+                None => unnamed::tell(&answer, &found.retuned, &out),
+            };
             out.sentences.extend(law.sentence().filter(|_| out.verdict == Verdict::Unknown));
             out.law = Some(law);
         }

@@ -17,8 +17,8 @@ impl Judged<'_> {
         let names: Vec<String> = all.iter().enumerate().filter(is_usual).map(|(_, t)| t.id.replace('_', " ")).collect();
         (!names.is_empty()).then(|| {
             format!(
-                "the usual sigma was taken of constants for which the robot file states none, or a smaller one: {}; state how \
-                 well they are known",
+                "the usual sigma was taken for constants of which the robot file states no sigma, or one below the usual: {}; where \
+                 you know them worse than usual, state it",
                 names.join(", ")
             )
         })

@@ -117,8 +117,9 @@ pub struct FoundPlace {
     pub unit: String,
     /// Share of the excess cost that free runs leave with the input that explains most.
     pub left: f64,
-    /// Its mean square in the references, over that of the recordings.
-    pub in_references: f64,
+    /// Its mean square in the references, over that of the recordings; `None` without references.
+    #[serde(default)]
+    pub in_references: Option<f64>,
 }
 
 /// Short times in which something acts on the robot that no law in the measured signals predicts.
@@ -137,8 +138,9 @@ pub struct FoundEvents {
     pub opposed: Option<Opposed>,
     /// Share of the windows in which one is.
     pub filled: f64,
-    /// The same share of the references, over that of the recordings.
-    pub in_references: f64,
+    /// The same share of the references, over that of the recordings; `None` without references.
+    #[serde(default)]
+    pub in_references: Option<f64>,
     /// Share of the excess cost that free runs with them leave.
     pub left: f64,
     /// Evidence of them less what choosing their windows costs, nats.
@@ -290,7 +292,7 @@ mod tests {
             shared: Vec::new(),
             opposed: None,
             filled: 0.119,
-            in_references: 0.0,
+            in_references: Some(0.0),
             left: 0.2,
             score: 900.0,
         };
@@ -309,7 +311,7 @@ mod tests {
             size: 0.2,
             unit: "1".to_owned(),
             left: 0.3,
-            in_references: 0.1,
+            in_references: Some(0.1),
         };
         let with_place = UnnamedCause { claim: Claim::Place, place: Some(place), ..nothing };
         let sentence = with_place.sentence().expect("a place");

@@ -22,6 +22,9 @@ pub struct Loads {
     /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grounds: Vec<OtherGround>,
+    /// Where the recordings show no one value of a load or of the track: which of them agree, and what could be behind each group.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<RecordingGroup>,
     /// Turning inferred from the loads, where neither a gyro nor a difference of the speeds is known.
     pub turning: Vec<Turning>,
     /// Wheels that were commanded to turn a body that did not.
@@ -196,6 +199,17 @@ pub struct Hidden {
     pub recording: String,
     /// From, until, s.
     pub interval: [f64; 2],
+}
+
+/// Recordings that agree, beside others that do not agree with them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordingGroup {
+    /// Names of the recordings.
+    pub recordings: Vec<String>,
+    /// Whether anything differs from the references in one of them.
+    pub differs: bool,
+    /// Ids of the causes that fit these recordings alone best, the likeliest first; none where no effect of the catalogue does.
+    pub causes: Vec<String>,
 }
 
 /// A stretch of a recording on other ground: changes of the straight load and of what turning costs that belong together.

@@ -40,6 +40,9 @@ pub(crate) struct Args {
     /// Number of robots with a cause outside the vocabulary, all kinds in turn.
     #[arg(long, default_value_t = 22)]
     outside: usize,
+    /// References of each robot; with none, a law is told only where the answer is that the cause is not in the catalogue.
+    #[arg(long, value_name = "NUMBER", default_value_t = Settings::default().references)]
+    references: usize,
     /// Seed of the draws.
     #[arg(long, default_value_t = 4107)]
     seed: u64,
@@ -53,7 +56,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let folder = output::folder("law")?;
     let single = Mix { null: 0.0, single: 1.0, pair: 0.0, outsider: 0.0, triple: 0.0 };
     let null = Mix { null: 1.0, single: 0.0, ..single };
-    let settings = Settings::default();
+    let settings = Settings { references: args.references, ..Settings::default() };
     let mut plans = examiner::set(args.seed, args.count, single, &settings);
     plans.extend(examiner::set(args.seed + 1, args.fault_free, null, &settings));
     let outside = Mix { outsider: 1.0, single: 0.0, ..single };

@@ -28,6 +28,20 @@
         dead_band_slack: f64 = 0.01, "A", "last digit of recorded dead bands";
     }
 
+    /// How the inertial unit leans in the body.
+    mounting: Mounting {
+        /// Length of the stretches whose turning is compared with what the other axes show.
+        stretch: f64 = 20.0, "s", "guess: longer than a turn";
+        /// Standard deviation of the turning rate from which on a stretch says something.
+        turning: f64 = 0.1, "rad/s", "guess: above the noise of small gyros";
+        /// Stretches that are needed.
+        least: usize = 5, "1", "guess: fewer show no scatter";
+        /// Sigmas of its error from which on a lean is taken out.
+        clear: f64 = 3.0, "1", "guess";
+        /// Lean from which on it is told.
+        told: f64 = 1.0, "°", "guess: units are seldom mounted better";
+    }
+
     /// Alignment of the gyro's clock with the speeds' by the turns.
     aligning: Aligning {
         /// Time between nodes of the warp.

@@ -146,7 +146,7 @@
         shifts: [f64; 4] = [0.17, 0.37, 0.59, 0.83], "1", "guess: no simple shares of a repeated drive";
         /// By how much its error must be below that of re-tuning, over all quantities, as a share of it.
         below_retuned: f64 = 0.02, "1", "guess: less is not worth a law";
-        /// By how much a shifted copy may do better: a law that hardly changes in time is its own copy.
+        /// By how much a shifted copy, or the best name, may do better: a law that hardly changes in time is its own copy.
         above_shifted: f64 = 0.01, "1", "guess";
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn find(
     all: &[Acts],
     signals: &Signals,
     retuned: &Fitted,
-    references: &References<'_>,
+    references: Option<&References<'_>>,
 ) -> Option<FoundEvents> {
     let (best, others) = all.split_first()?;
     let fault_free = fault_free_cost(ground.problem, &judged.calibration.regimes.scatter);
@@ -62,15 +62,19 @@ pub(super) fn find(
     if !is_better || standing.left > EVENTS.left {
         return None;
     }
-    let share = references.share(best)?;
-    (share <= SETTINGS.gates.in_references * found.filled).then(|| FoundEvents {
+    let in_references = match references {
+        Some(references) => Some(references.share(best)? / found.filled),
+        None => None,
+    };
+    let is_elsewhere = in_references.is_some_and(|share| share > SETTINGS.gates.in_references);
+    (!is_elsewhere).then(|| FoundEvents {
         place: best.place.name().to_owned(),
         places_alike: standing.alike(best, others),
         shared: shared(signals, &best.inputs, &found.instants),
         opposed: opposed(signals, &best.inputs, &found.instants),
         events,
         filled: found.filled,
-        in_references: share / found.filled,
+        in_references,
         left: standing.left,
         score,
     })

@@ -41,14 +41,16 @@ pub(super) fn left(cost: f64, retuned: f64, fault_free: f64) -> f64 {
 }
 
 /// Whether a law does better than re-tuning on recordings that its fit did not use, and no copy of it shifted in time
-/// does better still; over all quantities, each by the logarithm of its error.
+/// does better still, nor the best name by more than that; over all quantities, each by the logarithm of its error.
 pub(crate) fn holds_elsewhere(rows: &[LawFreeRun]) -> bool {
     let ratio = |other: fn(&LawFreeRun) -> f64| {
         let all = rows.iter().map(|r| (r.law / other(r)).ln()).filter(|x| x.is_finite());
         all.clone().sum::<f64>() / all.count().max(1) as f64
     };
-    let [retuned, shifted] = [ratio(|r| r.retuned), ratio(|r| r.shifted)];
-    retuned < (1.0 - SETTINGS.proof.below_retuned).ln() && shifted < SETTINGS.proof.above_shifted.ln_1p()
+    let [retuned, shifted, named] =
+        [ratio(|r| r.retuned), ratio(|r| r.shifted), ratio(|r| r.named.unwrap_or(r.retuned))];
+    let above = SETTINGS.proof.above_shifted.ln_1p();
+    retuned < (1.0 - SETTINGS.proof.below_retuned).ln() && shifted < above && named < above
 }
 
 impl Standing {
@@ -95,7 +97,6 @@ impl Standing {
             && self.left < GATES.left_of_place
             && self.above_name > GATES.above_name
             && self.is_in_recordings()
-            && self.in_references.is_some()
             && !self.is_in_references()
     }
 
@@ -174,6 +175,8 @@ mod tests {
         // A law that hardly changes in time is its own copy.
         assert!(holds_elsewhere(&[row([0.5, 0.2, 0.2])]));
         assert!(!holds_elsewhere(&[row([0.5, 0.4, 0.2])]), "a shifted copy does better");
+        let named = LawFreeRun { named: Some(0.1), ..row([0.5, 0.2, 0.45]) };
+        assert!(!holds_elsewhere(&[named]), "the best name does better");
         assert!(!holds_elsewhere(&[row([0.5, 0.495, 0.5])]), "hardly better than re-tuning");
         assert!(!holds_elsewhere(&[]), "there is no proof without recordings left out");
     }

@@ -21,7 +21,7 @@ pub(super) fn find(
     ground: &Ground<'_>,
     all: &[Acts],
     retuned: &Fitted,
-    references: &References<'_>,
+    references: Option<&References<'_>>,
 ) -> Option<FoundPlace> {
     let (best, others) = all.split_first()?;
     let inputs = best.throughout(ground)?;
@@ -34,11 +34,17 @@ pub(super) fn find(
     }
     let strength = |of: &Inputs| robust::rms(of.iter().flat_map(|(_, runs)| runs.iter().flatten().copied()));
     let own = strength(&inputs).filter(|s| *s > 0.0)?;
-    let elsewhere = references.at(best, |ground, acts| strength(&acts.throughout(ground)?))?;
-    let in_references = (elsewhere / own).powi(2);
+    let in_references = match references {
+        Some(references) => {
+            let elsewhere = references.at(best, |ground, acts| strength(&acts.throughout(ground)?))?;
+            Some((elsewhere / own).powi(2))
+        }
+        None => None,
+    };
     let alike = standing.alike(best, others);
     let next = others.iter().find(|o| !alike.iter().any(|name| name == o.place.name()));
-    (in_references < SETTINGS.gates.in_references).then(|| FoundPlace {
+    let is_elsewhere = in_references.is_some_and(|share| share >= SETTINGS.gates.in_references);
+    (!is_elsewhere).then(|| FoundPlace {
         place: best.place.name().to_owned(),
         next_place: next.map(|o| (o.place.name().to_owned(), (best.evidence - o.evidence) / standing.misfit)),
         places_alike: alike,

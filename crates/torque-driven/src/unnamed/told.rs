@@ -43,7 +43,11 @@ impl Asked {
     /// Where the cause is unknown, or the best name leaves much of the mismatch.
     pub(crate) fn of(judged: &Judged<'_>, retuned: &Fitted, verdict: Verdict) -> bool {
         match (judged.options.law, verdict) {
-            (SearchForLaw::Always, _) | (SearchForLaw::Unknown, Verdict::Unknown) => true,
+            (SearchForLaw::Always | SearchForLaw::Unknown, Verdict::Unknown) => true,
+            // Without references nothing tells what differs from what the simulation lacks in every drive: only a cause that
+            // is clearly none of the catalogue is asked for.
+            _ if judged.references.is_empty() => false,
+            (SearchForLaw::Always, _) => true,
             // What a sensor shows wrongly is no law of the motion.
             (SearchForLaw::Unknown, Verdict::Explained) if judged.is_of_sensors_alone() => false,
             (SearchForLaw::Unknown, Verdict::Explained) => {
@@ -97,19 +101,21 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
     let law = law.filter(|law| holds_elsewhere(&law.free_runs));
     let claim = if law.is_some() { claim } else { Claim::Nothing };
     let found = UnnamedCause { claim, law, events: None, place: None, in_every_drive };
-    let Some(references) = references.filter(|_| claim != Claim::Law) else { return found };
+    if claim == Claim::Law {
+        return found;
+    }
 
     // Instants say more than a place alone, and a law that predicts too little more than none.
     let wide = wide(p);
     let ground = series::Ground { problem: &wide, base: &origin, operator: &ranking.operator };
     let all = Acts::everywhere(&ground);
-    if let Some(events) = events::find(judged, &ground, &all, &ranking.signals, retuned, &references) {
+    if let Some(events) = events::find(judged, &ground, &all, &ranking.signals, retuned, references.as_ref()) {
         return UnnamedCause { claim: Claim::Events, law: None, events: Some(events), ..found };
     }
     if claim == Claim::Place {
         return found;
     }
-    match place::find(judged, &ground, &all, retuned, &references) {
+    match place::find(judged, &ground, &all, retuned, references.as_ref()) {
         Some(place) => UnnamedCause { claim: Claim::Place, place: Some(place), ..found },
         None => found,
     }
