@@ -141,9 +141,11 @@ fn scores(data: &Data<'_>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]
 fn exchanged(data: &Data<'_>, prior: &Prior, causes: &[Cause], retuned: &Fit, mut best: Answered) -> Option<Answered> {
     let rules = SETTINGS.naming;
     let lines = |fit: &Fit| Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean);
-    for place in 0..best.named.chosen.len().min(rules.exchanged) {
+    let first: Vec<usize> = best.named.chosen.iter().take(rules.exchanged).map(|w| w.cause).collect();
+    // A later exchange names anew; what cannot be told from an earlier cause is kept beside it.
+    let mut classes: Vec<(usize, Vec<usize>)> = Vec::new();
+    for cause in first {
         let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
-        let cause = set[place];
         let fitted = |with: Vec<usize>| {
             let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
             let ends = within_bounds(data, &lines(retuned)?.posterior(&narrow.covariance)?.mean);
@@ -197,7 +199,12 @@ fn exchanged(data: &Data<'_>, prior: &Prior, causes: &[Cause], retuned: &Fit, mu
             class.retain(|c| *c != leads);
             class.push(cause);
         }
-        if let Some(own) = best.named.chosen.iter_mut().find(|w| w.cause == leads) {
+        classes.push((leads, class));
+    }
+    let chosen: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
+    for (cause, mut class) in classes {
+        class.retain(|c| !chosen.contains(c));
+        if let Some(own) = best.named.chosen.iter_mut().find(|w| w.cause == cause) {
             let new = class.into_iter().filter(|c| !own.class.contains(c)).collect::<Vec<_>>();
             own.class.extend(new);
         }
