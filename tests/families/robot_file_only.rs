@@ -1,9 +1,10 @@
 //! No drive in which the simulation was right: the robot file stands in its place.
 
-use examiner::{EffectId, Settings};
-use verdict::Diagnosis;
+use examiner::{Content, EffectId, Outsider, Settings};
+use inference::{Options, SearchForLaw};
+use verdict::{Claim, Diagnosis};
 
-use crate::common::{case_of, draw};
+use crate::common::{case_of, draw, settings, told};
 use crate::rules::{answer, are_in_the_first_three, diagnosed, is_named, nothing_is_missing, strong};
 
 /// The answer to a drawn case without its references.
@@ -33,4 +34,19 @@ fn a_second_effect_that_hides_in_a_constant_is_found_beside_the_first() {
 fn wheels_out_of_true_that_press_harder_are_named() {
     let (_, d) = diagnosed(135, &Settings { other_laws: true, ..strong(&[EffectId::WheelEccentricity]) });
     is_named(&d, EffectId::WheelEccentricity);
+}
+
+#[test]
+fn what_has_no_name_is_told_as_a_law_and_none_is_looked_for_where_the_answer_is_another() {
+    let d = without_references(137, &settings(Content::Outsider(Outsider::Ratchet), 16.0, 0));
+    let found = d.law.as_ref().expect("a search");
+    let law = found.law.as_ref().unwrap_or_else(|| panic!("{}", told(&d)));
+    assert_eq!((found.claim, law.place.as_str()), (Claim::Law, "torque on both sides"), "{}", told(&d));
+    assert_eq!(law.in_references, None);
+
+    let mut case = case_of(&draw(&strong(&[]), 132));
+    case.references.clear();
+    let always = Options { law: SearchForLaw::Always, ..Options::default() };
+    let d = torque_driven::diagnose(&case, &always, &|_| {}).expect("a diagnosis");
+    assert_eq!(d.law, None, "{}", told(&d));
 }
