@@ -120,7 +120,7 @@ impl Found<'_> {
             };
             let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
             let gain = if gains(named) { NO_SLIP } else { "" };
-            let name = sentence_case(&for_people(&named.label));
+            let name = verdict::sentence_case(&for_people(&named.label));
             format!("{name}: {}{familiar}{gain}{alike}.", values.collect::<Vec<_>>().join("; "))
         })
     }
@@ -134,11 +134,6 @@ const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more,
 fn gains(named: &NamedCause) -> bool {
     [SLIP_WITH_TURNING.id, SLIP_WITH_SPEED.id].contains(&named.spec.id)
         && named.estimates.first().is_some_and(|e| e.value < 0.0)
-}
-
-fn sentence_case(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The unit of a constant as effects tell theirs.

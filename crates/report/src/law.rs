@@ -5,10 +5,8 @@ use verdict::{Claim, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, Oppos
 /// What is told of a cause without a name: a label and a text for each line; empty where nothing was found.
 pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
     let mut out = Vec::new();
-    if let Some(events) = &cause.events {
-        return of_events(events).into_iter().chain(in_every_drive(cause)).collect();
-    }
     match (&cause.claim, &cause.law) {
+        (Claim::Events, _) => out.extend(cause.events.iter().flat_map(of_events)),
         (Claim::Place, None) => out.extend(cause.place.iter().flat_map(of_place)),
         (Claim::Law, Some(law)) => out.extend(of_law(law)),
         (Claim::Place, Some(law)) => {
@@ -19,6 +17,9 @@ pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
             ));
         }
         _ => out.push(("law", "none was found that fits".to_owned())),
+    }
+    if cause.is_without_references() {
+        out.push(("without references", "it may be what the simulation lacks in every drive of this robot".to_owned()));
     }
     out.extend(in_every_drive(cause));
     out
@@ -145,9 +146,6 @@ fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {
     out.extend(proof(&law.free_runs).map(|text| ("proof", text)));
     let alike = if law.alike.is_empty() { "none".to_owned() } else { law.alike.join(" | ") };
     out.push(("cannot be told from", alike));
-    if law.in_references.is_none() {
-        out.push(("without references", "it may be what the simulation lacks in every drive of this robot".to_owned()));
-    }
     out
 }
 

@@ -6,7 +6,7 @@ use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
 use verdict::{
     ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, RecordingGroup, Standstill, Turning, TurningChange,
-    Way,
+    Way, sentence_case,
 };
 
 const SENTENCES: Sentences = NAMING.sentences;
@@ -181,26 +181,26 @@ pub(crate) fn other_ground(g: &OtherGround, theirs: &str) -> String {
         "{}, from {from:.1} s until {until:.1} s, other ground: {}. {}.",
         titled(&g.recording),
         loads.join(", "),
-        fitting_best(&g.causes)
+        sentence_case(&fitting_best(&g.causes))
     )
 }
 
-/// "What fits these loads best is soft ground".
+/// "what fits these loads best is soft ground".
 fn fitting_best(causes: &[String]) -> String {
     let name = |id: &String| catalogue::find(id).map_or(id.clone(), |entry| entry.label().to_owned());
     let names: Vec<String> = causes.iter().map(name).collect();
     match names.len() {
-        0 => "No effect of the catalogue fits these loads".to_owned(),
-        1 => format!("What fits these loads best is {}", any_of(&names)),
-        _ => format!("What fits these loads best is {}; these loads do not tell which", any_of(&names)),
+        0 => "no effect of the catalogue fits these loads".to_owned(),
+        1 => format!("what fits these loads best is {}", any_of(&names)),
+        _ => format!("what fits these loads best is {}; these loads do not tell which", any_of(&names)),
     }
 }
 
 /// What could be behind recordings that agree among each other.
 pub(crate) fn group(g: &RecordingGroup, theirs: &str) -> String {
     let who = titled(&g.recordings.join(", "));
-    let what = if g.differs { fitting_best(&g.causes) } else { format!("No load differs from {theirs}") };
-    format!("{who} alone: {}.", what.replacen(['W', 'N'], &what[..1].to_lowercase(), 1))
+    let what = if g.differs { fitting_best(&g.causes) } else { format!("no load differs from {theirs}") };
+    format!("{who} alone: {what}.")
 }
 
 /// "a", "a or b", "a, b or c".

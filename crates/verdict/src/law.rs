@@ -41,7 +41,21 @@ pub fn one_of(place: &str, alike: &[String]) -> String {
     std::iter::once(place).chain(alike.iter().map(String::as_str)).collect::<Vec<_>>().join(", or ")
 }
 
+/// A text as a sentence begins: its first letter large.
+pub fn sentence_case(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 impl UnnamedCause {
+    /// Whether what is told was held against no references: it may be what the simulation lacks in every drive.
+    pub fn is_without_references(&self) -> bool {
+        let of_events = self.events.as_ref().map(|e| e.in_references);
+        let of_law = self.law.as_ref().map(|l| l.in_references);
+        let of_place = self.place.as_ref().map(|p| p.in_references);
+        of_events.or(of_law).or(of_place) == Some(None)
+    }
+
     /// What was found instead of a name, in a sentence; `None` where nothing was.
     pub fn sentence(&self) -> Option<String> {
         if let Some(found) = &self.events {
@@ -316,6 +330,9 @@ mod tests {
         let with_place = UnnamedCause { claim: Claim::Place, place: Some(place), ..nothing };
         let sentence = with_place.sentence().expect("a place");
         assert!(sentence.starts_with("What is missing acts as grip of all wheels;"), "{sentence}");
+        assert!(!with_place.is_without_references());
+        let place = with_place.place.clone().map(|place| FoundPlace { in_references: None, ..place });
+        assert!(UnnamedCause { place, ..with_place }.is_without_references());
     }
 
     #[test]

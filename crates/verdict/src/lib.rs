@@ -48,7 +48,7 @@ pub use diagnosis::{Diagnosis, FORMAT, Verdict};
 pub use free_run::FreeRun;
 pub use law::{
     Claim, CommonLaw, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, LawNumber, LawOfFile, Opposed, Shared,
-    UnnamedCause, one_of,
+    UnnamedCause, one_of, sentence_case,
 };
 pub use loads::{
     Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio, RecordingGroup,

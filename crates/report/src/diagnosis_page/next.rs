@@ -74,9 +74,7 @@ fn advised(page: &mut Page, advice: &Advice) {
 
 /// A reason as a sentence.
 fn sentence(reason: &str) -> String {
-    let mut letters = reason.chars();
-    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+    format!("{}.", verdict::sentence_case(reason.trim_end_matches('.')))
 }
 
 /// Wanted speed and yaw rate over time.

@@ -47,7 +47,7 @@ pub(super) fn further_sentences(d: &Diagnosis) -> &[String] {
 /// Adds all that follows the heading.
 pub(super) fn add(page: &mut Page, d: &Diagnosis) {
     if let Some((_, why)) = explained(d) {
-        page.lead(&capital(why));
+        page.lead(&verdict::sentence_case(why));
     }
     for sentence in d.sentences.iter().skip(heading(d).len()).take(SENTENCES) {
         page.lead(sentence);
@@ -116,7 +116,7 @@ fn convincing(d: &Diagnosis) -> Option<Figure> {
     let errors: Vec<Option<f64>> =
         [&channel.nominal, &channel.retuned, &channel.corrected].map(|y| rms(&channel.recorded, y)).to_vec();
     Some(Figure {
-        title: format!("{} in {}", capital(&channel.signal), trace.recording),
+        title: format!("{} in {}", verdict::sentence_case(&channel.signal), trace.recording),
         caption: caption(trace, channel, &plot.rows[0].spans, &errors),
         table: (
             vec!["rms difference", "as it is", "re-tuned", "corrected"],
@@ -160,9 +160,4 @@ fn mismatch(c: &Compared) -> Option<f64> {
     let spread = rms(&known, &vec![Some(mean); known.len()]);
     let scale = c.usual.or(spread).filter(|s| *s > 0.0)?;
     Some(rms(&c.recorded, &c.nominal)? / scale)
-}
-
-fn capital(s: &str) -> String {
-    let mut letters = s.chars();
-    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
 }

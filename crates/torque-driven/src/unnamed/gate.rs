@@ -68,7 +68,8 @@ impl Standing {
         Self {
             gains: runs.map(|run| of(retuned, run) - of(&law.fitted, run)).collect(),
             left: left(law.fitted.cost, retuned.cost, fault_free),
-            in_references: references.and_then(|r| r.coefficient(&law.law, &law.units)),
+            // References that cannot tell do not permit a law.
+            in_references: references.map(|r| r.coefficient(&law.law, &law.units).unwrap_or([1.0, 0.0])),
             above_name: law.score - name.max(0.0),
             misfit: (law.fitted.cost / fault_free.max(1.0)).max(1.0),
         }
