@@ -49,6 +49,9 @@ pub mod weighing {
     pub use crate::fit::{Marginal, Session};
     pub use crate::name::{Named, Weighed, covariance, name, named_as, stand_ins};
     pub use crate::weigh::{Evidence, Posterior};
+
+    /// Evidence within which causes cannot be told apart, nats.
+    pub const ALIKE: f64 = crate::settings::SETTINGS.naming.alike;
 }
 
 pub use answer::diagnosis;

@@ -8,7 +8,8 @@
 //! * `model`: steering, drive, tyres and motion of the single-track car.
 //! * `rates`: velocities from poses.
 //! * `rows`: windows of the pose and reports of the car against the model.
-//! * `fit`, `cause`, `solve`: constants with a deviation of each drive, and the causes that the drives ask for.
+//! * `fit`, `cause`, `answered`, `look_alikes`, `solve`: constants with a deviation of each drive, and the causes that the drives ask
+//!   for, the first of them against others that do much the same.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
 //! * `file/*`: robot files of this kind, and drives from tables.
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
@@ -16,6 +17,7 @@
 //! * `settings`: every tuned number.
 
 mod answer;
+mod answered;
 mod car;
 mod case;
 mod cause;
@@ -30,6 +32,7 @@ mod fit;
 mod forecast;
 mod laws;
 mod left_out;
+mod look_alikes;
 mod model;
 mod rates;
 mod rivals;

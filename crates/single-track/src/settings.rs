@@ -312,13 +312,11 @@
         rounds: usize = 4, "1", "guess; two are usual";
         /// Named causes for which fits with others in their place are tried: those that the data would miss most.
         exchanged: usize = 2, "1", "guess; each takes a fit or two";
-        /// Evidence within which a cause with a fit of its own cannot be told from another.
-        alike: f64 = 3.0, "nat", "a factor of 20";
         /// Others that are tried, of the equations about the re-tuned car and about the answer each.
         stand_ins: usize = 2, "1", "guess; each takes a fit";
         /// Evidence by the equations that another may lack before it is tried.
         near_enough: f64 = 60.0, "nat", "guess; a straight line errs by tens of them";
-        /// Evidence within which it cannot, where both leave about the same errors.
+        /// Evidence within which a cause cannot be told from another, each with a fit of its own that leaves about the same errors.
         alike_by_errors: f64 = 15.0, "nat", "five times the usual: two cars of another simulator whose steering gain was told as their wheelbase lay 10 apart";
         /// Share by which the errors may then differ.
         leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";

@@ -102,6 +102,8 @@ fn agreeing(loads: &Loads) -> Vec<Vec<String>> {
     }
     // Told in the order in which they were given.
     let place = |recording: &String| loads.ratios.iter().position(|r| r.recording == *recording);
-    out.iter_mut().for_each(|group| group.sort_by_key(place));
+    for group in &mut out {
+        group.sort_by_key(place);
+    }
     out
 }

@@ -1,0 +1,45 @@
+//! A fit with what its equations name, and what two of them are weighed by.
+
+use nalgebra::DVector;
+use odometry::Cause;
+use odometry::weighing::{Evidence, Named, Posterior, covariance};
+
+use crate::constants::Constant;
+use crate::fit::{Data, Fit, Prior, sessions};
+use inference::robust::NINETY;
+
+/// A fit with what its equations name.
+pub(crate) struct Answered {
+    pub(crate) fit: Fit,
+    pub(crate) named: Named,
+    /// Causes with which it was fitted, in order.
+    pub(crate) set: Vec<usize>,
+}
+
+/// Evidence of two answers, nats. Errors count in the same sigmas, those of the fit that leaves less.
+pub(crate) fn scores(data: &Data<'_>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
+    let noise = both[0].fit.noise.least(both[1].fit.noise);
+    both.map(|of| {
+        let sessions = sessions(data, &of.fit.theta, noise);
+        let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
+        let known = covariance(&prior.covariance, causes, &of.set);
+        evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)
+    })
+}
+
+/// Whether one of a cause's constants is elsewhere than it was known to be, by its 90 % interval.
+pub(crate) fn is_moved(cause: &Cause, prior: &Prior, posterior: &Posterior) -> bool {
+    cause.moves().into_iter().any(|k| {
+        let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
+        (posterior.mean[k] - prior.mean[k]).abs() > NINETY * sd
+    })
+}
+
+/// Constants within what they can be.
+pub(crate) fn within_bounds(data: &Data<'_>, theta: &DVector<f64>) -> Vec<f64> {
+    let of = |(c, x): (&Constant, &f64)| {
+        let [least, most] = c.bounds();
+        x.clamp(least, most)
+    };
+    data.constants.iter().zip(theta.iter()).map(of).collect()
+}

@@ -1,0 +1,100 @@
+//! Causes that do much the same as those that were named, each by a fit of its own.
+
+use nalgebra::DVector;
+use odometry::Cause;
+use odometry::weighing::{ALIKE, Evidence, covariance, named_as, stand_ins};
+
+use crate::answered::{Answered, is_moved, scores, within_bounds};
+use crate::fit::{Data, Fit, Prior, fit_like, likelier};
+use crate::settings::SETTINGS;
+
+/// The same with others that may stand for its first causes, each by a fit of its own: about a fit with one of two causes that do
+/// much the same, the equations, which are straight lines, leave too much to the other one.
+///
+/// Another one that leaves hardly more of the errors is hard to tell from it: evidence counts all errors as noise, and laws of tyres
+/// and servos are not known that well. Of such two that leads which asks the constants for far fewer sigmas of what is known.
+pub(crate) fn exchanged(
+    data: &Data<'_>,
+    prior: &Prior,
+    causes: &[Cause],
+    retuned: &Fit,
+    mut best: Answered,
+) -> Option<Answered> {
+    let rules = SETTINGS.naming;
+    let lines = |fit: &Fit| Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean);
+    let first: Vec<usize> = best.named.chosen.iter().take(rules.exchanged).map(|w| w.cause).collect();
+    // A later exchange names anew; what cannot be told from an earlier cause is kept beside it.
+    let mut classes: Vec<(usize, Vec<usize>)> = Vec::new();
+    for cause in first {
+        let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
+        let fitted = |with: Vec<usize>| {
+            let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
+            let ends = within_bounds(data, &lines(retuned)?.posterior(&narrow.covariance)?.mean);
+            let start = likelier(data, &narrow, retuned.noise, [retuned.theta.clone(), ends])?;
+            let fit = fit_like(data, &narrow, start, &best.fit)?;
+            let mut named = named_as(&lines(&fit)?, &prior.covariance, causes, &with)?;
+            named.posterior.mean = DVector::from_column_slice(&fit.theta);
+            Some(Answered { fit, named, set: with })
+        };
+        // By the equations about the re-tuned car and about the answer: the one knows no cause yet, the other too much of its own.
+        let mut candidates: Vec<usize> = Vec::new();
+        for fit in [retuned, &best.fit] {
+            let own = stand_ins(&lines(fit)?, &prior.covariance, causes, (&set, cause));
+            let near = own.into_iter().filter(|(_, by)| *by > -rules.near_enough);
+            candidates.extend(near.map(|(c, _)| c).take(rules.stand_ins));
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        let others: Vec<(usize, Answered)> = candidates
+            .into_iter()
+            .filter_map(|c| Some((c, fitted(set.iter().map(|&s| if s == cause { c } else { s }).collect())?)))
+            .collect();
+
+        let own = data.share(&best.fit.theta);
+        let mut alike: Vec<(f64, usize, Answered)> = Vec::new();
+        for (candidate, other) in others {
+            // What does not move stands for nothing: re-tuning does it.
+            if sigmas(prior, &other, causes[candidate].moves()) < rules.moved {
+                continue;
+            }
+            let [of_other, of_best] = scores(data, prior, causes, [&other, &best]);
+            let leaves_as_much = data.share(&other.fit.theta) < (1.0 + rules.leaves_more) * own;
+            let odds = if leaves_as_much { rules.alike_by_errors } else { ALIKE };
+            if of_other > of_best - odds {
+                alike.push((of_other - of_best, candidate, other));
+            }
+        }
+        alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let much_nearer = |(_, candidate, other): &(f64, usize, Answered)| {
+            let both = || causes[cause].moves().into_iter().chain(causes[*candidate].moves());
+            rules.nearer * sigmas(prior, other, both()) < sigmas(prior, &best, both())
+        };
+        let may_lead = |other: &(f64, usize, Answered)| {
+            is_moved(&causes[other.1], prior, &other.2.named.posterior) && (other.0 > ALIKE || much_nearer(other))
+        };
+        let leader = alike.iter().position(may_lead);
+        let mut class: Vec<usize> = alike.iter().map(|(_, c, _)| *c).collect();
+        let mut leads = cause;
+        if let Some(k) = leader {
+            (_, leads, best) = alike.swap_remove(k);
+            class.retain(|c| *c != leads);
+            class.push(cause);
+        }
+        classes.push((leads, class));
+    }
+    let chosen: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
+    for (cause, mut class) in classes {
+        class.retain(|c| !chosen.contains(c));
+        if let Some(own) = best.named.chosen.iter_mut().find(|w| w.cause == cause) {
+            let new = class.into_iter().filter(|c| !own.class.contains(c)).collect::<Vec<_>>();
+            own.class.extend(new);
+        }
+    }
+    Some(best)
+}
+
+/// By how many sigmas of what was known these constants moved, the most of them.
+fn sigmas(prior: &Prior, answer: &Answered, constants: impl IntoIterator<Item = usize>) -> f64 {
+    let of = |k: usize| (answer.fit.theta[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
+    constants.into_iter().map(of).fold(0.0, f64::max)
+}
