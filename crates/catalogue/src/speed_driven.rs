@@ -7,10 +7,12 @@ pub const STANDING: CauseSpec = CauseSpec {
     id: "standing",
     name: "the body stands while its wheels turn: dug in, or the wheels spin",
     robots: "speed-driven",
-    meaning: "The wheels are driven at speeds that would turn the robot, and the body does not turn with them.",
+    meaning: "The wheels are driven at speeds that would move the robot, and the body does not move with them: it is dug in, its \
+        wheels spin, or it pushes against something.",
     size: "yaw rate over what the wheels' speeds and the effective track of the references give",
     unit: "-",
-    recognised: "For three seconds or more the gyro shows less than about a third of the yaw rate that the wheels ask for.",
+    recognised: "For three seconds or more the gyro shows less than about a third of the yaw rate that the wheels ask for; or \
+        straight driving takes more than 0.4 of the robot's weight, which no ground does by resisting to roll.",
     revealed_by: "turns both ways, a gyro recorded",
     resembles: "a gyro that is off or of another scale; a track that is much longer than thought",
 };

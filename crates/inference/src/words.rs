@@ -1,6 +1,7 @@
 //! Names and numbers for people.
 
 use robot_model::EffectSpec;
+use robot_model::effect::LOST_SHARE;
 use verdict::Cause;
 
 use crate::hypothesis::{Place, Variant};
@@ -41,9 +42,16 @@ pub fn variants<'a>(all: impl IntoIterator<Item = &'a Variant>) -> String {
     all.into_iter().map(variant).collect::<Vec<_>>().join(" with ")
 }
 
-/// A number with as many digits as its uncertainty deserves.
+/// A number with as many digits as its uncertainty deserves; that of a lost share in words, since it may be a gain.
 pub fn quantity(c: &Cause) -> String {
     let Some(m) = c.magnitude else { return String::new() };
+    if !c.parameters.contains_key(LOST_SHARE) {
+        return number(c, m);
+    }
+    format!("a {} share of {}", if m < 0.0 { "gained" } else { "lost" }, number(c, m.abs()))
+}
+
+fn number(c: &Cause, m: f64) -> String {
     let unit = if c.unit == "-" { String::new() } else { format!(" {}", c.unit) };
     match c.sigma.filter(|s| *s > 0.0 && s.is_finite()) {
         Some(s) => {

@@ -58,7 +58,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             Quantity::RollerSlip => &spec::ROLLER_SLIP,
             Quantity::TurnSlip | Quantity::TurnSlipRate | Quantity::TurnSlipPower => &spec::SLIP_IN_TURNS,
             Quantity::RateSlip => &spec::SLIP_WITH_TURNING,
-            Quantity::SpeedSlip => &spec::SLIP_WITH_SPEED,
+            Quantity::SpeedSlip | Quantity::SpeedTurnSlip | Quantity::WheelSpeedSlip => &spec::SLIP_WITH_SPEED,
             Quantity::Sideslip | Quantity::CorneringForward | Quantity::CorneringSideways => &spec::CORNERING_SLIP,
             Quantity::ClockOffset => &spec::COUNTS_CLOCK_OFFSET,
             Quantity::ClockRate(_) => &spec::CLOCK_RATE,

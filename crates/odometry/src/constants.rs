@@ -36,8 +36,12 @@ pub enum Quantity {
     TurnSlipPower,
     /// Share of turning that is lost, per turning rate, s/rad.
     RateSlip,
-    /// Share of the way that is lost, per speed, s/m.
+    /// Share of the way that is lost in straight driving, per speed, s/m.
     SpeedSlip,
+    /// Share of turning that is lost, per speed of the body, s/m.
+    SpeedTurnSlip,
+    /// What of the slip that grows with speed each wheel has by its own speed, s/m.
+    WheelSpeedSlip,
     /// Sideways slip velocity per sideways acceleration, s.
     Sideslip,
     /// Turning lost per sideways acceleration of forward motion, rad s/m.
@@ -121,6 +125,13 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
     add(Quantity::TurnSlipPower, name, "1", known.slip_shape, usual.slip_power, scatter.slip_shape);
     add(Quantity::RateSlip, "slip growing with turning", "s/rad", known.growing, usual.turning, scatter.growing);
     add(Quantity::SpeedSlip, "slip growing with speed", "s/m", known.growing, usual.speed, scatter.growing);
+    let of_speed = [
+        (Quantity::SpeedTurnSlip, "turning lost at speed"),
+        (Quantity::WheelSpeedSlip, "slip by each wheel's own speed"),
+    ];
+    for (quantity, name) in of_speed {
+        add(quantity, name, "s/m", known.growing, usual.speed, scatter.growing);
+    }
     let cornering = [
         (Quantity::Sideslip, "sideways slip in curves", "s"),
         (Quantity::CorneringForward, "turning lost in curves", "rad s/m"),

@@ -163,15 +163,20 @@ impl Drive {
 
     /// Rates of the body about a row, of motions by rows: m/s, m/s, rad/s.
     pub(crate) fn rates(&self, motion: &[[f64; 3]], row: usize) -> [f64; 3] {
+        let ([first, last], span) = self.about(row);
+        [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
+    }
+
+    /// First and last row whose motions make the rates about a row, and the time that they take, s.
+    pub(crate) fn about(&self, row: usize) -> ([usize; 2], f64) {
         let (mut first, mut last) = (row, row);
         while first > 1 && self.time[row] - self.time[first - 1] <= RULES.rate {
             first -= 1;
         }
-        while last + 1 < motion.len() && self.time[last + 1] - self.time[row] <= RULES.rate {
+        while last + 1 < self.time.len() && self.time[last + 1] - self.time[row] <= RULES.rate {
             last += 1;
         }
-        let span = self.time[last] - self.time[first - 1];
-        [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
+        ([first, last], self.time[last] - self.time[first.saturating_sub(1)])
     }
 
     /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` from `zero`

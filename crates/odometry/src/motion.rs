@@ -3,10 +3,13 @@
 //! With the motion `(x, y, t)` of a row from [`Kinematics`](crate::kinematics), rates `v`, `w` = ω of the body about that
 //! row, and `a = (−v_y ω, v_x ω)` its acceleration in curves:
 //!
-//! * way: `x, y ← (1 − turn_slip g/(1 + g) − speed_slip |v|) (x, (1 − roller_slip) y)`, `g = (|ω|/turn_slip_rate)^turn_slip_power`: dry
-//!   friction does not grow with the rate, and from which rate on it is whole, and how soon, depends on the ground;
+//! * wheels: a wheel that rolls at `u` keeps the share `exp(−wheel_slip |u|)` of its way, before all others;
+//! * way: `x, y ← (1 − turn_slip g/(1 + g)) exp(−(speed_slip − wheel_slip) |v|) (x, (1 − roller_slip) y)`,
+//!   `g = (|ω|/turn_slip_rate)^turn_slip_power`: dry friction does not grow with the rate, and from which rate on it is whole, and
+//!   how soon, depends on the ground; `speed_slip` is so all that is lost in straight driving. The exponential lies between slip as
+//!   a share of the wheels' motion and of the body's;
 //! * sideslip: `(x, y) ← (x, y) − sideslip a dt`;
-//! * turning: `t ← (1 − rate_slip |ω|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
+//! * turning: `t ← (1 − rate_slip |ω|) exp(−speed_turn_slip |v|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
 //! * frame: the pose's x axis points `mounting` from the robot's, its origin stands at `origin`.
 
 use crate::constants::{ClockZero, Quantity};
@@ -27,6 +30,8 @@ pub(crate) struct Laws {
     pub(crate) turn_slip_power: f64,
     pub(crate) rate_slip: f64,
     pub(crate) speed_slip: f64,
+    pub(crate) speed_turn_slip: f64,
+    pub(crate) wheel_slip: f64,
     pub(crate) sideslip: f64,
     pub(crate) cornering: [f64; 2],
     pub(crate) clock: [f64; 2],
@@ -46,6 +51,8 @@ impl Laws {
             turn_slip_power: 1.0,
             rate_slip: 0.0,
             speed_slip: 0.0,
+            speed_turn_slip: 0.0,
+            wheel_slip: 0.0,
             sideslip: 0.0,
             cornering: [0.0; 2],
             clock: [0.0; 2],
@@ -74,6 +81,8 @@ impl Laws {
                 Quantity::TurnSlipPower => out.turn_slip_power = value.exp(),
                 Quantity::RateSlip => out.rate_slip = value,
                 Quantity::SpeedSlip => out.speed_slip = value,
+                Quantity::SpeedTurnSlip => out.speed_turn_slip = value,
+                Quantity::WheelSpeedSlip => out.wheel_slip = value,
                 Quantity::Sideslip => out.sideslip = value,
                 Quantity::CorneringForward => out.cornering[0] = value,
                 Quantity::CorneringSideways => out.cornering[1] = value,
@@ -90,9 +99,10 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
     let kinematics = Kinematics::new(robot, &laws.geometry);
     let rows = drive.time.len();
     let steering = |row: usize| drive.steering.as_ref().map_or(0.0, |s| s[row]);
-    let rolled: Vec<[f64; 3]> = (0..rows)
-        .map(|row| if row == 0 { [0.0; 3] } else { kinematics.motion(&drive.turns[row], steering(row)) })
-        .collect();
+    let own = (laws.wheel_slip != 0.0).then(|| turns_less_own_slip(robot, drive, laws.wheel_slip));
+    let turns = own.as_ref().unwrap_or(&drive.turns);
+    let rolled: Vec<[f64; 3]> =
+        (0..rows).map(|row| if row == 0 { [0.0; 3] } else { kinematics.motion(&turns[row], steering(row)) }).collect();
 
     let mut pose = [0.0; 3];
     let mut path = Vec::with_capacity(rows);
@@ -105,17 +115,33 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
     if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock, laws.clock_zero) }
 }
 
+/// Turns of the wheels, of which each keeps a share by its own speed.
+fn turns_less_own_slip(robot: &WheeledRobot, drive: &Drive, slip: f64) -> Vec<Vec<f64>> {
+    let radius: Vec<f64> = robot.measured().iter().map(|&k| robot.wheels[k].radius).collect();
+    let of_row = |(row, turns): (usize, &Vec<f64>)| {
+        let ([first, last], span) = drive.about(row);
+        let share = |k: usize| {
+            let turned: f64 = drive.turns[first..=last].iter().map(|t| t[k]).sum();
+            (-slip * radius[k] * (turned / span).abs()).exp()
+        };
+        turns.iter().enumerate().map(|(k, turn)| if row == 0 { *turn } else { share(k) * turn }).collect()
+    };
+    drive.turns.iter().enumerate().map(of_row).collect()
+}
+
 /// A row's motion less its slip.
 fn slipped(laws: &Laws, [x, y, t]: [f64; 3], [vx, vy, turning]: [f64; 3], dt: f64) -> [f64; 3] {
     let rate = turning.abs();
     let grown = (rate / laws.turn_slip_rate).powf(laws.turn_slip_power);
-    let kept = 1.0 - laws.turn_slip * grown / (1.0 + grown) - laws.speed_slip * vx.hypot(vy);
+    let speed = vx.hypot(vy);
+    let kept = (1.0 - laws.turn_slip * grown / (1.0 + grown)) * ((laws.wheel_slip - laws.speed_slip) * speed).exp();
     let curved = turning * dt;
     let [forward, sideways] = laws.cornering;
     [
         kept * x + laws.sideslip * vy * curved,
         kept * (1.0 - laws.roller_slip) * y - laws.sideslip * vx * curved,
-        (1.0 - laws.rate_slip * rate) * t - (forward * vx + sideways * vy) * curved,
+        (1.0 - laws.rate_slip * rate) * (-laws.speed_turn_slip * speed).exp() * t
+            - (forward * vx + sideways * vy) * curved,
     ]
 }
 

@@ -43,6 +43,9 @@ pub(super) fn verdict(
         }
     }
     let of_loads = out.verdict;
+    if loads.on_grounds {
+        found::locate(&mut out, &loads);
+    }
     found::add(&mut out, naming, &loads);
     out.sentences = sentences(&out, of_loads, &loads, case.recordings.iter().any(|r| r.set_points));
     out.steady = Some(loads);

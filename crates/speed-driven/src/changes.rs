@@ -6,43 +6,47 @@
 use crate::attitude::{Attitude, attitude};
 use crate::jumps::jumps;
 use crate::level::levels;
-use crate::pieces::{Usual, class};
+use crate::pieces::{ByClass, STANDING, Usual, class};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Pieces};
 use crate::slopes::{Slopes, slopes};
 use crate::straight::{Reading, readings};
 use inference::robust::median;
-use verdict::{Changes, Hidden};
+use verdict::{Changes, Hidden, LoadChange, Standstill};
 
 const PIECES: Pieces = CHANGES.pieces;
 
-/// The load of most of the run at each speed class: its own where that is plausible beside the references', theirs
-/// otherwise.
-fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> Usual {
-    let known = usual.iter().flatten().next().copied();
-    let unnamed = NAMING.priors.unnamed_straight;
-    let plausible = |l: f64, reference: Option<f64>| reference.is_none_or(|r| l < r * unnamed && l > r / unnamed);
-    // Median of the class's levels, if there is enough of it.
-    let of_class = |c: usize, keep: &dyn Fn(f64) -> bool| {
-        let exact = |i: &usize| readings[*i].is_some_and(Reading::is_exact) && class(run.forward(*i).abs()) == c;
-        let all: Vec<f64> = (0..level.len()).filter(exact).map(|i| level[i]).filter(|l| keep(*l)).collect();
-        if all.len() as f64 * run.period() >= PIECES.known { median(all) } else { None }
-    };
-    let references: Usual = usual.map(|own| own.or(known));
-    let like: Usual = std::array::from_fn(|c| of_class(c, &|l| plausible(l, references[c])));
-    // A run of which no part is like the references is compared with itself: the whole of it is
-    // reported elsewhere.
-    let alike = like.iter().any(Option::is_some);
+/// The load of the run's usual ground at each speed class: what is like the references where there is enough of it, else most
+/// of what a cold drive train can make of theirs, else most of the run, which is then compared with itself.
+///
+/// One ground changes the loads of all speeds by about one factor: a class that was driven on other ground alone is no usual
+/// load.
+fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> ByClass {
+    let Some(any) = usual.any() else { return usual.load };
+    let known = usual.load.map(|own| own.unwrap_or(any));
+    let class_of = |i: usize| class(run.forward(i).abs());
+    let exact: Vec<usize> =
+        (0..level.len()).filter(|&i| readings[i].is_some_and(Reading::is_exact) && level[i] > 0.0).collect();
+    let over = |i: &usize| level[*i] / known[class_of(*i)];
+    let enough =
+        |ratios: Vec<f64>| if ratios.len() as f64 * run.period() >= PIECES.known { median(ratios) } else { None };
+    let within = |of: f64, factor: f64| move |ratio: &f64| *ratio < of * factor && *ratio > of / factor;
+
+    let all = || exact.iter().map(over);
+    let like = enough(all().filter(within(1.0, usual.unequal)).collect());
+    let plausible = || enough(all().filter(within(1.0, NAMING.priors.unnamed_straight)).collect());
+    let factor = like.or_else(plausible).or_else(|| enough(all().collect())).unwrap_or(1.0);
     std::array::from_fn(|c| {
-        let own = like[c].or_else(|| if alike { references[c] } else { of_class(c, &|_| true) });
-        own.or(references[c])
+        let of_class = exact.iter().filter(|i| class_of(**i) == c).map(over);
+        let own = enough(of_class.filter(within(factor, usual.unequal)).collect());
+        Some(known[c] * own.unwrap_or(factor))
     })
 }
 
 /// Changes of the straight load in a recording. `usual` are the references' loads, `weight` is `m g r`, N m.
 pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     let readings = readings(run);
-    let Some(any) = usual.iter().flatten().next().copied() else { return Changes::default() };
+    let Some(any) = usual.any() else { return Changes::default() };
     let period = run.period();
     let found = attitude(run, &readings, any, weight, &[]);
     let slopes = found.as_ref().map_or_else(Slopes::default, |s| slopes(run, s));
@@ -82,10 +86,17 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
 
 /// Finds the changes of the straight load inside these recordings, and marks their rows so that the load of the whole
 /// recording is measured without them. A change that covers most of the straight driving is not marked: it is that load.
-pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes {
+/// Also where bodies stand that nothing but pushing against something explains: those rows are left out of all else.
+pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Changes, Vec<Standstill>) {
     let mut out = Changes::default();
+    let mut standing = Vec::new();
     for run in runs {
-        let own = changes(run, usual, weight);
+        let mut own = changes(run, usual, weight);
+        let (blocked, found): (Vec<_>, Vec<_>) = own.found.into_iter().partition(|c| c.causes == [STANDING]);
+        own.found = found;
+        for c in blocked {
+            standing.push(against_something(run, &c));
+        }
         let inside = |t: f64| own.found.iter().any(|c| c.interval[0] <= t && t <= c.interval[1]);
         let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
         let most = 2 * straight.iter().filter(|t| inside(**t)).count() > straight.len();
@@ -94,7 +105,23 @@ pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Changes
         out.tentative.extend(own.tentative);
         out.hidden.extend(own.hidden);
     }
-    out
+    (out, standing)
+}
+
+/// A change of the straight load as a body that stands; marks its rows.
+fn against_something(run: &mut SpeedRun, change: &LoadChange) -> Standstill {
+    let [from, until] = [change.onset[1], change.end[0]];
+    let mut sum = [0.0; 2];
+    let mut rows = 0_usize;
+    for i in (0..run.time.len()).filter(|&i| from <= run.time[i] && run.time[i] <= until) {
+        run.standing[i] = true;
+        rows += 1;
+        for (sum, torque) in sum.iter_mut().zip(&run.torque) {
+            *sum += torque[i].abs();
+        }
+    }
+    let load = sum[0].max(sum[1]) / rows.max(1) as f64;
+    Standstill { recording: run.name.clone(), interval: [from, until], share: None, load }
 }
 
 /// Driving that shows no straight load for a while.
@@ -111,13 +138,11 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
 
 #[cfg(test)]
 mod tests {
-    use verdict::LoadChange;
-
     use super::*;
     use crate::pieces::{GRADE, ROLLING};
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive, levelled};
 
-    const USUAL: Usual = [Some(STRAIGHT), None, None];
+    const USUAL: Usual = Usual { load: [Some(STRAIGHT), None, None], unequal: PIECES.alike };
 
     fn found(legs: &[Leg], gyro: bool) -> Vec<LoadChange> {
         changes(&drive(legs, gyro), &USUAL, WEIGHT).found
@@ -260,7 +285,7 @@ mod tests {
         let climb = |seconds: f64| levelled(&[Leg::straight(30.0), Leg::straight(seconds).slope(5.0)], 0.0);
         let changed = |run: SpeedRun| {
             let mut runs = [run];
-            assert_eq!(mark(&mut runs, &USUAL, WEIGHT).found.len(), 1);
+            assert_eq!(mark(&mut runs, &USUAL, WEIGHT).0.found.len(), 1);
             runs[0].changed.iter().any(|c| *c)
         };
         assert!(changed(climb(12.0)) && !changed(climb(60.0)));

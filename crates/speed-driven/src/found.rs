@@ -180,10 +180,21 @@ fn standing(all: &[Standstill]) -> Option<Cause> {
     let longest = longest(all)?;
     let intervals = by_recording(all.iter().map(|s| (s.recording.as_str(), s.interval)));
     Some(Cause {
-        magnitude: Some(longest.share),
+        magnitude: longest.share,
         intervals: Some(intervals),
         ..Cause::plain(STANDING.id, STANDING.name, ANSWER.standing)
     })
+}
+
+/// Where the causes of the loads are, if these are the loads of grounds inside recordings.
+pub(crate) fn locate(out: &mut Diagnosis, loads: &Loads) {
+    let intervals = by_recording(loads.grounds.iter().map(|g| (g.recording.as_str(), g.interval)));
+    let named = out.indistinguishable.iter().flatten();
+    for id in named {
+        for cause in out.ranked.iter_mut().filter(|c| c.effect == *id) {
+            cause.intervals = Some(intervals.clone());
+        }
+    }
 }
 
 fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<String, Vec<[f64; 2]>> {

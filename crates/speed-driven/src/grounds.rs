@@ -14,7 +14,7 @@ use crate::extract::{extract, is_steady_turn};
 use crate::found::fitting;
 use crate::model::Tuned;
 use crate::name::{Comparison, Named, Open, name};
-use crate::pieces::GRADE;
+use crate::pieces::{GRADE, STANDING};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING};
 use crate::straight::is_straight;
@@ -32,6 +32,8 @@ pub(crate) struct Usual<'a> {
 struct Stretch {
     interval: [f64; 2],
     reach: [f64; 2],
+    /// Until where it may reach by what shows its last row.
+    until: f64,
     /// Whether no slope can do all of it.
     is_ground: bool,
     /// Whether straight driving shows it where it ends.
@@ -42,7 +44,7 @@ struct Stretch {
 pub(crate) fn grounds(runs: &[SpeedRun], loads: &Loads, usual: &Usual<'_>) -> Vec<OtherGround> {
     let of_run = |run: &SpeedRun| -> Vec<OtherGround> {
         let slopes = slopes(&run.name, loads);
-        stretches(run, loads).into_iter().filter_map(|interval| usual.ground(run, interval, &slopes)).collect()
+        stretches(run, loads).into_iter().filter_map(|stretch| usual.ground(run, stretch, &slopes)).collect()
     };
     let mut out: Vec<OtherGround> = runs.iter().flat_map(of_run).collect();
     let seconds = |g: &OtherGround| g.interval[1] - g.interval[0];
@@ -58,12 +60,14 @@ fn slopes(recording: &str, loads: &Loads) -> Vec<[f64; 2]> {
 }
 
 /// Changes of a recording that may be one ground, joined.
-fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<[f64; 2]> {
+fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<Stretch> {
     let recording = run.name.as_str();
-    let may_be = |c: &&LoadChange| c.recording == recording && !c.bound && c.causes != [GRADE];
+    let may_be =
+        |c: &&LoadChange| c.recording == recording && !c.bound && c.causes != [GRADE] && !c.causes.contains(&STANDING);
     let straight = loads.changes.found.iter().filter(may_be).map(|c| Stretch {
         interval: c.interval,
         reach: [c.onset[0], c.end[1]],
+        until: c.end[1],
         is_ground: !c.causes.contains(&GRADE),
         by_straight: true,
     });
@@ -71,6 +75,7 @@ fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<[f64; 2]> {
     let turning = turning.map(|c| Stretch {
         interval: c.interval,
         reach: [c.onset[0], c.end[1]],
+        until: c.end[1],
         is_ground: true,
         by_straight: false,
     });
@@ -94,6 +99,7 @@ fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<[f64; 2]> {
             Some(last) if next.reach[0] <= last.reach[1] && !is_apart(last, &next) => {
                 if next.interval[1] > last.interval[1] {
                     last.by_straight = next.by_straight;
+                    last.until = next.until;
                 }
                 last.interval[1] = last.interval[1].max(next.interval[1]);
                 last.reach[1] = last.reach[1].max(next.reach[1]);
@@ -102,12 +108,14 @@ fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<[f64; 2]> {
             _ => out.push(next),
         }
     }
-    out.into_iter().filter(|s| s.is_ground).map(|s| s.interval).collect()
+    out.retain(|s| s.is_ground);
+    out
 }
 
 impl Usual<'_> {
     /// The ground of a stretch, by its rows beside slopes; `None` where no load of these differs from the references'.
-    fn ground(&self, run: &SpeedRun, interval: [f64; 2], slopes: &[[f64; 2]]) -> Option<OtherGround> {
+    fn ground(&self, run: &SpeedRun, stretch: Stretch, slopes: &[[f64; 2]]) -> Option<OtherGround> {
+        let Stretch { interval, reach: [from, _], until, .. } = stretch;
         let (loads, _) = extract(&only(run, interval, slopes));
         let (ratios, _) = ratios(&loads, self.references);
         if !ratios.iter().any(|r: &Ratio| judgement(r) == Judgement::Differs) {
@@ -117,29 +125,67 @@ impl Usual<'_> {
         let comparison = Comparison::new(&differences, self.robot, self.sigma, self.calibrated);
         let naming = comparison.and_then(|c| name(&c, Open { same_robot: true, one_slope: false }));
         let causes = fitting(naming.as_ref()).into_iter().flat_map(Named::ids).map(str::to_owned).collect();
-        Some(OtherGround { recording: run.name.clone(), interval, ratios, causes })
+        Some(OtherGround { recording: run.name.clone(), interval, reach: [from, until], ratios, causes })
     }
 }
 
-/// Leaves the rows of these grounds out of all that is measured of the recordings, as those in which a body stands; whether
-/// there are any. Ground that covers most of the steady driving is what the recording was driven on.
-pub(crate) fn leave_out(runs: &mut [SpeedRun], grounds: &[OtherGround]) -> bool {
-    let mut any = false;
-    for run in runs {
-        let own: Vec<[f64; 2]> = grounds.iter().filter(|g| g.recording == run.name).map(|g| g.interval).collect();
-        let inside: Vec<bool> =
-            run.time.iter().map(|t| own.iter().any(|[from, until]| from <= t && t <= until)).collect();
-        let steady = (0..run.time.len()).filter(|&i| is_steady_turn(run, i) || is_steadily_straight(run, i));
-        let [there, all] = steady.fold([0_usize; 2], |[there, all], i| [there + usize::from(inside[i]), all + 1]);
-        if there == 0 || 2 * there > all {
-            continue;
-        }
-        any = true;
-        for (left_out, inside) in run.standing.iter_mut().zip(inside) {
-            *left_out |= inside;
-        }
+/// Of what rows the loads of recordings are, where grounds were found inside them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Measured {
+    /// All: no ground was found, or the rest is like nothing that is known.
+    Everything,
+    /// Those beside the grounds.
+    Beside,
+    /// Those of the grounds.
+    Grounds,
+}
+
+/// Leaves the rows of these grounds out of all that is measured of the recordings, as those in which a body stands. Ground that
+/// covers most of the steady driving is what they were driven on: then the rows beside it are left out, if their loads are the
+/// references'. Rows of which nobody knows the ground are left out of both.
+pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, grounds: &[OtherGround], references: &[Reference]) -> Measured {
+    let changes = |run: &SpeedRun| grounds.iter().any(|g| g.recording == run.name);
+    let parts = |on_grounds: bool| -> Vec<SpeedRun> {
+        runs.iter().map(|run| if changes(run) { part(run, grounds, on_grounds) } else { run.clone() }).collect()
+    };
+    let (on_grounds, beside) = (parts(true), parts(false));
+    let seconds = |run: &SpeedRun| {
+        let is_steady = |i: &usize| !run.standing[*i] && (is_steady_turn(run, *i) || is_steadily_straight(run, *i));
+        (0..run.time.len()).filter(is_steady).count() as f64 * run.period()
+    };
+    let there: f64 = on_grounds.iter().filter(|run| changes(run)).map(seconds).sum();
+    if there == 0.0 {
+        return Measured::Everything;
     }
-    any
+
+    if there <= beside.iter().map(seconds).sum() {
+        *runs = beside;
+        return Measured::Beside;
+    }
+    let differs = |run: &SpeedRun| {
+        let (loads, _) = extract(run);
+        ratios(&loads, references).0.iter().any(|r| judgement(r) == Judgement::Differs)
+    };
+    if beside.iter().filter(|run| changes(run)).any(differs) {
+        return Measured::Everything;
+    }
+    *runs = on_grounds;
+    Measured::Grounds
+}
+
+/// A recording as if only its rows on these grounds, or those beside them, had been driven.
+fn part(run: &SpeedRun, grounds: &[OtherGround], on_grounds: bool) -> SpeedRun {
+    let within = |t: f64, of: &dyn Fn(&OtherGround) -> [f64; 2]| {
+        grounds.iter().filter(|g| g.recording == run.name).map(of).any(|[from, until]| from <= t && t <= until)
+    };
+    // The last rows that show the usual ground belong to it.
+    let between = |g: &OtherGround| [g.reach[0] + run.period(), g.reach[1] - run.period()];
+    let mut out = run.clone();
+    for (left_out, t) in out.standing.iter_mut().zip(&run.time) {
+        let there = within(*t, &|g| g.interval);
+        *left_out |= if on_grounds { !there } else { there || within(*t, &between) };
+    }
+    out
 }
 
 fn is_steadily_straight(run: &SpeedRun, i: usize) -> bool {

@@ -6,7 +6,7 @@
 use catalogue::revealed_by;
 use catalogue::speed_driven::SOFT_GROUND;
 use inference::words::quantity;
-use verdict::{Diagnosis, LoadChange, Loads, Quantity, Ratio, Standstill, Verdict};
+use verdict::{Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Verdict};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{longest, strongest};
@@ -24,7 +24,7 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let standing = standing(&loads.standstills);
     let leads = standing.is_empty();
     let rest = match of_loads {
-        Verdict::Explained => disagreeing(loads, theirs, named(d)),
+        Verdict::Explained => located(disagreeing(loads, theirs, named(d)), loads),
         Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
         Verdict::NoMismatch | Verdict::Withheld => {
             let differences = differences(d, loads, theirs);
@@ -32,6 +32,23 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
         }
     };
     [standing, rest].concat()
+}
+
+/// What is said of the loads, and in what stretches it is so, where other ground covers most of the driving.
+fn located(mut told: Vec<String>, loads: &Loads) -> Vec<String> {
+    if loads.on_grounds {
+        let of = |g: &OtherGround| {
+            let [from, until] = g.interval;
+            format!("{} from {from:.1} s until {until:.1} s", recordings(&g.recording))
+        };
+        let stretches: Vec<String> = loads.grounds.iter().map(of).collect();
+        let place = format!(
+            "This is another ground, in {}; beside it the simulation explains the loads.",
+            stretches.join(", in ")
+        );
+        told.insert(told.len().min(1), place);
+    }
+    told
 }
 
 /// What is said of all recordings together, behind the loads of which they show no one value and the recordings that agree.
@@ -192,13 +209,17 @@ fn standing(all: &[Standstill]) -> Vec<String> {
         1 => ", and once more".to_owned(),
         n => format!(", and {n} times more"),
     };
+    let because = match s.share {
+        Some(_) => "it is dug in, or its wheels spin",
+        None => "it pushes against something that does not give way, or is dug in",
+    };
     vec![
         format!(
-            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body hardly does{more}.",
+            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body hardly moves{more}.",
             recordings(&s.recording)
         ),
         format!(
-            "There {}: it is dug in, or its wheels spin. Nothing else here uses these rows; look at the robot and the \
+            "There {}: {because}. Nothing else here uses these rows; look at the robot and the \
              ground there before you change the simulation.",
             how_it_stands(s)
         ),

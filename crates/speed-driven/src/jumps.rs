@@ -1,7 +1,7 @@
 //! Jumps of the straight load, by currents.
 
 use crate::heading::{apart, directions};
-use crate::pieces::{GRADE, ROLLING, Usual, class, pieces};
+use crate::pieces::{ByClass, GRADE, ROLLING, STANDING, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Jumps};
 use crate::straight::{Reading, reads_nothing};
@@ -18,7 +18,7 @@ pub(super) fn jumps(
     run: &SpeedRun,
     readings: &[Option<Reading>],
     level: &[f64],
-    usual: &Usual,
+    usual: &ByClass,
     weight: f64,
     pull_sigma: Option<&dyn Fn(usize) -> f64>,
 ) -> Vec<LoadChange> {
@@ -76,7 +76,11 @@ pub(super) fn jumps(
             let slope = ((load - from) / weight).clamp(-1.0, 1.0).asin().to_degrees();
             let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
             let below = load < JUMPS.below_friction * from || nothing >= JUMPS.below_seconds && load < from / UNNAMED;
-            let (causes, reason) = if after_slope {
+            let blocked = !bound && load - from > JUMPS.blocked * weight;
+            let (causes, reason) = if blocked {
+                let slope = if after_slope { None } else { Some(GRADE) };
+                (slope.into_iter().chain([STANDING]).collect(), "no ground resists rolling that much by itself")
+            } else if after_slope {
                 (vec![ROLLING], "the gyro shows no slope that would explain it")
             } else if below {
                 (vec![GRADE], "the load is below any friction, so the robot runs downhill")

@@ -73,8 +73,10 @@ use inference::{DiagnosisError, Options};
 
 use answer::{limits, verdict};
 use compare::{Reference, matching, references, scaled};
-use model::{Measured, tune};
+use grounds::Measured;
+use model::tune;
 use name::{Comparison, Difference, Open, name};
+use pieces::{ByClass, Usual};
 
 pub use body_rates::BodyRates;
 pub use clock::{Alignment, align, box_mean, interpolate};
@@ -135,11 +137,12 @@ pub fn diagnose_steady(
     for w in &mut withheld {
         w.recording = format!("reference {}", w.recording);
     }
-    let standstills =
+    let mut standstills =
         standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
 
+    let by_file = case.references.is_empty();
     let references_of = |loads: &[Load]| {
-        if case.references.is_empty() { from_file(case, &robot, loads) } else { references(&reference_loads) }
+        if by_file { from_file(case, &robot, loads) } else { references(&reference_loads) }
     };
 
     // What changes inside a recording is reported by itself: the load of the whole recording is measured without it.
@@ -149,10 +152,12 @@ pub fn diagnose_steady(
     ];
     attitude::set_level(&marked.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
-    let changes = changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
+    let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
+    let (changes, pushing) =
+        changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
+    standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
-    let by_file = case.references.is_empty();
     if refs.is_empty() && standstills.is_empty() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
@@ -160,7 +165,7 @@ pub fn diagnose_steady(
     }
 
     progress("calibrating on the references");
-    let known: Vec<Measured> = if by_file { Vec::new() } else { refs.iter().map(of_reference).collect() };
+    let known: Vec<model::Measured> = if by_file { Vec::new() } else { refs.iter().map(of_reference).collect() };
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
 
     progress("looking into the recordings");
@@ -168,11 +173,10 @@ pub fn diagnose_steady(
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
-    let (of_recordings, not_given) = if grounds::leave_out(&mut marked.recordings, &loads.grounds) {
-        all_loads(&marked.recordings)
-    } else {
-        (of_recordings, not_given)
-    };
+    let measured = grounds::leave_out(&mut marked.recordings, &loads.grounds, &refs);
+    loads.on_grounds = measured == Measured::Grounds;
+    let left_out = measured != Measured::Everything;
+    let (of_recordings, not_given) = if left_out { all_loads(&marked.recordings) } else { (of_recordings, not_given) };
     let refs = references_of(&of_recordings);
     (loads.ratios, loads.pooled) = compare::ratios(&of_recordings, &refs);
     loads.withheld = withheld;
@@ -272,8 +276,8 @@ fn track_of(refs: &[Reference]) -> Option<f64> {
 }
 
 /// Straight load of references by speed class, N m.
-fn usual(refs: &[Reference]) -> pieces::Usual {
-    let mut out = pieces::Usual::default();
+fn usual(refs: &[Reference]) -> ByClass {
+    let mut out = ByClass::default();
     for r in refs.iter().filter(|r| r.quantity == Quantity::StraightLoad) {
         out[r.class] = Some(r.centre.exp());
     }
@@ -297,6 +301,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         changes: Changes::default(),
         turning_changes: Vec::new(),
         grounds: Vec::new(),
+        on_grounds: false,
         groups: Vec::new(),
         turning: Vec::new(),
         standstills: Vec::new(),
@@ -333,8 +338,8 @@ fn clock_error(run: &SpeedRun) -> Option<ClockError> {
     })
 }
 
-fn of_reference(r: &Reference) -> Measured {
-    Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
+fn of_reference(r: &Reference) -> model::Measured {
+    model::Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
 }
 
 /// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
@@ -351,7 +356,7 @@ fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
             let at = Operating { quantity: l.quantity, speed: l.speed };
             Some(Difference {
                 recording: l.recording.clone(),
-                here: Measured { at, value, error },
+                here: model::Measured { at, value, error },
                 reference: of_reference(r),
             })
         })

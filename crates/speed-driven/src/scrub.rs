@@ -71,10 +71,12 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
 
     // The rest of the run is what is like the references, if anything is; else the middle of the run.
     let mut like: Vec<f64> = seen.iter().map(|&i| level[i]).collect();
+    let mut like_references = None;
     if let Some(u) = usual {
         let alike: Vec<f64> = like.iter().copied().filter(|l| l / u < SCRUB.same && u / l < SCRUB.same).collect();
         if alike.len() as f64 * period >= SCRUB.known {
             like = alike;
+            like_references = usual;
         }
     }
     let Some(base) = median(like).filter(|base| *base > 0.0) else { return Vec::new() };
@@ -105,6 +107,11 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
         let of_readings = (spread / (CHANGES.levels.per_second * seconds)).sqrt() / base;
         let half = NINETY * (SCRUB.scatter * std::f64::consts::SQRT_2 * ratio).hypot(of_readings);
         if (ratio - 1.0).abs() < half {
+            continue;
+        }
+        // A middle between two grounds makes the usual one of them look like another.
+        let of_references = like_references.map_or(ratio, |usual| mean / usual);
+        if (of_references - 1.0).abs() < half || (of_references > 1.0) != (ratio > 1.0) {
             continue;
         }
 

@@ -4,6 +4,7 @@ use verdict::{Diagnosis, Loads, Ratio, Verdict};
 
 use crate::compare::reported;
 use crate::headline::headline;
+use crate::pieces::GRADE;
 use crate::words::{change, hidden, load, other_ground, recordings, standstill, tentative, turning, turning_change};
 
 /// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
@@ -22,7 +23,11 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
         out.extend(loads.standstills.iter().map(standstill));
     }
     let grounds = loads.grounds.iter().map(|g| other_ground(g, theirs));
-    let changes = loads.changes.found.iter().map(change).chain(loads.turning_changes.iter().map(turning_change));
+    // What shows a ground is told with it.
+    let of_ground = |recording: &str, interval| loads.grounds.iter().any(|g| g.holds(recording, interval));
+    let straight = loads.changes.found.iter().filter(|c| c.causes == [GRADE] || !of_ground(&c.recording, c.interval));
+    let turns = loads.turning_changes.iter().filter(|c| !of_ground(&c.recording, c.interval));
+    let changes = straight.map(change).chain(turns.map(turning_change));
     let more: Vec<String> = grounds.chain(changes).filter(|c| !out.iter().any(|said| said.ends_with(c))).collect();
     out.extend(more);
     out.extend(tentative(&loads.changes.tentative));

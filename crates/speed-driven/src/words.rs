@@ -96,11 +96,18 @@ pub(crate) fn standstill(s: &Standstill) -> String {
 
 /// By what a body is seen to stand.
 pub(crate) fn how_it_stands(s: &Standstill) -> String {
-    format!(
-        "it turns at {:.0} % of the rate that its wheels ask for, with {:.0} N m on the more loaded side",
-        100.0 * s.share,
-        s.load
-    )
+    match s.share {
+        Some(share) => format!(
+            "it turns at {:.0} % of the rate that its wheels ask for, with {:.0} N m on the more loaded side",
+            // Never "-0".
+            (100.0 * share).round() + 0.0,
+            s.load
+        ),
+        None => format!(
+            "straight driving takes {:.0} N m on the more loaded side, more than any ground resists rolling by itself",
+            s.load
+        ),
+    }
 }
 
 /// What a reference that stands does to the answer.
@@ -119,7 +126,8 @@ fn moment([a, b]: [f64; 2]) -> String {
 
 /// What a sentence calls the term of the load that an effect stands for.
 fn term_name(effect: &str) -> Option<&'static str> {
-    catalogue::find(effect)?.effect?.load_term.map(LoadTerm::name)
+    let entry = catalogue::find(effect)?;
+    entry.effect.and_then(|e| e.load_term).map(LoadTerm::name).or(Some(entry.label()))
 }
 
 pub(crate) fn change(c: &LoadChange) -> String {

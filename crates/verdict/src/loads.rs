@@ -22,6 +22,10 @@ pub struct Loads {
     /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grounds: Vec<OtherGround>,
+    /// Whether the loads of the recordings are those of these grounds alone: they cover most of the driving, and the rest is like
+    /// the references.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub on_grounds: bool,
     /// Where the recordings show no one value of a load or of the track: which of them agree, and what could be behind each group.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<RecordingGroup>,
@@ -219,6 +223,8 @@ pub struct OtherGround {
     pub recording: String,
     /// From the first to the last row that shows it, s on the clock of the loads.
     pub interval: [f64; 2],
+    /// From the last row before it to the first one after it that show the usual ground, s: it begins and ends somewhere between.
+    pub reach: [f64; 2],
     /// Its loads and its effective track over those of the references.
     pub ratios: Vec<Ratio>,
     /// Ids of the causes that fit these loads best, the likeliest first; none where no effect of the catalogue does.
@@ -284,8 +290,9 @@ pub struct Standstill {
     pub recording: String,
     /// From, until, s.
     pub interval: [f64; 2],
-    /// Yaw rate over what the wheels' speeds and the references' effective track give.
-    pub share: f64,
+    /// Yaw rate over what the wheels' speeds and the references' effective track give; `None` where it was driven straight, and
+    /// the torque tells that the body pushes against something.
+    pub share: Option<f64>,
     /// Mean torque of the more loaded side, N m.
     pub load: f64,
 }

@@ -137,6 +137,8 @@ fn remedy(quantity: Quantity) -> &'static str {
         | Quantity::TurnSlipPower
         | Quantity::RateSlip
         | Quantity::SpeedSlip
+        | Quantity::SpeedTurnSlip
+        | Quantity::WheelSpeedSlip
         | Quantity::Sideslip
         | Quantity::CorneringForward
         | Quantity::CorneringSideways => "its wheels roll without slip, and poses from counts go wrong by that",

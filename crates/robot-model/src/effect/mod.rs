@@ -10,7 +10,7 @@ pub mod export;
 mod spec;
 
 pub use export::Export;
-pub use spec::{EffectSpec, Kind, LoadTerm, Parameter, Redundancy, Role, Scale, Scopes, SizedBy};
+pub use spec::{EffectSpec, Kind, LOST_SHARE, LoadTerm, Parameter, Redundancy, Role, Scale, Scopes, SizedBy};
 
 /// One physical phenomenon, or one fault of a sensor, that a simulation may lack.
 ///

@@ -69,6 +69,9 @@ pub struct Parameter {
     pub step: Option<f64>,
 }
 
+/// A parameter of this name is what the robot or the ground lost; below 0 it has gained as much.
+pub const LOST_SHARE: &str = "lost share";
+
 impl Parameter {
     /// A strength: zero is neutral; `probes` is one medium size.
     pub const fn strength(name: &'static str, unit: &'static str, bounds: [f64; 2], probes: &'static [f64]) -> Self {

@@ -4,6 +4,7 @@
 //! would be a look-alike.
 
 use crate::effect::export::{Carrier, Engine, Exception, Residual, Section, Way, When};
+use crate::effect::LOST_SHARE;
 use crate::effect::{
     Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
 };
@@ -19,7 +20,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "μ (1 − q), everywhere or at one place",
     seen: "Wheels spin or slide earlier; turns come out wider or tighter; at one place or, as \
         the level of grip, everywhere.",
-    parameters: &[Parameter::strength("lost share", "-", [-2.0, 0.95], &[0.3])],
+    parameters: &[Parameter::strength(LOST_SHARE, "-", [-2.0, 0.95], &[0.3])],
     scopes: Scopes::GROUND,
     interest: 0.2,
     revealed_by: "hard acceleration and tight turns on and off the place",

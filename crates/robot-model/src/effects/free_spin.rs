@@ -1,6 +1,7 @@
 //! Wheels of one side that spin in the ground without driving.
 
 use crate::effect::export::{Section, Way};
+use crate::effect::LOST_SHARE;
 use crate::effect::{
     Coefficients, Effect, EffectSpec, Export, OperatingPoint, Parameter, Scopes, Values,
 };
@@ -16,7 +17,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "F_x (1 − q) on one side; F_y as before",
     seen: "One side races or digs itself in and drives (brakes) little, but does not slide \
         sideways more easily.",
-    parameters: &[Parameter::strength("lost share", "-", [0.0, 1.0], &[0.3])],
+    parameters: &[Parameter::strength(LOST_SHARE, "-", [0.0, 1.0], &[0.3])],
     scopes: Scopes::ONE_SIDE,
     // Raised from 0.2 with a label in view: a fault-free development drive fits 0.06.
     interest: 0.4,

@@ -16,6 +16,8 @@ const fn degrees(x: f64) -> f64 {
         driving: f64 = 0.05, "m/s", "guess";
         /// The load of a level stretch is known after so much of it.
         known: f64 = 10.0, "s", "guess";
+        /// Loads within this factor of the references' are the usual ground's; loads at several speeds are one ground's.
+        alike: f64 = 1.25, "1", "guess, as for turning";
     }
 
     /// The slope under the robot from its turning rates and loads.
@@ -92,6 +94,8 @@ const fn degrees(x: f64) -> f64 {
 
     /// Jumps of the straight load, by currents.
     jumps: Jumps {
+        /// Share of its weight from which on no ground resists a robot by itself: it pushes against something, or its wheels spin.
+        blocked: f64 = 0.4, "1", "loose sand resists rolling by 0.2 to 0.3; tyres grip by 0.5 to 0.9";
         /// A change shorter than this is not reported: straight driving.
         least: f64 = 1.5, "s", "guess";
         /// No friction falls to this share of the usual load: the robot runs downhill.
