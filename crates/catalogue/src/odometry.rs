@@ -147,8 +147,9 @@ pub const SLIP_WITH_SPEED: CauseSpec = CauseSpec {
     id: "slip_with_speed",
     name: "slip that grows with speed",
     robots: ROBOTS,
-    meaning: "The body falls behind its wheels by a share in proportion to the speed.",
-    size: "share per speed",
+    meaning: "The body falls behind its wheels by a share in proportion to the speed, in its way and perhaps in its turning; that of \
+        each wheel may grow with its own speed.",
+    size: "share of the way that is lost in straight driving, per speed",
     unit: "s/m",
     recognised: "Fast drives are shorter than slow ones for the same counts",
     revealed_by: "straight drives at several speeds",

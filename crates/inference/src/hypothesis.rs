@@ -134,7 +134,10 @@ impl Variant {
                 let of_robot = if p.role == Role::Shape { 1.0 } else { sizes.factor(spec) };
                 let of_torque = if p.scale == Scale::LargestTorque { sizes.largest_torque } else { 1.0 };
                 let probe = p.probes[p.probes.len() / 2] * of_robot * of_torque;
-                let bounds = p.bounds.map(|b| if b.abs() < NO_LIMIT { b * of_robot } else { b });
+                let mut bounds = p.bounds.map(|b| if b.abs() < NO_LIMIT { b * of_robot } else { b });
+                if let Some((of, robot)) = p.added_to.zip(sizes.robot.as_ref()) {
+                    bounds[0] = bounds[0].max(-of(robot));
+                }
                 let unit = p.step.unwrap_or(probe.abs());
                 out.push(Free { parameter: Some(i), unit, bounds, usual: probe });
             }
@@ -267,5 +270,15 @@ mod tests {
         ] {
             assert_eq!((has(Chassis::SkidSteer, id), has(Chassis::Differential, id)), (four, on_casters), "{id}");
         }
+    }
+
+    #[test]
+    fn a_friction_cannot_be_taken_below_nothing() {
+        let robot = Robot { rolling_resistance: 0.03, ..Robot::from(&robot_model::paper::Parameters::SET_A) };
+        let all = variants_of(KnownEffects::default(), Chassis::SkidSteer, true);
+        let rolling = all.iter().find(|v| v.spec().id == "rolling_resistance").expect("in the catalogue");
+        let least = |robot| rolling.free(&Sizes { largest_torque: 1.0, robot })[0].bounds[0];
+        approx::assert_relative_eq!(least(Some(robot)), -0.03);
+        assert!(least(None) < -0.1);
     }
 }

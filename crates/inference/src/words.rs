@@ -80,10 +80,27 @@ pub fn revealed_by(id: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::probability;
+    use super::{probability, quantity};
+    use robot_model::effect::LOST_SHARE;
+    use verdict::{Cause, Estimate};
 
     #[test]
     fn nothing_is_quite_certain() {
         assert_eq!([0.0, 0.001, 0.5, 0.999, 1.0].map(probability), ["0.00", "< 0.01", "0.50", "> 0.99", "1.00"]);
+    }
+
+    #[test]
+    fn what_was_lost_or_gained_is_said_and_no_sign_asks_which() {
+        let of = |value: f64| {
+            let own = Estimate { value, sigma: None, at_bound: false };
+            let parameters = [(LOST_SHARE.to_owned(), own)].into();
+            Cause {
+                magnitude: Some(value),
+                parameters,
+                unit: "-".into(),
+                ..Cause::plain("adhesion_patch", "grip", 0.9)
+            }
+        };
+        assert_eq!([0.6, -0.5].map(|v| quantity(&of(v))), ["a lost share of 0.600", "a gained share of 0.500"]);
     }
 }

@@ -161,22 +161,29 @@ impl Drive {
         self.pose[row].iter().all(|x| x.is_finite())
     }
 
-    /// Rates of the body about a row, of motions by rows: m/s, m/s, rad/s.
-    pub(crate) fn rates(&self, motion: &[[f64; 3]], row: usize) -> [f64; 3] {
-        let ([first, last], span) = self.about(row);
-        [0, 1, 2].map(|axis| motion[first..=last].iter().map(|m| m[axis]).sum::<f64>() / span)
-    }
+    /// Rates about each row of what goes on by `steps` from row to row, per s: means over the rows that are near enough.
+    pub(crate) fn rates<const N: usize>(&self, steps: impl Fn(usize) -> [f64; N]) -> Vec<[f64; N]> {
+        let rows = self.time.len();
+        let mut sums = vec![[0.0; N]; rows];
+        for row in 1..rows {
+            let step = steps(row);
+            sums[row] = std::array::from_fn(|k| sums[row - 1][k] + step[k]);
+        }
 
-    /// First and last row whose motions make the rates about a row, and the time that they take, s.
-    pub(crate) fn about(&self, row: usize) -> ([usize; 2], f64) {
-        let (mut first, mut last) = (row, row);
-        while first > 1 && self.time[row] - self.time[first - 1] <= RULES.rate {
-            first -= 1;
-        }
-        while last + 1 < self.time.len() && self.time[last + 1] - self.time[row] <= RULES.rate {
-            last += 1;
-        }
-        ([first, last], self.time[last] - self.time[first.saturating_sub(1)])
+        let (mut first, mut last) = (1, 1);
+        let about = |row: usize| {
+            // The first row has no step of its own.
+            while first < row && self.time[row] - self.time[first] > RULES.rate {
+                first += 1;
+            }
+            last = last.max(row);
+            while last + 1 < rows && self.time[last + 1] - self.time[row] <= RULES.rate {
+                last += 1;
+            }
+            let span = self.time[last] - self.time[first - 1];
+            std::array::from_fn(|k| (sums[last][k] - sums[first - 1][k]) / span)
+        };
+        std::iter::once([0.0; N]).chain((1..rows).map(about)).collect()
     }
 
     /// A path by rows as it is at the instants of the pose when the counts' clock is `offset` behind and slow by `rate` from `zero`

@@ -99,34 +99,51 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
     let kinematics = Kinematics::new(robot, &laws.geometry);
     let rows = drive.time.len();
     let steering = |row: usize| drive.steering.as_ref().map_or(0.0, |s| s[row]);
-    let own = (laws.wheel_slip != 0.0).then(|| turns_less_own_slip(robot, drive, laws.wheel_slip));
-    let turns = own.as_ref().unwrap_or(&drive.turns);
-    let rolled: Vec<[f64; 3]> =
-        (0..rows).map(|row| if row == 0 { [0.0; 3] } else { kinematics.motion(&turns[row], steering(row)) }).collect();
+    let own = if laws.wheel_slip == 0.0 { Vec::new() } else { kept_by_wheels(robot, drive, laws.wheel_slip) };
+    let mut turned = Vec::new();
+    let mut rolled = vec![[0.0; 3]; rows];
+    for row in 1..rows {
+        let turns = &drive.turns[row];
+        turned.clear();
+        turned.extend(
+            turns
+                .iter()
+                .enumerate()
+                .map(|(k, turn)| own.get(turns.len() * row + k).map_or(*turn, |share| share * turn)),
+        );
+        rolled[row] = kinematics.motion(&turned, steering(row));
+    }
 
+    let rates = drive.rates(|row| rolled[row]);
     let mut pose = [0.0; 3];
     let mut path = Vec::with_capacity(rows);
     path.push(pose);
     for row in 1..rows {
-        let step = slipped(laws, rolled[row], drive.rates(&rolled, row), drive.time[row] - drive.time[row - 1]);
+        let step = slipped(laws, rolled[row], rates[row], drive.time[row] - drive.time[row - 1]);
         pose = moved(pose, framed(laws, step));
         path.push(pose);
     }
     if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock, laws.clock_zero) }
 }
 
-/// Turns of the wheels, of which each keeps a share by its own speed.
-fn turns_less_own_slip(robot: &WheeledRobot, drive: &Drive, slip: f64) -> Vec<Vec<f64>> {
-    let radius: Vec<f64> = robot.measured().iter().map(|&k| robot.wheels[k].radius).collect();
-    let of_row = |(row, turns): (usize, &Vec<f64>)| {
-        let ([first, last], span) = drive.about(row);
-        let share = |k: usize| {
-            let turned: f64 = drive.turns[first..=last].iter().map(|t| t[k]).sum();
-            (-slip * radius[k] * (turned / span).abs()).exp()
-        };
-        turns.iter().enumerate().map(|(k, turn)| if row == 0 { *turn } else { share(k) * turn }).collect()
-    };
-    drive.turns.iter().enumerate().map(of_row).collect()
+/// The shares of their turns that the wheels keep by their own speed, row by row.
+fn kept_by_wheels(robot: &WheeledRobot, drive: &Drive, slip: f64) -> Vec<f64> {
+    let measured = robot.measured();
+    let wheels = measured.len();
+    let mut out = vec![1.0; wheels * drive.time.len()];
+    for (k, &wheel) in measured.iter().enumerate() {
+        let slip = slip * robot.wheels[wheel].radius;
+        let rates = drive.rates(|row| [drive.turns[row][k]]);
+        for (row, [rate]) in rates.into_iter().enumerate() {
+            out[wheels * row + k] = kept(slip * rate.abs());
+        }
+    }
+    out
+}
+
+/// `exp(−x)` of small `x`, to the third order.
+fn kept(x: f64) -> f64 {
+    (2.0 - x) / (2.0 + x)
 }
 
 /// A row's motion less its slip.
@@ -134,7 +151,7 @@ fn slipped(laws: &Laws, [x, y, t]: [f64; 3], [vx, vy, turning]: [f64; 3], dt: f6
     let rate = turning.abs();
     let grown = (rate / laws.turn_slip_rate).powf(laws.turn_slip_power);
     let speed = vx.hypot(vy);
-    let kept = (1.0 - laws.turn_slip * grown / (1.0 + grown)) * ((laws.wheel_slip - laws.speed_slip) * speed).exp();
+    let kept = (1.0 - laws.turn_slip * grown / (1.0 + grown)) * kept((laws.speed_slip - laws.wheel_slip) * speed);
     let curved = turning * dt;
     let [forward, sideways] = laws.cornering;
     [

@@ -10,6 +10,7 @@ use catalogue::odometry::{SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use inference::evidence::none_of;
 use inference::experiment::Standing;
 use inference::robust::NINETY;
+use inference::words::probability;
 use verdict::{Cause, Diagnosis, FreeRun, Retuned, Verdict};
 
 /// What was found, however it was compared.
@@ -95,6 +96,22 @@ impl Found<'_> {
             out.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         }
         out
+    }
+
+    /// What leads where no cause is named and yet one is likelier than none.
+    pub fn undecided(&self) -> Option<String> {
+        if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
+            return None;
+        }
+        let none = none_of(self.others.iter().map(|(_, p)| *p));
+        let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
+        Some(format!(
+            "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
+             drives to decide.",
+            for_people(label),
+            probability(*best),
+            probability(none)
+        ))
     }
 
     /// Names of the named causes, with their places.

@@ -17,6 +17,7 @@ fn expected(hidden: Hidden) -> &'static str {
         Hidden::Mounting => "pose_mounting",
         Hidden::Origin => "pose_origin",
         Hidden::SlipInTurns | Hidden::SlipInSlowTurns => "slip_in_turns",
+        Hidden::SlipWithSpeed | Hidden::SlipByWheels => "slip_with_speed",
         Hidden::ClockOffset => "counts_clock_offset",
         Hidden::ClockRate => "clock_rate",
         Hidden::LostCounts => "lost_counts",
@@ -65,6 +66,22 @@ fn what_is_hidden_is_named_first() {
         }
     }
     assert!(right * 100 >= all * 90, "{right} of {all}: {wrong:#?}");
+}
+
+#[test]
+fn slip_that_grows_with_speed_is_one_cause_whatever_it_does_to_turning() {
+    for kind in [Kind::Differential, Kind::Omni3] {
+        for hidden in [Hidden::SlipWithSpeed, Hidden::SlipByWheels] {
+            let case = drawn(kind, hidden, 4, 60.0, 900 + kind as u64);
+            let findings = found(&case);
+            let named: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+            assert_eq!(named, [expected(hidden)], "{kind:?} {hidden:?}: {:?}", findings.shares);
+            // What straight driving loses, whichever of both laws makes it.
+            let size = &findings.named[0].estimates[0];
+            let truth: f64 = case.truth.speed_slip.iter().sum();
+            assert!((size.value / truth - 1.0).abs() < 0.15, "{kind:?} {hidden:?}: {size:?}, truth {truth}");
+        }
+    }
 }
 
 #[test]

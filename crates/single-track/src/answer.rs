@@ -40,7 +40,7 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
     } else {
         ["the robot file", "is known", "leaves"]
     };
-    let mut text = Vec::new();
+    let mut text: Vec<String> = found.undecided().into_iter().collect();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
     match findings.answer {
         Answer::Nothing => text.push(format!(

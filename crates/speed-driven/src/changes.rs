@@ -290,4 +290,34 @@ mod tests {
         };
         assert!(changed(climb(12.0)) && !changed(climb(60.0)));
     }
+
+    #[test]
+    fn a_robot_that_pushes_against_something_stands() {
+        // Tyres hold half of its weight.
+        let pushing = Leg { straight: STRAIGHT + 0.5 * WEIGHT, ..Leg::straight(20.0) };
+        let legs = [Leg::straight(30.0), pushing, Leg::straight(30.0)];
+        let mut runs = [drive(&legs, true)];
+        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
+        assert_eq!(changes.found, []);
+        let [one] = &standing[..] else { panic!("{standing:?}") };
+        assert!(near([one.interval[0], one.interval[0]], 30.0) && one.share.is_none(), "{one:?}");
+        assert!(runs[0].standing.iter().any(|stands| *stands));
+        // Without turning rates it may be a steep slope as well.
+        let without = found(&legs, false);
+        assert_eq!(without.iter().map(|c| c.causes.clone()).collect::<Vec<_>>(), [vec![GRADE, STANDING]]);
+    }
+
+    #[test]
+    fn a_speed_that_was_driven_on_other_ground_alone_is_no_usual_load() {
+        let fast = |leg: Leg| Leg { speed: [0.6, 0.6], ..leg };
+        let usual = Usual::of_references([Some(STRAIGHT), Some(STRAIGHT), Some(STRAIGHT)]);
+        let soft = Leg { straight: 1.7 * STRAIGHT, ..Leg::straight(30.0) };
+        let found = changes(&drive(&[Leg::straight(40.0), fast(soft)], true), &usual, WEIGHT).found;
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(near(found[0].onset, 40.0), "{found:?}");
+        // A cold drive train makes the loads of all speeds more by one factor.
+        let cold = |leg: Leg| Leg { straight: 1.4 * STRAIGHT, ..leg };
+        let legs = [cold(Leg::straight(40.0)), fast(cold(Leg::straight(30.0)))];
+        assert_eq!(changes(&drive(&legs, true), &usual, WEIGHT).found, []);
+    }
 }

@@ -272,4 +272,31 @@ mod tests {
         assert_eq!(grounds(&d), [], "{:?}", d.sentences);
         assert!(d.sentences[0].starts_with("Change inside"), "{:?}", d.sentences);
     }
+
+    #[test]
+    fn ground_that_covers_most_of_a_drive_is_named_by_its_own_rows_at_any_speed() {
+        // One recording meets soft ground slowly, the other fast: together they would look like friction that grows with speed.
+        let faster = |leg: Leg| Leg { speed: leg.speed.map(|v| 2.5 * v), ..leg };
+        let soft_from = |legs: Vec<Leg>| [on(1.0, 1.0, 1), legs].concat();
+        let slow = soft_from(on(1.9, 1.0, 2));
+        let fast = soft_from(on(1.9, 1.0, 2).into_iter().map(faster).collect());
+        let d = diagnosis(&[&slow, &fast]);
+        let loads = d.steady.as_ref().expect("loads");
+        assert!(loads.on_grounds, "{:?}", d.sentences);
+        assert_eq!(d.verdict, Verdict::Explained);
+        assert!(d.sentences[1].contains("another ground, in recording"), "{:?}", d.sentences);
+        let named = &d.indistinguishable[0];
+        assert!(named.iter().any(|id| id == "rolling_resistance"), "{named:?}");
+        for id in named {
+            let cause = d.ranked.iter().find(|c| c.effect == *id).expect("ranked");
+            assert!(cause.intervals.as_ref().is_some_and(|at| at.len() == loads.grounds.len()), "{cause:?}");
+        }
+    }
+
+    #[test]
+    fn what_shows_a_ground_is_told_with_it_alone() {
+        let d = diagnosis(&[&[on(1.0, 1.0, 3), on(2.2, 1.0, 1), on(1.0, 1.0, 2)].concat()]);
+        assert_eq!(grounds(&d).len(), 1, "{:?}", d.sentences);
+        assert!(!d.sentences.iter().any(|s| s.contains("a slope that does this")), "{:?}", d.sentences);
+    }
 }

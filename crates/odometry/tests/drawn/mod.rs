@@ -58,6 +58,10 @@ pub(crate) enum Hidden {
     SlipInTurns,
     /// The same, whole in slow turns already.
     SlipInSlowTurns,
+    /// Wheels turn more than the body moves, way and turning alike, by a share in proportion to the body's speed.
+    SlipWithSpeed,
+    /// The same, each wheel by its own speed.
+    SlipByWheels,
     /// Wheels are much nearer to each other than stated.
     FarDistance,
     /// No slip does that: the body gets ahead of its wheels in turns.
@@ -79,6 +83,8 @@ pub(crate) struct Truth {
     pub slip: f64,
     /// Turning rate at which that slip is half of what it becomes, rad/s.
     pub slip_rate: f64,
+    /// Share by which wheels turn more, per speed of the body and of their own, s/m.
+    pub speed_slip: [f64; 2],
     pub offset: f64,
     pub rate: f64,
     pub lost: Option<usize>,
@@ -145,6 +151,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         origin: [0.001 * draw.normal(), 0.001 * draw.normal()],
         slip: 1e-3 * draw.normal(),
         slip_rate: 0.05,
+        speed_slip: [0.0; 2],
         offset: 0.0,
         rate: 0.0,
         lost: None,
@@ -169,6 +176,8 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
             truth.slip = draw.between(0.06, 0.12);
             truth.slip_rate = 0.015;
         }
+        Hidden::SlipWithSpeed => truth.speed_slip[0] = draw.between(0.06, 0.12),
+        Hidden::SlipByWheels => truth.speed_slip[1] = draw.between(0.06, 0.12),
         Hidden::GainInTurns => truth.slip = -draw.between(0.03, 0.08),
         Hidden::ClockOffset => truth.offset = sign * draw.between(0.15, 0.4),
         Hidden::ClockRate => truth.rate = sign * draw.between(0.01, 0.025),
@@ -221,7 +230,12 @@ fn drive(kind: Kind, robot: &WheeledRobot, t: &Truth, name: &str, seconds: f64, 
     let (mut turned, mut steering, mut bodies) = (vec![vec![0.0; t.radius.len()]], vec![0.0], vec![[0.0; 3]]);
     for k in 0..steps {
         let rolled = speed_at(k as f64 * fine).map(|v| v * fine);
-        let (wheel, steer) = wheels(kind, t, rolled);
+        let (mut wheel, steer) = wheels(kind, t, rolled);
+        let [of_body, of_wheel] = t.speed_slip;
+        let speed = rolled[0].hypot(rolled[1]) / fine;
+        for (turn, radius) in wheel.iter_mut().zip(&t.radius) {
+            *turn *= 1.0 + of_body * speed + of_wheel * (*turn * radius / fine).abs();
+        }
         let last = turned.last().expect("a step").clone();
         turned.push(last.iter().zip(&wheel).map(|(a, b)| a + b).collect());
         steering.push(steer - t.steering);

@@ -67,6 +67,8 @@ pub struct Parameter {
     pub scale: Scale,
     /// Size of a usual change of it in a fit, where that is not its probe: of a shape that may be zero.
     pub step: Option<f64>,
+    /// The constant of the robot to which it is added, where their sum cannot fall below zero.
+    pub added_to: Option<fn(&Robot<f64>) -> f64>,
 }
 
 /// A parameter of this name is what the robot or the ground lost; below 0 it has gained as much.
@@ -75,7 +77,18 @@ pub const LOST_SHARE: &str = "lost share";
 impl Parameter {
     /// A strength: zero is neutral; `probes` is one medium size.
     pub const fn strength(name: &'static str, unit: &'static str, bounds: [f64; 2], probes: &'static [f64]) -> Self {
-        Self { name, unit, role: Role::Strength, bounds, neutral: 0.0, probes, scale: Scale::Own, step: None }
+        let (role, scale) = (Role::Strength, Scale::Own);
+        Self { name, unit, role, bounds, neutral: 0.0, probes, scale, step: None, added_to: None }
+    }
+
+    /// A strength that is added to a constant of the robot: the sum is no less than zero.
+    pub const fn added(
+        name: &'static str,
+        to: fn(&Robot<f64>) -> f64,
+        bounds: [f64; 2],
+        probes: &'static [f64],
+    ) -> Self {
+        Self { added_to: Some(to), ..Self::strength(name, "-", bounds, probes) }
     }
 
     /// A strength whose response has a shape of its own: several probes.

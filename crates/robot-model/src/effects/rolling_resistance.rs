@@ -15,7 +15,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     name: "rolling resistance",
     law: "T = Δf_r N r sign ω at each wheel",
     seen: "Every metre costs more torque, in proportion to the load and whatever the speed.",
-    parameters: &[Parameter::strength("Δf_r", "-", [-0.2, 1.0], &[0.03])],
+    parameters: &[Parameter::added("Δf_r", |robot| robot.rolling_resistance, [-0.2, 1.0], &[0.03])],
     scopes: Scopes::GROUND,
     load_term: Some(LoadTerm::Rolling),
     interest: 0.01,
