@@ -135,14 +135,14 @@ fn kept_by_wheels(robot: &WheeledRobot, drive: &Drive, slip: f64) -> Vec<f64> {
         let slip = slip * robot.wheels[wheel].radius;
         let rates = drive.rates(|row| [drive.turns[row][k]]);
         for (row, [rate]) in rates.into_iter().enumerate() {
-            out[wheels * row + k] = kept(slip * rate.abs());
+            out[wheels * row + k] = falling(slip * rate.abs());
         }
     }
     out
 }
 
 /// `exp(−x)` of small `x`, to the third order.
-fn kept(x: f64) -> f64 {
+fn falling(x: f64) -> f64 {
     (2.0 - x) / (2.0 + x)
 }
 
@@ -151,13 +151,13 @@ fn slipped(laws: &Laws, [x, y, t]: [f64; 3], [vx, vy, turning]: [f64; 3], dt: f6
     let rate = turning.abs();
     let grown = (rate / laws.turn_slip_rate).powf(laws.turn_slip_power);
     let speed = vx.hypot(vy);
-    let kept = (1.0 - laws.turn_slip * grown / (1.0 + grown)) * kept((laws.speed_slip - laws.wheel_slip) * speed);
+    let kept = (1.0 - laws.turn_slip * grown / (1.0 + grown)) * falling((laws.speed_slip - laws.wheel_slip) * speed);
     let curved = turning * dt;
     let [forward, sideways] = laws.cornering;
     [
         kept * x + laws.sideslip * vy * curved,
         kept * (1.0 - laws.roller_slip) * y - laws.sideslip * vx * curved,
-        (1.0 - laws.rate_slip * rate) * (-laws.speed_turn_slip * speed).exp() * t
+        (1.0 - laws.rate_slip * rate) * falling(laws.speed_turn_slip * speed) * t
             - (forward * vx + sideways * vy) * curved,
     ]
 }

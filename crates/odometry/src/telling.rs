@@ -86,7 +86,7 @@ impl Found<'_> {
             }
         }
         let none = match self.answer {
-            Answer::Nothing | Answer::Retune => none_of(self.others.iter().map(|(_, p)| *p)),
+            Answer::Nothing | Answer::Retune => self.none_of_others(),
             Answer::Named | Answer::Unknown => trust * none_of(self.named.iter().map(|c| c.probability)),
         };
         let unknown = if is_unknown { 1.0 - SETTINGS.naming.listed } else { 0.0 };
@@ -98,12 +98,17 @@ impl Found<'_> {
         out
     }
 
+    /// Probability that none of the causes that are not named is there.
+    fn none_of_others(&self) -> f64 {
+        none_of(self.others.iter().map(|(_, p)| *p))
+    }
+
     /// What leads where no cause is named and yet one is likelier than none.
     pub fn undecided(&self) -> Option<String> {
         if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
             return None;
         }
-        let none = none_of(self.others.iter().map(|(_, p)| *p));
+        let none = self.none_of_others();
         let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
         Some(format!(
             "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
@@ -252,6 +257,21 @@ mod tests {
         let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([1.0, 2.0]));
         let of = |quantity: &str| runs.iter().filter_map(|run| length_of(run, quantity)).collect::<Vec<_>>();
         assert_eq!((of("position"), of("heading"), of("speed")), (vec![2.0, 10.0, 0.5], vec![2.0, 10.0, 0.5], vec![]));
+    }
+
+    #[test]
+    fn a_cause_that_is_likelier_than_none_and_not_named_leads() {
+        let told = |answer, probability| {
+            let others = [("pose_origin".to_owned(), probability)];
+            let shares = [0.3, 0.2, 0.2];
+            Found { answer, named: &[], others: &others, constants: &[], retuned: &[], rival: None, shares }.undecided()
+        };
+        let leads = told(Answer::Retune, 0.7).expect("a sentence");
+        assert!(
+            leads.contains("place of the pose's origin in the robot has a probability of 0.70, nothing one of 0.30"),
+            "{leads}"
+        );
+        assert_eq!([told(Answer::Retune, 0.4), told(Answer::Named, 0.7)], [None, None]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
+use catalogue::odometry::LOST_COUNTS;
 use clap::Args as ClapArgs;
 use odometry::{Answer, Case, Findings, LENGTHS, Table, diagnose, left_out};
 use rayon::prelude::*;
@@ -131,7 +132,13 @@ fn sections(examined: &[Examined]) -> Vec<Section> {
             &["cause", "probability", "constant", "stated", "found", "±", "folds"],
         );
         for cause in &e.findings.named {
-            let folds = e.table.named.iter().filter(|n| n.contains(&cause.label)).count();
+            let by = e.table.named.iter().filter(|n| n.contains(&cause.label)).count();
+            // Lost counts are looked for with all drives alone.
+            let folds = if cause.spec == &LOST_COUNTS {
+                "not looked for".to_owned()
+            } else {
+                format!("{by} of {}", e.table.sessions)
+            };
             for estimate in &cause.estimates {
                 let unit = if estimate.unit == "1" { String::new() } else { format!(", {}", estimate.unit) };
                 causes.rows.push(
@@ -142,7 +149,7 @@ fn sections(examined: &[Examined]) -> Vec<Section> {
                         format!("{:.5}", estimate.given),
                         format!("{:.5}", estimate.value),
                         format!("{:.5}", estimate.half_width),
-                        format!("{folds} of {}", e.table.sessions),
+                        folds.clone(),
                     ]
                     .map(Cell::from)
                     .to_vec(),

@@ -116,7 +116,7 @@ impl Usual<'_> {
     /// The ground of a stretch, by its rows beside slopes; `None` where no load of these differs from the references'.
     fn ground(&self, run: &SpeedRun, stretch: Stretch, slopes: &[[f64; 2]]) -> Option<OtherGround> {
         let Stretch { interval, reach: [from, _], until, .. } = stretch;
-        let (loads, _) = extract(&only(run, interval, slopes));
+        let (loads, _) = extract(&only(run, &[interval], slopes));
         let (ratios, _) = ratios(&loads, self.references);
         if !ratios.iter().any(|r: &Ratio| judgement(r) == Judgement::Differs) {
             return None;
@@ -143,12 +143,18 @@ pub(crate) enum Measured {
 /// Leaves the rows of these grounds out of all that is measured of the recordings, as those in which a body stands. Ground that
 /// covers most of the steady driving is what they were driven on: then the rows beside it are left out, if their loads are the
 /// references'. Rows of which nobody knows the ground are left out of both.
-pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, grounds: &[OtherGround], references: &[Reference]) -> Measured {
-    let changes = |run: &SpeedRun| grounds.iter().any(|g| g.recording == run.name);
-    let parts = |on_grounds: bool| -> Vec<SpeedRun> {
-        runs.iter().map(|run| if changes(run) { part(run, grounds, on_grounds) } else { run.clone() }).collect()
-    };
-    let (on_grounds, beside) = (parts(true), parts(false));
+pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[Reference]) -> Measured {
+    let of =
+        |run: &SpeedRun| -> Vec<&OtherGround> { loads.grounds.iter().filter(|g| g.recording == run.name).collect() };
+    let changes = |run: &SpeedRun| !of(run).is_empty();
+    let on_grounds: Vec<SpeedRun> = runs
+        .iter()
+        .map(|run| match of(run).iter().map(|g| g.interval).collect::<Vec<_>>() {
+            own if own.is_empty() => run.clone(),
+            own => only(run, &own, &slopes(&run.name, loads)),
+        })
+        .collect();
+    let beside: Vec<SpeedRun> = runs.iter().map(|run| beside(run, &of(run))).collect();
     let seconds = |run: &SpeedRun| {
         let is_steady = |i: &usize| !run.standing[*i] && (is_steady_turn(run, *i) || is_steadily_straight(run, *i));
         (0..run.time.len()).filter(is_steady).count() as f64 * run.period()
@@ -173,40 +179,42 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, grounds: &[OtherGround], refer
     Measured::Grounds
 }
 
-/// A recording as if only its rows on these grounds, or those beside them, had been driven.
-fn part(run: &SpeedRun, grounds: &[OtherGround], on_grounds: bool) -> SpeedRun {
-    let within = |t: f64, of: &dyn Fn(&OtherGround) -> [f64; 2]| {
-        grounds.iter().filter(|g| g.recording == run.name).map(of).any(|[from, until]| from <= t && t <= until)
-    };
-    // The last rows that show the usual ground belong to it.
-    let between = |g: &OtherGround| [g.reach[0] + run.period(), g.reach[1] - run.period()];
-    let mut out = run.clone();
-    for (left_out, t) in out.standing.iter_mut().zip(&run.time) {
-        let there = within(*t, &|g| g.interval);
-        *left_out |= if on_grounds { !there } else { there || within(*t, &between) };
-    }
-    out
-}
-
 fn is_steadily_straight(run: &SpeedRun, i: usize) -> bool {
     is_straight(run, i, MEASURING.straight.hold_of_means)
 }
 
-/// The same recording as if only these rows said anything, less the slopes among them: all others are left out like those
-/// in which a body stands.
-fn only(run: &SpeedRun, [from, until]: [f64; 2], slopes: &[[f64; 2]]) -> SpeedRun {
+/// A recording as if only these rows said anything: all others are left out like those in which a body stands.
+fn keeping(run: &SpeedRun, keeps: impl Fn(f64) -> bool) -> SpeedRun {
     let mut out = run.clone();
-    out.changed.fill(false);
     for (left_out, t) in out.standing.iter_mut().zip(&run.time) {
-        let slopes_there = slopes.iter().any(|[a, b]| a <= t && t <= b);
-        *left_out |= *t < from || *t > until || slopes_there;
+        *left_out |= !keeps(*t);
     }
     out
 }
 
+/// Only the rows on these grounds, less the slopes among them.
+fn only(run: &SpeedRun, grounds: &[[f64; 2]], slopes: &[[f64; 2]]) -> SpeedRun {
+    let mut out = keeping(run, |t| is_within(t, grounds) && !is_within(t, slopes));
+    // What changes the load there is the ground.
+    out.changed.fill(false);
+    out
+}
+
+/// Only the rows beside these grounds; those of which nobody knows the ground are not.
+fn beside(run: &SpeedRun, grounds: &[&OtherGround]) -> SpeedRun {
+    // The last rows that show the usual ground belong to it.
+    let may_be: Vec<[f64; 2]> =
+        grounds.iter().flat_map(|g| [g.interval, [g.reach[0] + run.period(), g.reach[1] - run.period()]]).collect();
+    keeping(run, |t| !is_within(t, &may_be))
+}
+
+fn is_within(t: f64, stretches: &[[f64; 2]]) -> bool {
+    stretches.iter().any(|[from, until]| *from <= t && t <= *until)
+}
+
 #[cfg(test)]
 mod tests {
-    use verdict::{Diagnosis, Quantity, Verdict};
+    use verdict::{Diagnosis, Quantity, Ratio, Verdict};
 
     use crate::testing::{Leg, diagnosis, rounds};
 
@@ -277,12 +285,17 @@ mod tests {
     fn ground_that_covers_most_of_a_drive_is_named_by_its_own_rows_at_any_speed() {
         // One recording meets soft ground slowly, the other fast: together they would look like friction that grows with speed.
         let faster = |leg: Leg| Leg { speed: leg.speed.map(|v| 2.5 * v), ..leg };
-        let soft_from = |legs: Vec<Leg>| [on(1.0, 1.0, 1), legs].concat();
-        let slow = soft_from(on(1.9, 1.0, 2));
-        let fast = soft_from(on(1.9, 1.0, 2).into_iter().map(faster).collect());
+        // It covers most of all driving, and little of one recording.
+        let slow = [on(1.0, 1.0, 1), on(1.9, 1.0, 4)].concat();
+        let fast = [on(1.0, 1.0, 2), on(1.9, 1.0, 1).into_iter().map(faster).collect()].concat();
         let d = diagnosis(&[&slow, &fast]);
         let loads = d.steady.as_ref().expect("loads");
         assert!(loads.on_grounds, "{:?}", d.sentences);
+        for recording in ["0", "1"] {
+            let straight = |r: &&Ratio| r.recording == recording && r.quantity == Quantity::StraightLoad;
+            let ratio = loads.ratios.iter().find(straight).expect("a straight load").ratio;
+            assert!(ratio > 1.7, "{recording}: {ratio}");
+        }
         assert_eq!(d.verdict, Verdict::Explained);
         assert!(d.sentences[1].contains("another ground, in recording"), "{:?}", d.sentences);
         let named = &d.indistinguishable[0];

@@ -173,7 +173,7 @@ pub fn diagnose_steady(
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
-    let measured = grounds::leave_out(&mut marked.recordings, &loads.grounds, &refs);
+    let measured = grounds::leave_out(&mut marked.recordings, &loads, &refs);
     loads.on_grounds = measured == Measured::Grounds;
     let left_out = measured != Measured::Everything;
     let (of_recordings, not_given) = if left_out { all_loads(&marked.recordings) } else { (of_recordings, not_given) };

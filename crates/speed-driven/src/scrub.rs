@@ -195,9 +195,9 @@ mod tests {
 
     #[test]
     fn usual_ground_is_no_other_one_beside_ground_that_is_little_dearer() {
-        // Most turns cost a fifth more than the references': the middle of the drive lies nearer to them.
-        let legs = [rounds(2, 19.0), rounds(8, 25.5), rounds(2, 33.0)].concat();
+        // Most turns cost a fifth more than the references', and what is like these is so, too.
+        let legs = [rounds(3, 18.5), rounds(8, 25.5)].concat();
         let found = turning_changes(&drive(&legs, false), Some(25.5), EQUAL);
-        assert!(found.iter().all(|c| c.ratio > 1.0), "{found:?}");
+        assert_eq!(found, []);
     }
 }

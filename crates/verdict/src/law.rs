@@ -48,7 +48,8 @@ pub fn sentence_case(text: &str) -> String {
 }
 
 impl UnnamedCause {
-    /// Whether what is told was held against no references: it may be what the simulation lacks in every drive.
+    /// Whether no reference recordings were given: then the simulation may lack this in every drive of the robot, not in these
+    /// recordings alone.
     pub fn is_without_references(&self) -> bool {
         let of_events = self.events.as_ref().map(|e| e.in_references);
         let of_law = self.law.as_ref().map(|l| l.in_references);
