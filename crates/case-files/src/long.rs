@@ -227,3 +227,32 @@ fn length(recording: &Recording) -> f64 {
     let spans = (0..recording.clocks().len()).filter_map(|clock| recording.span_ns(clock));
     spans.map(|(from, until)| (until - from) as f64 * 1e-9).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table of eleven minutes at 10 rows a second.
+    fn table(folder: &std::path::Path) -> PathBuf {
+        let row = |time: f64| format!("{time:.1},{:.4},{:.4}", time.sin(), (0.3 * time).cos());
+        let mut lines = vec!["time_s,wheel_speed_left_rad_s,torque_left_Nm".to_owned()];
+        lines.extend((0..6601).map(|k| row(0.1 * f64::from(k))));
+        let path = folder.join("long.csv");
+        std::fs::write(&path, lines.join("\n")).expect("written");
+        path
+    }
+
+    #[test]
+    fn all_is_used_where_that_is_wished_and_ten_minutes_of_a_torque_driven_robot_otherwise() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let paths = [table(folder.path())];
+        let mapping = Mapping::built_in("skid-steer-columns").expect("built in");
+        let coverage = |budget: Budget, causality| {
+            budget.load(&mapping, &paths, &ReadOptions::default(), (causality, &[])).expect("it can be read").1
+        };
+        assert_eq!(coverage(Budget::of_minutes(0.0), Causality::TorqueDriven), None);
+        assert_eq!(coverage(Budget::default(), Causality::SpeedDriven), None);
+        let cut = coverage(Budget::default(), Causality::TorqueDriven).expect("it is longer than ten minutes");
+        assert!(cut.left_out > 0 && cut.diagnosed <= 600.0 && cut.screened > 650.0, "{cut:?}");
+    }
+}

@@ -10,7 +10,7 @@ use torque_driven::output_error::{CHANNELS, Constant, OutputError, Recorded};
 
 #[path = "../../../benches/shared/clock.rs"]
 mod clock;
-#[path = "shared/robot.rs"]
+#[path = "../../../benches/shared/robot.rs"]
 mod robot;
 
 const SIGMA: [f64; CHANNELS] = [0.005, 0.005, 0.005, 0.01, 0.05, 0.05];

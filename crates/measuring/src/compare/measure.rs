@@ -193,7 +193,7 @@ mod tests {
             use std::os::unix::fs::PermissionsExt;
             std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755)).expect("may be run");
         }
-        let ours = Some(program(Of::Example { package: "sim", name: "kernels" }));
+        let ours = Some(program(Of::Example { package: "measuring", name: "kernels" }));
         let row = Row { ours, theirs: Some(program(Of::Anchor("plant"))), ..ROW };
         let outcome = bench(folder.path()).measure(&row, 5);
         assert_eq!(outcome.ours, Side::Failed("no example target".into()));

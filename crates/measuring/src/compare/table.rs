@@ -66,7 +66,7 @@ const fn example(package: &'static str, name: &'static str, args: &'static [&'st
 }
 
 const fn kernel(args: &'static [&'static str]) -> Program {
-    example("sim", "kernels", args)
+    example("measuring", "kernels", args)
 }
 
 const fn anchor(name: &'static str, args: &'static [&'static str]) -> Program {
@@ -144,13 +144,13 @@ pub(super) const ROWS: &[Row] = &[
     row(KERNELS, "controller-scalar", "tracking law, one robot").ours(kernel(&["controller", "scalar"])),
     row(KERNELS, "controller-lanes", "tracking law, robots in lanes").ours(kernel(&["controller", "lanes"])),
     row(KERNELS, "catalogue-scalar", "step of the catalogue's plant, one robot; the C plant of the paper, scalar")
-        .ours(example("torque-driven", "plant", &["scalar"]))
+        .ours(example("measuring", "plant", &["scalar"]))
         .theirs(anchor("plant", &["scalar"])),
     row(KERNELS, "catalogue-lanes", "step of the catalogue's plant, robots in lanes; the C plant of the paper, AVX2")
-        .ours(example("torque-driven", "plant", &["lanes"]))
+        .ours(example("measuring", "plant", &["lanes"]))
         .theirs(anchor("plant", &["batch"])),
     row(KERNELS, "catalogue-mujoco", "step of the catalogue's plant, one robot; MuJoCo's step of a lean model")
-        .ours(example("torque-driven", "plant", &["scalar"]))
+        .ours(example("measuring", "plant", &["scalar"]))
         .theirs(script("mujoco_steps.py", &["lean", "1"])),
     row(EXPERIMENT, "seedloop-1", "32 000 steps, plant once per ms; C")
         .ours(kernel(&["seedloop", "1"]))

@@ -20,10 +20,9 @@ pub(super) fn is_there() -> bool {
 }
 
 /// Instructions of a whole run, and what the program printed.
-fn count(program: &Path, args: &[&str], folder: &Path) -> Result<(f64, String)> {
-    let file = folder.join("callgrind.out");
+fn count(program: &Path, args: &[&str], file: &Path) -> Result<(f64, String)> {
     let mut option = std::ffi::OsString::from("--callgrind-out-file=");
-    option.push(&file);
+    option.push(file);
     let told = Command::new("valgrind")
         .args(["--tool=callgrind", "--quiet"])
         .arg(option)
@@ -42,7 +41,7 @@ fn count(program: &Path, args: &[&str], folder: &Path) -> Result<(f64, String)> 
         told.status,
         said.lines().last().unwrap_or("it said nothing")
     );
-    let text = std::fs::read_to_string(&file).with_context(|| format!("cannot read '{}'", file.display()))?;
+    let text = std::fs::read_to_string(file).with_context(|| format!("cannot read '{}'", file.display()))?;
     let total = total(&text).with_context(|| format!("callgrind counted nothing in '{}'", file.display()))?;
     Ok((total, String::from_utf8_lossy(&told.stdout).into_owned()))
 }
@@ -56,10 +55,11 @@ fn total(text: &str) -> Option<f64> {
 /// Instructions of one step: the difference of two lengths, so that start-up does not count.
 pub(super) fn per_step(kernel: &Kernel, program: &Path, folder: &Path) -> Result<f64> {
     let [short, long] = kernel.lengths;
+    let file = folder.join(format!("{}.callgrind", kernel.name));
     let run = |length: u32| {
         let length = length.to_string();
         let args: Vec<&str> = kernel.args.iter().copied().chain([kernel.option, length.as_str()]).collect();
-        count(program, &args, folder).map(|(total, _)| total)
+        count(program, &args, &file).map(|(total, _)| total)
     };
     let steps = f64::from(long - short) * f64::from(kernel.steps);
     let more = (run(long)? - run(short)?) / steps;
@@ -74,7 +74,7 @@ pub(super) fn per_step(kernel: &Kernel, program: &Path, folder: &Path) -> Result
 
 /// The vector unit that `pulp` takes in valgrind, as the weak form's example prints it.
 pub(super) fn vector_unit(weak_form: &Path, folder: &Path) -> Result<String> {
-    let (_, printed) = count(weak_form, &["--rows", "100", "--rounds", "1"], folder)?;
+    let (_, printed) = count(weak_form, &["--rows", "100", "--rounds", "1"], &folder.join("vector-unit.callgrind"))?;
     examples::vector_unit(&printed)
         .with_context(|| format!("the example of weak-form named no vector unit: '{}'", printed.trim()))
 }

@@ -15,12 +15,12 @@ pub(super) struct Kernel {
 }
 
 const fn kernel(name: &'static str, args: &'static [&'static str]) -> Kernel {
-    let lengths = [10_000, 30_000];
-    Kernel { name, package: "sim", example: "kernels", args, option: "--steps", lengths, steps: 1 }
+    let lengths = [1_000, 5_000];
+    Kernel { name, package: "measuring", example: "kernels", args, option: "--steps", lengths, steps: 1 }
 }
 
 const fn catalogue(name: &'static str, args: &'static [&'static str]) -> Kernel {
-    Kernel { package: "torque-driven", example: "plant", ..kernel(name, args) }
+    Kernel { example: "plant", ..kernel(name, args) }
 }
 
 /// Rows of the weak form in one round.

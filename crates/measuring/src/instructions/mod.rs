@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args as ClapArgs;
+use rayon::prelude::*;
 
 use crate::{compare, examples, output};
 
@@ -67,12 +68,19 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     }
     println!("{}; in valgrind pulp takes {}", here.compiler, here.vector_unit);
     let mut programs: BTreeMap<&str, Result<PathBuf, String>> = BTreeMap::new();
+    for kernel in KERNELS {
+        programs.entry(kernel.example).or_insert_with(|| examples::built(kernel.package, kernel.example));
+    }
+
+    // Other programs beside it change no program's instructions.
+    let count = |kernel: &Kernel| {
+        let program = programs[kernel.example].clone()?;
+        callgrind::per_step(kernel, &program, &folder).map_err(|e| format!("{e:#}"))
+    };
+    let counts: Vec<Result<f64, String>> = KERNELS.par_iter().map(count).collect();
     let mut counted: BTreeMap<String, f64> = BTreeMap::new();
     let mut passes = true;
-    for kernel in KERNELS {
-        let program =
-            programs.entry(kernel.example).or_insert_with(|| examples::built(kernel.package, kernel.example)).clone();
-        let count = program.and_then(|p| callgrind::per_step(kernel, &p, &folder).map_err(|e| format!("{e:#}")));
+    for (kernel, count) in KERNELS.iter().zip(counts) {
         passes &= told(kernel, &record, &count, args.write);
         counted.extend(count.ok().map(|count| (kernel.name.to_owned(), (10.0 * count).round() / 10.0)));
     }

@@ -1,4 +1,4 @@
-//! How long a step of the catalogue's plant takes: `cargo run --release -p diagnosis --example plant -- lanes`.
+//! How long a step of the catalogue's plant takes: `cargo run --release -p measuring --example plant -- lanes`.
 //!
 //! `scalar` is one robot, `lanes` sixteen side by side, each with a mass of its own; no effects. Prints time per robot and step;
 //! `--steps N --rounds 1` is for counting instructions.
@@ -11,7 +11,7 @@ use sim::rollout::{Commanded, Rollout};
 
 #[path = "../../../benches/shared/clock.rs"]
 mod clock;
-#[path = "shared/robot.rs"]
+#[path = "../../../benches/shared/robot.rs"]
 mod robot;
 
 const WIDTH: usize = 16;

@@ -1,6 +1,6 @@
 //! One figure per hot kernel: CPU time of the thread, median of several loops in one run.
 //!
-//! `cargo run --release -p sim --example kernels -- plant scalar` prints `plant.scalar 158.2 ns/step`.
+//! `cargo run --release -p measuring --example kernels -- plant scalar` prints `plant.scalar 158.2 ns/step`.
 //!
 //! | kernel | one step of it |
 //! |---|---|
