@@ -2,7 +2,8 @@
 //!
 //! A window far off is an outlier, or a wheel lost a share of its counts in it. An outlier costs at most what the fit lets it
 //! cost, `c²/2` with c the sigmas of an outlier; a share of one wheel takes `z²` of the window's misfit away and costs the width
-//! that it might have had, `ln(|column| / (σ √2π))`. All wheels and none compete for the same windows.
+//! that it might have had, `ln(|column| / (σ √2π))`. All wheels and none compete for the same windows, and so does an instant that
+//! is off: counts that come late in one drive are missing where it stops, and nowhere in steady motion.
 
 use crate::constants::Quantity;
 use crate::fit::{Fit, columns};
@@ -108,9 +109,63 @@ fn size(errors: &[f64; 3], scale: f64) -> f64 {
     errors.iter().map(|e| (e / scale).powi(2)).sum()
 }
 
+/// How much of a column an error is, and what that takes away of its square in sigmas.
+fn projected(column: [f64; 3], error: [f64; 3], scale: f64) -> (f64, f64) {
+    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let times = dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
+    (times, times * dot(column, error) / (scale * scale))
+}
+
+/// Evidence over an outlier of what leaves `left` of a window's squared error, less the width that its size might have had, nats.
+fn gain(column: [f64; 3], size: f64, left: f64, scale: f64) -> f64 {
+    let length = column.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let width = (length / (scale * std::f64::consts::TAU.sqrt())).max(1.0);
+    let outlier = SETTINGS.windows.outlier.powi(2);
+    0.5 * (size.min(outlier) - left.min(outlier)) - width.ln()
+}
+
+/// Evidence over an outlier that a window's counts are late or early, zero where it is none, nats.
+fn shifted(column: [f64; 3], error: [f64; 3], scale: f64) -> f64 {
+    let (by, taken) = projected(column, error, scale);
+    if by.abs() > RULES.late {
+        return 0.0;
+    }
+    let size = size(&error, scale);
+    gain(column, size, size - taken, scale).max(0.0)
+}
+
+/// A window in which a wheel lost counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Loss {
+    /// Share of the counts that was lost.
+    share: f64,
+    /// What it takes away of the window's squared error in sigmas.
+    taken: f64,
+    /// Evidence over an outlier and over counts that are late or early, nats.
+    nats: f64,
+}
+
+/// What a wheel lost of its counts in a window, `most` of them at most; `column` is the errors' change with the logarithm of the
+/// wheel's radius, `late` that with the clock's offset.
+fn loss(column: [f64; 3], late: [f64; 3], error: [f64; 3], scale: f64, most: f64) -> Option<Loss> {
+    // Missing counts shorten what the wheels imply, and the column with it: the error is that times minus what is lost over what
+    // is kept.
+    let (times, taken) = projected(column, error, scale);
+    let over_kept = -times;
+    let share = over_kept / (1.0 + over_kept);
+    if over_kept <= 0.0 || share <= RULES.lost || share > most {
+        return None;
+    }
+
+    let size = size(&error, scale);
+    let left = (size - taken) / (1.0 + RULES.linear.powi(2) * taken);
+    Some(Loss { share, taken, nats: gain(column, size, left, scale) - shifted(late, error, scale) })
+}
+
 /// Finds windows far off that one wheel's missing counts account for, of which it lost the share `most` at most.
 pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64, most: f64) -> Vec<Lost> {
     let errors = data.errors(theta);
+    let offset = data.constants.iter().position(|c| matches!(c.quantity, Quantity::ClockOffset));
     let wheels: Vec<(usize, usize)> = data
         .constants
         .iter()
@@ -127,24 +182,16 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64, most: f64) -> Vec
         }
         let columns = columns(data, theta, drive);
         let total: f64 = far.iter().map(|&w| size(&errors[drive][w])).sum();
+        let late = |w: usize| offset.map_or([0.0; 3], |k| columns[k][w]);
         let of_wheel = |&(k, wheel): &(usize, usize)| {
             let (mut explained, mut nats) = (0.0, 0.0);
             let mut spans = Vec::new();
             for &w in &far {
-                let (column, error) = (columns[k][w], errors[drive][w]);
-                let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-                // Missing counts shorten what the wheels imply, and the column with it: the error is that times minus what is
-                // lost over what is kept.
-                let over_kept = -dot(column, error) / dot(column, column).max(f64::MIN_POSITIVE);
-                let share = over_kept / (1.0 + over_kept);
-                if over_kept > 0.0 && share > RULES.lost && share <= most {
-                    let taken = (dot(column, error).powi(2) / dot(column, column)) / (scale * scale);
-                    explained += taken;
-                    let left = (size(&error) - taken) / (1.0 + RULES.linear.powi(2) * taken);
-                    let width = (dot(column, column).sqrt() / (scale * std::f64::consts::TAU.sqrt())).max(1.0);
-                    let outlier = SETTINGS.windows.outlier.powi(2);
-                    nats += 0.5 * (size(&error).min(outlier) - left.min(outlier)) - width.ln();
-                    spans.push((data.span(drive, w), share));
+                let Some(loss) = loss(columns[k][w], late(w), errors[drive][w], scale, most) else { continue };
+                explained += loss.taken;
+                nats += loss.nats;
+                if loss.nats > 0.0 {
+                    spans.push((data.span(drive, w), loss.share));
                 }
             }
             (explained, nats, Lost { wheel, drive, spans, evidence: Vec::new() })
@@ -180,6 +227,23 @@ mod tests {
 
     fn found(evidence: &[(usize, f64)]) -> Lost {
         Lost { wheel: 0, drive: 0, spans: Vec::new(), evidence: evidence.to_vec() }
+    }
+
+    #[test]
+    fn counts_that_come_late_are_not_lost() {
+        let (scale, most) = (0.01, 0.5);
+        // A third of the counts of a straight window is missing.
+        let (wheel, error) = ([0.4, 0.0, 0.0], [-0.2, 0.0, 0.0]);
+        let lost = loss(wheel, [0.0; 3], error, scale, most).expect("a loss");
+        approx::assert_relative_eq!(lost.share, 1.0 / 3.0, epsilon = 1e-9);
+        assert!(lost.nats > 20.0, "{lost:?}");
+        // The body goes on while the wheel has stopped: half a second of delay does the same.
+        let late = loss(wheel, [-0.4, 0.0, 0.0], error, scale, most).expect("a loss");
+        assert!(late.nats <= 0.0, "{late:?}");
+        // Two seconds are no delay, and a delay that turns the body does nothing here.
+        for other in [[-0.1, 0.0, 0.0], [0.0, 0.0, 0.4]] {
+            assert_eq!(loss(wheel, other, error, scale, most), Some(lost), "{other:?}");
+        }
     }
 
     #[test]

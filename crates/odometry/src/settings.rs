@@ -228,6 +228,8 @@
         linear: f64 = 0.15, "1", "guess; a body that turns by 0.3 rad in a window";
         /// Share of the counts that can be lost at most in a window of the fit: beyond, its motion is another one.
         linear_most: f64 = 0.52, "1", "a look at a real tricycle, whose outliers would be lost counts otherwise";
+        /// By how much counts of a window may be late or early at most.
+        late: f64 = 1.0, "s", "guess; what clocks are apart beyond what is known of them before";
         /// Length of windows in which counts are looked for that were lost often.
         length: f64 = 0.5, "s", "guess; a share of the counts lost for a second is one in some of them";
         /// Scale of the errors over the usual one, from which counts may have been lost often.
