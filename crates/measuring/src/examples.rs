@@ -12,10 +12,8 @@ pub(crate) fn built(package: &str, name: &str) -> Result<PathBuf, String> {
         .and_then(Path::parent)
         .ok_or("this program lies in no target folder of cargo; run it as `cargo xtask`")?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    // Beside a program that has been built from the same libraries: with its features these need not be built once more.
-    let beside = if package == "measuring" { "measuring" } else { "lacuna" };
     let told = Command::new(cargo)
-        .args(["build", "--release", "--quiet", "-p", beside, "-p", package, "--example", name, "--target-dir"])
+        .args(["build", "--release", "--quiet", "-p", package, "--example", name, "--target-dir"])
         .arg(target)
         .stdin(Stdio::null())
         .output()

@@ -224,6 +224,9 @@ pub(crate) fn alike(lost: &[Lost], wheel: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::constants::constants;
+    use crate::drive::Drive;
+    use crate::wheel::WheeledRobot;
 
     fn found(evidence: &[(usize, f64)]) -> Lost {
         Lost { wheel: 0, drive: 0, spans: Vec::new(), evidence: evidence.to_vec() }
@@ -255,5 +258,48 @@ mod tests {
         approx::assert_relative_eq!(same[0].1, 0.0, epsilon = 1e-6);
         assert_eq!(alike(&[found(&[(0, 30.0), (1, 30.0)])], 0), [1]);
         assert!(alike(&lost, 0).is_empty());
+    }
+
+    /// Where a body is that speeds up to 0.4 m/s in 16 s, goes on for 6 s, stops at once and stands for 10 s, again and again.
+    fn way(time: f64) -> f64 {
+        let t = time.rem_euclid(32.0);
+        let ramp = t.min(16.0);
+        5.6 * (time / 32.0).floor() + 0.0125 * ramp * ramp + 0.4 * (t.clamp(16.0, 22.0) - 16.0)
+    }
+
+    /// A drive straight on, whose wheel has turned by `wheel` until an instant.
+    fn straight(robot: &WheeledRobot, wheel: impl Fn(f64) -> f64) -> Drive {
+        let time: Vec<f64> = (0..2560).map(|k| 0.05 * f64::from(k)).collect();
+        Drive {
+            name: "straight".into(),
+            session: "one".into(),
+            turns: time.iter().map(|t| vec![(wheel(*t) - wheel(t - 0.05)) / robot.wheels[0].radius]).collect(),
+            steering: Some(vec![0.0; time.len()]),
+            pose: time.iter().map(|t| [way(*t), 0.0, 0.0]).collect(),
+            told: Vec::new(),
+            time,
+        }
+    }
+
+    #[test]
+    fn a_wheel_that_stops_before_the_body_lost_nothing_and_one_that_misses_counts_in_steady_motion_did() {
+        let robot = WheeledRobot::tricycle(0.0325, 0.15);
+        let constants = constants(&robot);
+        let theta = vec![0.0; constants.len()];
+        let found = |wheel: &dyn Fn(f64) -> f64| {
+            let drive = straight(&robot, wheel);
+            let data = Data::new(&robot, &constants, vec![&drive]).expect("windows");
+            lost(&data, &theta, 0.01, RULES.linear_most)
+        };
+
+        let early = found(&|time| way(time + 0.5));
+        assert!(early.is_empty(), "{early:?}");
+
+        let missing = |time: f64| 4.0 * (time / 32.0).floor() + (time.rem_euclid(32.0) - 16.0).clamp(0.0, 4.0);
+        let lost = found(&|time| way(time) - 0.4 / 3.0 * missing(time));
+        assert_eq!(lost.len(), 1, "{lost:?}");
+        let spans = &lost[0].spans;
+        assert_eq!(spans.len(), 4, "{spans:?}");
+        assert!(spans.iter().all(|(_, share)| (share - 1.0 / 3.0).abs() < 0.02), "{spans:?}");
     }
 }

@@ -61,8 +61,11 @@ fn a_long_recording_is_screened_whole_and_diagnosed_on_its_budget() {
 }
 
 #[test]
-fn a_budget_below_three_minutes_is_refused() {
-    let refused = bench().run(&["diagnose", "case", "--budget", "1"]);
+fn a_budget_is_three_minutes_or_more_or_everything() {
+    let bench = bench();
+    let all = bench.run(&["screen", "case", "--budget", "0"]);
+    assert_eq!(all.code(), Some(0), "{}", all.err());
+    let refused = bench.run(&["diagnose", "case", "--budget", "1"]);
     assert_eq!(refused.code(), Some(2));
     assert!(refused.err().contains("give 3 minutes or more, or 0 for everything"), "{}", refused.err());
 }
