@@ -1,6 +1,6 @@
 //! SDF: links and joints by their poses in the model, or in frames that are named.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 use roxmltree::Node;
@@ -42,39 +42,48 @@ struct Frames<'s, 'a, 'i> {
 }
 
 impl<'a, 'i> Frames<'_, 'a, 'i> {
-    /// The place of a frame in the model; `asked` are those that wait for it.
-    fn of(&mut self, at: Node<'a, 'i>, name: &'a str, asked: &mut Vec<&'a str>) -> Result<Place, ImportError> {
-        if name.is_empty() || name == "__model__" {
-            return Ok(Place::identity());
-        }
-        if let Some(place) = self.found.get(name) {
-            return Ok(*place);
-        }
-        let Some(&(node, usual)) = self.nodes.get(name) else {
-            return Err(self.source.wrong(at, format!("there is no link, joint or frame '{name}'; correct the name")));
+    /// The place of a frame in the model: up to one that is known, then down again. No call in a call, which a long chain
+    /// could drive beyond the stack.
+    fn of(&mut self, at: Node<'a, 'i>, name: &'a str) -> Result<Place, ImportError> {
+        let mut chain: Vec<(&'a str, Node<'a, 'i>)> = Vec::new();
+        let mut asked: HashSet<&'a str> = HashSet::new();
+        let (mut name, mut at) = (name, at);
+        let mut place = loop {
+            if name.is_empty() || name == "__model__" {
+                break Place::identity();
+            }
+            if let Some(place) = self.found.get(name) {
+                break *place;
+            }
+            let Some(&(node, usual)) = self.nodes.get(name) else {
+                return Err(self
+                    .source
+                    .wrong(at, format!("there is no link, joint or frame '{name}'; correct the name")));
+            };
+            if !asked.insert(name) {
+                return Err(self
+                    .source
+                    .wrong(node, format!("the pose of '{name}' is told relative to itself; break the ring")));
+            }
+            chain.push((name, node));
+            (name, at) = (base_of(node, usual), node);
         };
-        if asked.contains(&name) {
-            return Err(self
-                .source
-                .wrong(node, format!("the pose of '{name}' is told relative to itself; break the ring")));
+        for (name, node) in chain.into_iter().rev() {
+            place *= pose_of(self.source, child(node, "pose"))?;
+            self.found.insert(name, place);
         }
-        asked.push(name);
-        let place = self.pose(node, usual, asked)?;
-        self.found.insert(name, place);
         Ok(place)
     }
 
     /// The place of an element by its pose, seen from `usual` where it does not say from what.
-    fn pose(
-        &mut self,
-        node: Node<'a, 'i>,
-        usual: Option<&'a str>,
-        asked: &mut Vec<&'a str>,
-    ) -> Result<Place, ImportError> {
-        let pose = child(node, "pose");
-        let base = pose.and_then(|p| p.attribute("relative_to")).or(usual).unwrap_or_default();
-        Ok(self.of(node, base, asked)? * pose_of(self.source, pose)?)
+    fn pose(&mut self, node: Node<'a, 'i>, usual: Option<&'a str>) -> Result<Place, ImportError> {
+        Ok(self.of(node, base_of(node, usual))? * pose_of(self.source, child(node, "pose"))?)
     }
+}
+
+/// The frame from which an element's pose is seen.
+fn base_of<'a>(node: Node<'a, '_>, usual: Option<&'a str>) -> &'a str {
+    child(node, "pose").and_then(|p| p.attribute("relative_to")).or(usual).unwrap_or_default()
 }
 
 /// `<pose>`: position and angles, or a quaternion.
@@ -104,12 +113,12 @@ fn robot(source: &Source<'_>, model: Node<'_, '_>) -> Result<Model, ImportError>
     let mut links = Vec::new();
     for node in children(model, "link") {
         let name = source.needed(node, "name")?;
-        let at = frames.of(node, name, &mut Vec::new())?;
+        let at = frames.of(node, name)?;
         links.push(link(source, node, name, at)?);
     }
     let mut joints: Vec<Joint> = Vec::new();
     for node in children(model, "joint") {
-        let at = frames.pose(node, child(node, "child").map(text), &mut Vec::new())?;
+        let at = frames.pose(node, child(node, "child").map(text))?;
         let end = |which: &str| {
             let node =
                 child(node, which).ok_or_else(|| source.wrong(node, format!("<joint> has no <{which}>; add it")))?;
@@ -130,7 +139,7 @@ fn robot(source: &Source<'_>, model: Node<'_, '_>) -> Result<Model, ImportError>
         let mut read = joint(source, node, parent, below)?;
         let expressed = child(node, "axis").and_then(|a| child(a, "xyz")).and_then(|x| x.attribute("expressed_in"));
         let seen = match expressed {
-            Some(frame) => frames.of(node, frame, &mut Vec::new())?,
+            Some(frame) => frames.of(node, frame)?,
             None => at,
         };
         read.axis = seen.rotation * read.axis;

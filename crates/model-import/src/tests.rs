@@ -299,6 +299,13 @@ fn what_is_nested_without_end_is_refused_and_no_text_makes_it_panic() {
     };
     assert!(refused(&nested(2000), &Asked::default()).contains("nested more than 1000 deep"));
     assert!(refused(&nested(900), &Asked::default()).contains("no wheel was found"));
+    let classes =
+        format!("<mujoco>{}{}<worldbody/></mujoco>", "<default class=\"c\">".repeat(900), "</default>".repeat(900));
+    assert!(refused(&classes, &Asked::default()).contains("no <body> with joints"));
+    let link = |k: usize| format!("<link name=\"l{k}\"><pose relative_to=\"l{}\">1 0 0 0 0 0</pose></link>", k + 1);
+    let chain: String = (0..20_000).map(link).collect();
+    let chain = format!("<sdf><model name=\"m\">{chain}<link name=\"l20000\"/></model></sdf>");
+    assert!(refused(&chain, &Asked::default()).contains("no wheel was found"));
     let ring = "<sdf><model name=\"m\"><link name=\"a\"><pose relative_to=\"b\">0 0 0 0 0 0</pose></link><link name=\"b\"><pose \
                 relative_to=\"a\">0 0 0 0 0 0</pose></link></model></sdf>";
     assert!(refused(ring, &Asked::default()).contains("is told relative to itself"));

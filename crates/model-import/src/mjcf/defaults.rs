@@ -20,26 +20,24 @@ pub(super) struct Defaults<'a> {
 const MAIN: &str = "main";
 
 impl<'a> Defaults<'a> {
-    /// Of the whole model.
+    /// Of the whole model: a class begins with what the one around it has.
     pub(super) fn new(root: Node<'a, '_>) -> Self {
         let mut out = Self::default();
-        for node in children(root, "default") {
-            out.read(node, node.attribute("class").unwrap_or(MAIN), HashMap::new());
+        let outer =
+            children(root, "default").map(|node| (node, node.attribute("class").unwrap_or(MAIN), HashMap::new()));
+        // Taken from the end, so in the order of the file: what comes later under the same name replaces it.
+        let mut waiting: Vec<(Node<'a, '_>, &'a str, HashMap<&'a str, Attributes<'a>>)> = outer.collect();
+        waiting.reverse();
+        while let Some((node, class, mut all)) = waiting.pop() {
+            for kind in node.children().filter(|n| n.is_element() && !n.has_tag_name("default")) {
+                let of = all.entry(kind.tag_name().name()).or_default();
+                of.extend(kind.attributes().map(|a| (a.name(), a.value())));
+            }
+            let inside = children(node, "default").filter_map(|n| Some((n, n.attribute("class")?)));
+            waiting.extend(inside.map(|(node, class)| (node, class, all.clone())));
+            out.classes.insert(class, all);
         }
         out
-    }
-
-    fn read(&mut self, node: Node<'a, '_>, class: &'a str, mut all: HashMap<&'a str, Attributes<'a>>) {
-        for kind in node.children().filter(|n| n.is_element() && !n.has_tag_name("default")) {
-            let of = all.entry(kind.tag_name().name()).or_default();
-            of.extend(kind.attributes().map(|a| (a.name(), a.value())));
-        }
-        self.classes.insert(class, all.clone());
-        for below in children(node, "default") {
-            if let Some(class) = below.attribute("class") {
-                self.read(below, class, all.clone());
-            }
-        }
     }
 
     /// An attribute of an element, its own or that of its class.

@@ -41,7 +41,7 @@ pub(crate) fn read(source: &Source<'_>, root: Node<'_, '_>) -> Result<Model, Imp
 
     let from_geoms = compiler("inertiafromgeom");
     let mut reader = Reader { reading, links: Vec::new(), joints: Vec::new(), pairs: pairs(root), from_geoms };
-    reader.body(*robot, None, Place::identity())?;
+    reader.bodies(*robot)?;
     reader.motors(root)?;
     let mut model = Model::new(root.attribute("model").unwrap_or("robot"), "MJCF", reader.links, reader.joints);
     let others = bodies.iter().filter(moves).filter(|b| *b != robot).filter_map(|b| b.attribute("name"));
@@ -63,8 +63,20 @@ struct Reader<'s, 'a, 'i> {
 }
 
 impl<'a, 'i: 'a> Reader<'_, 'a, 'i> {
-    /// A body, and those inside.
-    fn body(&mut self, node: Node<'a, 'i>, parent: Option<usize>, base: Place) -> Result<(), ImportError> {
+    /// The robot's body and all inside, each before those in it and in the order of the file: a list of what is still to be
+    /// read instead of a call in a call, which a deep file could drive beyond the stack.
+    fn bodies(&mut self, robot: Node<'a, 'i>) -> Result<(), ImportError> {
+        let mut waiting = vec![(robot, None, Place::identity())];
+        while let Some((node, parent, base)) = waiting.pop() {
+            let (index, at) = self.body(node, parent, base)?;
+            let inside: Vec<Node<'a, 'i>> = children(node, "body").collect();
+            waiting.extend(inside.into_iter().rev().map(|body| (body, Some(index), at)));
+        }
+        Ok(())
+    }
+
+    /// One body with its joints: the number of its link, and its place in the model.
+    fn body(&mut self, node: Node<'a, 'i>, parent: Option<usize>, base: Place) -> Result<(usize, Place), ImportError> {
         let name = node.attribute("name").map_or_else(|| format!("body {}", self.links.len()), str::to_owned);
         // The root's own place in the world is no part of the robot.
         let at = if parent.is_some() { base * self.reading.place(node)? } else { base };
@@ -92,10 +104,7 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i> {
         let link = self.link(node, &name, at)?;
         let index = self.links.len();
         self.links.push(link);
-        for inside in children(node, "body") {
-            self.body(inside, Some(index), at)?;
-        }
-        Ok(())
+        Ok((index, at))
     }
 
     fn link(&self, node: Node<'a, 'i>, name: &str, at: Place) -> Result<Link, ImportError> {
