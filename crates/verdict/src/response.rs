@@ -139,6 +139,8 @@ impl Scaling {
 
     /// Forward speed and turning with both sides within `limit`.
     #[must_use]
+    // Stands in the innermost loop of other crates, which are optimised more than this one.
+    #[inline]
     pub fn hold(self, [v, d]: [f64; 2], limit: f64) -> [f64; 2] {
         let cut = |x: f64, l: f64| x.clamp(-l, l);
         match self {
