@@ -184,6 +184,41 @@ mod tests {
         assert!((hidden[0][0] - 20.0).abs() < 0.5 && (hidden[0][1] - 31.0).abs() < 0.6, "{hidden:?}");
     }
 
+    /// Both sides hold what the turn before took, and let go with a time constant of 3 s: the right one pulls, the left one brakes.
+    fn let_go(run: &mut SpeedRun, from: f64) {
+        for i in (0..run.time.len()).filter(|&i| run.time[i] >= from) {
+            let held = 25.0 * (-(run.time[i] - from) / 3.0).exp();
+            for (j, sign) in [(0, -1.0), (1, 1.0)] {
+                let shown = (0.5 * STRAIGHT + sign * held).abs();
+                run.torque[j][i] = if shown > run.dead_band { shown } else { 0.0 };
+            }
+        }
+    }
+
+    #[test]
+    fn sides_that_let_go_after_a_turn_are_no_other_ground() {
+        let legs = [Leg::straight(30.0), Leg::turn(10.0), Leg::straight(5.0), Leg::turn(10.0), Leg::straight(20.0)];
+        let mut run = drive(&legs, false);
+        let before = run.torque.clone();
+        let_go(&mut run, 40.0);
+        // Measured speeds that scatter interrupt the stretch.
+        for i in (0..run.time.len()).filter(|&i| (40.0..45.0).contains(&run.time[i])).step_by(9) {
+            run.speed[0][i] += 0.04;
+        }
+        for (own, before) in run.torque.iter_mut().zip(&before) {
+            // The second turn and what follows are as they were.
+            let second = run.time.partition_point(|t| *t < 45.0);
+            own[second..].copy_from_slice(&before[second..]);
+        }
+        assert_eq!(changes(&run, &USUAL, WEIGHT).found, []);
+        // Ground that takes the same sum from both sides alike, and less and less, is other ground.
+        for i in (0..run.time.len()).filter(|&i| (40.0..45.0).contains(&run.time[i])) {
+            let both = 0.5 * (run.torque[0][i] + run.torque[1][i]);
+            run.torque.iter_mut().for_each(|side| side[i] = both);
+        }
+        assert_eq!(changes(&run, &USUAL, WEIGHT).found.len(), 1);
+    }
+
     #[test]
     fn what_begins_in_a_turn_is_bracketed() {
         let all =

@@ -1,9 +1,12 @@
 //! What each row of straight driving says of the straight load.
 
+use crate::pieces::pieces;
 use crate::run::SpeedRun;
-use crate::settings::{MEASURING, measuring::Straight};
+use crate::settings::{MEASURING, measuring::Straight, measuring::Unwinding};
+use inference::robust::mean;
 
 const STRAIGHT: Straight = MEASURING.straight;
+const UNWINDING: Unwinding = MEASURING.unwinding;
 
 /// The straight load at a row: the sum of both sides' torques in the direction of travel, N m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +49,43 @@ pub(crate) fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
         let sum = (0..2).map(|j| if run.reads(i, j) { torque[j].abs() } else { run.dead_band }).sum();
         if run.reads(i, 0) && run.reads(i, 1) { Reading::Exact(sum) } else { Reading::AtMost(sum) }
     };
-    (0..run.time.len()).map(|i| is_straight(run, i, STRAIGHT.hold).then(|| of_row(i))).collect()
+    let mut out: Vec<Option<Reading>> =
+        (0..run.time.len()).map(|i| is_straight(run, i, STRAIGHT.hold).then(|| of_row(i))).collect();
+    if run.magnitude_only {
+        let seen: Vec<usize> = (0..out.len()).filter(|&i| out[i].is_some()).collect();
+        // Measured speeds scatter: rows that are not straight for once do not end a stretch.
+        for stretch in pieces(&run.time, seen.into_iter(), STRAIGHT.hold) {
+            for &i in unwinding(run, &stretch) {
+                out[i] = out[i].map(|r| Reading::AtMost(r.value()));
+            }
+        }
+    }
+    out
+}
+
+/// The first rows of a straight stretch in which one side brakes although both read: a slow speed controller holds after a turn what
+/// it needed in it, and lets go over seconds. Then the load is the difference of the sides, which stays, and not their sum,
+/// which falls. Empty where that does not show.
+fn unwinding<'a>(run: &SpeedRun, stretch: &'a [usize]) -> &'a [usize] {
+    let reads = |i: &&usize| {
+        run.reads(**i, 0) && run.reads(**i, 1) && run.time[**i] - run.time[stretch[0]] <= UNWINDING.longest
+    };
+    let rows = &stretch[..stretch.iter().take_while(reads).count()];
+    let third = rows.len() / 3;
+    if third == 0 {
+        return &[];
+    }
+
+    let side = |j: usize, rows: &[usize]| mean(rows.iter().map(|&i| run.torque[j][i].abs())).unwrap_or(0.0);
+    let [first, all, last] = [&rows[..third], rows, &rows[rows.len() - third..]].map(|r| [0, 1].map(|j| side(j, r)));
+    let larger = usize::from(all[1] > all[0]);
+    let sum = |[left, right]: [f64; 2]| left + right;
+    let difference = |of: [f64; 2]| of[larger] - of[1 - larger];
+    let fall = sum(first) - sum(last);
+    let differs = all[1 - larger] <= UNWINDING.sides * all[larger];
+    let falls = fall >= UNWINDING.fall * difference(all);
+    let stays = (difference(first) - difference(last)).abs() <= UNWINDING.steady * fall;
+    if differs && falls && stays { rows } else { &[] }
 }
 
 /// Both sides in the dead band.

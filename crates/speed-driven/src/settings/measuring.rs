@@ -95,6 +95,18 @@
         hold_of_means: f64 = 1.5, "s", "chosen after a look at the open Husky runs";
     }
 
+    /// A slow speed controller that lets go after a turn, seen by currents without sign.
+    unwinding: Unwinding {
+        /// For how long it may last after the drive became straight.
+        longest: f64 = 12.0, "s", "guess: speed controllers of mobile robots settle within seconds";
+        /// The side that brakes reads at most this share of the other.
+        sides: f64 = 0.8, "1", "guess";
+        /// The sum of both sides falls by this share of their difference at least.
+        fall: f64 = 0.3, "1", "guess";
+        /// Their difference changes by this share of that fall at most.
+        steady: f64 = 0.34, "1", "guess";
+    }
+
     /// What counts as steady turning.
     turns: Turns {
         /// Least difference of the sides.
