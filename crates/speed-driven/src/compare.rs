@@ -19,6 +19,8 @@ pub(crate) struct Reference {
     pub(crate) centre: f64,
     pub(crate) error: f64,
     pub(crate) speed: [f64; 2],
+    /// Share of it in which the right side was the outer one.
+    pub(crate) right_outer: f64,
 }
 
 /// What the interval of a ratio says.
@@ -100,7 +102,7 @@ pub(crate) fn references(loads: &[Load]) -> Vec<Reference> {
     groups
         .into_iter()
         .map(|((quantity, class), list)| {
-            let (mut w, mut sum, mut speed) = (0.0, 0.0, [0.0; 2]);
+            let (mut w, mut sum, mut speed, mut right_outer) = (0.0, 0.0, [0.0; 2], 0.0);
             for l in list {
                 let (centre, error) = scaled(l);
                 let weight = 1.0 / (error.powi(2) + scatter(quantity).powi(2));
@@ -108,8 +110,10 @@ pub(crate) fn references(loads: &[Load]) -> Vec<Reference> {
                 sum += weight * centre;
                 speed[0] += weight * l.speed[0];
                 speed[1] += weight * l.speed[1];
+                right_outer += weight * l.right_outer;
             }
-            Reference { quantity, class, centre: sum / w, error: w.powf(-0.5), speed: speed.map(|s| s / w) }
+            let (centre, error) = (sum / w, w.powf(-0.5));
+            Reference { quantity, class, centre, error, speed: speed.map(|s| s / w), right_outer: right_outer / w }
         })
         .collect()
 }
@@ -211,7 +215,8 @@ mod tests {
     use super::*;
 
     fn load(recording: &str, quantity: Quantity, value: f64, speed: f64) -> Load {
-        Load { recording: recording.to_owned(), quantity, value, error: 0.02 * value, seconds: 12.0, speed: [speed; 2] }
+        let (recording, error) = (recording.to_owned(), 0.02 * value);
+        Load { recording, quantity, value, error, seconds: 12.0, speed: [speed; 2], right_outer: 0.5 }
     }
 
     fn pooled(values: &[f64]) -> (Vec<Ratio>, Vec<Ratio>) {

@@ -26,6 +26,7 @@ struct Clustered {
     error: f64,
     seconds: f64,
     speed: [f64; 2],
+    right_outer: f64,
 }
 
 fn pieces(run: &SpeedRun, rows: &[usize]) -> Vec<Vec<usize>> {
@@ -54,6 +55,11 @@ fn inner_outer(run: &SpeedRun, i: usize) -> [f64; 2] {
     [inner * outer.signum(), outer.abs()]
 }
 
+/// Share of rows in which the right side is the outer one.
+fn right_outer(run: &SpeedRun, rows: &[usize]) -> f64 {
+    rows.iter().filter(|&&i| run.outer(i) == 1).count() as f64 / rows.len().max(1) as f64
+}
+
 fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Option<Clustered> {
     let seconds = rows.len() as f64 * run.period();
     if seconds < STRETCHES.least_seconds {
@@ -68,7 +74,7 @@ fn clustered(run: &SpeedRun, rows: &[usize], value: impl Fn(usize) -> f64) -> Op
     let small = if effective > STRETCHES.least_pieces { (effective / (effective - 1.0)).sqrt() } else { 1.0 };
     let error = (scatter.sqrt() / n * small).max(STRETCHES.piece_scatter * mean.abs() / effective.sqrt());
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / n);
-    Some(Clustered { mean, error, seconds, speed })
+    Some(Clustered { mean, error, seconds, speed, right_outer: right_outer(run, rows) })
 }
 
 /// All loads that a recording permits, and what it does not.
@@ -82,6 +88,7 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
         error,
         seconds: c.seconds,
         speed: c.speed,
+        right_outer: c.right_outer,
     };
     let refuse = |quantity: Quantity, rows: usize, what: &str| Withheld {
         recording: run.name.clone(),
@@ -200,7 +207,8 @@ fn track(run: &SpeedRun, rows: impl Iterator<Item = usize>) -> Result<Load, With
     let offset = MEASURING.track.gyro_offset * one_way.abs() / dw;
     let systematic = b * offset.hypot(MEASURING.track.set_point_error);
     let speed = [0, 1].map(|j| rows.iter().map(|&i| inner_outer(run, i)[j]).sum::<f64>() / rows.len() as f64);
-    Ok(Load { recording: run.name.clone(), quantity, value: b, error: random.hypot(systematic), seconds, speed })
+    let (recording, error, right_outer) = (run.name.clone(), random.hypot(systematic), right_outer(run, &rows));
+    Ok(Load { recording, quantity, value: b, error, seconds, speed, right_outer })
 }
 
 #[cfg(test)]

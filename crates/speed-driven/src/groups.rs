@@ -39,6 +39,18 @@ pub(crate) fn disagreements(loads: &Loads) -> Vec<Disagreement<'_>> {
     quantities.into_iter().filter_map(of).collect()
 }
 
+/// Whether recordings that show no one value of a load agree once an answer is taken off each: a drag on one side shows in
+/// turns to one side the other way round.
+pub(crate) fn explains(named: &Named, comparison: &Comparison, loads: &Loads) -> bool {
+    let rest = |r: &Ratio| {
+        let expected = comparison.expected(named, &r.recording, r.quantity, r.ratio.ln())?;
+        Some(Ratio { interval: r.interval.map(|end| end / expected.exp()), ..r.clone() })
+    };
+    let agree =
+        |d: &Disagreement<'_>| rest(d.least).zip(rest(d.most)).is_some_and(|(least, most)| overlap(&least, &most));
+    disagreements(loads).iter().all(agree)
+}
+
 fn overlap(a: &Ratio, b: &Ratio) -> bool {
     a.interval[0] <= b.interval[1] && b.interval[0] <= a.interval[1]
 }

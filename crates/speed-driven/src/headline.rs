@@ -62,6 +62,13 @@ fn disagreeing(loads: &Loads, theirs: &str, together: Vec<String>) -> Vec<String
     if found.is_empty() {
         return together;
     }
+    if loads.agree_by_cause {
+        let seen = format!(
+            "The recordings show no one value, and the cause that is named first makes that difference: {}.",
+            found.join("; ")
+        );
+        return together.into_iter().chain([seen]).collect();
+    }
     let first = format!(
         "The recordings disagree: {}, more than it varies from run to run. No one cause need be behind all of them; those that \
          agree, each by itself:",

@@ -195,6 +195,12 @@ pub fn diagnose_steady(
     let naming = comparison.as_ref().and_then(|c| name(c, open));
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.groups = groups::groups(&loads, &differences, &usual, open);
+    let best = naming.as_ref().and_then(|n| n.effects.first()).zip(comparison.as_ref());
+    let is_one_cause = best.is_some_and(|(best, comparison)| groups::explains(best, comparison, &loads));
+    if !loads.groups.is_empty() && is_one_cause {
+        loads.groups.clear();
+        loads.agree_by_cause = true;
+    }
 
     progress("forecasting recordings that were not used");
     let fits = Fits {
@@ -255,7 +261,7 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
     references(loads)
         .into_iter()
         .map(|r| {
-            let at = Operating { quantity: r.quantity, speed: r.speed };
+            let at = Operating { quantity: r.quantity, speed: r.speed, right_outer: r.right_outer };
             let centre = predicted(robot, &[], at);
             let by_constants = sensitivity(robot, &case.sigma, &[0.0; NUISANCES], &[at]);
             let [radius, track] = case.geometry_sigma;
@@ -303,6 +309,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         grounds: Vec::new(),
         on_grounds: false,
         groups: Vec::new(),
+        agree_by_cause: false,
         turning: Vec::new(),
         standstills: Vec::new(),
         forecasts: Vec::new(),
@@ -339,7 +346,8 @@ fn clock_error(run: &SpeedRun) -> Option<ClockError> {
 }
 
 fn of_reference(r: &Reference) -> model::Measured {
-    model::Measured { at: Operating { quantity: r.quantity, speed: r.speed }, value: r.centre, error: r.error }
+    let at = Operating { quantity: r.quantity, speed: r.speed, right_outer: r.right_outer };
+    model::Measured { at, value: r.centre, error: r.error }
 }
 
 /// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
@@ -353,7 +361,7 @@ fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
         .filter_map(|l| {
             let (r, _) = matching(l, refs)?;
             let (value, error) = scaled(l);
-            let at = Operating { quantity: l.quantity, speed: l.speed };
+            let at = Operating { quantity: l.quantity, speed: l.speed, right_outer: l.right_outer };
             Some(Difference {
                 recording: l.recording.clone(),
                 here: model::Measured { at, value, error },

@@ -21,8 +21,10 @@ const CALIBRATION: Calibration = NAMING.calibration;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Operating {
     pub(crate) quantity: Quantity,
-    /// Speeds at the tyres, left and right, m/s.
+    /// Speeds at the tyres of the inner and the outer side, m/s.
     pub(crate) speed: [f64; 2],
+    /// Share of it in which the right side is the outer one.
+    pub(crate) right_outer: f64,
 }
 
 /// Means of a steady drive over all headings that matter: torque of each side, yaw rate.
@@ -49,14 +51,29 @@ fn steady(robot: &Robot<f64>, doses: &[Dose], speed: [f64; 2]) -> ([f64; 2], f64
     (torque, turned)
 }
 
-/// The load that a robot shows, on the scale on which loads are compared (logarithm, or itself for a difference).
+/// The load that a robot shows, on the scale on which loads are compared (logarithm, or itself for a difference): of turns to
+/// both sides their mean, each weighed by its share.
 pub(crate) fn predicted(robot: &Robot<f64>, doses: &[Dose], at: Operating) -> f64 {
-    let [l, r] = at.speed;
-    let (torque, yaw) = steady(robot, doses, at.speed);
+    let ([inner, outer], right_outer) = (at.speed, at.right_outer);
+    let to_the_left = || shown(robot, doses, at.quantity, [inner, outer]);
+    let to_the_right = || shown(robot, doses, at.quantity, [outer, inner]);
+    let value = if inner == outer || right_outer >= 1.0 {
+        to_the_left()
+    } else if right_outer <= 0.0 {
+        to_the_right()
+    } else {
+        right_outer * to_the_left() + (1.0 - right_outer) * to_the_right()
+    };
+    if at.quantity == Quantity::Asymmetry { value } else { value.abs().max(1e-6).ln() }
+}
+
+/// The load itself at speeds of the left and the right side.
+fn shown(robot: &Robot<f64>, doses: &[Dose], quantity: Quantity, [l, r]: [f64; 2]) -> f64 {
+    let (torque, yaw) = steady(robot, doses, [l, r]);
     let outer = if l.abs() > r.abs() { torque[0] } else { torque[1] };
-    let value = match at.quantity {
+    match quantity {
         Quantity::StraightLoad => torque[0] + torque[1],
-        Quantity::Asymmetry => return (torque[1] - torque[0]) / (torque[0] + torque[1]).max(1e-9),
+        Quantity::Asymmetry => (torque[1] - torque[0]) / (torque[0] + torque[1]).max(1e-9),
         Quantity::ArcSum => outer,
         Quantity::TurningLoad => {
             let v = 0.5 * (l + r);
@@ -65,8 +82,7 @@ pub(crate) fn predicted(robot: &Robot<f64>, doses: &[Dose], at: Operating) -> f6
         }
         Quantity::SpinSum => 0.5 * (torque[0] + torque[1]),
         Quantity::EffectiveTrack => (r - l) / if yaw.abs() > 1e-6 { yaw } else { 1e-6 },
-    };
-    value.abs().max(1e-6).ln()
+    }
 }
 
 /// A measured load with where it was driven, on the comparison scale.

@@ -203,6 +203,16 @@ impl Comparison {
         self.measured.iter().zip(expected).map(|(m, e)| m - e).collect()
     }
 
+    /// What an answer expects of the difference that a recording shows of a quantity, where it shows so much.
+    pub(crate) fn expected(&self, named: &Named, recording: &str, quantity: Quantity, shown: f64) -> Option<f64> {
+        let left = self.residual(&named.doses());
+        let is_it = |d: &Difference, measured: f64| {
+            d.recording == recording && d.here.at.quantity == quantity && (measured - shown).abs() < 1e-9
+        };
+        let found = (0..left.len()).find(|&i| is_it(&self.differences[i], self.measured[i]))?;
+        Some(self.measured[found] - left[found])
+    }
+
     fn quadratic(&self, a: &[f64], b: &[f64]) -> f64 {
         (0..a.len()).map(|i| (0..b.len()).map(|k| a[i] * self.weight[(i, k)] * b[k]).sum::<f64>()).sum()
     }

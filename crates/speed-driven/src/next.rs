@@ -100,7 +100,7 @@ pub(crate) fn advise_steady(
     let model = tuned(robot, sigma, &calibrated.theta);
     for drive in menu(fastest) {
         let at: Vec<Operating> =
-            drive.levels.iter().map(|(speed, quantity)| Operating { quantity: *quantity, speed: *speed }).collect();
+            drive.levels.iter().map(|&(speed, quantity)| Operating { quantity, speed, right_outer: 1.0 }).collect();
         let doubt = doubt(&at, &sensitivity(robot, sigma, &calibrated.theta, &at), calibrated);
         let Some(views) = views(&model, &at, &doubt, &rivals) else { continue };
         let mut m = Manoeuvre::new(drive.name, course(&drive, robot), [0.0; 3]);

@@ -16,7 +16,7 @@ const TURNS: Turns = MEASURING.turns;
 /// The effective track that the robot file predicts for a turn on the spot, m.
 pub(crate) fn track_of_file(robot: &Robot<f64>) -> f64 {
     let speed = [-TURNS.difference, TURNS.difference];
-    predicted(robot, &[], Operating { quantity: Quantity::EffectiveTrack, speed }).exp()
+    predicted(robot, &[], Operating { quantity: Quantity::EffectiveTrack, speed, right_outer: 1.0 }).exp()
 }
 
 /// Stretches of a recording in which the body stood although the wheels were commanded to turn it;

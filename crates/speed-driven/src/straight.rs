@@ -53,8 +53,9 @@ pub(crate) fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
         (0..run.time.len()).map(|i| is_straight(run, i, STRAIGHT.hold).then(|| of_row(i))).collect();
     if run.magnitude_only {
         let seen: Vec<usize> = (0..out.len()).filter(|&i| out[i].is_some()).collect();
-        // Measured speeds scatter: rows that are not straight for once do not end a stretch.
-        for stretch in pieces(&run.time, seen.into_iter(), STRAIGHT.hold) {
+        // Measured speeds scatter: a row that is not straight for once, and the time after it until one counts, do not end a
+        // stretch.
+        for stretch in pieces(&run.time, seen.into_iter(), 2.0 * STRAIGHT.hold) {
             for &i in unwinding(run, &stretch) {
                 out[i] = out[i].map(|r| Reading::AtMost(r.value()));
             }

@@ -6,6 +6,7 @@ use inference::Options;
 use inference::robust::NINETY;
 use robot_model::tunable::tunables;
 
+use crate::run::SpeedRun;
 use crate::testing::{Leg, diagnosis, diagnosis_with, drive, robot, rounds};
 use crate::{SteadyCase, diagnose_steady};
 
@@ -109,6 +110,28 @@ fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
     let alike = diagnosis(&[&on(2.2), &on(2.1)]);
     assert!(alike.sentences.iter().all(|s| !s.contains("disagree")), "{:?}", alike.sentences);
     assert_eq!(groups(&alike), []);
+}
+
+#[test]
+fn a_drag_on_one_side_is_one_cause_though_turns_to_either_side_show_another_load() {
+    let to = |turn: Leg| -> Vec<Leg> { [Leg::straight(12.0), turn].into_iter().cycle().take(16).collect() };
+    // The right side takes 9 N m more in the direction of travel: the outer one in turns to the left.
+    let dragged = |name: &str, legs: &[Leg]| {
+        let mut run = SpeedRun { name: name.to_owned(), ..drive(legs, false) };
+        let braked = |t: f64| if t > 0.0 { t + 9.0 } else { 0.0 };
+        run.torque[1] = run.torque[1].iter().map(|t| braked(*t)).collect();
+        run
+    };
+    let recordings = vec![dragged("left", &to(Leg::turn(8.0))), dragged("right", &to(Leg::right(8.0)))];
+    let case = crate::testing::case(vec![drive(&rounds(3), false)], recordings);
+    let d = diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis");
+    assert!(d.sentences[0].starts_with("Missing: "), "{:?}", d.sentences);
+    assert!(d.sentences[0].contains("right by "), "{:?}", d.sentences);
+    let told = "The recordings show no one value, and the cause that is named first makes that difference: the turning load is";
+    assert!(d.sentences.iter().any(|s| s.starts_with(told)), "{:?}", d.sentences);
+    let loads = d.steady.as_ref().expect("loads");
+    assert!(loads.agree_by_cause && loads.groups.is_empty(), "{:?}", loads.groups);
+    agrees_with_itself(&d);
 }
 
 #[test]

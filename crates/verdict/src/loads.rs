@@ -29,6 +29,9 @@ pub struct Loads {
     /// Where the recordings show no one value of a load or of the track: which of them agree, and what could be behind each group.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub groups: Vec<RecordingGroup>,
+    /// Whether the recordings agree once the cause that is named first is taken off, though they show no one value.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub agree_by_cause: bool,
     /// Turning inferred from the loads, where neither a gyro nor a difference of the speeds is known.
     pub turning: Vec<Turning>,
     /// Wheels that were commanded to turn a body that did not.
@@ -113,6 +116,14 @@ pub struct Load {
     pub seconds: f64,
     /// Mean speeds at the tyres of the inner and the outer side, the outer one positive, m/s; equal when straight.
     pub speed: [f64; 2],
+    /// Share of it in which the right side was the outer one: a drag on one side shows in turns to one side the other way round.
+    #[serde(default = "half")]
+    pub right_outer: f64,
+}
+
+/// Verdicts that do not say it are of turns to both sides.
+fn half() -> f64 {
+    0.5
 }
 
 /// An answer that a recording does not permit, and why.
