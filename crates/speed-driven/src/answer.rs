@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use crate::cause::cause;
 use crate::compare::steady_seconds;
 use crate::found;
+use crate::groups::explains;
 use crate::guesses::guesses;
-use crate::name::{Named, Naming};
+use crate::name::{Comparison, Named, Naming};
 use crate::sentences::sentences;
 use crate::settings::{NAMING, naming::Answer};
 use crate::traces::Forecasts;
@@ -22,16 +23,24 @@ const ANSWER: Answer = NAMING.answer;
 /// The answer, and the verdict of the loads alone.
 pub(super) fn verdict(
     case: &SteadyCase,
-    naming: Option<&Naming>,
-    loads: Loads,
+    compared: Option<(&Comparison, &Naming)>,
+    mut loads: Loads,
     forecasts: &Forecasts<'_>,
 ) -> (Diagnosis, Verdict) {
     let mut out = Diagnosis::withheld();
-    if let Some(naming) = naming {
+    let naming = compared.map(|(_, naming)| naming);
+    if let Some((comparison, naming)) = compared {
         weigh(naming, &mut out);
         // Too little was driven to say that nothing differs.
         if out.verdict == Verdict::NoMismatch && steady_seconds(&loads).iter().sum::<f64>() < ANSWER.needed {
             out.verdict = Verdict::Withheld;
+        }
+        // Recordings that agree once the named cause is taken off are no groups.
+        let is_first = |best: &&Named| out.ranked.first().is_some_and(|c| best.ids().contains(&c.effect.as_str()));
+        let best = naming.effects.first().filter(|_| out.verdict == Verdict::Explained).filter(is_first);
+        if !loads.groups.is_empty() && best.is_some_and(|best| explains(best, comparison, &loads)) {
+            loads.groups.clear();
+            loads.agree_by_cause = true;
         }
         // A wrong cause that forecasts left-out recordings as well is in the class.
         let as_good = forecasts.placebo.filter(|_| forecasts.standing.is_some_and(|s| s.is_matched_by_placebo()));

@@ -64,7 +64,7 @@ fn disagreeing(loads: &Loads, theirs: &str, together: Vec<String>) -> Vec<String
     }
     if loads.agree_by_cause {
         let seen = format!(
-            "The recordings show no one value, and the cause that is named first makes that difference: {}.",
+            "Recordings differ from one another, which the cause that is named first explains: {}.",
             found.join("; ")
         );
         return together.into_iter().chain([seen]).collect();

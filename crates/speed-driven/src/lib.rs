@@ -195,12 +195,6 @@ pub fn diagnose_steady(
     let naming = comparison.as_ref().and_then(|c| name(c, open));
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.groups = groups::groups(&loads, &differences, &usual, open);
-    let best = naming.as_ref().and_then(|n| n.effects.first()).zip(comparison.as_ref());
-    let is_one_cause = best.is_some_and(|(best, comparison)| groups::explains(best, comparison, &loads));
-    if !loads.groups.is_empty() && is_one_cause {
-        loads.groups.clear();
-        loads.agree_by_cause = true;
-    }
 
     progress("forecasting recordings that were not used");
     let fits = Fits {
@@ -217,7 +211,7 @@ pub fn diagnose_steady(
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
 
     // The loads alone give a verdict; what was measured beside them may lead over it.
-    let (mut out, of_loads) = verdict(case, naming.as_ref(), loads, &forecasts);
+    let (mut out, of_loads) = verdict(case, comparison.as_ref().zip(naming.as_ref()), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
     out.free_runs = free_runs;
     out.traces = traces;

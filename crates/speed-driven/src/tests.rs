@@ -127,7 +127,7 @@ fn a_drag_on_one_side_is_one_cause_though_turns_to_either_side_show_another_load
     let d = diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis");
     assert!(d.sentences[0].starts_with("Missing: "), "{:?}", d.sentences);
     assert!(d.sentences[0].contains("right by "), "{:?}", d.sentences);
-    let told = "The recordings show no one value, and the cause that is named first makes that difference: the turning load is";
+    let told = "Recordings differ from one another, which the cause that is named first explains: the turning load is";
     assert!(d.sentences.iter().any(|s| s.starts_with(told)), "{:?}", d.sentences);
     let loads = d.steady.as_ref().expect("loads");
     assert!(loads.agree_by_cause && loads.groups.is_empty(), "{:?}", loads.groups);
