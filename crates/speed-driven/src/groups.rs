@@ -43,7 +43,7 @@ pub(crate) fn disagreements(loads: &Loads) -> Vec<Disagreement<'_>> {
 /// turns to one side the other way round.
 pub(crate) fn explains(named: &Named, comparison: &Comparison, loads: &Loads) -> bool {
     let rest = |r: &Ratio| {
-        let expected = comparison.expected(named, &r.recording, r.quantity, r.ratio.ln())?;
+        let expected = comparison.expected(named, r)?;
         Some(Ratio { interval: r.interval.map(|end| end / expected.exp()), ..r.clone() })
     };
     let agree =

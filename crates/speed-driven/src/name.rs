@@ -12,7 +12,7 @@ use robot_model::Robot;
 use robot_model::effect::Role;
 use robot_model::effects::grade;
 use robot_model::tunable::COUNT as NUISANCES;
-use verdict::Quantity;
+use verdict::{Quantity, Ratio};
 
 use crate::compare::scatter;
 use crate::ground::{self, Track};
@@ -203,14 +203,14 @@ impl Comparison {
         self.measured.iter().zip(expected).map(|(m, e)| m - e).collect()
     }
 
-    /// What an answer expects of the difference that a recording shows of a quantity, where it shows so much.
-    pub(crate) fn expected(&self, named: &Named, recording: &str, quantity: Quantity, shown: f64) -> Option<f64> {
-        let left = self.residual(&named.doses());
-        let is_it = |d: &Difference, measured: f64| {
-            d.recording == recording && d.here.at.quantity == quantity && (measured - shown).abs() < 1e-9
+    /// What an answer expects of the difference that a recording's ratio shows; `None` where it is not compared.
+    pub(crate) fn expected(&self, named: &Named, shown: &Ratio) -> Option<f64> {
+        let is_it = |d: &Difference| {
+            let at = d.here.at;
+            d.recording == shown.recording && at.quantity == shown.quantity && at.speed == shown.speed
         };
-        let found = (0..left.len()).find(|&i| is_it(&self.differences[i], self.measured[i]))?;
-        Some(self.measured[found] - left[found])
+        let found = self.differences.iter().position(is_it)?;
+        Some(self.measured[found] - self.residual(&named.doses())[found])
     }
 
     fn quadratic(&self, a: &[f64], b: &[f64]) -> f64 {
