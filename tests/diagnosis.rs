@@ -13,7 +13,7 @@ use verdict::{Diagnosis, Prediction, Verdict};
 /// A case and its diagnosis.
 fn of(content: Content, seed: u64) -> (DrawnCase, Diagnosis) {
     let drawn = draw(&settings(content, 24.0, 1), seed);
-    let out = answer(&case_of(&drawn));
+    let out = answer(&case_of(&drawn), &Options::default());
     (drawn, out)
 }
 
@@ -75,7 +75,7 @@ fn without_a_gyro_wheels_alone_are_compared_and_the_answer_reads_back_from_its_f
     for run in case.references.iter_mut().chain(&mut case.recordings) {
         run.gyro.fill(None);
     }
-    let d = answer(&case);
+    let d = answer(&case, &Options::default());
     assert!(!d.free_runs.is_empty());
     assert!(
         d.free_runs.iter().all(|f| f.quantity.starts_with("wheel speed") && f.corrected > 0.0),

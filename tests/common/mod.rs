@@ -63,8 +63,8 @@ pub(crate) fn case_of(drawn: &DrawnCase) -> Case {
 }
 
 /// The diagnosis of a case, with what holds of every one.
-pub(crate) fn answer(case: &Case) -> Diagnosis {
-    let out = diagnose(case, &Options::default(), &|_| {}).expect("a diagnosis");
+pub(crate) fn answer(case: &Case, options: &Options) -> Diagnosis {
+    let out = diagnose(case, options, &|_| {}).expect("a diagnosis");
     for c in &out.ranked {
         assert!((0.0..=1.0).contains(&c.probability), "{c:?}");
     }

@@ -26,8 +26,8 @@ fn shifted(seed: u64, effects: &[EffectId], everywhere: bool, shift: impl Fn(&mu
 }
 
 #[test]
-fn a_pose_that_is_always_late_is_not_taken_for_physics() {
-    shifted(106, &[], true, |runs| on_pose(runs, |c| late(c, POSE)));
+fn a_pose_that_is_always_late_is_not_taken_for_physics_nor_for_a_fault_of_the_gyro() {
+    nothing_is_claimed_but(&shifted(106, &[], true, |runs| on_pose(runs, |c| late(c, POSE))), &[]);
     shifted(206, &[EffectId::ViscousFriction], true, |runs| on_pose(runs, |c| late(c, POSE)));
 }
 
@@ -38,8 +38,8 @@ fn a_gyro_that_is_always_late_is_not_taken_for_physics() {
 }
 
 #[test]
-fn a_pose_that_is_late_in_the_recordings_only_is_not_taken_for_physics() {
-    shifted(506, &[], false, |runs| on_pose(runs, |c| late(c, POSE)));
+fn a_pose_that_is_late_in_the_recordings_only_is_not_taken_for_physics_nor_for_a_fault_of_the_gyro() {
+    nothing_is_claimed_but(&shifted(506, &[], false, |runs| on_pose(runs, |c| late(c, POSE))), &[]);
 }
 
 #[test]
@@ -50,11 +50,4 @@ fn a_gyro_that_is_late_in_the_recordings_only_is_not_taken_for_physics() {
 #[test]
 fn a_pose_clock_that_drifts_in_the_recordings_only_is_not_taken_for_physics() {
     shifted(706, &[], false, |runs| on_pose(runs, |c| drifting(c, DRIFT)));
-}
-
-#[test]
-fn a_late_pose_is_not_taken_for_a_fault_of_the_gyro() {
-    for (seed, everywhere) in [(106, true), (506, false)] {
-        nothing_is_claimed_but(&shifted(seed, &[], everywhere, |runs| on_pose(runs, |c| late(c, POSE))), &[]);
-    }
 }
