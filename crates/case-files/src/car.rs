@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use single_track::file::RobotFile;
+use anyhow::{Result, bail};
+use single_track::file::{BUILT_IN, RobotFile};
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
 use crate::case_folder::robot_of;
-use crate::columns::{ColumnsEnvelope, Kind};
+use crate::columns::{ColumnsEnvelope, Kind, robot_text};
 use crate::envelope::SourceFile;
 use crate::odometry::{Part, drives};
 
@@ -34,14 +34,9 @@ pub struct CarCase {
 /// # Errors
 /// A file that cannot be read, or holds what no car can have.
 pub fn robot(name: &str) -> Result<Option<(RobotFile, String)>> {
-    if !Path::new(name).is_file() {
-        return Ok(None);
-    }
-    let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
-    if !RobotFile::is_one(&text) {
-        return Ok(None);
-    }
-    Ok(Some((RobotFile::parse(name, &text)?, text)))
+    let Some(text) = robot_text(name, BUILT_IN, RobotFile::is_one)? else { return Ok(None) };
+    let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
+    Ok(Some((RobotFile::parse(&shown, &text)?, text)))
 }
 
 /// The case of a folder, or of a robot with files, if its robot is a car.

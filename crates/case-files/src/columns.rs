@@ -2,7 +2,9 @@
 //! of wheel motion beside a pose and of cars, and `lacuna report` reads.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
+use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use verdict::Diagnosis;
@@ -82,6 +84,41 @@ impl ColumnsEnvelope {
             ignored_files: ignored.to_vec(),
             diagnosis,
         }
+    }
+}
+
+/// What the file of a robot says that is named, a file or built in; `None` where it is of another kind.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(crate) fn robot_text(
+    name: &str,
+    built_in: &[(&str, &str)],
+    is_one: impl Fn(&str) -> bool,
+) -> Result<Option<String>> {
+    if Path::new(name).is_file() {
+        let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
+        return Ok(is_one(&text).then_some(text));
+    }
+    Ok(built_in.iter().find(|robot| robot.0 == name).map(|(_, text)| (*text).to_owned()))
+}
+
+/// Names of the robots that are built in, of a kind.
+pub(crate) fn built_in(kind: Kind) -> &'static [(&'static str, &'static str)] {
+    match kind {
+        Kind::Odometry => odometry::file::BUILT_IN,
+        Kind::Car => single_track::file::BUILT_IN,
+    }
+}
+
+/// The kind of a robot file whose columns it names itself.
+pub(crate) fn kind_of(text: &str) -> Option<Kind> {
+    if odometry::file::RobotFile::is_one(text) {
+        Some(Kind::Odometry)
+    } else if single_track::file::RobotFile::is_one(text) {
+        Some(Kind::Car)
+    } else {
+        None
     }
 }
 

@@ -8,10 +8,11 @@ use anyhow::{Context, Result, bail, ensure};
 use inference::KnownEffects;
 use recordings::{
     Group, GroupFile, Grouping, Loss, Mapping, Opened, Read, ReadOptions, RecordingError, Source, Survey, read_from,
-    survey_from,
+    suggest, survey_from,
 };
-use robot_file::RobotSpec;
+use robot_file::{RobotFileError, RobotSpec};
 
+use crate::columns::{Kind, built_in, kind_of};
 use crate::watched::{Pass, Watch, Watched};
 
 /// Recordings read from files, with what was lost.
@@ -90,10 +91,37 @@ pub fn robot_with(known: KnownEffects, name: &str) -> Result<RobotSpec> {
     let path = Path::new(name);
     if path.is_file() {
         let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
+        if let Some(kind) = kind_of(&text) {
+            bail!(is_of_columns(name, kind));
+        }
         return Ok(RobotSpec::parse_with(known, name, &text)?);
     }
     ensure!(!is_path(name), "there is no robot file '{name}'");
-    Ok(RobotSpec { known, ..RobotSpec::built_in(name)? })
+    for kind in [Kind::Odometry, Kind::Car] {
+        ensure!(built_in(kind).iter().all(|robot| robot.0 != name), is_of_columns(name, kind));
+    }
+
+    let known_names = || {
+        let of_columns = [Kind::Odometry, Kind::Car].into_iter().flat_map(built_in);
+        robot_file::BUILT_IN.iter().chain(of_columns).map(|robot| robot.0).collect::<Vec<_>>()
+    };
+    let spec = RobotSpec::built_in(name).map_err(|e| match e {
+        RobotFileError::Unknown { name, .. } => {
+            RobotFileError::Unknown { hint: suggest::hint(&name, &known_names()), name }
+        }
+        other => other,
+    })?;
+    Ok(RobotSpec { known, ..spec })
+}
+
+/// Why a robot cannot be asked what needs its inputs as signals.
+fn is_of_columns(name: &str, kind: Kind) -> String {
+    format!(
+        "robot '{name}' is of kind {}, which compares {}: `lacuna diagnose`, `report` and `export` take it, and this needs a \
+         robot file with torques, set speeds or commanded speeds",
+        kind.name(),
+        kind.compares()
+    )
 }
 
 /// Whether a name can only be meant as a file: no built-in name has a slash or ends so.

@@ -8,9 +8,9 @@ use odometry::{Case, Drive, diagnosis, left_out};
 use verdict::Diagnosis;
 
 use crate::case_folder::{folders, robot_of};
-use crate::columns::{ColumnsEnvelope, Kind, source};
+use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
 use crate::envelope::SourceFile;
-use crate::inputs::{is_path, list};
+use crate::inputs::list;
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -39,16 +39,8 @@ pub fn robot(name: &str) -> Result<Option<RobotFile>> {
     Ok(Some(RobotFile::parse(&shown, &text)?))
 }
 
-/// What the file of a robot says that is named, a file or built in; `None` where it is of another kind.
 fn text(name: &str) -> Result<Option<String>> {
-    if Path::new(name).is_file() {
-        let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return Ok(RobotFile::is_one(&text).then_some(text));
-    }
-    if is_path(name) {
-        return Ok(None);
-    }
-    Ok(BUILT_IN.iter().find(|built_in| built_in.0 == name).map(|(_, text)| (*text).to_owned()))
+    robot_text(name, BUILT_IN, RobotFile::is_one)
 }
 
 /// The case of a folder, or of a robot with files, if its robot is of this kind.

@@ -338,6 +338,20 @@ pub const ENCODER_SCALE: CauseSpec = CauseSpec {
     resembles: "a wrong scale of the pose",
 };
 
+/// Driven wheels slip in bends.
+pub const WHEEL_SLIP_IN_BENDS: CauseSpec = CauseSpec {
+    id: "wheel_slip_in_bends",
+    name: "driven wheels slip in bends",
+    robots: ROBOTS,
+    meaning: "Driven wheels turn faster than the car moves where it corners hard: their push against \
+        the drag of tyres that hold it sideways takes slip, and the encoder counts it.",
+    size: "share by which the encoder is ahead, over the square of the sideways acceleration",
+    unit: "s⁴/m²",
+    recognised: "Encoder over pose is right straight ahead and grows with the sideways acceleration",
+    revealed_by: "circles from slow to fast",
+    resembles: "car_encoder_scale where all bends are alike",
+};
+
 /// Speed by the encoder is late.
 pub const ENCODER_DELAY: CauseSpec = CauseSpec {
     id: "encoder_delay",
@@ -352,7 +366,7 @@ pub const ENCODER_DELAY: CauseSpec = CauseSpec {
 };
 
 /// All of them, from the command to the report.
-pub const ALL: [&CauseSpec; 26] = [
+pub const ALL: [&CauseSpec; 27] = [
     &STEERING_COMMAND_GAIN,
     &STEERING_CENTRE,
     &STEERING_MAP,
@@ -378,5 +392,6 @@ pub const ALL: [&CauseSpec; 26] = [
     &GYRO_BIAS,
     &GYRO_DELAY,
     &ENCODER_SCALE,
+    &WHEEL_SLIP_IN_BENDS,
     &ENCODER_DELAY,
 ];

@@ -341,6 +341,16 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         &spec::ENCODER_SCALE,
     );
     add(
+        Q::WheelSlip,
+        "slip of the driven wheels in bends",
+        "s⁴/m²",
+        false,
+        none(known.wheel_slip),
+        usual.wheel_slip,
+        scatter.wheel_slip,
+        &spec::WHEEL_SLIP_IN_BENDS,
+    );
+    add(
         Q::EncoderDelay,
         "delay of the encoder",
         "s",

@@ -40,6 +40,7 @@ pub enum Quantity {
     GyroBias,
     GyroDelay,
     EncoderScale,
+    WheelSlip,
     EncoderDelay,
 }
 
@@ -92,6 +93,7 @@ impl Constant {
                 | Q::MotorBraking
                 | Q::Drag
                 | Q::DriveLag
+                | Q::WheelSlip
         )
     }
 
@@ -108,7 +110,7 @@ impl Constant {
             | Q::GyroDelay
             | Q::EncoderDelay => told.time.hypot(told.share * value),
             Q::Slowness | Q::Play | Q::DriveGain | Q::DeadZone => told.share * value.abs(),
-            Q::FrontCompliance | Q::RearCompliance | Q::FrontInverseGrip | Q::RearInverseGrip => {
+            Q::FrontCompliance | Q::RearCompliance | Q::FrontInverseGrip | Q::RearInverseGrip | Q::WheelSlip => {
                 told.tyre * value.abs()
             }
             Q::GyroScale | Q::EncoderScale => told.scale * value.abs(),

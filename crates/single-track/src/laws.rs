@@ -39,6 +39,7 @@ impl Laws {
             gyro_bias: 0.0,
             gyro_delay: 0.0,
             encoder_scale: 1.0,
+            wheel_slip: 0.0,
             encoder_delay: 0.0,
         };
         for (constant, deviation) in constants.iter().zip(theta) {
@@ -82,6 +83,7 @@ impl Laws {
             Q::GyroBias => &mut self.gyro_bias,
             Q::GyroDelay => &mut self.gyro_delay,
             Q::EncoderScale => &mut self.encoder_scale,
+            Q::WheelSlip => &mut self.wheel_slip,
             Q::EncoderDelay => &mut self.encoder_delay,
         }
     }

@@ -65,12 +65,14 @@ pub(crate) fn exchanged(
             }
         }
         alike.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let much_nearer = |(_, candidate, other): &(f64, usize, Answered)| {
-            let both = || causes[cause].moves().into_iter().chain(causes[*candidate].moves());
-            rules.nearer * sigmas(prior, other, both()) < sigmas(prior, &best, both())
+        let asked = |answer: &Answered, candidate: usize| {
+            sigmas(prior, answer, causes[cause].moves().into_iter().chain(causes[candidate].moves()))
         };
-        let may_lead = |other: &(f64, usize, Answered)| {
-            is_moved(&causes[other.1], prior, &other.2.named.posterior) && (other.0 > ALIKE || much_nearer(other))
+        let may_lead = |(by, candidate, other): &(f64, usize, Answered)| {
+            let [own, others] = [&best, other].map(|answer| asked(answer, *candidate));
+            let is_much_farther = rules.nearer * own < others && *by < rules.alike_by_errors;
+            let leads = (*by > ALIKE && !is_much_farther) || rules.nearer * others < own;
+            leads && is_moved(&causes[*candidate], prior, &other.named.posterior)
         };
         let leader = alike.iter().position(may_lead);
         let mut class: Vec<usize> = alike.iter().map(|(_, c, _)| *c).collect();

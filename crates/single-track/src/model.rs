@@ -3,6 +3,8 @@
 //! Steering: command `u` to angle `δ = A u + A₂ |u| u³/|u|… ` by [`Laws::map`], then dead time, lag, a largest rate and play.
 //! Drive: `v̇ = g e − (c₁ + c₂ |e| + c₃ [e ≠ 0] + c₄ |v|) v − f sgn v + v_y r − λ_f f_f δ` with the throttle `e` beyond the dead zone, after its lag.
 //! Tyres: side acceleration of an axle `f = α/√(k² + (α q)²)` at a slip angle `α`: compliance `k` (rad s²/m), largest `1/q`.
+//! Encoder: speed `c v (1 + κ (v r)²)`: driven wheels slip by their push over their stiffness; the push makes up for the drag
+//! of tyres that grip sideways, `f_f δ ≈ k f²` (Kiencke & Nielsen).
 //! Lateral velocity and yaw rate take implicit steps, stable at every speed; for `k → 0` they are those of the kinematic car
 //! (Kiencke & Nielsen, Automotive Control Systems; CommonRoad vehicle models).
 
@@ -60,6 +62,8 @@ pub(crate) struct Laws {
     pub(crate) gyro_bias: f64,
     pub(crate) gyro_delay: f64,
     pub(crate) encoder_scale: f64,
+    /// Share by which the encoder is ahead, over the square of the sideways acceleration.
+    pub(crate) wheel_slip: f64,
     pub(crate) encoder_delay: f64,
 }
 
@@ -196,6 +200,17 @@ impl Laws {
         (from..(from + steps).min(inputs.steering.len())).map(step).collect()
     }
 
+    /// What the encoder shows of a speed and a yaw rate.
+    pub(crate) fn encoder(&self, speed: f64, rate: f64) -> f64 {
+        self.encoder_scale * speed * (1.0 + self.wheel_slip * (speed * rate).powi(2))
+    }
+
+    /// The speed of which the encoder shows so much: by one step from where no wheel slips, which small shares need.
+    pub(crate) fn speed_of_encoder(&self, shown: f64, rate: f64) -> f64 {
+        let speed = shown / self.encoder_scale;
+        speed / (1.0 + self.wheel_slip * (speed * rate).powi(2))
+    }
+
     /// The pose that is measured of a state.
     pub(crate) fn tracked(&self, s: &State) -> [f64; 3] {
         let (sin, cos) = s.yaw.sin_cos();
@@ -225,6 +240,17 @@ mod tests {
     use super::*;
     use crate::car::{Car, Stated};
     use crate::constant_table::constants;
+
+    #[test]
+    fn wheels_that_slip_in_bends_are_ahead_there_and_only_there() {
+        let all = constants(&Car::new("drawn", 0.25));
+        let laws = Laws { encoder_scale: 1.1, wheel_slip: 2e-3, ..Laws::at(&all, &vec![0.0; all.len()]) };
+        assert!((laws.encoder(2.0, 0.0) / 2.2 - 1.0).abs() < 1e-12);
+        // 6 m/s²: 7 % ahead; the speed is found again to some thousandths.
+        let shown = laws.encoder(2.0, 3.0);
+        assert!((shown / 2.2 - 1.072).abs() < 1e-12, "{shown}");
+        assert!((laws.speed_of_encoder(shown, 3.0) / 2.0 - 1.0).abs() < 0.012);
+    }
 
     #[test]
     fn a_motor_brakes_only_while_there_is_throttle_and_only_where_its_drive_is_stated() {

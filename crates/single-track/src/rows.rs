@@ -196,7 +196,7 @@ impl<'a> Shown<'a> {
         }
         let [encoder, gyro] = self.report_at(STEP * from as f64 + laws.clock).unwrap_or_default();
         let rate = (gyro - laws.gyro_bias) / laws.gyro_scale;
-        State { place: [0.0; 2], yaw: 0.0, speed: encoder / laws.encoder_scale, side: laws.rear * rate, rate }
+        State { place: [0.0; 2], yaw: 0.0, speed: laws.speed_of_encoder(encoder, rate), side: laws.rear * rate, rate }
     }
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
@@ -220,7 +220,8 @@ impl<'a> Shown<'a> {
                     }
                     if let Some(encoder) = message.encoder {
                         let delay = laws.encoder_delay + 0.5 * self.encoder_window;
-                        out.push(laws.encoder_scale * at(delay)[0] - encoder);
+                        let [speed, rate] = at(delay);
+                        out.push(laws.encoder(speed, rate) - encoder);
                     }
                 }
             }
@@ -234,7 +235,7 @@ impl<'a> Shown<'a> {
                 let delay = laws.encoder_delay + 0.5 * self.encoder_window;
                 let speed = |r: [f64; 3]| {
                     let k = (((message.time - laws.clock - delay) / STEP) as usize).min(self.drive.pose.len() - 1);
-                    laws.encoder_scale * laws.state(self.drive.pose[k], r).speed - encoder
+                    laws.encoder(laws.state(self.drive.pose[k], r).speed, r[2]) - encoder
                 };
                 out.push(at(delay).map_or(0.0, speed));
             }

@@ -166,6 +166,8 @@
         gyro_scale: f64 = 0.02, "share", "data sheets of small gyros";
         /// Bias of the gyro.
         gyro_bias: f64 = 0.01, "rad/s", "data sheets of small gyros, after a start at rest";
+        /// Slip of the driven wheels over the square of the sideways acceleration.
+        wheel_slip: f64 = 3e-4, "s⁴/m²", "guess; a hundredth at 6 m/s²";
         /// Radius of the wheels that the encoder's speed is computed with.
         radius: f64 = 0.02, "share", "guess; rubber under load";
     }
@@ -247,6 +249,8 @@
         gyro_bias: f64 = 0.05, "rad/s", "guess";
         /// Scale of the encoder.
         encoder: f64 = 0.3, "share", "guess; gears and counted edges";
+        /// Slip of the driven wheels over the square of the sideways acceleration.
+        wheel_slip: f64 = 2e-3, "s⁴/m²", "a look at an open 1:10 car: 3 to 8 % at 6 m/s²";
     }
 
     /// By how much constants differ from drive to drive although nothing is changed: one sigma, before the drives themselves
@@ -280,6 +284,8 @@
         direction: f64 = 2e-3, "rad", "guess; motion capture is set up anew";
         /// Scales of gyro and encoder.
         scale: f64 = 2e-3, "share", "guess; temperature";
+        /// Slip of the driven wheels over the square of the sideways acceleration.
+        wheel_slip: f64 = 1e-4, "s⁴/m²", "guess; floor and temperature";
         /// Bias of the gyro.
         bias: f64 = 3e-3, "rad/s", "guess; temperature";
         /// Geometry.

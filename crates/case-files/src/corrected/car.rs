@@ -139,5 +139,6 @@ fn remedy(quantity: Quantity) -> &'static str {
         Q::GyroScale => "divide the gyro's readings by it",
         Q::GyroBias => "subtract it from the gyro's readings",
         Q::EncoderScale => "divide the encoder's speeds by it",
+        Q::WheelSlip => "divide the encoder's speeds by 1 + it (speed times yaw rate)²",
     }
 }

@@ -26,6 +26,8 @@ const KNOWN: Known = Known {
     radius: 0.008,
 };
 
+/// Sideways acceleration of hard cornering, m/s².
+const HARD: f64 = 5.0;
 /// A servo that reads its pulse at 50 Hz is late by this, s, on average.
 const HALF_PULSE: f64 = 0.01;
 
@@ -54,6 +56,9 @@ struct Sensors {
     gyro_delay: f64,
     encoder_scale: f64,
     encoder_delay: f64,
+    /// Share by which driven wheels are ahead where the car corners at [`HARD`], and the power of the acceleration that it grows
+    /// with.
+    wheel_slip: [f64; 2],
 }
 
 /// Car and sensors.
@@ -125,6 +130,7 @@ fn stated(s: &mut Stream) -> Whole {
         gyro_delay: 0.0,
         encoder_scale: 1.0,
         encoder_delay: 0.0,
+        wheel_slip: [0.0, 2.0],
     };
     let throttle = [car.dead_zone, s.uniform(0.1, 0.2)];
     Whole { car, sensors, throttle }
@@ -267,6 +273,11 @@ fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stre
             sensors.encoder_delay = s.uniform(0.1, 0.25);
             note("encoder_delay", sensors.encoder_delay);
         }
+        CarHidden::WheelSlip => {
+            sensors.wheel_slip = [s.uniform(0.06, 0.15), s.uniform(1.6, 2.6)];
+            // It is driven fast, or nothing slips.
+            whole.throttle[1] *= 1.3;
+        }
     }
 }
 
@@ -329,7 +340,10 @@ fn sheet(whole: &Whole, every: usize, s: &mut Stream) -> String {
         let y = now.y + sin * px + cos * py + s.normal(noise[0]);
         let yaw = (now.yaw + sensors.axes + s.normal(noise[1]) + PI).rem_euclid(TAU) - PI;
         let gyro = sensors.gyro_scale * at(k, late + sensors.gyro_delay).rate + sensors.gyro_bias;
-        let speed = sensors.encoder_scale * at(k, late + sensors.encoder_delay).speed;
+        let counted = at(k, late + sensors.encoder_delay);
+        let [slip, power] = sensors.wheel_slip;
+        let ahead = slip * ((counted.speed * counted.rate).abs() / HARD).powf(power);
+        let speed = sensors.encoder_scale * counted.speed * (1.0 + ahead);
         let [gyro, speed] = [gyro + s.normal(noise[2]), speed + s.normal(noise[3])];
         let [throttle, steering] = command;
         let _ = writeln!(out, "{time:.4},{throttle:.4},{steering:.4},{x:.5},{y:.5},{yaw:.5},{gyro:.4},{speed:.4}");

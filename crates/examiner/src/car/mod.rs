@@ -57,11 +57,13 @@ pub enum CarHidden {
     EncoderScale,
     /// The encoder alone is late.
     EncoderDelay,
+    /// The driven wheels slip in bends.
+    WheelSlip,
 }
 
 impl CarHidden {
     /// All.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::SteeringGain,
         Self::SteeringCentre,
         Self::SteeringBend,
@@ -83,6 +85,7 @@ impl CarHidden {
         Self::GyroDelay,
         Self::EncoderScale,
         Self::EncoderDelay,
+        Self::WheelSlip,
     ];
 
     /// Name for people.
@@ -109,6 +112,7 @@ impl CarHidden {
             Self::GyroDelay => "delay of the gyro",
             Self::EncoderScale => "scale of the encoder",
             Self::EncoderDelay => "delay of the encoder",
+            Self::WheelSlip => "slip of the driven wheels in bends",
         }
     }
 }
@@ -183,8 +187,8 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_in_turn() {
-        let all = CarPlan::set(1, 168);
-        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 42);
+        let all = CarPlan::set(1, 176);
+        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 44);
         for hidden in CarHidden::ALL {
             assert!(all.iter().filter(|p| p.hidden.contains(&hidden)).count() >= 6, "{hidden:?}");
         }

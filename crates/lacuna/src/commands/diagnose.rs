@@ -56,7 +56,8 @@ A case folder:
 
 Built-in robots: husky-a200, kobuki, husky-drive, warthog-drive,
   hendzel-trojnacki-2014; of wheel counts and a pose (kind = \"odometry\"):
-  differential, tricycle, omni-3, omni-4, mecanum-4, skid-steer-4
+  differential, tricycle, omni-3, omni-4, mecanum-4, skid-steer-4; cars
+  (kind = \"car\"): car, dart
 Built-in mappings: skid-steer-columns, husky-open (CSV); husky-bag, kobuki-bag
   (ROS 2 bags); lacuna (what `lacuna convert` writes)
 

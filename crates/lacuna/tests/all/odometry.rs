@@ -164,6 +164,27 @@ fn what_cannot_be_is_one_clear_sentence() {
 }
 
 #[test]
+fn what_needs_torques_or_speeds_says_which_kind_a_robot_is_and_every_robot_has_a_name() {
+    let bench = bench();
+    let is_refused = |args: &[&str], parts: &[&str]| {
+        bench.run(args).failed(&[parts, &["`lacuna diagnose`, `report` and `export` take it"]].concat());
+    };
+    is_refused(&["next", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
+    is_refused(
+        &["rehearse", "--robot", "tricycle", "--recordings", "case/recordings"],
+        &["'tricycle'", "kind odometry"],
+    );
+    is_refused(&["rehearse", "--robot", "dart", "--recordings", "case/recordings"], &["'dart'", "kind car"]);
+    bench.run(&["diagnose", "--robot", "zebra", "--recordings", "case/recordings"]).failed(&[
+        "husky-a200",
+        "omni-3",
+        "dart",
+    ]);
+    // A car by name is read as one: its columns are asked for.
+    bench.run(&["diagnose", "--robot", "car", "--recordings", "case/recordings"]).failed(&["no column 'time_s'"]);
+}
+
+#[test]
 fn a_drive_is_drawn_beside_its_simulations_at_once_or_from_the_verdict() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--report", "now.html", "--json", "out.json", "--mcap", "out.mcap"]);

@@ -3,4 +3,4 @@
 mod robot;
 mod table;
 
-pub use robot::{Columns, RobotFile};
+pub use robot::{BUILT_IN, Columns, RobotFile};

@@ -5,6 +5,10 @@ use serde::Deserialize;
 use crate::car::{Car, Stated};
 use crate::error::CarError;
 
+/// Cars that are there by name.
+pub const BUILT_IN: &[(&str, &str)] =
+    &[("car", include_str!("../../robots/car.toml")), ("dart", include_str!("../../robots/dart.toml"))];
+
 /// A car with the columns in which its drives are recorded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotFile {

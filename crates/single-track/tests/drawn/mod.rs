@@ -15,6 +15,8 @@ pub(crate) struct Hidden {
     pub(crate) lag: f64,
     /// Time of the steering for a radian at its largest rate, s.
     pub(crate) slowness: f64,
+    /// Share by which the driven wheels are ahead, over the square of the sideways acceleration, s⁴/m².
+    pub(crate) wheel_slip: f64,
 }
 
 /// The car as its owner states it.
@@ -80,7 +82,9 @@ pub(crate) fn columns(hidden: Hidden, seed: u64) -> Columns {
             out.throttle.push(throttle);
             out.steering.push(steering);
             out.gyro.push((1.0 + hidden.gyro_scale) * rate + hidden.gyro_bias + 0.02 * noise(&mut random));
-            out.encoder.push((1.0 + hidden.encoder) * v + 0.02 * noise(&mut random));
+            out.encoder.push(
+                (1.0 + hidden.encoder) * v * (1.0 + hidden.wheel_slip * (v * rate).powi(2)) + 0.02 * noise(&mut random),
+            );
         }
     }
     out

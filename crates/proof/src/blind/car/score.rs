@@ -33,6 +33,7 @@ fn cause(hidden: CarHidden) -> &'static str {
         CarHidden::GyroDelay => "gyro_delay",
         CarHidden::EncoderScale => "car_encoder_scale",
         CarHidden::EncoderDelay => "encoder_delay",
+        CarHidden::WheelSlip => "wheel_slip_in_bends",
     }
 }
 
