@@ -50,6 +50,8 @@ pub mod weighing {
     pub use crate::name::{Named, Weighed, covariance, name, named_as, stand_ins};
     pub use crate::weigh::{Evidence, Posterior};
 
+    /// Log odds from which a cause is named.
+    pub const NAMED: f64 = crate::settings::SETTINGS.naming.named;
     /// Evidence within which causes cannot be told apart, nats.
     pub const ALIKE: f64 = crate::settings::SETTINGS.naming.alike;
 }

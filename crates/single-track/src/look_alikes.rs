@@ -1,8 +1,9 @@
 //! Causes that do much the same as those that were named, each by a fit of its own.
 
+use inference::evidence::logistic;
 use nalgebra::DVector;
 use odometry::Cause;
-use odometry::weighing::{ALIKE, Evidence, covariance, named_as, stand_ins};
+use odometry::weighing::{ALIKE, Evidence, NAMED, covariance, named_as, stand_ins};
 
 use crate::answered::{Answered, is_moved, scores, within_bounds};
 use crate::fit::{Data, Fit, Prior, fit_like, likelier};
@@ -72,7 +73,10 @@ pub(crate) fn exchanged(
             let [own, others] = [&best, other].map(|answer| asked(answer, *candidate));
             let is_much_farther = rules.nearer * own < others && *by < rules.alike_by_errors;
             let leads = (*by > ALIKE && !is_much_farther) || rules.nearer * others < own;
-            leads && is_moved(&causes[*candidate], prior, &other.named.posterior)
+            // What would not be named for itself leads nothing.
+            let own = other.named.chosen.iter().find(|w| w.cause == *candidate);
+            let is_named = own.is_some_and(|w| w.probability > logistic(NAMED));
+            leads && is_named && is_moved(&causes[*candidate], prior, &other.named.posterior)
         };
         let leader = alike.iter().position(may_lead);
         let mut class: Vec<usize> = alike.iter().map(|(_, c, _)| *c).collect();

@@ -224,8 +224,11 @@ fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stre
             whole.throttle[1] *= 1.5;
         }
         CarHidden::DriveGain => {
-            car.drive *= 1.0 + s.sign() * s.uniform(0.25, 0.5);
+            let factor = 1.0 + s.sign() * s.uniform(0.25, 0.5);
+            car.drive *= factor;
             note("drive", car.drive);
+            // Its driver gives more until it moves.
+            whole.throttle[1] /= factor.min(1.0);
         }
         CarHidden::DeadZone => {
             car.dead_zone += s.uniform(0.06, 0.12);
