@@ -173,6 +173,12 @@ fn of_drive(whole: &Whole, s: &mut Stream) -> Whole {
     out
 }
 
+/// Sets a number and gives it.
+fn set(number: &mut f64, to: f64) -> f64 {
+    *number = to;
+    to
+}
+
 /// Hides something in the car, and notes its numbers.
 fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stream) {
     let mut note = |name: &str, value: f64| {
@@ -193,18 +199,9 @@ fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stre
             car.delay += s.uniform(0.07, 0.2);
             note("delay", car.delay + HALF_PULSE);
         }
-        CarHidden::SteeringLag => {
-            car.lag = s.uniform(0.1, 0.25);
-            note("lag", car.lag);
-        }
-        CarHidden::SteeringRate => {
-            car.slowness = s.uniform(0.5, 1.2);
-            note("rate", car.slowness);
-        }
-        CarHidden::SteeringPlay => {
-            car.play = s.uniform(0.025, 0.06);
-            note("play", car.play);
-        }
+        CarHidden::SteeringLag => note("lag", set(&mut car.lag, s.uniform(0.1, 0.25))),
+        CarHidden::SteeringRate => note("rate", set(&mut car.slowness, s.uniform(0.5, 1.2))),
+        CarHidden::SteeringPlay => note("play", set(&mut car.play, s.uniform(0.025, 0.06))),
         CarHidden::Wheelbase => {
             let factor = 1.0 + s.sign() * s.uniform(0.08, 0.2);
             car.wheelbase *= factor;
