@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use single_track::file::{BUILT_IN, RobotFile};
+use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
@@ -34,7 +34,7 @@ pub struct CarCase {
 /// # Errors
 /// A file that cannot be read, or holds what no car can have.
 pub fn robot(name: &str) -> Result<Option<(RobotFile, String)>> {
-    let Some(text) = robot_text(name, BUILT_IN, RobotFile::is_one)? else { return Ok(None) };
+    let Some(text) = robot_text(name, Kind::Car)? else { return Ok(None) };
     let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
     Ok(Some((RobotFile::parse(&shown, &text)?, text)))
 }

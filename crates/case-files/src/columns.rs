@@ -22,6 +22,25 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Both.
+    pub(crate) const ALL: [Self; 2] = [Self::Odometry, Self::Car];
+
+    /// The kind of a robot file; `None` where it names no columns itself.
+    pub(crate) fn of_file(text: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| match kind {
+            Self::Odometry => odometry::file::RobotFile::is_one(text),
+            Self::Car => single_track::file::RobotFile::is_one(text),
+        })
+    }
+
+    /// Names and files of the robots that are built in.
+    pub(crate) fn built_in(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Odometry => odometry::file::BUILT_IN,
+            Self::Car => single_track::file::BUILT_IN,
+        }
+    }
+
     /// As robot files write it.
     pub fn name(self) -> &'static str {
         match self {
@@ -91,35 +110,12 @@ impl ColumnsEnvelope {
 ///
 /// # Errors
 /// A file that cannot be read.
-pub(crate) fn robot_text(
-    name: &str,
-    built_in: &[(&str, &str)],
-    is_one: impl Fn(&str) -> bool,
-) -> Result<Option<String>> {
+pub(crate) fn robot_text(name: &str, kind: Kind) -> Result<Option<String>> {
     if Path::new(name).is_file() {
         let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return Ok(is_one(&text).then_some(text));
+        return Ok((Kind::of_file(&text) == Some(kind)).then_some(text));
     }
-    Ok(built_in.iter().find(|robot| robot.0 == name).map(|(_, text)| (*text).to_owned()))
-}
-
-/// Names of the robots that are built in, of a kind.
-pub(crate) fn built_in(kind: Kind) -> &'static [(&'static str, &'static str)] {
-    match kind {
-        Kind::Odometry => odometry::file::BUILT_IN,
-        Kind::Car => single_track::file::BUILT_IN,
-    }
-}
-
-/// The kind of a robot file whose columns it names itself.
-pub(crate) fn kind_of(text: &str) -> Option<Kind> {
-    if odometry::file::RobotFile::is_one(text) {
-        Some(Kind::Odometry)
-    } else if single_track::file::RobotFile::is_one(text) {
-        Some(Kind::Car)
-    } else {
-        None
-    }
+    Ok(kind.built_in().iter().find(|robot| robot.0 == name).map(|(_, text)| (*text).to_owned()))
 }
 
 /// A file that was read whole.

@@ -12,7 +12,7 @@ use recordings::{
 };
 use robot_file::{RobotFileError, RobotSpec};
 
-use crate::columns::{Kind, built_in, kind_of};
+use crate::columns::Kind;
 use crate::watched::{Pass, Watch, Watched};
 
 /// Recordings read from files, with what was lost.
@@ -91,18 +91,18 @@ pub fn robot_with(known: KnownEffects, name: &str) -> Result<RobotSpec> {
     let path = Path::new(name);
     if path.is_file() {
         let text = fs::read_to_string(path).with_context(|| format!("cannot read robot file '{name}'"))?;
-        if let Some(kind) = kind_of(&text) {
-            bail!(is_of_columns(name, kind));
+        if let Some(kind) = Kind::of_file(&text) {
+            bail!(without_signals(name, kind));
         }
         return Ok(RobotSpec::parse_with(known, name, &text)?);
     }
     ensure!(!is_path(name), "there is no robot file '{name}'");
-    for kind in [Kind::Odometry, Kind::Car] {
-        ensure!(built_in(kind).iter().all(|robot| robot.0 != name), is_of_columns(name, kind));
+    for kind in Kind::ALL {
+        ensure!(kind.built_in().iter().all(|robot| robot.0 != name), without_signals(name, kind));
     }
 
     let known_names = || {
-        let of_columns = [Kind::Odometry, Kind::Car].into_iter().flat_map(built_in);
+        let of_columns = Kind::ALL.into_iter().flat_map(Kind::built_in);
         robot_file::BUILT_IN.iter().chain(of_columns).map(|robot| robot.0).collect::<Vec<_>>()
     };
     let spec = RobotSpec::built_in(name).map_err(|e| match e {
@@ -114,11 +114,11 @@ pub fn robot_with(known: KnownEffects, name: &str) -> Result<RobotSpec> {
     Ok(RobotSpec { known, ..spec })
 }
 
-/// Why a robot cannot be asked what needs its inputs as signals.
-fn is_of_columns(name: &str, kind: Kind) -> String {
+/// Why a robot whose file names its columns itself cannot be asked what needs torques or speeds.
+fn without_signals(name: &str, kind: Kind) -> String {
     format!(
-        "robot '{name}' is of kind {}, which compares {}: `lacuna diagnose`, `report` and `export` take it, and this needs a \
-         robot file with torques, set speeds or commanded speeds",
+        "robot '{name}' is of kind {}, which compares {}: `lacuna diagnose` takes it; this command needs a robot \
+         file of one that is driven by torques, set speeds or commanded speeds",
         kind.name(),
         kind.compares()
     )

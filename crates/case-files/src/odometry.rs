@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use odometry::file::{BUILT_IN, RobotFile};
+use odometry::file::RobotFile;
 use odometry::{Case, Drive, diagnosis, left_out};
 use verdict::Diagnosis;
 
@@ -40,7 +40,7 @@ pub fn robot(name: &str) -> Result<Option<RobotFile>> {
 }
 
 fn text(name: &str) -> Result<Option<String>> {
-    robot_text(name, BUILT_IN, RobotFile::is_one)
+    robot_text(name, Kind::Odometry)
 }
 
 /// The case of a folder, or of a robot with files, if its robot is of this kind.

@@ -70,13 +70,10 @@ pub(crate) fn exchanged(
             sigmas(prior, answer, causes[cause].moves().into_iter().chain(causes[candidate].moves()))
         };
         let may_lead = |(by, candidate, other): &(f64, usize, Answered)| {
-            let [own, others] = [&best, other].map(|answer| asked(answer, *candidate));
-            let is_much_farther = rules.nearer * own < others && *by < rules.alike_by_errors;
-            let leads = (*by > ALIKE && !is_much_farther) || rules.nearer * others < own;
-            // What would not be named for itself leads nothing.
+            let far = [&best, other].map(|answer| asked(answer, *candidate));
             let own = other.named.chosen.iter().find(|w| w.cause == *candidate);
-            let is_named = own.is_some_and(|w| w.probability > logistic(NAMED));
-            leads && is_named && is_moved(&causes[*candidate], prior, &other.named.posterior)
+            own.is_some_and(|w| leads(*by, far, w.probability))
+                && is_moved(&causes[*candidate], prior, &other.named.posterior)
         };
         let leader = alike.iter().position(may_lead);
         let mut class: Vec<usize> = alike.iter().map(|(_, c, _)| *c).collect();
@@ -103,4 +100,30 @@ pub(crate) fn exchanged(
 fn sigmas(prior: &Prior, answer: &Answered, constants: impl IntoIterator<Item = usize>) -> f64 {
     let of = |k: usize| (answer.fit.theta[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
     constants.into_iter().map(of).fold(0.0, f64::max)
+}
+
+/// Whether a look-alike leads in the place of a cause: by so many nats of evidence, where the answers with the cause and with it ask
+/// the constants for so many sigmas of what is known; with the probability that it is there. What would not be named for itself leads
+/// nothing.
+fn leads(by: f64, [own, other]: [f64; 2], probability: f64) -> bool {
+    let rules = SETTINGS.naming;
+    let is_much_farther = rules.nearer * own < other && by < rules.alike_by_errors;
+    let is_much_nearer = rules.nearer * other < own;
+    probability > logistic(NAMED) && (is_much_nearer || (by > ALIKE && !is_much_farther))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_look_alike_leads_by_evidence_or_by_what_it_asks_for_and_never_where_it_would_not_be_named() {
+        assert!(leads(8.0, [8.0, 10.0], 0.99));
+        assert!(leads(-2.0, [52.0, 8.0], 0.99));
+        assert!(!leads(2.0, [8.0, 10.0], 0.99), "neither");
+        // A steering gain and axles 23 % farther apart, of which the owner is sure to 0.4 %.
+        assert!(!leads(8.8, [7.9, 51.7], 0.99));
+        assert!(leads(20.0, [7.9, 51.7], 0.99), "what the drives say outweighs the tape measure");
+        assert!(!leads(-2.0, [52.0, 8.0], 0.376));
+    }
 }

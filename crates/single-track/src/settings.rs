@@ -250,7 +250,7 @@
         /// Scale of the encoder.
         encoder: f64 = 0.3, "share", "guess; gears and counted edges";
         /// Slip of the driven wheels over the square of the sideways acceleration.
-        wheel_slip: f64 = 2e-3, "s⁴/m²", "a look at an open 1:10 car: 3 to 8 % at 6 m/s²";
+        wheel_slip: f64 = 2e-3, "s⁴/m²", "a look at eight drives of an open 1:10 car: 1 to 5 % at 5 to 6 m/s², 3 to 16 % at 6 to 8";
     }
 
     /// By how much constants differ from drive to drive although nothing is changed: one sigma, before the drives themselves

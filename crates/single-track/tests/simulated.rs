@@ -5,11 +5,8 @@ mod drawn;
 use drawn::{Hidden, car, case, columns};
 use single_track::{Answer, CORRECTED, Case, Columns, Drive, FOLLOWING, Findings, LENGTHS, diagnose, examine};
 
-/// The findings; what is named is likelier than not, however look-alikes were exchanged.
 fn found(hidden: Hidden, seed: u64) -> Findings {
-    let found = diagnose(&case(hidden, seed), &|_| {}).expect("an answer");
-    assert!(found.named.iter().all(|cause| cause.probability > 0.5), "{:?}", found.named);
-    found
+    diagnose(&case(hidden, seed), &|_| {}).expect("an answer")
 }
 
 fn value(findings: &Findings, name: &str) -> (f64, f64) {

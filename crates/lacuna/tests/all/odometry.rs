@@ -167,7 +167,7 @@ fn what_cannot_be_is_one_clear_sentence() {
 fn what_needs_torques_or_speeds_says_which_kind_a_robot_is_and_every_robot_has_a_name() {
     let bench = bench();
     let is_refused = |args: &[&str], parts: &[&str]| {
-        bench.run(args).failed(&[parts, &["`lacuna diagnose`, `report` and `export` take it"]].concat());
+        bench.run(args).failed(&[parts, &["`lacuna diagnose` takes it; this command needs"]].concat());
     };
     is_refused(&["next", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
     is_refused(
