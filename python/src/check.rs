@@ -1,5 +1,6 @@
 //! What is inside recordings, and how good it is.
 
+use case_files::columns_case;
 use pyo3::prelude::*;
 
 use crate::work::{self, Listener};
@@ -15,6 +16,8 @@ use crate::{case, from_json};
 ///     Mapping file, or name of a built-in mapping. Without it one is looked for.
 /// reading : {"normal", "strict", "tolerant"}
 ///     What to do with bad rows and cells.
+/// robot : path, optional
+///     Robot of wheel counts or car, whose file names its columns itself: the recordings are read by these.
 ///
 /// Returns
 /// -------
@@ -27,18 +30,21 @@ use crate::{case, from_json};
 /// LacunaError
 ///     When a file is missing or cannot be read.
 #[pyfunction]
-#[pyo3(signature = (paths, *, mapping=None, reading="normal"))]
+#[pyo3(signature = (paths, *, mapping=None, reading="normal", robot=None))]
 pub(crate) fn check<'py>(
     py: Python<'py>,
     paths: &Bound<'py, PyAny>,
     mapping: Option<&Bound<'py, PyAny>>,
     reading: &str,
+    robot: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (paths, mapping, options) = (case::paths(paths)?, case::mapping(mapping)?, case::reading(reading)?);
+    let robot = case::mapping(robot)?;
     let found = work::run(py, move || {
         let listener = Listener::new(None);
         let (stage, bytes) = (|what: &str| listener.stage(what), |done, _| listener.read(done));
-        let request = case_files::check::Request { paths: &paths, mapping: mapping.as_deref(), options };
+        let robot = robot.as_deref().map(|robot| anyhow::Ok((robot, columns_case::needed_kind(robot)?))).transpose()?;
+        let request = case_files::check::Request { paths: &paths, mapping: mapping.as_deref(), robot, options };
         let checked =
             case_files::check::check(&request, &case_files::check::Listener { stage: &stage, bytes: &bytes })?;
         Ok(checked.to_json())

@@ -7,10 +7,11 @@ use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
+use crate::bag_signals::{Found, Wanted};
 use crate::case_folder::robot_of;
 use crate::columns::{ColumnsEnvelope, Kind, robot_text};
 use crate::envelope::SourceFile;
-use crate::odometry::{Part, drives};
+use crate::odometry::{Part, Recorded, drives};
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -55,15 +56,33 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) 
     };
     let Some((file, text)) = self::robot(&name)? else { return Ok(None) };
     let mut ignored = Vec::new();
-    let (drives, files) = drives(folder, parts, &mut ignored, |part, name, text| {
-        Ok(if part == Part::HeldOut { file.held_out(name, text)? } else { file.drive(name, text)? })
+    let columns = columns_of(&file);
+    let wanted = Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: file.columns.yaw.as_deref() };
+    let (drives, files) = drives(folder, parts, &mut ignored, &wanted, |part, name, recorded| {
+        let is_held_out = part == Part::HeldOut;
+        Ok(match recorded {
+            Recorded::Table(text) if is_held_out => file.held_out(name, text)?,
+            Recorded::Table(text) => file.drive(name, text)?,
+            Recorded::Bag(Found { signals, told, .. }) => {
+                let mut drive = file.drive_of(name, signals, is_held_out)?;
+                drive.told.extend(told.iter().cloned());
+                drive
+            }
+        })
     })?;
     let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
-        bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files with --recordings");
+        bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files or bags with --recordings");
     }
     let case = Case { car: file.car, references, recordings };
     Ok(Some(CarCase { case, held_out, robot: name, text, files, ignored }))
+}
+
+/// Columns that a drive of this car has beside its time.
+pub(crate) fn columns_of(file: &RobotFile) -> Vec<&str> {
+    let names = &file.columns;
+    let optional = [&names.enabled, &names.gyro, &names.encoder, &names.x, &names.y, &names.yaw];
+    [&names.throttle, &names.steering].into_iter().chain(optional.into_iter().flatten()).map(String::as_str).collect()
 }
 
 impl CarCase {

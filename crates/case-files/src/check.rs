@@ -8,11 +8,14 @@ use recordings::{
 };
 use serde_json::Value;
 
-use crate::Watch;
+use crate::columns::Kind;
+use crate::{Watch, which_mapping};
 use find::Discovery;
+pub use of_robot::{ColumnRead, DriveRead, OfRobot};
 
 mod as_json;
 mod find;
+mod of_robot;
 mod permits;
 mod tables;
 
@@ -23,6 +26,8 @@ pub struct Request<'a> {
     pub paths: &'a [PathBuf],
     /// Mapping file, or name of a built-in mapping; without it one is looked for.
     pub mapping: Option<&'a str>,
+    /// A robot whose file names its columns itself, by which the recordings are read instead.
+    pub robot: Option<(&'a str, Kind)>,
     /// What to do with bad rows and cells.
     pub options: ReadOptions,
 }
@@ -74,6 +79,8 @@ pub enum Used {
         /// What was inferred, in sentences.
         inferred: Vec<String>,
     },
+    /// None is needed: the robot file names its columns.
+    RobotFile,
     /// None; why a proposed one does not read the recordings, if one was.
     Nothing(Option<String>),
 }
@@ -100,6 +107,8 @@ pub struct Checked {
     pub mapping: Used,
     /// What it reads.
     pub recordings: Vec<Mapped>,
+    /// What the columns of a robot file read, where one was named.
+    pub of_robot: Option<OfRobot>,
     /// Recordings of the same data.
     pub same: Vec<Vec<String>>,
     /// Where a proposed mapping was written, if somebody did.
@@ -123,6 +132,9 @@ pub fn check(request: &Request<'_>, listener: &Listener<'_>) -> Result<Checked> 
     for path in request.paths {
         ensure!(path.exists(), "there is no file or folder '{}'", path.display());
     }
+    if let Some((robot, kind)) = request.robot {
+        return by_robot(robot, kind, request, listener);
+    }
     let (bags, Discovery { mapping, surveyed, tables }) = find::find(request, listener)?;
     let prints: Vec<Fingerprint> = surveyed.surveys.iter().map(Survey::fingerprint).collect();
     let names: Vec<String> = surveyed.surveys.iter().map(file_names).collect();
@@ -141,7 +153,31 @@ pub fn check(request: &Request<'_>, listener: &Listener<'_>) -> Result<Checked> 
         }
     }
     lost.extend(tables.iter().filter_map(tables::lost));
-    Ok(Checked { bags, tables, mapping, recordings: recordings.collect(), same, proposed: None, lost })
+    let recordings = recordings.collect();
+    Ok(Checked { bags, tables, mapping, recordings, of_robot: None, same, proposed: None, lost })
+}
+
+/// The same by the columns of a robot file.
+fn by_robot(robot: &str, kind: Kind, request: &Request<'_>, listener: &Listener<'_>) -> Result<Checked> {
+    let mut bags = Vec::new();
+    for bag in which_mapping::bags(request.paths)? {
+        (listener.stage)(&bag.display().to_string());
+        bags.push(which_mapping::look(&bag)?);
+    }
+    (listener.stage)("columns");
+    let of_robot = of_robot::read(robot, kind, request.paths)?;
+    let mut lost: Vec<String> = of_robot.iter().flat_map(OfRobot::refused).collect();
+    lost.extend(bags.iter().flat_map(|(_, contents)| &contents.losses).map(ToString::to_string));
+    Ok(Checked {
+        bags,
+        tables: Vec::new(),
+        mapping: Used::RobotFile,
+        recordings: Vec::new(),
+        of_robot,
+        same: Vec::new(),
+        proposed: None,
+        lost,
+    })
 }
 
 fn measured(channel: &SurveyedChannel) -> Measured {

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use verdict::Diagnosis;
 
 use crate::car::{self, CarCase};
 use crate::columns::{ColumnsEnvelope, Kind};
+use crate::inputs;
 use crate::odometry::{self, OdometryCase};
 
 /// A case of one of these kinds.
@@ -112,4 +113,18 @@ pub fn kind_of(robot: &str) -> Result<Option<Kind>> {
         return Ok(Some(Kind::Car));
     }
     Ok(odometry::robot(robot)?.map(|_| Kind::Odometry))
+}
+
+/// The same of a robot that has to name its columns itself.
+///
+/// # Errors
+/// As [`kind_of`], and a robot that is read by a mapping.
+pub fn needed_kind(robot: &str) -> Result<Kind> {
+    if let Some(kind) = kind_of(robot)? {
+        return Ok(kind);
+    }
+    inputs::robot(robot)?;
+    bail!(
+        "robot '{robot}' reads its signals by a mapping, not by columns of its own; leave the robot out, or name the mapping instead"
+    )
 }

@@ -5,12 +5,14 @@
 //! ```
 
 pub mod answers;
+mod bag_signals;
 pub mod car;
 pub mod case_folder;
 pub mod check;
 pub mod columns;
 pub mod columns_case;
 pub mod corrected;
+mod edit;
 pub mod envelope;
 pub mod inputs;
 pub mod kind;

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use odometry::file::RobotFile;
 use odometry::{Case, Drive, diagnosis, left_out};
+use recordings::is_bag;
 use verdict::Diagnosis;
 
+use crate::bag_signals::{self, Found, Wanted};
 use crate::case_folder::{folders, robot_of};
 use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
 use crate::envelope::SourceFile;
@@ -60,12 +62,26 @@ pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf];
     let Some((file, text)) = robot(&name)?.zip(text(&name)?) else { return Ok(None) };
 
     let mut ignored = Vec::new();
-    let (drives, files) = drives(folder, parts, &mut ignored, |part, name, text| {
-        Ok(if part == Part::HeldOut { file.held_out(name, text)? } else { file.drive(name, text)? })
+    let columns = columns_of(&file);
+    let wanted =
+        Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: Some(file.columns.pose[2].as_str()) };
+    let (drives, files) = drives(folder, parts, &mut ignored, &wanted, |part, name, recorded| {
+        let is_held_out = part == Part::HeldOut;
+        Ok(match recorded {
+            Recorded::Table(text) if is_held_out => file.held_out(name, text)?,
+            Recorded::Table(text) => file.drive(name, text)?,
+            Recorded::Bag(Found { signals, told, .. }) => {
+                let mut drive = file.drive_of(name, signals, is_held_out)?;
+                drive.told.extend(told.iter().cloned());
+                drive
+            }
+        })
     })?;
     let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
-        bail!("robot '{name}' is of kind odometry, but there are no recordings; give CSV files with --recordings");
+        bail!(
+            "robot '{name}' is of kind odometry, but there are no recordings; give CSV files or bags with --recordings"
+        );
     }
     let case = Case { robot: file.robot, references, recordings };
     Ok(Some(OdometryCase { case, held_out, robot: name, text, files, ignored }))
@@ -82,15 +98,32 @@ pub(crate) enum Part {
     HeldOut,
 }
 
+/// How a drive is recorded.
+#[derive(Clone, Copy)]
+pub(crate) enum Recorded<'a> {
+    /// As comma-separated values.
+    Table(&'a str),
+    /// As messages, of which the wanted fields were read.
+    Bag(&'a Found),
+}
+
 /// Drives and files, by their part.
 type Parts<D> = ([Vec<D>; 3], [Vec<SourceFile>; 3]);
 
-/// Drives of a case folder or of paths (references, recordings, held out), read by `drive` from part, name and text.
+/// Columns that a drive of this robot has beside its time.
+pub(crate) fn columns_of(file: &RobotFile) -> Vec<&str> {
+    let names = &file.columns;
+    names.wheels.iter().chain(&names.steering).chain(&names.pose).map(String::as_str).collect()
+}
+
+/// Drives of a case folder or of paths (references, recordings, held out), read by `drive` from part, name and what is recorded:
+/// `wanted` of a bag.
 pub(crate) fn drives<D>(
     folder: Option<&Path>,
     paths: [&[PathBuf]; 3],
     ignored: &mut Vec<String>,
-    drive: impl Fn(Part, &str, &str) -> Result<D>,
+    wanted: &Wanted<'_>,
+    drive: impl Fn(Part, &str, Recorded<'_>) -> Result<D>,
 ) -> Result<Parts<D>> {
     let paths: [Vec<PathBuf>; 3] = match folder {
         Some(folder) => folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() }),
@@ -99,31 +132,49 @@ pub(crate) fn drives<D>(
     let mut drives = [Vec::new(), Vec::new(), Vec::new()];
     let mut files: [Vec<SourceFile>; 3] = Default::default();
     for (k, part) in [Part::Reference, Part::Recording, Part::HeldOut].into_iter().enumerate() {
-        for path in tables(&paths[k], ignored)? {
-            let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read '{}'", path.display()))?;
-            let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-            drives[k].push(drive(part, &stem, &text)?);
-            files[k].push(source(path.display().to_string(), &text));
+        for path in &paths[k] {
+            let shown = path.display();
+            ensure!(path.exists(), "there is no file or folder '{shown}'; give a table or a bag, or a folder of them");
+            let (tables, bags) = recordings(path, ignored)?;
+            for path in tables {
+                let text = table(&path)?;
+                let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+                drives[k].push(drive(part, &stem, Recorded::Table(&text))?);
+                files[k].push(source(path.display().to_string(), &text));
+            }
+            for bag in bags {
+                let found = bag_signals::signals(&bag, wanted)?;
+                let read = drive(part, &bag_signals::name_of(&bag), Recorded::Bag(&found));
+                drives[k].push(read.map_err(|error| found.explained(error))?);
+                files[k].extend(found.files);
+            }
         }
     }
     Ok((drives, files))
 }
 
-/// Tables below paths, sorted within each folder.
-fn tables(paths: &[PathBuf], ignored: &mut Vec<String>) -> Result<Vec<PathBuf>> {
-    let mut out = Vec::new();
-    for path in paths {
-        ensure!(path.exists(), "there is no file or folder '{}'; give a table, or a folder of tables", path.display());
-        if path.is_dir() {
-            for inside in list(path)? {
-                let is_table = inside.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-                if is_table { out.push(inside) } else { ignored.push(inside.display().to_string()) }
-            }
-        } else {
-            out.push(path.clone());
-        }
+/// Tables and bags of a path, sorted within each folder; a bag may have several parts.
+pub(crate) fn recordings(path: &Path, ignored: &mut Vec<String>) -> Result<(Vec<PathBuf>, Vec<Vec<PathBuf>>)> {
+    if path.is_dir() {
+        let is_table = |inside: &PathBuf| inside.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+        let tables = list(path)?.into_iter().filter(is_table).collect();
+        return Ok((tables, bag_signals::bags_below(path, ignored)?));
     }
-    Ok(out)
+    let path = path.to_path_buf();
+    Ok(if is_bag(&path.to_string_lossy()) { (Vec::new(), vec![vec![path]]) } else { (vec![path], Vec::new()) })
+}
+
+/// A table's text.
+pub(crate) fn table(path: &Path) -> Result<String> {
+    let shown = path.display();
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read '{shown}'"))?;
+    let refused = || {
+        format!(
+            "'{shown}' is no text: robots of wheel counts and cars are read from comma-separated values and from bags (.mcap, .db3); \
+             write the table as CSV"
+        )
+    };
+    String::from_utf8(bytes).with_context(refused)
 }
 
 impl OdometryCase {

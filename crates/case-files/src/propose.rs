@@ -2,12 +2,14 @@
 
 use recordings::{Contents, TopicContents};
 
+mod columns;
 mod draft;
 mod joints;
 mod robots;
 #[cfg(test)]
 mod tests;
 
+pub use columns::columns;
 pub(crate) use draft::holds;
 use draft::{Draft, Line, fields};
 

@@ -4,6 +4,7 @@
 //!
 //! * `least_squares/*`: the one solver: bounds, priors, robust losses, eliminated blocks.
 //! * `evidence`: from scores to probabilities, classes and credible sets.
+//! * `interpolate`: signals between their instants.
 //! * `robust`: medians, quantiles, intervals; `rate`: shares with Wilson's interval; `algebra`: the little dense algebra, over faer.
 //! * `expected_information`, `advice`: which drive to record next, in bits.
 //! * `experiment`: what a kind of robot says so that data left out of its fit are forecast like all others'.
@@ -26,6 +27,7 @@ pub mod expected_information;
 #[cfg(feature = "solver")]
 pub mod experiment;
 pub mod hypothesis;
+mod interpolate;
 mod known;
 #[cfg(feature = "solver")]
 pub mod least_squares;
@@ -37,6 +39,7 @@ pub mod words;
 
 pub use corrected::Corrected;
 pub use error::DiagnosisError;
+pub use interpolate::interpolate;
 pub use known::KnownEffects;
 pub use options::{Options, SearchForLaw};
 

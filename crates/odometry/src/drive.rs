@@ -4,7 +4,7 @@ use crate::constants::ClockZero;
 use crate::error::OdometryError;
 use crate::settings::{DriveRules, SETTINGS};
 use crate::units;
-use crate::wheel::WheeledRobot;
+use crate::wheel::{Wheel, WheeledRobot};
 
 const RULES: DriveRules = SETTINGS.drive;
 
@@ -38,6 +38,31 @@ pub enum WheelData {
     Angle,
     /// Speed, rad/s.
     Speed,
+}
+
+/// Refuses a drive of too few rows.
+pub(crate) fn enough_rows(name: &str, rows: usize) -> Result<(), OdometryError> {
+    if rows >= RULES.rows {
+        return Ok(());
+    }
+    let what = format!("{rows} rows, but at least {} are needed; record longer", RULES.rows);
+    Err(OdometryError::Drive { drive: name.to_owned(), what })
+}
+
+/// Radians in one unit of the column of a wheel.
+pub(crate) fn radians(robot: &WheeledRobot, wheel: &Wheel, data: WheelData) -> Result<f64, OdometryError> {
+    let lacks = || {
+        OdometryError::Wheel {
+        robot: robot.name.clone(),
+        wheel: wheel.name.clone(),
+        what: "counts are recorded, but counts_per_turn is missing; give the counts of one turn of the wheel, gear included"
+            .to_owned(),
+    }
+    };
+    match data {
+        WheelData::Angle | WheelData::Speed => Ok(1.0),
+        WheelData::Counts | WheelData::Counter => Ok(std::f64::consts::TAU / wheel.counts_per_turn.ok_or_else(lacks)?),
+    }
 }
 
 impl Drive {
@@ -105,9 +130,7 @@ impl Drive {
         if let Some(other) = { lengths }.find(|n| *n != rows) {
             return Err(wrong(format!("a column of {other} rows beside {rows} rows of time")));
         }
-        if rows < RULES.rows {
-            return Err(wrong(format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)));
-        }
+        enough_rows(name, rows)?;
         if let Some(row) = (1..rows).find(|&k| time[k].partial_cmp(&time[k - 1]) != Some(std::cmp::Ordering::Greater)) {
             return Err(wrong(format!("time does not rise in row {row}; sort the rows, or remove repeated ones")));
         }
@@ -122,20 +145,7 @@ impl Drive {
         let mut turns = vec![vec![0.0; wheels.len()]; rows];
         for (k, column) in wheels.iter().enumerate() {
             let wheel = &robot.wheels[measured[k]];
-            let unit = match data {
-                WheelData::Angle | WheelData::Speed => 1.0,
-                WheelData::Counts | WheelData::Counter => {
-                    let lacks = || OdometryError::Wheel {
-                        robot: robot.name.clone(),
-                        wheel: wheel.name.clone(),
-                        what:
-                            "counts are recorded, but counts_per_turn is missing; give the counts of one turn of the \
-                               wheel, gear included"
-                                .to_owned(),
-                    };
-                    std::f64::consts::TAU / wheel.counts_per_turn.ok_or_else(lacks)?
-                }
-            };
+            let unit = radians(robot, wheel, data)?;
             let column = units::unwrapped(column, data, wheel, &mut told);
             for row in 1..rows {
                 turns[row][k] = unit

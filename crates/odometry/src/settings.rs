@@ -28,6 +28,9 @@
         ranges: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0], "1", "widths of integers";
         /// Rates are those of this stretch about a row: single counts are too coarse.
         rate: f64 = 0.25, "s", "guess; longer than the period of usual encoders' logs";
+        /// Poses farther apart than this get rows of the wheels between them, so that a bend between two poses is seen.
+        dense: f64 = 0.07, "s", "guess; a robot turns by a tenth of a radian meanwhile, whose chord is its arc to a part in \
+            two thousand";
         /// Way of the pose over that of the counts, beyond which the unit is doubted.
         unit: f64 = 30.0, "1", "guess; no radius is wrong by as much";
         /// Factor of millimetres to metres.

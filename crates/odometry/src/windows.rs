@@ -116,11 +116,12 @@ impl<'a> Data<'a> {
     pub(crate) fn pose_noise(&self) -> f64 {
         let mut second = Vec::new();
         for drive in &self.drives {
-            for w in drive.pose.windows(3) {
+            // A row without a pose may stand between two of them, where the pose was not seen or is slower than the wheels.
+            let seen: Vec<[f64; 3]> =
+                (0..drive.pose.len()).filter(|&row| drive.is_seen(row)).map(|row| drive.pose[row]).collect();
+            for w in seen.windows(3) {
                 let bend = [0, 1].map(|axis| w[2][axis] - 2.0 * w[1][axis] + w[0][axis]);
-                if bend.iter().all(|b| b.is_finite()) {
-                    second.push(bend[0].hypot(bend[1]));
-                }
+                second.push(bend[0].hypot(bend[1]));
             }
         }
         // Variances of second differences are six times those of samples; two samples bound a window.

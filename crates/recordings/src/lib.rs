@@ -82,8 +82,9 @@ mod write_mcap;
 mod write_parquet;
 
 pub use bags::{
-    Contents, Delay, Drift, Field, FileError, Format, HeaderStamps, Loss, LossKind, Message, Place, ReadSeek, Topic,
-    TopicContents, contents, contents_of_beginning, messages, suggest,
+    Cell, Contents, Delay, Drift, Field, FieldError, FieldReader, FileError, Format, HEADER_STAMP, HeaderStamps,
+    LOG_TIME, Loss, LossKind, Message, Place, ReadSeek, Topic, TopicContents, contents, contents_of_beginning,
+    messages, suggest,
 };
 pub use channel::{Attributes, Channel};
 pub use column_survey::{ColumnContents, TimeLike, UnitBy};

@@ -5,10 +5,10 @@
 //! Kalman filter and Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets and the slow change `c` of the
 //! rolling load; an accelerometer shows `u_x` (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
 
+use inference::interpolate;
 use inference::robust::{MAD_TO_SIGMA, median};
 use nalgebra::{SMatrix, SVector};
 
-use crate::clock::interpolate;
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, NAMING, changes::Filter};
 use crate::straight::Reading;

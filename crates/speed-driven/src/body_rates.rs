@@ -1,5 +1,6 @@
 //! Turning rates and level of the body, as its gyro and accelerometer show them.
 
+use inference::interpolate;
 use inference::robust::mean;
 use recordings::{Recording, Signal};
 
@@ -38,7 +39,7 @@ impl BodyRates {
         let rate = [x, y, z].map(|channel| {
             let (t, values) = samples(channel, origin);
             let mean = clock::box_mean(&t, values, ROWS.rate_step);
-            grid.iter().map(|&at| clock::interpolate(&t, &mean, at)).collect()
+            grid.iter().map(|&at| interpolate(&t, &mean, at)).collect()
         });
         Some(Self { time: grid, step: ROWS.rate_step, rate, level: None })
     }
@@ -54,11 +55,11 @@ pub(crate) fn level(recording: &Recording, [rows, forward]: [&Vec<f64>; 2], at: 
     }
     let (t, values) = samples(force, origin(recording));
     let smooth = clock::box_mean(&t, values, ROWS.level_mean);
-    let speed = |at: f64| clock::interpolate(rows, forward, at);
+    let speed = |at: f64| interpolate(rows, forward, at);
     let half = 0.5 * ROWS.level_mean;
     let of_step = |&at: &f64| {
         let gained = (speed(at + half) - speed(at - half)) / ROWS.level_mean;
-        ((clock::interpolate(&t, &smooth, at) - gained) / ROWS.gravity).clamp(-1.0, 1.0).asin()
+        ((interpolate(&t, &smooth, at) - gained) / ROWS.gravity).clamp(-1.0, 1.0).asin()
     };
     Some(at.iter().map(of_step).collect())
 }

@@ -1,5 +1,6 @@
 //! Two clocks that drift: the gyro's against the speeds', from the turning itself and no assumed track.
 
+use inference::interpolate;
 use inference::robust::{quantile, sorted};
 
 use crate::settings::{MEASURING, measuring::Aligning};
@@ -44,18 +45,6 @@ pub fn box_mean(t: &[f64], z: &[f64], width: f64) -> Vec<f64> {
             (sum[b] - sum[a]) / (b - a).max(1) as f64
         })
         .collect()
-}
-
-/// Linear interpolation of `z` at the instants `t`, which ascend; held beyond the ends, 0 of nothing.
-pub fn interpolate(t: &[f64], z: &[f64], at: f64) -> f64 {
-    match t.partition_point(|&x| x <= at) {
-        0 => z.first().copied().unwrap_or(0.0),
-        i if i >= t.len() => z.last().copied().unwrap_or(0.0),
-        i => {
-            let f = (at - t[i - 1]) / (t[i] - t[i - 1]);
-            z[i - 1] * (1.0 - f) + z[i] * f
-        }
-    }
 }
 
 /// Correlation, and variance of the first.

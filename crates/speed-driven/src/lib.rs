@@ -79,7 +79,7 @@ use name::{Comparison, Difference, Open, name};
 use pieces::{ByClass, Usual};
 
 pub use body_rates::BodyRates;
-pub use clock::{Alignment, align, box_mean, interpolate};
+pub use clock::{Alignment, align, box_mean};
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming};
 pub use run::SpeedRun;

@@ -7,7 +7,7 @@ use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
 use crate::settings::{MEASURING, measuring::Rows};
 use crate::stamps::{origin, samples};
-use inference::DiagnosisError;
+use inference::{DiagnosisError, interpolate};
 
 const ROWS: Rows = MEASURING.rows;
 
@@ -114,7 +114,7 @@ impl SpeedRun {
             let at = |(a, b): (&f64, &f64)| {
                 // Where the gyro was off nothing is known.
                 let inside = a + b > first - ROWS.gyro_edge && a + b < last + ROWS.gyro_edge;
-                if inside { clock::interpolate(&t, &smooth, a + b) } else { f64::NAN }
+                if inside { interpolate(&t, &smooth, a + b) } else { f64::NAN }
             };
             run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
             run.alignment = Some(alignment);

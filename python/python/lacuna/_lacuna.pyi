@@ -34,7 +34,13 @@ __version__: str
 
 class LacunaError(ValueError): ...
 
-def check(paths: _Path | Iterable[_Path], *, mapping: _Path | None = None, reading: _Reading = "normal") -> dict[str, Any]: ...
+def check(
+    paths: _Path | Iterable[_Path],
+    *,
+    mapping: _Path | None = None,
+    reading: _Reading = "normal",
+    robot: _Path | None = None,
+) -> dict[str, Any]: ...
 def diagnose(
     case: _Path | None = None,
     *,

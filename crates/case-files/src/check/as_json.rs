@@ -21,6 +21,7 @@ pub(super) fn render(c: &Checked) -> Value {
             "channels": r.channels.iter().map(channel).collect::<Vec<_>>(),
             "diagnoses": r.permits,
         })).collect::<Vec<_>>(),
+        "robot": c.of_robot.as_ref().map(super::OfRobot::to_json),
         "same_content": c.same,
         "proposed_mapping": c.proposed.as_ref().map(|p| json!({
             "file": p.file, "inferred": p.inferred, "skeleton": p.is_skeleton,
@@ -34,7 +35,7 @@ fn mapping(used: &Used) -> Value {
         Used::Named(name) => (name.as_str(), true, None),
         Used::BuiltIn(name) => (name.as_str(), false, None),
         Used::Proposed { inferred, .. } => ("proposed", false, Some(inferred)),
-        Used::Nothing(_) => return Value::Null,
+        Used::RobotFile | Used::Nothing(_) => return Value::Null,
     };
     json!({ "name": name, "named_by_user": named, "inferred": inferred })
 }

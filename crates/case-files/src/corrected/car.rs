@@ -6,8 +6,8 @@ use single_track::{Car, Constant, Quantity, Stated, constants};
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, table, value};
 use verdict::Diagnosis;
 
-use super::edit::{document, rounded, set, set_source};
 use super::unheld::{Told, Unheld, told};
+use crate::edit::{document, rounded, set, set_source};
 
 /// The corrected file, and what it cannot hold.
 pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Result<(String, Vec<Unheld>)> {

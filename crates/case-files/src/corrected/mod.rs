@@ -6,7 +6,6 @@
 
 mod car;
 mod car_ros2;
-mod edit;
 #[cfg(test)]
 mod tests;
 mod unheld;
@@ -20,6 +19,7 @@ use anyhow::{Context, Result};
 use verdict::{Diagnosis, Verdict};
 
 use crate::columns::{ColumnsEnvelope, Kind};
+use crate::edit::one_line;
 
 /// A robot of a robot file that names its columns, with the verdict that corrects it, if there is one.
 #[derive(Debug, Clone)]
@@ -118,8 +118,8 @@ impl ColumnsRobot {
 
         let mut text =
             format!("# Corrected by lacuna {}: see the sources of its numbers.\n", env!("CARGO_PKG_VERSION"));
-        text.extend(self.headline().map(|sentence| format!("# {}\n", edit::one_line(&sentence))));
-        text.extend(not_held.iter().map(|sentence| format!("# {}\n", edit::one_line(sentence))));
+        text.extend(self.headline().map(|sentence| format!("# {}\n", one_line(&sentence))));
+        text.extend(not_held.iter().map(|sentence| format!("# {}\n", one_line(sentence))));
         Ok(Written { text: text + "\n" + &edited, not_held })
     }
 

@@ -8,8 +8,8 @@ use odometry::{Constant, Quantity, WheeledRobot, constants};
 use toml_edit::{Array, Item, TableLike};
 use verdict::Diagnosis;
 
-use super::edit::{document, rounded, set, set_source, tables};
 use super::unheld::{Told, Unheld, told};
+use crate::edit::{document, rounded, set, set_source, tables};
 
 /// The corrected file, and what it cannot hold.
 pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Result<(String, Vec<Unheld>)> {

@@ -52,11 +52,11 @@ pub(super) fn fields(topic: &TopicContents) -> &[Field] {
 }
 
 /// The name of the message type without its package.
-fn message(topic: &TopicContents) -> &str {
+pub(super) fn message(topic: &TopicContents) -> &str {
     topic.message_type.rsplit('/').next().unwrap_or_default()
 }
 
-fn says(topic: &TopicContents, words: &[&str]) -> bool {
+pub(super) fn says(topic: &TopicContents, words: &[&str]) -> bool {
     let name = topic.name.to_lowercase();
     words.iter().any(|word| name.contains(word))
 }

@@ -44,6 +44,9 @@ const IDLE: [&str; 31] = [
     "thruster",
 ];
 
+/// Words of what is measured of a wheel, which say nothing of which one it is.
+const COUNTED: [&str; 8] = ["tick", "ticks", "encoder", "encoders", "enc", "count", "counts", "position"];
+
 /// Letters of the longest of them.
 const LONGEST_WORD: usize = 10;
 /// Words that may stand together without a gap, as in `frontleftwheeljoint`.
@@ -117,6 +120,30 @@ impl Sides<'_> {
 struct Name<'a> {
     text: &'a str,
     words: Vec<Word>,
+}
+
+/// The one of these names that means the wheel called `wheel`: the same side, place and number, in other words.
+pub(super) fn same_wheel<'a>(wheel: &str, names: &'a [String]) -> Option<&'a str> {
+    let wanted = essence(wheel);
+    let mut alike = names.iter().filter(|name| essence(name) == wanted);
+    alike.next().filter(|_| alike.next().is_none()).map(String::as_str)
+}
+
+/// What a name says of which wheel it is, in one order.
+fn essence(name: &str) -> Vec<String> {
+    let side = |side: &Side| format!("{side:?}").to_lowercase();
+    let place = |place: &Place| format!("{place:?}").to_lowercase();
+    let said = |word: &Word| match word {
+        Word::Side(s) => vec![side(s)],
+        Word::Letters(s, p) => std::iter::once(side(s)).chain(p.as_ref().map(place)).collect(),
+        Word::Place(p) => vec![place(p)],
+        Word::Wheel | Word::Neutral => Vec::new(),
+        Word::Idle(other) | Word::Other(other) => vec![other.clone()],
+    };
+    let mut out: Vec<String> =
+        words(name).iter().flat_map(said).filter(|word| !COUNTED.contains(&word.as_str())).collect();
+    out.sort();
+    out
 }
 
 /// Sorts joints by side.

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use case_files::check::{Listener, Proposed, Request, check};
-use case_files::{propose, skeleton};
+use case_files::columns::Kind;
+use case_files::{columns_case, propose, skeleton};
 use clap::Args as ClapArgs;
 use recordings::{Contents, TableContents};
 
@@ -12,6 +13,7 @@ use super::{Outcome, Reading};
 use crate::console::{Progress, emit, emit_json};
 
 mod as_text;
+mod of_robot;
 mod stamps;
 mod tables;
 
@@ -24,6 +26,10 @@ Examples:
                                          with --mapping map.toml
   lacuna check FLOORING --mapping husky-open
                                          the channels of CSV recordings
+  lacuna check walk/ --robot my-robot.toml --write-mapping new-robot.toml
+                                         of a robot of wheel counts or a car,
+                                         whose file names its columns: the file
+                                         with columns that the bag has
   lacuna check log.csv --write-mapping map.toml
                                          of an unknown table a skeleton, to say
                                          which column is what
@@ -44,6 +50,9 @@ pub(crate) struct Args {
     /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
     #[arg(long, value_name = "NAME|FILE")]
     mapping: Option<String>,
+    /// Robot of wheel counts or car, whose file names its columns itself: the recordings are read by these.
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "mapping")]
+    robot: Option<String>,
     /// List the numeric fields of every topic.
     #[arg(long)]
     fields: bool,
@@ -62,11 +71,21 @@ pub(crate) struct Args {
 /// Checks recordings.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
-    let request = Request { paths: &args.paths, mapping: args.mapping.as_deref(), options: args.reading.options() };
+    let robot =
+        args.robot.as_deref().map(|robot| anyhow::Ok((robot, columns_case::needed_kind(robot)?))).transpose()?;
+    let request =
+        Request { paths: &args.paths, mapping: args.mapping.as_deref(), robot, options: args.reading.options() };
     let (stage, bytes) = (|what: &str| progress.stage(what), |done, of| progress.bytes(done, of));
-    let mut checked = check(&request, &Listener { stage: &stage, bytes: &bytes })?;
-    let target = args.write_mapping.as_deref();
-    checked.proposed = target.map(|target| propose_to(target, &checked.bags, &checked.tables)).transpose()?;
+    let listener = Listener { stage: &stage, bytes: &bytes };
+    let mut checked = check(&request, &listener)?;
+    if let Some(target) = &args.write_mapping {
+        let proposed = propose_to(target, robot, &checked.bags, &checked.tables)?;
+        // What the new file reads is what its owner wants to see.
+        if let Some((_, kind)) = robot {
+            checked = check(&Request { robot: Some((&proposed.file, kind)), ..request }, &listener)?;
+        }
+        checked.proposed = Some(proposed);
+    }
     drop(progress);
     if let Some(target) = &args.json {
         emit_json(target, &checked.to_json())?;
@@ -77,11 +96,23 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     Ok(Outcome::of(&checked.lost))
 }
 
-/// Writes a proposed mapping.
-fn propose_to(target: &Path, bags: &[(String, Contents)], tables: &[(String, TableContents)]) -> Result<Proposed> {
+/// Writes a proposed mapping, or the file of a robot that names its columns itself.
+fn propose_to(
+    target: &Path,
+    robot: Option<(&str, Kind)>,
+    bags: &[(String, Contents)],
+    tables: &[(String, TableContents)],
+) -> Result<Proposed> {
     let file = target.display().to_string();
     let name = target.file_stem().map_or_else(|| file.clone(), |stem| stem.to_string_lossy().into_owned());
     let (toml, inferred, is_skeleton) = match (bags.first(), tables.first()) {
+        (Some((bag, contents)), _) if let Some((robot, kind)) = robot => {
+            let proposal = propose::columns(robot, kind, contents).with_context(|| bag.clone())?;
+            (proposal.toml, proposal.inferred, false)
+        }
+        (None, _) if robot.is_some() => bail!(
+            "--write-mapping with --robot needs a bag; of tables name the columns in the robot file, as their first lines do"
+        ),
         (Some((bag, contents)), _) => {
             let nothing =
                 || format!("{bag}: no topic has joints, an inertial unit or a pose that a mapping could name");

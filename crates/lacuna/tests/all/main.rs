@@ -5,6 +5,7 @@ mod bad_recordings;
 mod bad_robots;
 mod batch;
 mod check;
+mod columns_of_bags;
 mod command_driven;
 mod commands;
 mod diagnose;

@@ -110,3 +110,33 @@ pub fn bag_with_filler(
     drop(writer);
     out.into_inner()
 }
+
+/// A message of JSON: number of its topic, time of its stamp and of the log in s, text; `STAMP` stands for the header.
+pub type Said = (usize, f64, String);
+
+/// A bag of messages on topics (name, type), in the order of their times.
+pub fn bag_of(topics: &[(&str, &str)], mut said: Vec<Said>) -> Vec<u8> {
+    said.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut out = std::io::Cursor::new(Vec::new());
+    let mut writer = WriteOptions::new().profile("ros2").create(&mut out).unwrap();
+    let ids: Vec<u16> = topics
+        .iter()
+        .map(|(name, message_type)| {
+            let schema = writer.add_schema(message_type, "jsonschema", b"{}").unwrap();
+            writer.add_channel(schema, name, "json", &BTreeMap::new()).unwrap()
+        })
+        .collect();
+    for (k, (topic, t, text)) in said.iter().enumerate() {
+        let log_time = (t * 1e9).round() as u64;
+        let header = MessageHeader { channel_id: ids[*topic], sequence: k as u32, log_time, publish_time: log_time };
+        let text = text.replace("STAMP", &header_at(*t));
+        writer.write_to_known_channel(&header, text.as_bytes()).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    out.into_inner()
+}
+
+fn header_at(t: f64) -> String {
+    format!(r#""header":{}"#, header(t))
+}

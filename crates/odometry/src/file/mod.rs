@@ -22,6 +22,8 @@
 //! ```
 
 mod robot;
+mod series;
 mod table;
 
 pub use robot::{BUILT_IN, Columns, RobotFile};
+pub use series::{Series, Signals};

@@ -73,11 +73,13 @@ impl RobotFile {
             .collect();
         let new = if needs_pose { Drive::new } else { Drive::held_out };
         let drive = new(name, &self.robot, columns[0].clone(), (names.data, wheels), steering, pose)?;
-        let session = names.session_separator.as_ref().and_then(|s| name.rsplit_once(s.as_str()));
-        Ok(match session {
-            Some((session, _)) => drive.of_session(session),
-            None => drive,
-        })
+        Ok(drive.of_session(&self.session_of(name)))
+    }
+
+    /// The session of a drive of this name.
+    pub(crate) fn session_of(&self, name: &str) -> String {
+        let separator = self.columns.session_separator.as_ref();
+        separator.and_then(|s| name.rsplit_once(s.as_str())).map_or(name, |(session, _)| session).to_owned()
     }
 }
 

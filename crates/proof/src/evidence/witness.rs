@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use speed_driven::{align, box_mean, interpolate};
+use inference::interpolate;
+use speed_driven::{align, box_mean};
 
 use super::hide::Table;
 

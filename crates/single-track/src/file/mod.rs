@@ -1,6 +1,7 @@
 //! Cars as files, and drives as tables: text in, a car and its drives out.
 
 mod robot;
+mod series;
 mod table;
 
 pub use robot::{BUILT_IN, Columns, RobotFile};

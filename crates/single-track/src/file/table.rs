@@ -24,6 +24,15 @@ impl RobotFile {
         Drive::held_out(name, &self.columns_of(name, table)?)
     }
 
+    /// Steering command, −1 to 1, per unit of its column.
+    pub(crate) fn steering_per_unit(&self) -> f64 {
+        match self.columns.steering_unit.as_str() {
+            "rad" => 1.0 / self.car.full_steering.value,
+            "deg" => 1.0_f64.to_radians() / self.car.full_steering.value,
+            _ => 1.0,
+        }
+    }
+
     fn columns_of(&self, name: &str, table: &str) -> Result<Table, CarError> {
         let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
@@ -55,11 +64,7 @@ impl RobotFile {
         };
 
         let names = &self.columns;
-        let per_unit = match names.steering_unit.as_str() {
-            "rad" => 1.0 / self.car.full_steering.value,
-            "deg" => 1.0_f64.to_radians() / self.car.full_steering.value,
-            _ => 1.0,
-        };
+        let per_unit = self.steering_per_unit();
         let [x, y, yaw] = [optional(&names.x)?, optional(&names.y)?, optional(&names.yaw)?];
         let pose = x.iter().zip(&y).zip(&yaw).map(|((x, y), yaw)| [*x, *y, *yaw]).collect();
         Ok(Table {

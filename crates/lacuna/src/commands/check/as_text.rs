@@ -4,7 +4,7 @@ use case_files::check::{Checked, Mapped, Proposed, Used};
 use pages::text_table::{TextTable, number};
 use recordings::{Contents, Field, Severity};
 
-use super::{stamps, tables};
+use super::{of_robot, stamps, tables};
 use crate::commands::listed;
 use crate::console::heading;
 
@@ -26,6 +26,7 @@ pub(super) fn render(c: &Checked, fields: bool) -> String {
                 out += &listed("Inferred", inferred);
             }
         }
+        Used::RobotFile => out.extend(c.of_robot.iter().map(of_robot::text)),
         Used::Nothing(_) if !c.tables.is_empty() => {
             out += "\nNo built-in mapping fits, and of a table nobody but you knows which column is which signal, in which \
                     unit and with which sign. Say it in a mapping (--write-mapping writes its skeleton) and give it with \
@@ -38,7 +39,9 @@ pub(super) fn render(c: &Checked, fields: bool) -> String {
         }
     }
     if let Some(Proposed { file, inferred, is_skeleton }) = &c.proposed {
-        out += &if *is_skeleton {
+        out += &if let Used::RobotFile = c.mapping {
+            format!("\nRobot file proposed: {file}. Use it with --robot {file}, after a look at what was inferred.\n")
+        } else if *is_skeleton {
             format!(
                 "\nSkeleton of a mapping: {file}. Say in it which column is which signal, then use --mapping {file}.\n"
             )

@@ -7,19 +7,19 @@ use toml_edit::{DocumentMut, Item, TableLike, Value, value};
 const DIGITS: usize = 9;
 
 /// A document of a robot file.
-pub(super) fn document(name: &str, text: &str) -> Result<DocumentMut> {
+pub(crate) fn document(name: &str, text: &str) -> Result<DocumentMut> {
     text.parse().with_context(|| format!("robot file '{name}' is no TOML"))
 }
 
 /// A number as it is written.
-pub(super) fn rounded(x: f64) -> f64 {
+pub(crate) fn rounded(x: f64) -> f64 {
     let near: f64 = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
     // No minus before a zero.
     if near == 0.0 { 0.0 } else { near }
 }
 
 /// Sets a key; comments that stand behind its value stay.
-pub(super) fn set(table: &mut dyn TableLike, key: &str, new: impl Into<Value>) {
+pub(crate) fn set(table: &mut dyn TableLike, key: &str, new: impl Into<Value>) {
     if let Some(old) = table.get_mut(key).and_then(Item::as_value_mut) {
         let decor = old.decor().clone();
         *old = new.into();
@@ -30,13 +30,13 @@ pub(super) fn set(table: &mut dyn TableLike, key: &str, new: impl Into<Value>) {
 }
 
 /// Says in the key `source` what changed, before what the owner says there.
-pub(super) fn set_source(table: &mut dyn TableLike, change: &str) {
+pub(crate) fn set_source(table: &mut dyn TableLike, change: &str) {
     let before = table.get("source").and_then(Item::as_str).map(|old| format!("; {old}")).unwrap_or_default();
     set(table, "source", format!("{change}{before}"));
 }
 
 /// The tables of an array, however it is written.
-pub(super) fn tables(item: &mut Item) -> Vec<&mut dyn TableLike> {
+pub(crate) fn tables(item: &mut Item) -> Vec<&mut dyn TableLike> {
     match item {
         Item::ArrayOfTables(rows) => rows.iter_mut().map(|row| row as &mut dyn TableLike).collect(),
         Item::Value(Value::Array(rows)) => {
@@ -48,6 +48,6 @@ pub(super) fn tables(item: &mut Item) -> Vec<&mut dyn TableLike> {
 }
 
 /// A sentence without line breaks, as a comment can hold it.
-pub(super) fn one_line(sentence: &str) -> String {
+pub(crate) fn one_line(sentence: &str) -> String {
     sentence.replace(['\n', '\r'], " ")
 }
