@@ -52,7 +52,7 @@ impl Kind {
     /// What is compared, for people.
     pub fn compares(self) -> &'static str {
         match self {
-            Self::Odometry => "wheel motion beside a pose",
+            Self::Odometry => "wheel motion beside a pose or a gyro",
             Self::Car => "motion beside throttle and steering",
         }
     }

@@ -63,8 +63,7 @@ pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf];
 
     let mut ignored = Vec::new();
     let columns = columns_of(&file);
-    let wanted =
-        Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: Some(file.columns.pose[2].as_str()) };
+    let wanted = Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: yaw_of(&file) };
     let (drives, files) = drives(folder, parts, &mut ignored, &wanted, |part, name, recorded| {
         let is_held_out = part == Part::HeldOut;
         Ok(match recorded {
@@ -113,7 +112,13 @@ type Parts<D> = ([Vec<D>; 3], [Vec<SourceFile>; 3]);
 /// Columns that a drive of this robot has beside its time.
 pub(crate) fn columns_of(file: &RobotFile) -> Vec<&str> {
     let names = &file.columns;
-    names.wheels.iter().chain(&names.steering).chain(&names.pose).map(String::as_str).collect()
+    let body = names.pose.iter().flatten().chain(&names.gyro);
+    names.wheels.iter().chain(&names.steering).chain(body).map(String::as_str).collect()
+}
+
+/// Column of the heading.
+pub(crate) fn yaw_of(file: &RobotFile) -> Option<&str> {
+    file.columns.pose.as_ref().map(|[_, _, yaw]| yaw.as_str())
 }
 
 /// Drives of a case folder or of paths (references, recordings, held out), read by `drive` from part, name and what is recorded:

@@ -211,8 +211,35 @@ pub const POSE_ORIGIN: CauseSpec = CauseSpec {
     resembles: "a centre of rotation that skidding wheels move",
 };
 
+/// Scale of a gyro that stands for the pose.
+pub const GYRO_SCALE: CauseSpec = CauseSpec {
+    id: "heading_gyro_scale",
+    name: "scale of the gyro",
+    robots: ROBOTS,
+    meaning: "The gyro, which shows the turning where no pose was measured, shows it by a factor: its range, unit or mounting.",
+    size: "factor on the yaw rate",
+    unit: "-",
+    recognised: "Turning by the wheels and by the gyro differ by one factor, whichever way and however fast the robot turns",
+    revealed_by: "turns on the spot both ways, counted by marks on the ground",
+    resembles: "wheel_distance (track) and radius_of_all_wheels: without a pose nothing tells the three apart but how well each \
+                is known",
+};
+
+/// Bias of a gyro that stands for the pose.
+pub const GYRO_BIAS: CauseSpec = CauseSpec {
+    id: "heading_gyro_bias",
+    name: "bias of the gyro",
+    robots: ROBOTS,
+    meaning: "The gyro, which shows the turning where no pose was measured, turns while the robot stands.",
+    size: "yaw rate that it shows at rest",
+    unit: "rad/s",
+    recognised: "Turning by the gyro grows with time, also at rest and however fast the robot drives",
+    revealed_by: "a second at rest: the bias is then measured and taken off",
+    resembles: "radius_of_one_wheel where the speed never changes",
+};
+
 /// All of them, from the count to the pose.
-pub const ALL: [&CauseSpec; 15] = [
+pub const ALL: [&CauseSpec; 17] = [
     &LOST_COUNTS,
     &CLOCK_RATE,
     &COUNTS_CLOCK_OFFSET,
@@ -228,4 +255,6 @@ pub const ALL: [&CauseSpec; 15] = [
     &ROLLER_SLIP,
     &POSE_MOUNTING,
     &POSE_ORIGIN,
+    &GYRO_SCALE,
+    &GYRO_BIAS,
 ];

@@ -40,21 +40,22 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
     };
     let mut text: Vec<String> = found.undecided().into_iter().collect();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
+    let pose = if findings.measured.pose { "pose" } else { "gyro" };
     match findings.answer {
         Answer::Nothing => text.push(format!(
-            "Nothing is missing: wheels and pose agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
+            "Nothing is missing: wheels and {pose} agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
              motion)."
         )),
         Answer::Retune => {
             text.push(format!(
-                "Re-tune: wheels and pose agree once constants are set within what {stated} {leaves} open (window errors \
+                "Re-tune: wheels and {pose} agree once constants are set within what {stated} {leaves} open (window errors \
                  go from {given:.1} to {tuned:.1} % of the motion)."
             ));
             text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
         }
         Answer::Named => {
             text.push(format!(
-                "Wheels and pose disagree by more than {stated} {leaves} open: {} (window errors go from {given:.1} over \
+                "Wheels and {pose} disagree by more than {stated} {leaves} open: {} (window errors go from {given:.1} over \
                  {tuned:.1} re-tuned to {best:.1} % of the motion).",
                 found.names()
             ));
@@ -73,14 +74,16 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
 }
 
 fn forecast_sentence(table: &Table) -> Option<String> {
-    let medians: Vec<(&String, [f64; 2])> =
+    let medians: Vec<(&String, [Option<f64>; 2])> =
         table.rows.iter().filter_map(|(name, e)| Some((name, e[LENGTHS.len() - 1].medians()?))).collect();
     if medians.is_empty() {
         return None;
     }
-    let rows = medians.iter().map(|(name, [p, h])| format!("{name} {:.1} cm and {:.1} mrad", 100.0 * p, 1e3 * h));
+    let places = |p: Option<f64>| p.map_or_else(String::new, |p| format!("{:.1} cm and ", 100.0 * p));
+    let rows = medians.iter().map(|(name, [p, h])| format!("{name} {}{:.1} mrad", places(*p), 1e3 * h.unwrap_or(0.0)));
+    let pose = if medians.iter().any(|(_, [p, _])| p.is_some()) { "Pose" } else { "Heading" };
     Some(format!(
-        "Pose {:.0} s ahead from counts alone on what was left out of the fit, {} in turn (medians): {}.",
+        "{pose} {:.0} s ahead from counts alone on what was left out of the fit, {} in turn (medians): {}.",
         LENGTHS[LENGTHS.len() - 1],
         table.sessions,
         rows.collect::<Vec<_>>().join(", ")
@@ -88,15 +91,25 @@ fn forecast_sentence(table: &Table) -> Option<String> {
 }
 
 fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
-    let mut out = vec![
-        "a wrong radius of all wheels and a wrong scale of the pose look the same: lengths are those of the pose"
-            .to_owned(),
-        format!(
-            "{} sessions, {} drives, {} windows; constants are taken to differ between sessions by {:.2} times the usual \
+    let mut out = Vec::new();
+    if findings.measured.pose {
+        out.push(
+            "a wrong radius of all wheels and a wrong scale of the pose look the same: lengths are those of the pose"
+                .to_owned(),
+        );
+    }
+    if findings.measured.heading {
+        out.push(
+            "a gyro shows how the body turns and not how far it goes: radii of all wheels, track and scale of the gyro look the same \
+             there, and slip that loses way is not looked for; where one drive has a pose, lengths are known for all"
+                .to_owned(),
+        );
+    }
+    out.push(format!(
+        "{} sessions, {} drives, {} windows; constants are taken to differ between sessions by {:.2} times the usual \
              scatter, and intervals hold for a new session's mean only",
-            findings.counts[0], findings.counts[1], findings.counts[2], findings.scatter
-        ),
-    ];
+        findings.counts[0], findings.counts[1], findings.counts[2], findings.scatter
+    ));
     if findings.counts[0] == 1 {
         out.push("one session cannot tell by how much constants differ from session to session".to_owned());
     }

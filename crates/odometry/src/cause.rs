@@ -62,6 +62,8 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             Quantity::Sideslip | Quantity::CorneringForward | Quantity::CorneringSideways => &spec::CORNERING_SLIP,
             Quantity::ClockOffset => &spec::COUNTS_CLOCK_OFFSET,
             Quantity::ClockRate(_) => &spec::CLOCK_RATE,
+            Quantity::GyroScale => &spec::GYRO_SCALE,
+            Quantity::GyroBias => &spec::GYRO_BIAS,
         };
         let of = match constant.quantity {
             Quantity::Radius(wheel) => Some(robot.wheels[measured[wheel]].name.clone()),

@@ -1,5 +1,6 @@
 //! The constants of a robot of which the motion of its body depends, and how well they are known.
 
+use crate::drive::Drive;
 use crate::kinematics::{Geometry, Kinematics};
 use crate::motion::Laws;
 use crate::settings::SETTINGS;
@@ -52,6 +53,34 @@ pub enum Quantity {
     ClockOffset,
     /// By which share the clock of the counts is slow.
     ClockRate(ClockZero),
+    /// Logarithm of the factor by which a gyro shows turning.
+    GyroScale,
+    /// Turning that a gyro shows at rest, rad/s.
+    GyroBias,
+}
+
+/// What the drives of a case measure of the body's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Measured {
+    /// A pose, in some drive.
+    pub pose: bool,
+    /// The heading by a gyro alone, in some drive.
+    pub heading: bool,
+}
+
+impl Measured {
+    /// A pose in every drive.
+    pub const POSE: Self = Self { pose: true, heading: false };
+    /// A pose in some drives and a heading alone in others.
+    pub const BOTH: Self = Self { pose: true, heading: true };
+
+    /// What these drives measure.
+    pub fn by<'a>(drives: impl Iterator<Item = &'a Drive>) -> Self {
+        drives.fold(Self { pose: false, heading: false }, |found, drive| Self {
+            pose: found.pose || !drive.heading_only,
+            heading: found.heading || drive.heading_only,
+        })
+    }
 }
 
 /// At which instant of a drive clocks are apart by their offset alone.
@@ -80,8 +109,8 @@ pub struct Constant {
     pub scatter: f64,
 }
 
-/// The constants that can show in a robot's drives.
-pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
+/// The constants that can show in a robot's drives in which this is measured.
+pub fn constants(robot: &WheeledRobot, measured: Measured) -> Vec<Constant> {
     let (known, usual, scatter) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter);
     let sigmas = robot.sigmas;
     let mut out = Vec::new();
@@ -144,8 +173,44 @@ pub fn constants(robot: &WheeledRobot) -> Vec<Constant> {
     add(Quantity::ClockOffset, "offset of the clocks", "s", known.offset, usual.offset, scatter.offset);
     add(Quantity::ClockRate(ClockZero::Middle), "rate of the clocks", "1", known.rate, usual.rate, scatter.rate);
 
-    out.retain(|constant| acts(robot, constant.quantity));
+    if measured.heading {
+        add(Quantity::GyroScale, "scale of the gyro", "1", known.gyro_scale, usual.gyro_scale, scatter.gyro_scale);
+        add(Quantity::GyroBias, "bias of the gyro", "rad/s", known.gyro_bias, usual.gyro_bias, scatter.gyro_bias);
+    }
+
+    out.retain(|constant| acts(robot, constant.quantity) && (measured.pose || turns(constant.quantity)));
     out
+}
+
+/// Whether a constant changes how the body turns, and not only where it goes.
+fn turns(quantity: Quantity) -> bool {
+    use Quantity as Q;
+    match quantity {
+        Q::Mounting
+        | Q::OriginX
+        | Q::OriginY
+        | Q::RollerSlip
+        | Q::Sideslip
+        | Q::SpeedSlip
+        | Q::TurnSlip
+        | Q::TurnSlipRate
+        | Q::TurnSlipPower => false,
+        Q::Radius(_)
+        | Q::Across
+        | Q::Along
+        | Q::Reach
+        | Q::SteeringOffset
+        | Q::SteeringGain
+        | Q::RateSlip
+        | Q::SpeedTurnSlip
+        | Q::WheelSpeedSlip
+        | Q::CorneringForward
+        | Q::CorneringSideways
+        | Q::ClockOffset
+        | Q::ClockRate(_)
+        | Q::GyroScale
+        | Q::GyroBias => true,
+    }
 }
 
 /// Whether a constant of the geometry changes any motion of this robot.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::case::Case;
 use crate::cause::{Cause, causes};
 use crate::clock;
-use crate::constants::{ClockZero, Constant, Quantity, constants};
+use crate::constants::{ClockZero, Constant, Measured, Quantity, constants};
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
@@ -18,7 +18,7 @@ use crate::traces::trace;
 use crate::weigh::{Evidence, Posterior};
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
-use catalogue::odometry::LOST_COUNTS;
+use catalogue::odometry::{CORNERING_SLIP, LOST_COUNTS, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
 use verdict::Trace;
@@ -113,7 +113,7 @@ pub(crate) fn solve(
     drives: &[&Drive],
     start: &Start,
 ) -> Result<Solved, OdometryError> {
-    let mut constants = constants(robot);
+    let mut constants = constants(robot, Measured::by(references.iter().chain(drives.iter().copied())));
     if start.clock.is_some() {
         // Logs that were started apart run apart from there.
         for constant in &mut constants {
@@ -156,8 +156,32 @@ pub(crate) fn solve(
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
     }
+    if drives.iter().all(|drive| drive.heading_only) {
+        doubt_what_little_shows(&data, &causes, &mut named);
+    }
     drop(data);
     Ok(Solved { constants, causes, prior, fit, named, lost })
+}
+
+/// Takes back causes that grow with rate, speed or acceleration where they leave nearly as much as re-tuning does: by the
+/// turning alone they stand for each other, and for what a gyro gets wrong.
+fn doubt_what_little_shows(data: &Data<'_>, causes: &[Cause], named: &mut Named) {
+    let rules = SETTINGS.heading;
+    let left = |posterior: &Posterior| share(data, &posterior.mean).0;
+    if left(&named.posterior) < rules.gain * left(&named.retuned) {
+        return;
+    }
+    let grows = |cause: usize| {
+        [&SLIP_WITH_TURNING, &SLIP_WITH_SPEED, &CORNERING_SLIP].into_iter().any(|spec| *spec == *causes[cause].spec)
+    };
+    let (doubted, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut named.chosen).into_iter().partition(|w| grows(w.cause));
+    named.others.extend(doubted.iter().map(|w| (w.cause, w.probability.min(rules.listed))));
+    named.others.sort_by(|a, b| b.1.total_cmp(&a.1));
+    named.chosen = rest;
+    if named.chosen.is_empty() {
+        named.posterior = named.retuned.clone();
+        named.rival = None;
+    }
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -206,15 +230,14 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
 
 /// Root mean square error of the windows over the root mean square of their way and turning.
 fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
-    let lever = SETTINGS.windows.lever;
     let errors = data.errors(theta.as_slice());
     let used = |drive: usize| {
         let all = data.windows[drive].iter().zip(&errors[drive]).zip(&data.dropped[drive]);
         all.filter(|((w, _), dropped)| w.is_moving() && !**dropped).map(|(both, _)| both)
     };
     let all = || (0..errors.len()).flat_map(used);
-    let error = rms(all().flat_map(|(_, e)| *e)).unwrap_or(0.0);
-    let way = rms(all().flat_map(|(w, _)| [w.moved[0], w.moved[1], w.moved[2] / lever])).unwrap_or(0.0);
+    let error = rms(all().flat_map(|(w, e)| w.measured(*e))).unwrap_or(0.0);
+    let way = rms(all().flat_map(|(w, _)| w.way())).unwrap_or(0.0);
     (error, error / way.max(f64::MIN_POSITIVE))
 }
 
@@ -271,6 +294,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         noise: fit.scale,
         scatter: fit.factors[0],
         shares: [given.1, tuned.1, best.1],
+        measured: Measured::by(case.recordings.iter()),
         counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
         told,
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
@@ -324,7 +348,7 @@ fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior:
         Quantity::Across => Some(extent(1)),
         Quantity::Along => Some(extent(0)),
         Quantity::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
-        Quantity::SteeringGain | Quantity::TurnSlipPower => Some(1.0),
+        Quantity::SteeringGain | Quantity::TurnSlipPower | Quantity::GyroScale => Some(1.0),
         Quantity::TurnSlipRate => Some(SETTINGS.slip.turning),
         _ => None,
     };

@@ -21,8 +21,10 @@ pub struct Drive {
     pub turns: Vec<Vec<f64>>,
     /// Steering angle during each row, rad; needed where a wheel is steered.
     pub steering: Option<Vec<f64>>,
-    /// Measured x, y, m, and yaw, rad, unwrapped; NaN where the pose was not seen.
+    /// Measured x, y, m, and yaw, rad, unwrapped; NaN where the pose was not seen. By a gyro alone, x and y are never seen.
     pub pose: Vec<[f64; 3]>,
+    /// The heading is that of a gyro from the first row on, and no place was measured.
+    pub heading_only: bool,
     /// What was done to it before the comparison, for people.
     pub told: Vec<String>,
 }
@@ -83,6 +85,24 @@ impl Drive {
         pose: Vec<[f64; 3]>,
     ) -> Result<Self, OdometryError> {
         let mut out = Self::of_columns(name, robot, time, (data, wheels), steering, pose)?;
+        units::guess(&mut out, robot, data)?;
+        Ok(out)
+    }
+
+    /// A drive in which a gyro alone shows how the body turned: yaw is its heading, x and y are NaN.
+    ///
+    /// # Errors
+    /// As [`Drive::new`].
+    pub fn by_gyro(
+        name: &str,
+        robot: &WheeledRobot,
+        time: Vec<f64>,
+        (data, wheels): (WheelData, &[Vec<f64>]),
+        steering: Option<Vec<f64>>,
+        heading: Vec<[f64; 3]>,
+    ) -> Result<Self, OdometryError> {
+        let mut out = Self::of_columns(name, robot, time, (data, wheels), steering, heading)?;
+        out.heading_only = true;
         units::guess(&mut out, robot, data)?;
         Ok(out)
     }
@@ -156,7 +176,8 @@ impl Drive {
                     };
             }
         }
-        Ok(Self { name: name.to_owned(), session: name.to_owned(), time, turns, steering, pose, told })
+        let (name, session) = (name.to_owned(), name.to_owned());
+        Ok(Self { name, session, time, turns, steering, pose, heading_only: false, told })
     }
 
     /// The same drive of a session.
@@ -168,7 +189,8 @@ impl Drive {
 
     /// Rows with a pose.
     pub(crate) fn is_seen(&self, row: usize) -> bool {
-        self.pose[row].iter().all(|x| x.is_finite())
+        let pose = &self.pose[row];
+        pose[2].is_finite() && (self.heading_only || pose.iter().all(|x| x.is_finite()))
     }
 
     /// Rates about each row of what goes on by `steps` from row to row, per s: means over the rows that are near enough.

@@ -224,7 +224,7 @@ pub(crate) fn alike(lost: &[Lost], wheel: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constants::constants;
+    use crate::constants::{Measured, constants};
     use crate::drive::Drive;
     use crate::wheel::WheeledRobot;
 
@@ -276,6 +276,7 @@ mod tests {
             turns: time.iter().map(|t| vec![(wheel(*t) - wheel(t - 0.05)) / robot.wheels[0].radius]).collect(),
             steering: Some(vec![0.0; time.len()]),
             pose: time.iter().map(|t| [way(*t), 0.0, 0.0]).collect(),
+            heading_only: false,
             told: Vec::new(),
             time,
         }
@@ -284,7 +285,7 @@ mod tests {
     #[test]
     fn a_wheel_that_stops_before_the_body_lost_nothing_and_one_that_misses_counts_in_steady_motion_did() {
         let robot = WheeledRobot::tricycle(0.0325, 0.15);
-        let constants = constants(&robot);
+        let constants = constants(&robot, Measured::POSE);
         let theta = vec![0.0; constants.len()];
         let found = |wheel: &dyn Fn(f64) -> f64| {
             let drive = straight(&robot, wheel);

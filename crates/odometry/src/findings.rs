@@ -1,5 +1,6 @@
 //! What the drives of a case say, as plain data.
 
+use crate::constants::Measured;
 use crate::drive::Drive;
 use crate::motion::Laws;
 use crate::settings::SETTINGS;
@@ -85,6 +86,8 @@ pub struct Findings {
     pub shares: [f64; 3],
     /// Sessions, drives, windows.
     pub counts: [usize; 3],
+    /// What the drives measure of the body's motion.
+    pub measured: Measured,
     /// What was done to the recordings, for people.
     pub told: Vec<String>,
     /// The recordings beside the simulations that were fitted to them.

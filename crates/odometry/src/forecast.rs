@@ -17,9 +17,10 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Medians of position, m, and heading, rad; `None` where no drive is long enough.
-    pub fn medians(&self) -> Option<[f64; 2]> {
-        Some([median(self.position.iter().copied())?, median(self.heading.iter().copied())?])
+    /// Medians of position, m, and heading, rad; `None` where no drive is long enough, and no position where only headings
+    /// were measured.
+    pub fn medians(&self) -> Option<[Option<f64>; 2]> {
+        Some([median(self.position.iter().copied()), Some(median(self.heading.iter().copied())?)])
     }
 
     /// Adds those of other drives.
@@ -39,7 +40,9 @@ pub(crate) fn forecast(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> [Err
         let mut out = Errors::default();
         for window in windows(drive, length, SETTINGS.forecast.every) {
             let [x, y, yaw] = relative(path[window.from], path[window.to]);
-            out.position.push((x - window.moved[0]).hypot(y - window.moved[1]));
+            if !drive.heading_only {
+                out.position.push((x - window.moved[0]).hypot(y - window.moved[1]));
+            }
             out.heading.push((yaw - window.moved[2]).abs());
         }
         out

@@ -7,7 +7,7 @@ use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::forecast::{Errors, forecast};
 use crate::motion::Laws;
-use crate::rivals::RIVALS;
+use crate::rivals::{RIVALS, Rival};
 use crate::windows::laws;
 use verdict::Trace;
 
@@ -65,7 +65,9 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         let placebo = solved.named.placebo.as_ref();
         let placebo = placebo.map(|(_, p)| laws(&case.robot, &solved.constants, p.mean.as_slice()));
         let mut models: Vec<Option<Laws>> = solved.laws(&case.robot).into_iter().map(Some).chain([placebo]).collect();
-        models.extend(RIVALS.iter().map(|(_, rival)| rival(&case.robot, &rest)));
+        let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
+        let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
+        models.extend(RIVALS.iter().map(|(_, rival)| calibrated(rival)));
         let errors: Vec<[Errors; 3]> = models
             .iter()
             .map(|model| {

@@ -30,6 +30,7 @@ pub mod file;
 mod findings;
 mod fit;
 mod forecast;
+mod heading;
 mod kinematics;
 mod left_out;
 mod motion;
@@ -59,7 +60,7 @@ pub mod weighing {
 pub use answer::diagnosis;
 pub use case::Case;
 pub use cause::Cause;
-pub use constants::{ClockZero, Constant, Quantity, constants};
+pub use constants::{ClockZero, Constant, Measured, Quantity, constants};
 pub use diagnose::diagnose;
 pub use drive::{Drive, WheelData};
 pub use error::OdometryError;

@@ -10,6 +10,7 @@
 //!   a share of the wheels' motion and of the body's;
 //! * sideslip: `(x, y) ← (x, y) − sideslip a dt`;
 //! * turning: `t ← (1 − rate_slip |ω|) exp(−speed_turn_slip |v|) t − (cornering_forward v_x + cornering_sideways v_y) ω dt`;
+//! * gyro, where it stands for the pose: it shows the heading `scale ψ + bias t`;
 //! * frame: the pose's x axis points `mounting` from the robot's, its origin stands at `origin`.
 
 use crate::constants::{ClockZero, Quantity};
@@ -17,6 +18,9 @@ use crate::drive::Drive;
 use crate::kinematics::{Geometry, Kinematics};
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
+
+/// A gyro that shows turning as it is.
+const RIGHT_GYRO: [f64; 2] = [1.0, 0.0];
 
 /// All numbers of which the pose depends.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +40,8 @@ pub(crate) struct Laws {
     pub(crate) cornering: [f64; 2],
     pub(crate) clock: [f64; 2],
     pub(crate) clock_zero: ClockZero,
+    /// Factor by which a gyro shows turning, and what it shows at rest, rad/s.
+    pub(crate) gyro: [f64; 2],
 }
 
 impl Laws {
@@ -57,7 +63,13 @@ impl Laws {
             cornering: [0.0; 2],
             clock: [0.0; 2],
             clock_zero: ClockZero::Middle,
+            gyro: RIGHT_GYRO,
         }
+    }
+
+    /// The same of a body as it moves, and not as a gyro shows it.
+    pub(crate) fn of_body(&self) -> Self {
+        Self { gyro: RIGHT_GYRO, ..self.clone() }
     }
 
     /// The same with these constants at these values.
@@ -88,6 +100,8 @@ impl Laws {
                 Quantity::CorneringSideways => out.cornering[1] = value,
                 Quantity::ClockOffset => out.clock[0] = value,
                 Quantity::ClockRate(zero) => (out.clock[1], out.clock_zero) = (value, zero),
+                Quantity::GyroScale => out.gyro[0] = value.exp(),
+                Quantity::GyroBias => out.gyro[1] = value,
             }
         }
         out
@@ -123,7 +137,16 @@ pub(crate) fn implied(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[
         pose = moved(pose, framed(laws, step));
         path.push(pose);
     }
-    if laws.clock == [0.0; 2] { path } else { drive.at_shifted_clock(&path, laws.clock, laws.clock_zero) }
+    if laws.clock != [0.0; 2] {
+        path = drive.at_shifted_clock(&path, laws.clock, laws.clock_zero);
+    }
+    if drive.heading_only && laws.gyro != RIGHT_GYRO {
+        let [scale, bias] = laws.gyro;
+        for (pose, time) in path.iter_mut().zip(&drive.time) {
+            pose[2] = scale * pose[2] + bias * (time - drive.time[0]);
+        }
+    }
+    path
 }
 
 /// The shares of their turns that the wheels keep by their own speed, row by row.

@@ -222,12 +222,12 @@ pub fn free_runs(
     recording: &str,
     from: &str,
     lengths: [f64; 3],
-    medians: impl Fn(usize, usize) -> Option<[f64; 2]>,
+    medians: impl Fn(usize, usize) -> Option<[Option<f64>; 2]>,
 ) -> Vec<FreeRun> {
     let mut out = Vec::new();
     for (k, length) in lengths.iter().enumerate() {
         for (axis, quantity, unit) in [(0, "position", "m"), (1, "heading", "rad")] {
-            let of = |row: usize| medians(row, k).map(|m| m[axis]);
+            let of = |row: usize| medians(row, k).and_then(|m| m[axis]);
             let [Some(nominal), Some(retuned), Some(corrected)] = [of(0), of(1), of(2)] else { continue };
             out.push(FreeRun {
                 recording: recording.to_owned(),
@@ -254,7 +254,7 @@ mod tests {
 
     #[test]
     fn lengths_of_free_runs_are_read_as_they_are_written() {
-        let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([1.0, 2.0]));
+        let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([Some(1.0), Some(2.0)]));
         let of = |quantity: &str| runs.iter().filter_map(|run| length_of(run, quantity)).collect::<Vec<_>>();
         assert_eq!((of("position"), of("heading"), of("speed")), (vec![2.0, 10.0, 0.5], vec![2.0, 10.0, 0.5], vec![]));
     }

@@ -45,6 +45,8 @@ impl Beside<'_> {
         };
         let is_seen = rows.iter().all(|&row| self.measured[row].iter().all(|v| v.is_finite()));
         let path = rows.iter().filter(|_| is_seen).map(|&row| [0, 1].map(|axis| rounded(self.measured[row][axis])));
+        // By a gyro alone there is a heading and no place.
+        let is_measured = |axis: usize| self.measured.iter().any(|pose| pose[axis].is_finite());
         let signals = [("position x", "m"), ("position y", "m"), ("heading", "rad")];
         let place = |start: &usize| rows.partition_point(|row| row < start);
         Trace {
@@ -52,7 +54,7 @@ impl Beside<'_> {
             left_out: self.left_out,
             time: rows.iter().map(|&row| instant(self.time[row] - self.time[0])).collect(),
             restarts: self.starts.iter().map(place).collect(),
-            channels: signals.into_iter().enumerate().map(channel).collect(),
+            channels: signals.into_iter().enumerate().filter(|(axis, _)| is_measured(*axis)).map(channel).collect(),
             path: path.collect(),
             ..Trace::default()
         }
@@ -74,7 +76,7 @@ impl Beside<'_> {
 /// The pose of a drive from its counts alone: from the first row of each stretch in which it was seen, and anew from the last one
 /// where rows follow in which it was not; in the rows before all, as counts say backwards. At the origin where it was never seen.
 pub(crate) fn predicted(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec<[f64; 3]> {
-    let path = implied(robot, drive, laws);
+    let path = implied(robot, drive, &laws.of_body());
     let seen = |row: usize| drive.is_seen(row);
     let is_end = |row: usize| row == 0 || !seen(row - 1) || (row + 1 < path.len() && !seen(row + 1));
     let mut starts = (0..path.len()).filter(|&row| seen(row) && is_end(row)).peekable();
@@ -85,9 +87,15 @@ pub(crate) fn predicted(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> Vec
                 start = row;
                 starts.next();
             }
-            placed(drive.pose[start], relative(path[start], path[row]))
+            placed(begun(drive, start), relative(path[start], path[row]))
         })
         .collect()
+}
+
+/// The pose of a row in which it was seen; at the origin where only the heading was.
+fn begun(drive: &Drive, row: usize) -> [f64; 3] {
+    let [x, y, yaw] = drive.pose[row];
+    if drive.heading_only { [0.0, 0.0, yaw] } else { [x, y, yaw] }
 }
 
 /// A drive beside what counts alone say under each of these laws: as stated, re-tuned, corrected.
@@ -99,7 +107,7 @@ pub(crate) fn trace(robot: &WheeledRobot, drive: &Drive, laws: [Option<&Laws>; 3
         for (k, &start) in starts.iter().enumerate() {
             let end = starts.get(k + 1).copied().unwrap_or(path.len());
             for row in start..end {
-                out[row] = placed(drive.pose[start], relative(path[start], path[row]));
+                out[row] = placed(begun(drive, start), relative(path[start], path[row]));
             }
         }
         out

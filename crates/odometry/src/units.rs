@@ -44,10 +44,14 @@ pub(crate) fn unwrapped(column: &[f64], data: WheelData, wheel: &Wheel, told: &m
 /// Sets the units of a drive to metres and radians, where wheels and pose permit one reading only, and tells so.
 pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) -> Result<(), OdometryError> {
     if !(0..drive.pose.len()).any(|k| drive.is_seen(k)) {
-        let what = "the pose is never seen; map pose_x, pose_y and pose_yaw".to_owned();
+        let what = "neither a pose nor a gyro is ever seen; name columns of one of them that hold values".to_owned();
         return Err(OdometryError::Drive { drive: drive.name.clone(), what });
     }
     steering(drive);
+    if drive.heading_only {
+        gyro(drive, robot);
+        return Ok(());
+    }
     // Wheels before yaw: both are measured against each other, and degrees of both would cancel, but not in the way.
     wheels(drive, robot, data);
     let turned = motions(drive, robot).map(|m| m[2].abs()).sum::<f64>();
@@ -65,6 +69,22 @@ pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) ->
         unwrap_yaw(drive, TAU);
     }
     length(drive, robot)
+}
+
+/// Takes a gyro that turns by 57.3 times what the wheels say for one in degrees per second, and takes its bias off.
+fn gyro(drive: &mut Drive, robot: &WheeledRobot) {
+    drive.take_bias_off();
+    let turned = motions(drive, robot).map(|m| m[2].abs()).sum::<f64>();
+    let seen = shown(drive).map(|m| m[2].abs()).sum::<f64>();
+    let degrees = 1.0_f64.to_degrees();
+    if turned > RULES.turned && is_near(seen / turned, degrees, RULES.degrees_tolerance) {
+        drive.pose.iter_mut().for_each(|pose| pose[2] = pose[2].to_radians());
+        tell(
+            drive,
+            &format!("the gyro turns by {seen:.0} where the wheels turn the robot by {turned:.1} rad"),
+            "it is taken to be in degrees per second; state angle_unit",
+        );
+    }
 }
 
 fn tell(drive: &mut Drive, reason: &str, taken: &str) {

@@ -3,6 +3,7 @@
 use crate::constants::{Constant, Quantity};
 use crate::drive::Drive;
 use crate::error::OdometryError;
+use crate::heading::is_rolling;
 use crate::motion::{Laws, implied, relative};
 use crate::settings::{SETTINGS, Windows as Rules};
 use crate::wheel::WheeledRobot;
@@ -15,19 +16,47 @@ const RULES: Rules = SETTINGS.windows;
 pub(crate) struct Window {
     pub(crate) from: usize,
     pub(crate) to: usize,
+    /// NaN along x and y where only a heading was measured.
     pub(crate) moved: [f64; 3],
+    /// By a heading alone: whether a wheel turned.
+    rolls: bool,
 }
 
 impl Window {
+    /// A window of which the motion of the pose is known.
+    pub(crate) fn of_pose(from: usize, to: usize, moved: [f64; 3]) -> Self {
+        Self { from, to, moved, rolls: false }
+    }
+
+    fn is_heading(&self) -> bool {
+        self.moved[0].is_nan()
+    }
+
     /// Whether anything moved.
     pub(crate) fn is_moving(&self) -> bool {
+        if self.is_heading() {
+            return self.rolls;
+        }
         self.moved[0].hypot(self.moved[1]) + self.moved[2].abs() > RULES.moving
     }
 
-    /// Error of a path in metres: x, y, and yaw by its lever.
+    /// Error of a path in metres: x, y, and yaw by its lever; none along what was not measured.
     pub(crate) fn error(&self, path: &[[f64; 3]]) -> [f64; 3] {
         let [x, y, yaw] = relative(path[self.from], path[self.to]);
-        [x - self.moved[0], y - self.moved[1], (yaw - self.moved[2]) / RULES.lever]
+        let turned = (yaw - self.moved[2]) / RULES.lever;
+        if self.is_heading() { [0.0, 0.0, turned] } else { [x - self.moved[0], y - self.moved[1], turned] }
+    }
+
+    /// What of three numbers along x, y and yaw was measured.
+    pub(crate) fn measured(&self, [x, y, yaw]: [f64; 3]) -> impl Iterator<Item = f64> {
+        let all = !self.is_heading();
+        [x, y].into_iter().filter(move |_| all).chain([yaw])
+    }
+
+    /// Motion in metres: x, y, and yaw by its lever, of which was measured.
+    pub(crate) fn way(&self) -> impl Iterator<Item = f64> {
+        let [x, y, yaw] = self.moved;
+        self.measured([x, y, yaw / RULES.lever])
     }
 }
 
@@ -49,7 +78,8 @@ pub(crate) fn windows(drive: &Drive, length: f64, every: f64) -> Vec<Window> {
         }
         // A pose that was not seen for a while makes no window of another length.
         if to < time.len() && time[to] - start <= length + slack && start - begin <= slack {
-            out.push(Window { from, to, moved: relative(drive.pose[from], drive.pose[to]) });
+            let rolls = drive.heading_only && is_rolling(drive.rolled(from, to));
+            out.push(Window { from, to, moved: relative(drive.pose[from], drive.pose[to]), rolls });
         }
         begin += every;
     }
@@ -68,6 +98,8 @@ pub(crate) struct Data<'a> {
     pub(crate) sessions: Vec<String>,
     /// Windows that are left out, by drive: those in which counts were lost.
     pub(crate) dropped: Vec<Vec<bool>>,
+    /// Least scale of the errors, m.
+    floor: f64,
 }
 
 impl<'a> Data<'a> {
@@ -91,7 +123,14 @@ impl<'a> Data<'a> {
             session.push(index);
         }
         let dropped = windows.iter().map(|w| vec![false; w.len()]).collect();
-        Ok(Self { robot, drives, constants, windows, session, sessions, dropped })
+        let floor = if drives.iter().all(|drive| drive.heading_only) {
+            let moving = windows.iter().flatten().filter(|w| w.is_moving());
+            let usual = inference::robust::rms(moving.flat_map(Window::way)).unwrap_or(0.0);
+            RULES.floor.max(SETTINGS.heading.error * usual)
+        } else {
+            RULES.floor
+        };
+        Ok(Self { robot, drives, constants, windows, session, sessions, dropped, floor })
     }
 
     /// The same drives in windows of another length, of which none is left out.
@@ -120,8 +159,8 @@ impl<'a> Data<'a> {
             let seen: Vec<[f64; 3]> =
                 (0..drive.pose.len()).filter(|&row| drive.is_seen(row)).map(|row| drive.pose[row]).collect();
             for w in seen.windows(3) {
-                let bend = [0, 1].map(|axis| w[2][axis] - 2.0 * w[1][axis] + w[0][axis]);
-                second.push(bend[0].hypot(bend[1]));
+                let bend = |axis: usize| w[2][axis] - 2.0 * w[1][axis] + w[0][axis];
+                second.push(if drive.heading_only { bend(2).abs() / RULES.lever } else { bend(0).hypot(bend(1)) });
             }
         }
         // Variances of second differences are six times those of samples; two samples bound a window.
@@ -149,22 +188,22 @@ impl<'a> Data<'a> {
         let limit = quantile(&sizes, RULES.quantile).unwrap_or(0.0) / RULES.quantile_sigmas;
         let cut = 2.0 * RULES.quantile_sigmas * limit;
         let clipped = inference::robust::rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0);
-        clipped.max(RULES.floor)
+        clipped.max(self.floor)
     }
 
     /// The same by the median, which half of the windows may be off without moving much.
     pub(crate) fn usual_scale(&self, errors: &[Vec<[f64; 3]>]) -> f64 {
         let median = quantile(&self.sizes(errors), 0.5).unwrap_or(0.0);
-        (MAD_TO_SIGMA * median).max(RULES.floor)
+        (MAD_TO_SIGMA * median).max(self.floor)
     }
 
     /// Sizes of the errors of windows in motion, rising.
     fn sizes(&self, errors: &[Vec<[f64; 3]>]) -> Vec<f64> {
         let moving = |drive: usize| {
             let used = self.windows[drive].iter().zip(&self.dropped[drive]).zip(&errors[drive]);
-            used.filter(|((w, dropped), _)| w.is_moving() && !**dropped).map(|(_, e)| *e)
+            used.filter(|((w, dropped), _)| w.is_moving() && !**dropped).flat_map(|((w, _), e)| w.measured(*e))
         };
-        sorted((0..errors.len()).flat_map(moving).flatten().map(f64::abs))
+        sorted((0..errors.len()).flat_map(moving).map(f64::abs))
     }
 }
 

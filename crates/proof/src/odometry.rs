@@ -87,7 +87,7 @@ fn examine(data: &Path, kind: &'static str, robot: &str) -> Result<Examined> {
 /// Median position error 30 s ahead of the best classical calibration over that of the corrected simulation.
 fn gain(examined: &Examined) -> Option<Figure> {
     let last = LENGTHS.len() - 1;
-    let position = |row: &(String, [odometry::Errors; 3])| row.1[last].medians().map(|m| m[0]);
+    let position = |row: &(String, [odometry::Errors; 3])| row.1[last].medians().and_then(|m| m[0]);
     let ours = examined.table.rows.get(CORRECTED).and_then(position)?;
     let best = examined.table.rows[OURS..].iter().filter_map(position).fold(f64::INFINITY, f64::min);
     let name = format!("{}: best classical calibration over corrected, position after 30 s", examined.kind);
@@ -115,7 +115,7 @@ fn sections(examined: &[Examined]) -> Vec<Section> {
             if medians.iter().all(Option::is_none) {
                 continue;
             }
-            let cells = medians.iter().flat_map(|m| [m.map(|m| 1e3 * m[0]), m.map(|m| 1e3 * m[1])]);
+            let cells = medians.iter().flat_map(|m| [0, 1].map(|axis| m.and_then(|m| m[axis]).map(|m| 1e3 * m)));
             let tone = if k == CORRECTED { Tone::Good } else { Tone::Plain };
             section
                 .rows

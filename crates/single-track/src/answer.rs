@@ -22,7 +22,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         shares: findings.shares,
     };
     let of_drive = |(drive, errors): &(String, Vec<ByLength>)| {
-        let medians = |row: usize, k: usize| errors.get(row).and_then(|e| e[k].medians());
+        let medians = |row: usize, k: usize| errors.get(row).and_then(|e| e[k].medians()).map(|m| m.map(Some));
         free_runs(drive, "throttle and steering alone", LENGTHS, medians)
     };
     let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());

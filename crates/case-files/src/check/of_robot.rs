@@ -86,7 +86,7 @@ impl Robot {
     /// Columns of the time and of the heading.
     fn time_and_yaw(&self) -> (&str, Option<&str>) {
         match self {
-            Self::Odometry(file) => (&file.columns.time, Some(&file.columns.pose[2])),
+            Self::Odometry(file) => (&file.columns.time, odometry::yaw_of(file)),
             Self::Car(file) => (&file.columns.time, file.columns.yaw.as_deref()),
         }
     }
@@ -108,9 +108,10 @@ impl Robot {
 
 fn of_wheels(drive: ::odometry::Drive) -> (String, Vec<String>) {
     let rows = drive.time.len();
-    let seen = drive.pose.iter().filter(|pose| pose.iter().all(|x| x.is_finite())).count();
+    let measured = if drive.heading_only { "the heading by a gyro" } else { "a pose" };
+    let seen = drive.pose.iter().filter(|pose| pose[2].is_finite()).count();
     let seconds = drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first);
-    (format!("{rows} rows in {seconds:.1} s, a pose in {seen} of them"), drive.told)
+    (format!("{rows} rows in {seconds:.1} s, {measured} in {seen} of them"), drive.told)
 }
 
 fn of_car(drive: single_track::Drive) -> (String, Vec<String>) {

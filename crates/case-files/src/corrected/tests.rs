@@ -61,7 +61,7 @@ fn off(text: &str) -> Vec<(String, f64)> {
         odometry::Quantity::SteeringGain => 1.0,
         _ => 0.001,
     };
-    odometry::constants(&robot).iter().map(|c| (c.name.clone(), value(c))).collect()
+    odometry::constants(&robot, odometry::Measured::POSE).iter().map(|c| (c.name.clone(), value(c))).collect()
 }
 
 fn corrected(name: &str) -> ColumnsRobot {
@@ -256,7 +256,7 @@ fn forecasts_of_the_verdict_become_covariances() {
     let mut diagnosis = corrected("differential").diagnosis.expect("a verdict");
     diagnosis.free_runs = odometry::telling::free_runs("run", "counts alone", [2.0, 10.0, 30.0], |row, k| {
         let size = (1 + row) as f64 * 1e-3 * (1 + k) as f64;
-        Some([1.177_41 * size, 0.674_49 * size])
+        Some([1.177_41 * size, 0.674_49 * size].map(Some))
     });
     let robot = robot(Kind::Odometry, built_in("differential"), Some(diagnosis));
     let corrected = robot.controllers().expect("parameters").text;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
 use odometry::file::RobotFile;
-use odometry::{Constant, Quantity, WheeledRobot, constants};
+use odometry::{Constant, Measured, Quantity, WheeledRobot, constants};
 use toml_edit::{Array, Item, TableLike};
 use verdict::Diagnosis;
 
@@ -66,7 +66,7 @@ pub(super) fn corrected(stated: &WheeledRobot, tuning: &BTreeMap<String, f64>) -
 
     let mut radii = Vec::new();
     let mut zero = 0.0;
-    for constant in constants(stated) {
+    for constant in constants(stated, Measured::BOTH) {
         let Some(value) = found(&constant.name) else { continue };
         match constant.quantity {
             Quantity::Radius(k) => radii.push((measured[k], value)),
@@ -94,7 +94,7 @@ pub(super) fn is_length(quantity: Quantity) -> bool {
 
 /// What the verdict tells and a target does not hold.
 pub(super) fn unheld(stated: &WheeledRobot, diagnosis: &Diagnosis, holds: impl Fn(Quantity) -> bool) -> Vec<Unheld> {
-    let constants = constants(stated);
+    let constants = constants(stated, Measured::BOTH);
     let unheld = |told: Told| {
         let Some(constant) = constants.iter().find(|c| c.name == told.name) else {
             let remedy = "look at the wheel's encoder, its plug and its counter";
@@ -117,7 +117,7 @@ pub(super) fn unheld(stated: &WheeledRobot, diagnosis: &Diagnosis, holds: impl F
 /// What a target takes for granted of a constant that it does not hold; `None` where that depends on another constant.
 fn neutral(quantity: Quantity) -> Option<f64> {
     match quantity {
-        Quantity::SteeringGain => Some(1.0),
+        Quantity::SteeringGain | Quantity::GyroScale => Some(1.0),
         Quantity::TurnSlipRate | Quantity::TurnSlipPower => None,
         _ => Some(0.0),
     }
@@ -130,6 +130,8 @@ fn remedy(quantity: Quantity) -> &'static str {
         Quantity::SteeringGain => "multiply the steering angle by it before it is used",
         Quantity::Mounting => "turn the pose by it where it is recorded",
         Quantity::OriginX | Quantity::OriginY => "shift the pose by it where it is recorded",
+        Quantity::GyroScale => "divide the gyro's yaw rate by it",
+        Quantity::GyroBias => "subtract it from the gyro's yaw rate",
         Quantity::ClockOffset | Quantity::ClockRate(_) => "correct the time stamps of the counts by it",
         Quantity::RollerSlip
         | Quantity::TurnSlip

@@ -38,7 +38,7 @@ pub fn columns(robot: &str, kind: Kind, contents: &Contents) -> Result<Proposal>
         Kind::Odometry => draft.wheels()?,
         Kind::Car => draft.car()?,
     }
-    draft.pose();
+    draft.pose(kind);
     draft.time();
     let mut lines = vec![format!("# {}", super::FIRST_LINE)];
     lines.extend(draft.inferred.iter().map(|sentence| format!("# - {}", one_line(sentence))));
@@ -193,17 +193,17 @@ impl<'a> Draft<'a> {
     }
 
     /// Where the robot is, measured by something else than its wheels.
-    fn pose(&mut self) {
+    fn pose(&mut self, kind: Kind) {
         let ways = [
             ("PoseStamped", "pose.position", "pose.orientation"),
             ("TransformStamped", "transform.translation", "transform.rotation"),
             ("PoseWithCovarianceStamped", "pose.pose.position", "pose.pose.orientation"),
             ("Odometry", "pose.pose.position", "pose.pose.orientation"),
         ];
-        for (kind, place, turn) in ways {
+        for (pose, place, turn) in ways {
             let is_one = |topic: &&&TopicContents| {
-                let is_measured = kind != "Odometry" || says(topic, &MEASURED);
-                message(topic) == kind && is_measured && !says(topic, &WANTED) && has(topic, &format!("{place}.x"))
+                let is_measured = pose != "Odometry" || says(topic, &MEASURED);
+                message(topic) == pose && is_measured && !says(topic, &WANTED) && has(topic, &format!("{place}.x"))
             };
             let found: Vec<&TopicContents> = self.topics.iter().filter(is_one).copied().collect();
             if let Some((topic, others)) = found.split_first() {
@@ -219,6 +219,15 @@ impl<'a> Draft<'a> {
                 self.set("yaw", topic, turn);
                 return;
             }
+        }
+        if kind == Kind::Odometry && self.gyro() {
+            for key in ["x", "y", "yaw"] {
+                self.columns().remove(key);
+            }
+            self.inferred.push(
+                "no topic of a measured pose is in the bag: the gyro shows how the robot turns, and not how far it goes".to_owned(),
+            );
+            return;
         }
         let odometry: Vec<&str> =
             self.topics.iter().filter(|topic| message(topic) == "Odometry").map(|topic| topic.name.as_str()).collect();
@@ -267,10 +276,7 @@ impl<'a> Draft<'a> {
                     .to_owned(),
             ),
         }
-        if let Some(topic) = self.topics.iter().copied().find(|topic| has(topic, "angular_velocity.z")) {
-            self.infer(topic, "angular_velocity.z taken for the yaw rate, z up");
-            self.set("gyro", topic, "angular_velocity.z");
-        }
+        self.gyro();
         let named = find(self, &["speed", "wheel", "encoder"]).filter(|topic| !says(topic, &WANTED));
         match named {
             Some(topic) => {
@@ -283,6 +289,15 @@ impl<'a> Draft<'a> {
             self.columns().remove(key);
         }
         Ok(())
+    }
+
+    /// The yaw rate by an inertial unit, if there is one.
+    fn gyro(&mut self) -> bool {
+        let is_one = |topic: &&TopicContents| message(topic) == "Imu" && has(topic, "angular_velocity.z");
+        let Some(topic) = self.topics.iter().copied().find(is_one) else { return false };
+        self.infer(topic, "angular_velocity.z taken for the yaw rate in rad/s, z up");
+        self.set("gyro", topic, "angular_velocity.z");
+        true
     }
 
     /// One clock for all: stamps where every topic has them.

@@ -167,6 +167,42 @@ fn counts_without_stamps_that_wrap_around_are_read_by_log_times() {
 }
 
 #[test]
+fn without_a_pose_the_gyro_is_proposed_and_the_wheel_is_named_by_it() {
+    let bench = Bench::empty();
+    bench.write("cart.toml", ROBOT);
+    let topics = [("/joint_states", "sensor_msgs/msg/JointState"), ("/imu/data", "sensor_msgs/msg/Imu")];
+    for (run, phase) in [0.0, 0.4, 0.8].into_iter().enumerate() {
+        let rows = drive(phase);
+        let said = rows.iter().enumerate().skip(1).flat_map(|(k, ([left, right], _))| -> [Said; 2] {
+            let t = 1e9 + EVERY * k as f64;
+            let joints = format!(
+                r#"{{STAMP,"name":["wheel_right_joint","wheel_left_joint"],"position":[{right},{left}],"velocity":[],"effort":[]}}"#
+            );
+            // The yaw rate in the middle between two angles.
+            let [before_left, before_right] = rows[k - 1].0;
+            let rate = (0.0525 * (right - before_right) - 0.05 * (left - before_left)) / 0.3 / EVERY;
+            let imu = format!(r#"{{STAMP,"angular_velocity":{{"x":0.0,"y":0.0,"z":{rate}}}}}"#);
+            [(0, t, joints), (1, t - 0.5 * EVERY, imu)]
+        });
+        bench.write_bytes(&format!("drives/run_{run}.mcap"), &bag_of(&topics, said.collect()));
+    }
+    let run = bench.run(&["check", "drives", "--robot", "cart.toml", "--write-mapping", "new.toml"]);
+    assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
+    assert!(run.out().contains("the gyro shows how the robot turns"), "{}", run.out());
+    let new = bench.read("new.toml");
+    assert!(new.contains("gyro = \"/imu/data.angular_velocity.z\"") && !new.contains("x = "), "{new}");
+
+    // By turning alone a larger right wheel is a smaller left one on a robot with another track.
+    let run = bench.run(&["diagnose", "--robot", "new.toml", "--recordings", "drives"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for part in
+        ["Wheels and gyro disagree", "Radius of one wheel", "a gyro shows how the body turns and not how far it goes"]
+    {
+        assert!(run.out().contains(part), "no `{part}` in {}", run.out());
+    }
+}
+
+#[test]
 fn a_car_finds_its_commands_in_a_bag() {
     let bench = Bench::empty();
     let topics = [

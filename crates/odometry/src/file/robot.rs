@@ -39,7 +39,9 @@ pub struct Columns {
     /// Column of the steering angle.
     pub steering: Option<String>,
     /// Columns of x, y and yaw.
-    pub pose: [String; 3],
+    pub pose: Option<[String; 3]>,
+    /// Column of the yaw rate, which stands for the pose where that is not recorded.
+    pub gyro: Option<String>,
     /// Metres per unit of x and y.
     pub length: f64,
     /// Radians per unit of yaw and steering.
@@ -103,9 +105,10 @@ struct ColumnNames {
     time: String,
     wheels: String,
     steering: Option<String>,
-    x: String,
-    y: String,
-    yaw: String,
+    x: Option<String>,
+    y: Option<String>,
+    yaw: Option<String>,
+    gyro: Option<String>,
     length_unit: Option<String>,
     angle_unit: Option<String>,
     session_separator: Option<String>,
@@ -129,6 +132,20 @@ fn known_above_none(read: &File) -> Result<(), String> {
             "{name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
         ))
     })
+}
+
+/// Columns of x, y and yaw; none where a gyro stands for them.
+fn pose_columns(names: &ColumnNames) -> Result<Option<[String; 3]>, String> {
+    match (&names.x, &names.y, &names.yaw) {
+        (Some(x), Some(y), Some(yaw)) => Ok(Some([x, y, yaw].map(Clone::clone))),
+        (None, None, None) if names.gyro.is_some() => Ok(None),
+        (None, None, None) => Err(
+            "[columns] names neither a pose nor a gyro; give x, y and yaw, or gyro with the column of the yaw rate, so that there is \
+             something to compare the wheels with"
+                .to_owned(),
+        ),
+        _ => Err("[columns] names a part of the pose; give x, y and yaw, or none of them".to_owned()),
+    }
 }
 
 impl RobotFile {
@@ -230,12 +247,14 @@ impl RobotFile {
             Some("deg") => 1.0_f64.to_radians(),
             Some(other) => return Err(wrong(format!("angle_unit = \"{other}\"; write rad or deg"))),
         };
+        let pose = pose_columns(&names).map_err(wrong)?;
         let columns = Columns {
             time: names.time,
             data,
             wheels: measured.iter().filter_map(|w| w.column.clone()).collect(),
             steering: names.steering,
-            pose: [names.x, names.y, names.yaw],
+            pose,
+            gyro: names.gyro,
             length,
             angle,
             session_separator: names.session_separator,
@@ -293,6 +312,9 @@ mod tests {
         assert!(refused("kind = \"odometry\"", "kind = \"car\"").contains("belong to kind"));
         assert!(refused("wheels = \"counts\"", "wheels = \"tacho\"").contains("counts, counter, angle or speed"));
         assert!(refused("time = ", "tim = ").contains("tim"));
+        assert!(refused("yaw = \"yaw_rad\"\n", "").contains("names a part of the pose"));
+        let neither = refused("x = \"x_m\"\ny = \"y_m\"\nyaw = \"yaw_rad\"\n", "");
+        assert!(neither.contains("names neither a pose nor a gyro; give x, y and yaw, or gyro"), "{neither}");
         assert!(refused("time = ", "steering = \"a\"\ntime = ").contains("no wheel is steered; write steered = true"));
         assert!(
             refused(

@@ -61,38 +61,25 @@ impl RobotFile {
             wheels.push(angle);
         }
         let steering = names.steering.as_ref().map(needed).transpose()?;
-        let [x, y, yaw] = if is_held_out && names.pose.iter().any(|column| !signals.contains_key(column)) {
-            Default::default()
-        } else {
-            let [x, y, yaw] = &names.pose;
-            [needed(x)?.clone(), needed(y)?.clone(), needed(yaw)?.clone()]
-        };
-        if x.time != y.time || x.time != yaw.time {
-            let [x, y, yaw] = &names.pose;
-            return Err(wrong(format!(
-                "x, y and yaw are not measured at one time; take '{x}', '{y}' and '{yaw}' of one topic"
-            )));
-        }
+        let body = self.body(name, signals, is_held_out)?;
 
         let spans = wheels.iter().chain(steering).filter_map(Series::span);
         let [from, until] = spans.fold([f64::MIN, f64::MAX], |[a, b], [from, until]| [a.max(from), b.min(until)]);
-        let time = rows(&x.time, wheels.iter().flat_map(|wheel| &wheel.time).copied(), [from, until]);
+        let time = rows(&body.time, wheels.iter().flat_map(|wheel| &wheel.time).copied(), [from, until]);
         enough_rows(name, time.len())?;
         let at = |row: usize| wheels.iter().map(|wheel| wheel.at(time[row])).collect::<Vec<f64>>();
         let turned = |row: usize| {
             let before = at(row.saturating_sub(1));
             at(row).iter().zip(before).map(|(now, before)| now - before).collect::<Vec<f64>>()
         };
-        let pose = |time: &f64| match x.time.binary_search_by(|t| t.total_cmp(time)) {
-            Ok(k) => [x.value[k] * names.length, y.value[k] * names.length, yaw.value[k] * names.angle],
-            Err(_) => [f64::NAN; 3],
-        };
+        let seen = |time: &f64| body.time.binary_search_by(|t| t.total_cmp(time));
         let mut drive = Drive {
             name: name.to_owned(),
             session: self.session_of(name),
             turns: (0..time.len()).map(turned).collect(),
             steering: steering.map(|s| time.iter().map(|t| s.at(*t) * names.angle).collect()),
-            pose: time.iter().map(pose).collect(),
+            pose: time.iter().map(|t| seen(t).map_or([f64::NAN; 3], |k| body.pose[k])).collect(),
+            heading_only: body.heading_only,
             time,
             told,
         };
@@ -103,6 +90,53 @@ impl RobotFile {
         }
         Ok(drive)
     }
+}
+
+/// How the body moved, by a pose or by a gyro.
+struct Body {
+    time: Vec<f64>,
+    pose: Vec<[f64; 3]>,
+    heading_only: bool,
+}
+
+impl RobotFile {
+    fn body(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Body, OdometryError> {
+        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let names = &self.columns;
+        let given = |column: &String| signals.get(column).filter(|series| !series.time.is_empty());
+        let gyro = names.gyro.as_ref().and_then(given);
+        let pose = names.pose.as_ref().map(|[x, y, yaw]| [(x, given(x)), (y, given(y)), (yaw, given(yaw))]);
+        if let Some([(_, Some(x)), (_, Some(y)), (_, Some(yaw))]) = pose {
+            if x.time != y.time || x.time != yaw.time {
+                return Err(wrong("x, y and yaw are not measured at one time; take them of one topic".to_owned()));
+            }
+            let of = |k: usize| [x.value[k] * names.length, y.value[k] * names.length, yaw.value[k] * names.angle];
+            return Ok(Body { time: x.time.clone(), pose: (0..x.time.len()).map(of).collect(), heading_only: false });
+        }
+        // What is to be predicted is the pose by the wheels alone.
+        if is_held_out {
+            return Ok(Body { time: Vec::new(), pose: Vec::new(), heading_only: false });
+        }
+        if let Some(gyro) = gyro {
+            return Ok(Body { time: gyro.time.clone(), pose: headings(gyro, names.angle), heading_only: true });
+        }
+        let missing =
+            pose.and_then(|pose| pose.into_iter().find(|(_, series)| series.is_none()).map(|(column, _)| column));
+        let column = missing.or(names.gyro.as_ref()).map_or("", String::as_str);
+        Err(wrong(format!("'{column}' has no values; correct [columns] of the robot file")))
+    }
+}
+
+/// Poses of which a gyro gives the heading alone, by the trapezoids of its rates; `angle`: radians per unit of these.
+pub(crate) fn headings(Series { time, value }: &Series, angle: f64) -> Vec<[f64; 3]> {
+    let mut heading = 0.0;
+    let mut after = |row: usize| {
+        if row > 0 {
+            heading += angle * 0.5 * (value[row] + value[row - 1]) * (time[row] - time[row - 1]);
+        }
+        [f64::NAN, f64::NAN, heading]
+    };
+    (0..time.len()).map(&mut after).collect()
 }
 
 /// How far a wheel has turned at each instant, in the unit of its column.
@@ -159,7 +193,7 @@ mod tests {
         };
         let turning = 0.1;
         let file = robot("angle");
-        let [x, y, yaw] = file.columns.pose;
+        let [x, y, yaw] = file.columns.pose.expect("a pose");
         [
             (file.columns.wheels[0].clone(), series(0.02, 0.0, &|t| wheel(4.0 * t))),
             (file.columns.wheels[1].clone(), series(0.02, 0.003, &|t| wheel(5.0 * t))),
@@ -229,14 +263,14 @@ mod tests {
         without.remove(&file.columns.wheels[1]);
         assert!(refused(&without).contains("'tick_right' has no values; correct [columns]"), "{}", refused(&without));
         let mut apart = signals(|a| a, 0.01);
-        apart.get_mut(&file.columns.pose[2]).expect("yaw").time.iter_mut().for_each(|t| *t += 0.001);
+        apart.get_mut("yaw_rad").expect("yaw").time.iter_mut().for_each(|t| *t += 0.001);
         assert!(refused(&apart).contains("of one topic"), "{}", refused(&apart));
         let mut later = signals(|a| a, 0.01);
         later.get_mut(&file.columns.wheels[0]).expect("a wheel").time.iter_mut().for_each(|t| *t += 100.0);
         assert!(refused(&later).contains("0 rows"), "{}", refused(&later));
         // A pose that is to be predicted may be missing.
         let mut unseen = signals(|a| a, 0.01);
-        file.columns.pose.iter().for_each(|column| drop(unseen.remove(column)));
+        file.columns.pose.iter().flatten().for_each(|column| drop(unseen.remove(column)));
         let drive = file.drive_of("a", &unseen, true).expect("a drive");
         assert!(drive.pose.iter().flatten().all(|x| x.is_nan()) && drive.time.len() > 3000);
     }

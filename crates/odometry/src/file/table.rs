@@ -3,6 +3,7 @@
 use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::file::robot::RobotFile;
+use crate::file::series::{Series, headings};
 
 impl RobotFile {
     /// A drive from a table with a line of column names; its name is that of the file.
@@ -39,15 +40,22 @@ impl RobotFile {
         for column in names.wheels.iter().chain(&names.steering) {
             places.push(place(column)?);
         }
-        let has_pose = needs_pose || names.pose.iter().any(|column| header.iter().any(|h| h == column));
-        if has_pose {
-            for column in &names.pose {
-                places.push(place(column)?);
-            }
+        // A gyro stands for a pose that was not recorded; one that is to be predicted is predicted from the wheels alone.
+        let is_there = |column: &String| header.iter().any(|h| h == column);
+        let pose = names.pose.as_ref().filter(|pose| pose.iter().any(is_there));
+        let gyro = names.gyro.as_ref().filter(|_| needs_pose && pose.is_none());
+        let body: &[String] = match (pose, gyro, &names.pose) {
+            (Some(pose), _, _) => pose,
+            (None, Some(gyro), _) => std::slice::from_ref(gyro),
+            (None, None, Some(pose)) if needs_pose => pose,
+            (None, None, _) => &[],
+        };
+        for column in body {
+            places.push(place(column)?);
         }
 
         let mut columns: Vec<Vec<f64>> = vec![Vec::new(); places.len()];
-        let first_of_pose = places.len() - if has_pose { names.pose.len() } else { 0 };
+        let first_of_pose = places.len() - body.len();
         for (row, record) in reader.records().enumerate() {
             let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
             for (k, &at) in places.iter().enumerate() {
@@ -65,14 +73,27 @@ impl RobotFile {
             let column = &columns[names.wheels.len() + 1];
             column.iter().map(|s| s * names.angle).collect::<Vec<f64>>()
         });
-        let pose = (0..columns[0].len())
+        let time = columns[0].clone();
+        if gyro.is_some() {
+            let rates = &columns[first_of_pose];
+            let seen: Vec<usize> = (0..time.len()).filter(|&row| rates[row].is_finite()).collect();
+            let of = |column: &[f64]| seen.iter().map(|&row| column[row]).collect();
+            let mut pose = vec![[f64::NAN; 3]; time.len()];
+            for (&row, heading) in seen.iter().zip(headings(&Series { time: of(&time), value: of(rates) }, names.angle))
+            {
+                pose[row] = heading;
+            }
+            let drive = Drive::by_gyro(name, &self.robot, time, (names.data, wheels), steering, pose)?;
+            return Ok(drive.of_session(&self.session_of(name)));
+        }
+        let pose = (0..time.len())
             .map(|row| {
                 let [x, y, yaw] = [0, 1, 2].map(|axis| columns.get(first_of_pose + axis).map_or(f64::NAN, |c| c[row]));
                 [x * names.length, y * names.length, yaw * names.angle]
             })
             .collect();
         let new = if needs_pose { Drive::new } else { Drive::held_out };
-        let drive = new(name, &self.robot, columns[0].clone(), (names.data, wheels), steering, pose)?;
+        let drive = new(name, &self.robot, time, (names.data, wheels), steering, pose)?;
         Ok(drive.of_session(&self.session_of(name)))
     }
 

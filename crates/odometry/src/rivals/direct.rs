@@ -2,7 +2,7 @@
 //! Syst. 105, 39, 2022, eq. 14), and of windows by the geometry and the pose's frame in the robot (Censi et al., IEEE Trans.
 //! Robot. 29, 2013; Kümmerle et al. 2012).
 
-use crate::constants::{Constant, Quantity, constants};
+use crate::constants::{Constant, Measured, Quantity, constants};
 use crate::drive::Drive;
 use crate::motion::{Laws, implied};
 use crate::settings::SETTINGS;
@@ -16,7 +16,7 @@ pub(super) fn end_poses(robot: &WheeledRobot, drives: &[&Drive]) -> Option<Laws>
         let seen: Vec<usize> = (0..drive.pose.len()).filter(|&k| drive.is_seen(k)).collect();
         let (from, to) = (*seen.first()?, *seen.last()?);
         let moved = crate::motion::relative(drive.pose[from], drive.pose[to]);
-        Some(vec![Window { from, to, moved }])
+        Some(vec![Window::of_pose(from, to, moved)])
     };
     fitted(robot, drives, whole, |_| false)
 }
@@ -44,7 +44,8 @@ fn fitted(
             Quantity::Radius(_) | Quantity::Across | Quantity::Reach | Quantity::Along | Quantity::SteeringOffset
         )
     };
-    let mut free: Vec<Constant> = constants(robot).into_iter().filter(|c| geometry(c) || also(c.quantity)).collect();
+    let mut free: Vec<Constant> =
+        constants(robot, Measured::POSE).into_iter().filter(|c| geometry(c) || also(c.quantity)).collect();
     // Track and wheelbase of a mecanum robot act as one: one of them is fitted, as the publications do.
     if robot.has_rollers() && free.iter().any(|c| c.quantity == Quantity::Across) {
         free.retain(|c| c.quantity != Quantity::Along);
