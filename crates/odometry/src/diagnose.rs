@@ -168,7 +168,7 @@ pub(crate) fn solve(
 fn doubt_what_little_shows(data: &Data<'_>, causes: &[Cause], named: &mut Named) {
     let rules = SETTINGS.heading;
     let left = |posterior: &Posterior| share(data, &posterior.mean).0;
-    if left(&named.posterior) < rules.gain * left(&named.retuned) {
+    if left(&named.posterior) < rules.leaves * left(&named.retuned) {
         return;
     }
     let grows = |cause: usize| {

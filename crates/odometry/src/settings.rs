@@ -59,7 +59,7 @@
             robot disagree by 1 to 2 per cent once constants are set";
         /// Error with a cause that grows with rate, speed or acceleration, over that without it, beyond which it is not named: by
         /// turning alone such laws stand for each other and for what a gyro gets wrong.
-        gain: f64 = 0.8, "1", "guess; a fifth";
+        leaves: f64 = 0.8, "1", "guess; a fifth";
         /// Probability at which such a cause is then listed at most.
         listed: f64 = 0.5, "1", "guess";
         /// Turning of a wheel in a window from which it is in motion.
@@ -115,7 +115,7 @@
         /// Zero of the steering.
         steering: f64 = 0.01, "rad", "guess; half a degree";
         /// Gain of the steering, relative.
-        steering_gain: f64 = 0.8, "1", "guess";
+        steering_gain: f64 = 0.005, "1", "guess";
         /// Direction of the pose's frame in the robot.
         mounting: f64 = 0.001, "rad", "guess";
         /// Place of the pose's origin in the robot.
@@ -147,7 +147,7 @@
         /// Zero of the steering.
         steering: f64 = 0.1, "rad", "guess";
         /// Gain of the steering, relative.
-        steering_gain: f64 = 0.8, "1", "guess";
+        steering_gain: f64 = 0.1, "1", "guess";
         /// Direction of the pose's frame.
         mounting: f64 = 0.05, "rad", "guess; three degrees";
         /// Place of the pose's origin.

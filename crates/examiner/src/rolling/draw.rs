@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use super::plant::{Robot, Wheel};
-use super::{Chassis, Hidden, RollingCase, RollingPlan, RollingTruth};
+use super::{Chassis, Hidden, RollingCase, RollingPlan, RollingTruth, Seen};
 use crate::random::Stream;
 
 /// Step of the motion, s.
@@ -22,6 +22,8 @@ const STEERING: [f64; 2] = [0.008, 0.01];
 /// The same of the effective track of sides that skid, as a share, and of the point about which they turn, m.
 const SKIDDING: f64 = 0.12;
 const TURNS_ABOUT: f64 = 0.02;
+/// Scale and bias, rad/s, of usual gyros, one sigma.
+const GYRO: [f64; 2] = [0.008, 0.005];
 /// By how much radii and distances differ from session to session, as a share.
 const SESSION: f64 = 0.001;
 
@@ -46,14 +48,49 @@ pub(super) fn case(plan: &RollingPlan) -> RollingCase {
         hide(hidden, &mut robot, wheel, &mut truth, &mut s);
     }
 
-    let mut files = vec![(PathBuf::from("robot.toml"), robot_file(plan.chassis, &stated, counts).into_bytes())];
+    let gyro = (plan.seen == Seen::Gyro).then(|| gyro(plan, &mut truth, &mut stream("rolling gyro")));
+    let text = robot_file(plan.chassis, &stated, counts, plan.seen);
+    let mut files = vec![(PathBuf::from("robot.toml"), text.into_bytes())];
     for number in 1..=RECORDINGS {
         let mut s = Stream::new(plan.seed, "rolling drive", plan.index * 100 + number as u64);
         let lost = (plan.hidden == Some(Hidden::LostCounts)).then_some(wheel);
-        let text = sheet(plan.chassis, &of_session(&robot, &mut s), counts, lost, &mut s);
+        let text = sheet(plan.chassis, &of_session(&robot, &mut s), counts, lost, gyro, &mut s);
         files.push((PathBuf::from(format!("recordings/run_{number}.csv")), text.into_bytes()));
     }
     RollingCase { files, truth }
+}
+
+/// A gyro in the place of a pose.
+#[derive(Clone, Copy)]
+struct Gyro {
+    scale: f64,
+    bias: f64,
+    /// One sigma of a reading, rad/s.
+    noise: f64,
+    /// Seconds at rest before the robot starts.
+    rest: f64,
+}
+
+/// A gyro within usual data sheets, with what is hidden in it.
+fn gyro(plan: &RollingPlan, truth: &mut RollingTruth, s: &mut Stream) -> Gyro {
+    let mut out = Gyro {
+        scale: 1.0 + s.normal(GYRO[0]),
+        bias: s.normal(GYRO[1]),
+        noise: s.uniform(0.002, 0.01),
+        rest: if s.uniform(0.0, 1.0) < 0.5 { s.uniform(1.5, 4.0) } else { 0.0 },
+    };
+    match plan.hidden {
+        Some(Hidden::GyroScale) => {
+            out.scale *= 1.0 + s.sign() * s.uniform(0.08, 0.2);
+            truth.numbers.insert("gyro_scale".to_owned(), out.scale);
+        }
+        Some(Hidden::GyroBias) => {
+            (out.bias, out.rest) = (s.sign() * s.uniform(0.04, 0.1), 0.0);
+            truth.numbers.insert("gyro_bias".to_owned(), out.bias);
+        }
+        _ => {}
+    }
+    out
 }
 
 /// The robot as its owner states it.
@@ -199,6 +236,8 @@ fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTrut
             note("origin_y", robot.origin[1]);
         }
         Hidden::LostCounts => truth.wheel = Some(robot.wheels[wheel].name.clone()),
+        // They are hidden in the gyro.
+        Hidden::GyroScale | Hidden::GyroBias => {}
     }
 }
 
@@ -238,9 +277,19 @@ fn motion(chassis: Chassis, turns_about: f64, seconds: f64, s: &mut Stream) -> V
 }
 
 /// Rows as sensors show them.
-fn sheet(chassis: Chassis, robot: &Robot, counts: f64, loses: Option<usize>, s: &mut Stream) -> String {
+fn sheet(
+    chassis: Chassis,
+    robot: &Robot,
+    counts: f64,
+    loses: Option<usize>,
+    gyro: Option<Gyro>,
+    s: &mut Stream,
+) -> String {
     let seconds = s.uniform(SECONDS[0], SECONDS[1]);
-    let velocities = motion(chassis, robot.turns_about, seconds, s);
+    let mut velocities = motion(chassis, robot.turns_about, seconds, s);
+    if let Some(gyro) = gyro {
+        velocities.splice(0..0, vec![[0.0; 3]; (gyro.rest / STEP) as usize]);
+    }
     let noise = [s.uniform(0.0005, 0.004), s.uniform(0.0005, 0.004)];
     let every = [4, 5, 10][s.index(3)];
 
@@ -265,7 +314,8 @@ fn sheet(chassis: Chassis, robot: &Robot, counts: f64, loses: Option<usize>, s: 
     for k in 1..=robot.wheels.len() {
         let _ = write!(out, ",tick_{k}");
     }
-    out += if robot.is_steered { ",steer_rad,x_m,y_m,yaw_rad\n" } else { ",x_m,y_m,yaw_rad\n" };
+    out += if robot.is_steered { ",steer_rad" } else { "" };
+    out += if gyro.is_some() { ",gyro_rad_s\n" } else { ",x_m,y_m,yaw_rad\n" };
     // Some bursts in which a wheel misses most of its counts.
     let bursts: Vec<[f64; 2]> = (0..3)
         .map(|k| {
@@ -291,17 +341,23 @@ fn sheet(chassis: Chassis, robot: &Robot, counts: f64, loses: Option<usize>, s: 
         }
         // The clock of the pose: what it stamps with this time was so much earlier.
         let at = (time - robot.clock_offset) * (1.0 - robot.clock_rate) / STEP;
-        let [x, y, yaw] = robot.measured(poses[at.round().clamp(0.0, (poses.len() - 1) as f64) as usize]);
+        let at = at.round().clamp(0.0, (poses.len() - 1) as f64) as usize;
+        row += every;
+        if let Some(gyro) = gyro {
+            let turning = velocities[at.min(velocities.len() - 1)][2];
+            let _ = writeln!(out, ",{:.5}", gyro.scale * turning + gyro.bias + s.normal(gyro.noise));
+            continue;
+        }
+        let [x, y, yaw] = robot.measured(poses[at]);
         let [x, y] = [x, y].map(|v| v + s.normal(noise[0]));
         let yaw = (yaw + s.normal(noise[1]) + PI).rem_euclid(TAU) - PI;
         let _ = writeln!(out, ",{x:.5},{y:.5},{yaw:.5}");
-        row += every;
     }
     out
 }
 
 /// The robot file.
-fn robot_file(chassis: Chassis, stated: &Robot, counts: f64) -> String {
+fn robot_file(chassis: Chassis, stated: &Robot, counts: f64, seen: Seen) -> String {
     let mut out = String::from("name = \"drawn\"\nkind = \"odometry\"\n");
     for (k, wheel) in stated.wheels.iter().enumerate() {
         let [x, y] = wheel.place;
@@ -353,8 +409,11 @@ fn robot_file(chassis: Chassis, stated: &Robot, counts: f64) -> String {
     if chassis == Chassis::SkidSteer {
         let _ = writeln!(out, "pose_origin_sigma = {TURNS_ABOUT}");
     }
-    out += "\n[columns]\ntime = \"time_s\"\nwheels = \"counts\"\nx = \"x_m\"\ny = \"y_m\"\nyaw = \"yaw_rad\"\nlength_unit = \"m\"\n\
-            angle_unit = \"rad\"\n";
+    out += "\n[columns]\ntime = \"time_s\"\nwheels = \"counts\"\n";
+    out += match seen {
+        Seen::Pose => "x = \"x_m\"\ny = \"y_m\"\nyaw = \"yaw_rad\"\nlength_unit = \"m\"\nangle_unit = \"rad\"\n",
+        Seen::Gyro => "gyro = \"gyro_rad_s\"\nangle_unit = \"rad\"\n",
+    };
     if stated.is_steered {
         out += "steering = \"steer_rad\"\n";
     }

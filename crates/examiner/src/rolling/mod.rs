@@ -53,6 +53,15 @@ impl Chassis {
     }
 }
 
+/// What shows how the body moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Seen {
+    /// A pose.
+    Pose,
+    /// A gyro: how it turned, and not where it is.
+    Gyro,
+}
+
 /// Something hidden between wheels and pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -85,11 +94,15 @@ pub enum Hidden {
     Origin,
     /// A wheel loses counts for some seconds at a time.
     LostCounts,
+    /// The gyro shows turning by a factor.
+    GyroScale,
+    /// The gyro turns while the robot stands, and the robot never stands.
+    GyroBias,
 }
 
 impl Hidden {
     /// All.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::AllRadii,
         Self::OneRadius,
         Self::Distance,
@@ -104,6 +117,8 @@ impl Hidden {
         Self::Mounting,
         Self::Origin,
         Self::LostCounts,
+        Self::GyroScale,
+        Self::GyroBias,
     ];
 
     /// Name for people.
@@ -123,11 +138,30 @@ impl Hidden {
             Self::Mounting => "direction of the pose's frame",
             Self::Origin => "place of the pose",
             Self::LostCounts => "lost counts",
+            Self::GyroScale => "scale of the gyro",
+            Self::GyroBias => "bias of the gyro",
         }
     }
 
-    /// Whether a robot of this kind can have it.
-    pub fn is_of(self, chassis: Chassis) -> bool {
+    /// Whether a robot of this kind can have it, and what is seen of its body can show it.
+    pub fn is_of(self, chassis: Chassis, seen: Seen) -> bool {
+        if seen == Seen::Gyro {
+            let turns =
+                !matches!(self, Self::TurnSlip | Self::SpeedSlip | Self::RollerSlip | Self::Mounting | Self::Origin);
+            // By turning alone all radii and the gyro's scale are a track, which nobody knows of sides that skid.
+            let is_factor = matches!(self, Self::AllRadii | Self::GyroScale);
+            return turns
+                && !(is_factor && chassis == Chassis::SkidSteer)
+                && (self.is_of_gyro() || self.is_of_robot(chassis));
+        }
+        !self.is_of_gyro() && self.is_of_robot(chassis)
+    }
+
+    fn is_of_gyro(self) -> bool {
+        matches!(self, Self::GyroScale | Self::GyroBias)
+    }
+
+    fn is_of_robot(self, chassis: Chassis) -> bool {
         match self {
             Self::OneRadius => chassis != Chassis::Tricycle,
             Self::SteeringZero | Self::SteeringGain => chassis == Chassis::Tricycle,
@@ -153,7 +187,7 @@ pub struct RollingTruth {
     /// The wheel that one of them is about.
     pub wheel: Option<String>,
     /// Its numbers as the robot has them, by what they are: `radius`, `distance`, m; `steering_zero`, rad; `steering_gain`;
-    /// `mounting`, rad; `origin_x`, `origin_y`, m; `clock_offset`, s, and `clock_rate`, without sign.
+    /// `mounting`, rad; `origin_x`, `origin_y`, m; `clock_offset`, s, and `clock_rate`, without sign; `gyro_scale`; `gyro_bias`, rad/s.
     pub numbers: BTreeMap<String, f64>,
 }
 
@@ -177,6 +211,8 @@ pub struct RollingPlan {
     pub index: u64,
     /// Kind of the robot.
     pub chassis: Chassis,
+    /// What shows how its body moves.
+    pub seen: Seen,
     /// What is hidden.
     pub hidden: Option<Hidden>,
 }
@@ -184,17 +220,17 @@ pub struct RollingPlan {
 impl RollingPlan {
     /// A set of so many cases: every kind of robot in turn; in a quarter nothing is hidden, in the others one thing, each as
     /// often as kinds permit.
-    pub fn set(seed: u64, count: usize) -> Vec<Self> {
+    pub fn set(seed: u64, count: usize, seen: Seen) -> Vec<Self> {
         let mut turn = [0; Chassis::ALL.len()];
         let mut plan = |i: usize| {
             let kind = i % Chassis::ALL.len();
             let chassis = Chassis::ALL[kind];
-            let of: Vec<Hidden> = Hidden::ALL.into_iter().filter(|h| h.is_of(chassis)).collect();
+            let of: Vec<Hidden> = Hidden::ALL.into_iter().filter(|h| h.is_of(chassis, seen)).collect();
             let hidden = (!(i / Chassis::ALL.len()).is_multiple_of(4)).then(|| {
                 turn[kind] += 1;
                 of[(turn[kind] - 1) % of.len()]
             });
-            Self { name: format!("r{:03}", i + 1), seed, index: i as u64, chassis, hidden }
+            Self { name: format!("r{:03}", i + 1), seed, index: i as u64, chassis, seen, hidden }
         };
         (0..count).map(&mut plan).collect()
     }
@@ -211,17 +247,19 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_that_a_kind_can_have() {
-        let all = RollingPlan::set(1, 480);
-        assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 120);
-        for (chassis, hidden) in Chassis::ALL.into_iter().flat_map(|c| Hidden::ALL.map(|h| (c, h))) {
-            let cases = all.iter().filter(|p| p.chassis == chassis && p.hidden == Some(hidden)).count();
-            assert_eq!(cases > 2, hidden.is_of(chassis), "{chassis:?} {hidden:?} {cases}");
+        for seen in [Seen::Pose, Seen::Gyro] {
+            let all = RollingPlan::set(1, 480, seen);
+            assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 120);
+            for (chassis, hidden) in Chassis::ALL.into_iter().flat_map(|c| Hidden::ALL.map(|h| (c, h))) {
+                let cases = all.iter().filter(|p| p.chassis == chassis && p.hidden == Some(hidden)).count();
+                assert_eq!(cases > 2, hidden.is_of(chassis, seen), "{chassis:?} {hidden:?} {cases}");
+            }
         }
     }
 
     #[test]
     fn a_case_is_the_same_twice_and_its_truth_has_its_numbers() {
-        for plan in RollingPlan::set(3, 60) {
+        for plan in [Seen::Pose, Seen::Gyro].into_iter().flat_map(|seen| RollingPlan::set(3, 60, seen)) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden.into_iter().collect::<Vec<_>>());

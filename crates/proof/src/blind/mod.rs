@@ -49,6 +49,7 @@ Examples:
   cargo xtask blind --kind speed --count 200           speed-driven cases
   cargo xtask blind --kind command --count 200         command-driven cases
   cargo xtask blind --kind odometry --count 240        wheel counts and a pose
+  cargo xtask blind --kind gyro --count 240            wheel counts and a gyro alone
   cargo xtask blind --kind car --count 160             cars
   cargo xtask blind --kind all --count 200             so many of each kind
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
@@ -91,6 +92,8 @@ enum Kind {
     Command,
     /// Counts of the wheels and a pose are given.
     Odometry,
+    /// Counts of the wheels and a gyro are given.
+    Gyro,
     /// Throttle, steering command and a pose of a car are given.
     Car,
     /// So many of each kind, one after the other.
@@ -140,12 +143,14 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
     let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
     let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling>(&of(out)));
+    let gyro = |out: PathBuf| pool.install(|| drawn::run::<rolling::ByGyro>(&of(out)));
     let car = |out: PathBuf| pool.install(|| drawn::run::<car::Cars>(&of(out)));
     match args.kind {
         Kind::Torque => torque(args, out("blind")?, &pool),
         Kind::Speed => speed(out("blind-speed")?),
         Kind::Command => command(out("blind-command")?),
         Kind::Odometry => rolling(out("blind-odometry")?),
+        Kind::Gyro => gyro(out("blind-gyro")?),
         Kind::Car => car(out("blind-car")?),
         Kind::All => {
             let folder = out("blind-all")?;
@@ -154,6 +159,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
                 speed(folder.join("speed"))?,
                 command(folder.join("command"))?,
                 rolling(folder.join("odometry"))?,
+                gyro(folder.join("gyro"))?,
                 car(folder.join("car"))?,
             ];
             Ok(kinds.into_iter().all(|met| met))

@@ -26,6 +26,8 @@ fn cause(hidden: Hidden) -> &'static str {
         Hidden::Mounting => "pose_mounting",
         Hidden::Origin => "pose_origin",
         Hidden::LostCounts => "lost_counts",
+        Hidden::GyroScale => "heading_gyro_scale",
+        Hidden::GyroBias => "heading_gyro_bias",
     }
 }
 
@@ -52,6 +54,8 @@ fn told_as(name: &str, truth: &RollingTruth) -> String {
         "origin_y" => "place of the pose's origin, y".to_owned(),
         "clock_offset" => "offset of the clocks".to_owned(),
         "clock_rate" => "rate of the clocks".to_owned(),
+        "gyro_scale" => "scale of the gyro".to_owned(),
+        "gyro_bias" => "bias of the gyro".to_owned(),
         other => other.to_owned(),
     }
 }
@@ -78,7 +82,7 @@ pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64
             .cloned()
             .collect(),
         errors: truth.numbers.iter().filter_map(error).collect(),
-        forecast: said.forecast("position after 10 s"),
+        forecast: said.forecast("position after 10 s").or_else(|| said.forecast("heading after 10 s")),
         named: said.named,
         processor_seconds,
     }
