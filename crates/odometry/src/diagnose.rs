@@ -12,7 +12,7 @@ use crate::error::OdometryError;
 use crate::findings::{Answer, Estimate, Findings, NamedCause};
 use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
-use crate::name::{Named, covariance, name_from};
+use crate::name::{Named, covariance, name_from, of_class};
 use crate::settings::SETTINGS;
 use crate::traces::trace;
 use crate::weigh::{Evidence, Posterior};
@@ -225,7 +225,15 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
     fit.sessions = equations(data, &theta, fit.scale);
     fit.theta = theta;
     let named = weighed(&fit, if is_astray { &set } else { &[] })?;
-    Some((fit, named))
+    // By turning alone radii, track and scale of the gyro share their odds.
+    let by_turning = named.chosen.is_empty() && data.drives.iter().all(|drive| drive.heading_only);
+    let class = if by_turning {
+        let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
+        of_class(&evidence, &prior.covariance, causes)
+    } else {
+        None
+    };
+    Some((fit, class.unwrap_or(named)))
 }
 
 /// Root mean square error of the windows over the root mean square of their way and turning.

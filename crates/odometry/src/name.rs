@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use crate::cause::Cause;
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
-use inference::evidence::{is_within_odds, logistic};
+use inference::evidence::{is_within_odds, log_sum_exp, logistic};
 use inference::robust::normal_cdf;
 
 /// A cause with what speaks for it.
@@ -73,6 +73,22 @@ pub(crate) fn name_from(
         current = best;
     }
     named_as(evidence, known, causes, &set)
+}
+
+/// The first of several causes that stand for each other, none of which earns its place alone and all of which do together: one
+/// of them is there, and the evidence does not say which.
+pub(crate) fn of_class(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
+    let rules = SETTINGS.naming;
+    let score = |set: &[usize]| score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
+    let scores: Vec<f64> = (0..causes.len()).map(|c| score(&[c])).collect();
+    let best = (0..causes.len()).max_by(|a, b| scores[*a].total_cmp(&scores[*b]))?;
+    let stands_for_it = |c: &usize| {
+        let adds = score(&with(&[best], *c)) - scores[best] + rules.odds;
+        *c == best || (is_within_odds(scores[*c], scores[best], rules.alike) && adds < 0.0)
+    };
+    let class: Vec<f64> = (0..causes.len()).filter(stands_for_it).map(|c| scores[c]).collect();
+    let together = log_sum_exp(&class) - score(&[]) + rules.odds;
+    if together > rules.named { named_as(evidence, known, causes, &[best]) } else { None }
 }
 
 /// The same of a set of causes that is given.
