@@ -48,15 +48,21 @@ pub(crate) fn topic_and_field(column: &str) -> Option<(&str, &str)> {
     column.split_once('.').filter(|(topic, field)| topic.starts_with('/') && !field.is_empty())
 }
 
-/// Bags in a folder: each file by itself, and those of a folder in it, or of the folder as rosbag2 names them, as parts of one.
+/// Bags in a folder and in the folders in it: each file by itself, and those of a folder as rosbag2 names them as parts of one.
 /// What is none goes to `ignored`.
 pub(crate) fn bags_below(folder: &Path, ignored: &mut Vec<String>) -> Result<Vec<Vec<PathBuf>>> {
+    /// A folder of recordings holds one for each bag.
+    const DEPTH: usize = 2;
+    bags_to_depth(folder, DEPTH, ignored)
+}
+
+fn bags_to_depth(folder: &Path, depth: usize, ignored: &mut Vec<String>) -> Result<Vec<Vec<PathBuf>>> {
     let inside = inputs::list(folder)?;
     let (bags, others): (Vec<PathBuf>, Vec<PathBuf>) =
         inside.into_iter().partition(|path| path.is_file() && is_bag(&path.to_string_lossy()));
     let mut out = parts(folder, bags);
     for other in others {
-        let below = if other.is_dir() { bags_below(&other, ignored)? } else { Vec::new() };
+        let below = if other.is_dir() && depth > 0 { bags_to_depth(&other, depth - 1, ignored)? } else { Vec::new() };
         let is_table = other.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
         if below.is_empty() && !is_table && !other.ends_with("metadata.yaml") {
             ignored.push(other.display().to_string());

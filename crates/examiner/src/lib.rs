@@ -13,7 +13,7 @@
 //! * `free`, `measure`: how much a hidden effect matters, by free runs.
 //! * `car`: cars with brush tyres, a servo and a motor, beside a pose.
 //! * `command`: command-driven cases, with a controller, wheels and a ground of their own.
-//! * `rolling`: wheel counts beside a pose, of robots with two, three and four wheels, steered and omnidirectional.
+//! * `rolling`: wheel counts beside a pose or a gyro alone, of robots with two, three and four wheels, steered and omnidirectional.
 //! * `speed`: speed-driven cases, with a law of steady torques, sensors and events of their own.
 //! * `csv`, `truth`: the files of a case, and what was hidden, for the scorer.
 //! * `random`: random numbers fixed by a path of keys; `error`: what can go wrong.

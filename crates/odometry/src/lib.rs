@@ -4,13 +4,14 @@
 //!
 //! * `wheel`, `kinematics`: a robot as a list of wheels, and from turning wheels to the motion of its body.
 //! * `drive`, `units`: turns of the wheels, steering and pose on one grid of rows; counters, units.
+//! * `heading`: a gyro in the place of a pose.
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `alignment`: offset and rate of two devices' clocks by the speeds that both measure.
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
-//! * `file/*`: robot files of this kind, and drives from tables.
+//! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `findings`: what the drives of a case say, as plain data.
 //! * `diagnose`, `left_out`, `telling`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `traces`: drives beside their simulations, for pages and pictures.

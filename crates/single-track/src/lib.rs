@@ -11,7 +11,7 @@
 //! * `fit`, `cause`, `answered`, `look_alikes`, `solve`: constants with a deviation of each drive, and the causes that the drives ask
 //!   for, the first of them against others that do much the same.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
-//! * `file/*`: robot files of this kind, and drives from tables.
+//! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
