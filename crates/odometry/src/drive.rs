@@ -42,12 +42,22 @@ pub enum WheelData {
     Speed,
 }
 
-/// Refuses a drive of too few rows.
-pub(crate) fn enough_rows(name: &str, rows: usize) -> Result<(), OdometryError> {
-    if rows >= RULES.rows {
-        return Ok(());
-    }
-    let what = format!("{rows} rows, but at least {} are needed; record longer", RULES.rows);
+/// Refuses a drive of too few rows, or of rows that are too far apart.
+pub(crate) fn enough_rows(name: &str, time: &[f64]) -> Result<(), OdometryError> {
+    let rows = time.len();
+    let what = if rows < RULES.rows {
+        format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)
+    } else {
+        let apart = inference::robust::median(time.windows(2).map(|t| t[1] - t[0])).unwrap_or(0.0);
+        if apart <= RULES.apart {
+            return Ok(());
+        }
+        format!(
+            "its rows are {apart:.0} s apart, at most {} can be compared; if the time is in another unit, state it under \
+             [columns]: time_unit = \"ms\" (or us, ns)",
+            RULES.apart
+        )
+    };
     Err(OdometryError::Drive { drive: name.to_owned(), what })
 }
 
@@ -150,10 +160,10 @@ impl Drive {
         if let Some(other) = { lengths }.find(|n| *n != rows) {
             return Err(wrong(format!("a column of {other} rows beside {rows} rows of time")));
         }
-        enough_rows(name, rows)?;
         if let Some(row) = (1..rows).find(|&k| time[k].partial_cmp(&time[k - 1]) != Some(std::cmp::Ordering::Greater)) {
             return Err(wrong(format!("time does not rise in row {row}; sort the rows, or remove repeated ones")));
         }
+        enough_rows(name, &time)?;
         let finite = wheels.iter().flatten().chain(steering.iter().flatten()).all(|x| x.is_finite());
         if !finite {
             return Err(wrong(
@@ -332,7 +342,7 @@ mod tests {
     #[test]
     fn counts_without_counts_per_turn_are_refused_by_wheel() {
         let robot = robot().with_wheels(|_, w| crate::Wheel { counts_per_turn: None, ..w });
-        let time: Vec<f64> = (0..100).map(f64::from).collect();
+        let time: Vec<f64> = (0..100).map(|k| 0.1 * f64::from(k)).collect();
         let column = vec![1.0; 100];
         let refused =
             Drive::new("a", &robot, time, (WheelData::Counts, &[column.clone(), column]), None, vec![[0.0; 3]; 100]);

@@ -20,6 +20,8 @@
     drive: DriveRules {
         /// Rows below which a drive is refused.
         rows: usize = 40, "1", "guess; two seconds at 20 Hz";
+        /// Time between two rows beyond which a drive is refused: times in milliseconds look like that.
+        apart: f64 = 0.9, "s", "a thousand rows per second with times in milliseconds are 1 apart";
         /// Way below which nothing is compared.
         way: f64 = 0.1, "m", "guess; a hundred times the noise of a good pose";
         /// Share of a counter's range by which it jumps where it wraps around.

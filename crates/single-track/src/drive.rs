@@ -150,6 +150,14 @@ impl Drive {
                 row + 1
             )));
         }
+        let apart = median(table.time.windows(2).map(|t| t[1] - t[0])).unwrap_or(0.0);
+        if apart > RULES.apart {
+            return Err(wrong(format!(
+                "its rows are {apart:.0} s apart, at most {} can be compared; if the time is in another unit, state it under \
+                 [columns]: time_unit = \"ms\" (or us, ns)",
+                RULES.apart
+            )));
+        }
         for (what, column) in [("throttle", &table.throttle), ("steering command", &table.steering)] {
             if let Some(row) = column.iter().position(|u| u.is_nan() || u.abs() > 1.0 + RULES.command) {
                 return Err(wrong(format!(

@@ -28,6 +28,8 @@
         smoothing: f64 = 0.1, "s", "guess; averages a good pose's noise to millimetres per second";
         /// Rows below which a drive is refused.
         rows: usize = 20, "1", "guess; two seconds of a car that reports at 10 Hz";
+        /// Time between two rows beyond which a drive is refused: times in milliseconds look like that.
+        apart: f64 = 0.5, "s", "guess; half a window; a thousand rows per second in milliseconds are 1 apart";
         /// Largest share of the commands' range that a throttle or steering command may exceed.
         command: f64 = 0.05, "1", "guess; rounding and trims";
     }

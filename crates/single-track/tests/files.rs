@@ -54,6 +54,14 @@ fn what_is_wrong_with_a_table_is_one_sentence_with_its_place() {
     assert!(wrong(&table().replacen("0.00,0,", "0.00,x,", 1)).contains("row 1, column 'x_m': 'x' is no number"));
     assert!(wrong(&table().replace(",0.1,1,", ",30,1,")).contains("steering command is 30, beyond ±1"));
     assert!(wrong(&table().replacen("0.01,", "0.00,", 1)).contains("time does not rise in row 2"));
+    let plain = table();
+    let lines = plain.lines().map(|line| format!("{line}\n")).enumerate();
+    let in_milliseconds: String =
+        lines.map(|(k, line)| if k == 0 { line } else { line.replacen('.', "", 1) }).collect();
+    let refused = wrong(&in_milliseconds);
+    assert!(refused.contains("its rows are 1 s apart") && refused.contains("time_unit = \"ms\""), "{refused}");
+    let said = CAR.replacen("time = ", "time_unit = \"ms\"\ntime = ", 1);
+    assert!(RobotFile::parse("car.toml", &said).expect("a car").drive("run", &in_milliseconds).is_ok());
     let blind = table().replacen("x_m", "a", 1).replacen("gyro_z", "b", 1);
     assert!(wrong(&blind).contains("neither a pose nor both a gyro and an encoder speed"));
 }

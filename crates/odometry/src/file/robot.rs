@@ -30,8 +30,10 @@ pub struct RobotFile {
 /// Columns of a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
-    /// Column of the time, s.
+    /// Column of the time.
     pub time: String,
+    /// Seconds per unit of the time.
+    pub second: f64,
     /// What the columns of the wheels hold.
     pub data: WheelData,
     /// Column of each measured wheel, in their order.
@@ -103,6 +105,7 @@ struct Known {
 #[serde(deny_unknown_fields)]
 struct ColumnNames {
     time: String,
+    time_unit: Option<String>,
     wheels: String,
     steering: Option<String>,
     x: Option<String>,
@@ -132,6 +135,20 @@ fn known_above_none(read: &File) -> Result<(), String> {
             "{name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
         ))
     })
+}
+
+/// Seconds in a unit of time, which is the second where none is stated.
+///
+/// # Errors
+/// Another unit than s, ms, us and ns.
+pub fn seconds_in(unit: Option<&str>) -> Result<f64, String> {
+    match unit {
+        None | Some("s") => Ok(1.0),
+        Some("ms") => Ok(1e-3),
+        Some("us") => Ok(1e-6),
+        Some("ns") => Ok(1e-9),
+        Some(other) => Err(format!("time_unit = \"{other}\"; write s, ms, us or ns")),
+    }
 }
 
 /// Columns of x, y and yaw; none where a gyro stands for them.
@@ -248,8 +265,10 @@ impl RobotFile {
             Some(other) => return Err(wrong(format!("angle_unit = \"{other}\"; write rad or deg"))),
         };
         let pose = pose_columns(&names).map_err(wrong)?;
+        let second = seconds_in(names.time_unit.as_deref()).map_err(wrong)?;
         let columns = Columns {
             time: names.time,
+            second,
             data,
             wheels: measured.iter().filter_map(|w| w.column.clone()).collect(),
             steering: names.steering,
@@ -312,6 +331,7 @@ mod tests {
         assert!(refused("kind = \"odometry\"", "kind = \"car\"").contains("belong to kind"));
         assert!(refused("wheels = \"counts\"", "wheels = \"tacho\"").contains("counts, counter, angle or speed"));
         assert!(refused("time = ", "tim = ").contains("tim"));
+        assert!(refused("time = ", "time_unit = \"min\"\ntime = ").contains("write s, ms, us or ns"));
         assert!(refused("yaw = \"yaw_rad\"\n", "").contains("names a part of the pose"));
         let neither = refused("x = \"x_m\"\ny = \"y_m\"\nyaw = \"yaw_rad\"\n", "");
         assert!(neither.contains("names neither a pose nor a gyro; give x, y and yaw, or gyro"), "{neither}");

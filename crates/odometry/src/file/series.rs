@@ -66,7 +66,7 @@ impl RobotFile {
         let spans = wheels.iter().chain(steering).filter_map(Series::span);
         let [from, until] = spans.fold([f64::MIN, f64::MAX], |[a, b], [from, until]| [a.max(from), b.min(until)]);
         let time = rows(&body.time, wheels.iter().flat_map(|wheel| &wheel.time).copied(), [from, until]);
-        enough_rows(name, time.len())?;
+        enough_rows(name, &time)?;
         let at = |row: usize| wheels.iter().map(|wheel| wheel.at(time[row])).collect::<Vec<f64>>();
         let turned = |row: usize| {
             let before = at(row.saturating_sub(1));

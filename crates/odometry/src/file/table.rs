@@ -73,7 +73,7 @@ impl RobotFile {
             let column = &columns[names.wheels.len() + 1];
             column.iter().map(|s| s * names.angle).collect::<Vec<f64>>()
         });
-        let time = columns[0].clone();
+        let time: Vec<f64> = columns[0].iter().map(|t| t * names.second).collect();
         if gyro.is_some() {
             let rates = &columns[first_of_pose];
             let seen: Vec<usize> = (0..time.len()).filter(|&row| rates[row].is_finite()).collect();
@@ -137,5 +137,29 @@ mod tests {
             refused(&table(80).replace(",106,106", ",x,106")).contains("row 1, column 'tick_right': 'x' is no number")
         );
         assert!(refused(&table(9)).contains("9 rows, but at least 40"));
+    }
+
+    #[test]
+    fn times_in_milliseconds_are_refused_until_the_file_says_so() {
+        let (_, text) = crate::file::BUILT_IN[0];
+        let plain = RobotFile::parse("robot.toml", text).expect("a robot");
+        let seconds = plain.drive("a", &table(80)).expect("a drive");
+        let milli = table(80)
+            .lines()
+            .map(|line| match line.split_once(',') {
+                Some((t, rest)) => {
+                    t.parse::<f64>().map_or_else(|_| line.to_owned(), |t| format!("{:.0},{rest}", 1e3 * t))
+                }
+                None => line.to_owned(),
+            })
+            .collect::<Vec<_>>()
+            .join("\n");
+        let refused = plain.drive("a", &milli).unwrap_err().to_string();
+        assert!(refused.contains("its rows are 50 s apart") && refused.contains("time_unit = \"ms\""), "{refused}");
+        let said = text.replace("time = ", "time_unit = \"ms\"\ntime = ");
+        let same = RobotFile::parse("robot.toml", &said).expect("a robot").drive("a", &milli).expect("a drive");
+        for (a, b) in same.time.iter().zip(&seconds.time) {
+            approx::assert_relative_eq!(*a, *b, epsilon = 1e-9);
+        }
     }
 }

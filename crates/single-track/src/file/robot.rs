@@ -24,8 +24,10 @@ pub struct RobotFile {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Columns {
-    /// Column of the time, s.
+    /// Column of the time.
     pub time: String,
+    /// Its unit, and that of the car's clock: s, ms, us or ns.
+    pub time_unit: Option<String>,
     /// Throttle, −1 to 1.
     pub throttle: String,
     /// Steering command, positive to the left.
@@ -179,6 +181,7 @@ impl RobotFile {
         if pose % 3 != 0 {
             return Err(wrong("[columns] names a part of the pose; give x, y and yaw, or none of them".to_owned()));
         }
+        odometry::file::seconds_in(columns.time_unit.as_deref()).map_err(wrong)?;
         if !["command", "rad", "deg"].contains(&columns.steering_unit.as_str()) {
             let unit = &columns.steering_unit;
             return Err(wrong(format!("steering_unit = \"{unit}\"; write command, rad or deg")));

@@ -67,13 +67,15 @@ impl RobotFile {
         let per_unit = self.steering_per_unit();
         let [x, y, yaw] = [optional(&names.x)?, optional(&names.y)?, optional(&names.yaw)?];
         let pose = x.iter().zip(&y).zip(&yaw).map(|((x, y), yaw)| [*x, *y, *yaw]).collect();
+        let second = odometry::file::seconds_in(names.time_unit.as_deref()).map_err(wrong)?;
+        let seconds = |column: Vec<f64>| column.into_iter().map(|t| t * second).collect();
         Ok(Table {
-            time: needed(&names.time)?,
+            time: seconds(needed(&names.time)?),
             pose,
             throttle: needed(&names.throttle)?,
             steering: needed(&names.steering)?.into_iter().map(|s| s * per_unit).collect(),
             enabled: optional(&names.enabled)?,
-            car_time: optional(&names.car_time)?,
+            car_time: seconds(optional(&names.car_time)?),
             gyro: optional(&names.gyro)?,
             encoder: optional(&names.encoder)?,
         })
