@@ -26,7 +26,7 @@ const FORMULAS: [f64; 12] = [0.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 60.0, 180.0, 10
 const GUARD: f64 = 1e-6;
 
 /// File, literal, and why it is no setting.
-const NO_SETTINGS: [(&str, &str, &str); 14] = [
+const NO_SETTINGS: [(&str, &str, &str); 15] = [
     ("inference/src/robust.rs", "1.645", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.96", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.353", "mathematics: half a quantile of chi-squared"),
@@ -37,6 +37,7 @@ const NO_SETTINGS: [(&str, &str, &str); 14] = [
     ("torque-driven/src/redundancy/pool.rs", "1.25", "mathematics: from the sigma of a mean to that of a median"),
     ("torque-driven/src/locate/change.rs", "6.0", "mathematics: the mean of a sum of twelve uniform numbers"),
     ("torque-driven/src/unnamed/shared.rs", "12.0", "mathematics: the variance of Mann and Whitney's statistic"),
+    ("odometry/src/file/robot.rs", "1e-3", "unit: seconds in a millisecond"),
     ("torque-driven/src/fit.rs", "1e300", "structure: the cost of a run that is not finite, which can be added"),
     ("speed-driven/src/clock.rs", "0.9", "the quantile that its page names"),
     ("command-driven/src/run.rs", "1e-9", "unit: seconds in a nanosecond"),
