@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use nalgebra::{Quaternion, UnitQuaternion};
 use odometry::file::{Series, Signals};
-use recordings::{Cell, FieldError, FieldReader, HEADER_STAMP, LOG_TIME, Message, is_bag, messages};
+use recordings::{Cell, FieldError, FieldReader, HEADER_STAMP, LOG_TIME, Message, messages};
 
 use crate::envelope::SourceFile;
-use crate::inputs;
 
 /// Columns of a robot file that name fields of topics.
 #[derive(Debug, Clone, Copy)]
@@ -48,60 +46,13 @@ pub(crate) fn topic_and_field(column: &str) -> Option<(&str, &str)> {
     column.split_once('.').filter(|(topic, field)| topic.starts_with('/') && !field.is_empty())
 }
 
-/// Bags in a folder and in the folders in it: each file by itself, and those of a folder as rosbag2 names them as parts of one.
-/// What is none goes to `ignored`.
-pub(crate) fn bags_below(folder: &Path, ignored: &mut Vec<String>) -> Result<Vec<Vec<PathBuf>>> {
-    /// A folder of recordings holds one for each bag.
-    const DEPTH: usize = 2;
-    bags_to_depth(folder, DEPTH, ignored)
-}
-
-fn bags_to_depth(folder: &Path, depth: usize, ignored: &mut Vec<String>) -> Result<Vec<Vec<PathBuf>>> {
-    let inside = inputs::list(folder)?;
-    let (bags, others): (Vec<PathBuf>, Vec<PathBuf>) =
-        inside.into_iter().partition(|path| path.is_file() && is_bag(&path.to_string_lossy()));
-    let mut out = parts(folder, bags);
-    for other in others {
-        let below = if other.is_dir() && depth > 0 { bags_to_depth(&other, depth - 1, ignored)? } else { Vec::new() };
-        let is_table = other.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-        if below.is_empty() && !is_table && !other.ends_with("metadata.yaml") {
-            ignored.push(other.display().to_string());
-        }
-        out.extend(below);
-    }
-    Ok(out)
-}
-
-/// Files that rosbag2 split, `walk/walk_0.mcap` and so on, are one bag, in the order of their numbers; others are one each.
-fn parts(folder: &Path, files: Vec<PathBuf>) -> Vec<Vec<PathBuf>> {
-    let prefix = folder.file_name().map(|name| format!("{}_", name.to_string_lossy())).unwrap_or_default();
-    let number = |file: &PathBuf| {
-        let name = file.file_name()?.to_string_lossy().into_owned();
-        name.strip_prefix(&prefix)?.split('.').next()?.parse::<u64>().ok()
-    };
-    let (mut split, whole): (Vec<PathBuf>, Vec<PathBuf>) = files.into_iter().partition(|file| number(file).is_some());
-    split.sort_by_key(|file| number(file));
-    let split = Some(split).filter(|split| !split.is_empty());
-    split.into_iter().chain(whole.into_iter().map(|file| vec![file])).collect()
-}
-
-/// Name of a bag in messages: of its folder where it has several parts or is called like it, else of its file.
-pub(crate) fn name_of(bag: &[PathBuf]) -> String {
-    let Some(first) = bag.first() else { return String::new() };
-    let file = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = file.split('.').next().unwrap_or_default().to_owned();
-    let folder = first.parent().and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
-    folder.filter(|folder| stem.strip_prefix(folder.as_str()).is_some_and(|rest| rest.starts_with('_'))).unwrap_or(stem)
-}
-
 /// The columns of a bag, whose parts follow each other.
 ///
 /// # Errors
 /// Columns that name no fields, a file that cannot be read, fields that messages do not have, and a bag with none of the topics.
-pub(crate) fn signals(bag: &[PathBuf], wanted: &Wanted<'_>) -> Result<Found> {
+pub(crate) fn signals((name, bag): (&str, &[String]), wanted: &Wanted<'_>) -> Result<Found> {
     let Wanted { robot, time, columns, .. } = *wanted;
-    let name = name_of(bag);
-    let command = format!("lacuna check {} --robot {robot}", shown(bag));
+    let command = format!("lacuna check {} --robot {robot}", bag.first().map_or("", String::as_str));
     let advice =
         format!("`{command} --write-mapping FILE` proposes them, and `{command} --fields` lists what there is");
     if let Some(column) = columns.iter().find(|column| topic_and_field(column).is_none()) {
@@ -125,12 +76,11 @@ pub(crate) fn signals(bag: &[PathBuf], wanted: &Wanted<'_>) -> Result<Found> {
     let mut found = Found::default();
     let mut known: Vec<String> = Vec::new();
     for file in bag {
-        let shown = file.display().to_string();
-        let mut source = File::open(file).with_context(|| format!("cannot read '{shown}'"))?;
+        let mut source = File::open(file).with_context(|| format!("cannot read '{file}'"))?;
         for topic in topics.values_mut() {
             topic.reader = None;
         }
-        let passed = messages(&shown, &mut source, &mut |message| -> Result<()> {
+        let passed = messages(file, &mut source, &mut |message| -> Result<()> {
             match topics.get_mut(message.topic.name.as_str()) {
                 Some(topic) => {
                     topic.take(&message, time).with_context(|| format!("recording '{name}', robot '{robot}'"))
@@ -140,12 +90,12 @@ pub(crate) fn signals(bag: &[PathBuf], wanted: &Wanted<'_>) -> Result<Found> {
         })?;
         known.extend(passed.topics.into_iter().map(|topic| topic.name));
         found.told.extend(passed.losses.iter().map(ToString::to_string));
-        found.files.push(SourceFile { name: shown, bytes: passed.bytes as usize, sha256: passed.sha256 });
+        found.files.push(SourceFile { name: file.clone(), bytes: passed.bytes as usize, sha256: passed.sha256 });
     }
     known.sort();
     known.dedup();
     ensure!(
-        topics.values().any(|topic| !topic.rows.is_empty()),
+        topics.values().any(Topic::is_there),
         "recording '{name}' has none of the topics that robot '{robot}' names ({}); topics with messages are: {}; {advice}",
         topics.keys().copied().collect::<Vec<_>>().join(", "),
         known.join(", ")
@@ -153,15 +103,10 @@ pub(crate) fn signals(bag: &[PathBuf], wanted: &Wanted<'_>) -> Result<Found> {
 
     let start = topics.values().filter_map(|topic| topic.rows.first()).map(|row| row.0).min().unwrap_or_default();
     for (topic, read) in topics {
-        read.tell(&name, topic, &mut found.told);
+        read.tell(name, topic, &mut found.told);
         read.finish(start, &mut found.signals);
     }
     Ok(found)
-}
-
-/// A bag as a command is given it.
-fn shown(bag: &[PathBuf]) -> String {
-    bag.first().map_or_else(String::new, |file| file.display().to_string())
 }
 
 /// A topic of which fields are wanted.
@@ -188,6 +133,11 @@ struct Reader {
 }
 
 impl Topic<'_> {
+    /// Whether a message was met, of use or not.
+    fn is_there(&self) -> bool {
+        !self.rows.is_empty() || self.zero + self.bad > 0
+    }
+
     fn take(&mut self, message: &Message<'_>, time: &str) -> Result<()> {
         if self.reader.is_none() {
             self.reader = Some(self.reader_of(message, time)?);
@@ -254,7 +204,7 @@ impl Topic<'_> {
         if self.unstamped && !self.rows.is_empty() {
             tell("its messages have no header; the times at which they were logged were taken".to_owned());
         }
-        if self.rows.is_empty() && self.zero + self.bad == 0 {
+        if !self.is_there() {
             tell("no message of it is there".to_owned());
         }
         for (count, what) in [

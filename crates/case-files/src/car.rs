@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use ::odometry::file::Signals;
 use anyhow::{Result, bail};
 use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
-use crate::bag_signals::{Found, Wanted};
 use crate::case_folder::robot_of;
 use crate::columns::{ColumnsEnvelope, Kind, robot_text};
+use crate::drive_files::{NamesColumns, drives};
 use crate::envelope::SourceFile;
-use crate::odometry::{Part, Recorded, drives};
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -56,20 +56,7 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) 
     };
     let Some((file, text)) = self::robot(&name)? else { return Ok(None) };
     let mut ignored = Vec::new();
-    let columns = columns_of(&file);
-    let wanted = Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: file.columns.yaw.as_deref() };
-    let (drives, files) = drives(folder, parts, &mut ignored, &wanted, |part, name, recorded| {
-        let is_held_out = part == Part::HeldOut;
-        Ok(match recorded {
-            Recorded::Table(text) if is_held_out => file.held_out(name, text)?,
-            Recorded::Table(text) => file.drive(name, text)?,
-            Recorded::Bag(Found { signals, told, .. }) => {
-                let mut drive = file.drive_of(name, signals, is_held_out)?;
-                drive.told.extend(told.iter().cloned());
-                drive
-            }
-        })
-    })?;
+    let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
     let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
         bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files or bags with --recordings");
@@ -78,11 +65,40 @@ pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) 
     Ok(Some(CarCase { case, held_out, robot: name, text, files, ignored }))
 }
 
-/// Columns that a drive of this car has beside its time.
-pub(crate) fn columns_of(file: &RobotFile) -> Vec<&str> {
-    let names = &file.columns;
-    let optional = [&names.enabled, &names.gyro, &names.encoder, &names.x, &names.y, &names.yaw];
-    [&names.throttle, &names.steering].into_iter().chain(optional.into_iter().flatten()).map(String::as_str).collect()
+impl NamesColumns for RobotFile {
+    type Drive = Drive;
+
+    fn time(&self) -> &str {
+        &self.columns.time
+    }
+
+    fn columns(&self) -> Vec<&str> {
+        let names = &self.columns;
+        let optional = [&names.enabled, &names.gyro, &names.encoder, &names.x, &names.y, &names.yaw];
+        let needed = [&names.throttle, &names.steering].into_iter();
+        needed.chain(optional.into_iter().flatten()).map(String::as_str).collect()
+    }
+
+    fn yaw(&self) -> Option<&str> {
+        self.columns.yaw.as_deref()
+    }
+
+    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Drive> {
+        Ok(if is_held_out { self.held_out(name, text)? } else { self.drive(name, text)? })
+    }
+
+    fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive> {
+        Ok(self.drive_of(name, signals, is_held_out)?)
+    }
+
+    fn told(drive: &mut Drive) -> &mut Vec<String> {
+        &mut drive.told
+    }
+
+    fn described(drive: &Drive) -> String {
+        let pose = if drive.has_pose() { "with a pose" } else { "without a pose" };
+        format!("{:.1} s, {pose}", drive.duration())
+    }
 }
 
 impl CarCase {

@@ -216,7 +216,7 @@ pub fn complete(group: &mut Group, mapping: &Mapping) {
 
 /// Names of the runs: the file's alone, since labels in folder names are no evidence; with the folder where two runs
 /// would be called the same.
-fn run_names(groups: &[Group]) -> Vec<String> {
+pub(crate) fn run_names(groups: &[Group]) -> Vec<String> {
     let last = |run: &str, parts: usize| {
         let all: Vec<&str> = run.split(['/', '\\']).filter(|p| !p.is_empty()).collect();
         all[all.len().saturating_sub(parts)..].join("/")

@@ -12,6 +12,7 @@ pub mod check;
 pub mod columns;
 pub mod columns_case;
 pub mod corrected;
+mod drive_files;
 mod edit;
 pub mod envelope;
 pub mod inputs;

@@ -2,17 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
-use odometry::file::RobotFile;
+use anyhow::{Result, bail};
+use odometry::file::{RobotFile, Signals};
 use odometry::{Case, Drive, diagnosis, left_out};
-use recordings::is_bag;
 use verdict::Diagnosis;
 
-use crate::bag_signals::{self, Found, Wanted};
-use crate::case_folder::{folders, robot_of};
-use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
+use crate::case_folder::robot_of;
+use crate::columns::{ColumnsEnvelope, Kind, robot_text};
+use crate::drive_files::{NamesColumns, drives};
 use crate::envelope::SourceFile;
-use crate::inputs::list;
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -62,20 +60,7 @@ pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf];
     let Some((file, text)) = robot(&name)?.zip(text(&name)?) else { return Ok(None) };
 
     let mut ignored = Vec::new();
-    let columns = columns_of(&file);
-    let wanted = Wanted { robot: &name, time: &file.columns.time, columns: &columns, yaw: yaw_of(&file) };
-    let (drives, files) = drives(folder, parts, &mut ignored, &wanted, |part, name, recorded| {
-        let is_held_out = part == Part::HeldOut;
-        Ok(match recorded {
-            Recorded::Table(text) if is_held_out => file.held_out(name, text)?,
-            Recorded::Table(text) => file.drive(name, text)?,
-            Recorded::Bag(Found { signals, told, .. }) => {
-                let mut drive = file.drive_of(name, signals, is_held_out)?;
-                drive.told.extend(told.iter().cloned());
-                drive
-            }
-        })
-    })?;
+    let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
     let [references, recordings, held_out] = drives;
     if recordings.is_empty() {
         bail!(
@@ -86,100 +71,41 @@ pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf];
     Ok(Some(OdometryCase { case, held_out, robot: name, text, files, ignored }))
 }
 
-/// What part a drive plays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// The simulation was right.
-    Reference,
-    /// It was not.
-    Recording,
-    /// Its pose is to be predicted.
-    HeldOut,
-}
+impl NamesColumns for RobotFile {
+    type Drive = Drive;
 
-/// How a drive is recorded.
-#[derive(Clone, Copy)]
-pub(crate) enum Recorded<'a> {
-    /// As comma-separated values.
-    Table(&'a str),
-    /// As messages, of which the wanted fields were read.
-    Bag(&'a Found),
-}
-
-/// Drives and files, by their part.
-type Parts<D> = ([Vec<D>; 3], [Vec<SourceFile>; 3]);
-
-/// Columns that a drive of this robot has beside its time.
-pub(crate) fn columns_of(file: &RobotFile) -> Vec<&str> {
-    let names = &file.columns;
-    let body = names.pose.iter().flatten().chain(&names.gyro);
-    names.wheels.iter().chain(&names.steering).chain(body).map(String::as_str).collect()
-}
-
-/// Column of the heading.
-pub(crate) fn yaw_of(file: &RobotFile) -> Option<&str> {
-    file.columns.pose.as_ref().map(|[_, _, yaw]| yaw.as_str())
-}
-
-/// Drives of a case folder or of paths (references, recordings, held out), read by `drive` from part, name and what is recorded:
-/// `wanted` of a bag.
-pub(crate) fn drives<D>(
-    folder: Option<&Path>,
-    paths: [&[PathBuf]; 3],
-    ignored: &mut Vec<String>,
-    wanted: &Wanted<'_>,
-    drive: impl Fn(Part, &str, Recorded<'_>) -> Result<D>,
-) -> Result<Parts<D>> {
-    let paths: [Vec<PathBuf>; 3] = match folder {
-        Some(folder) => folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() }),
-        None => paths.map(<[PathBuf]>::to_vec),
-    };
-    let mut drives = [Vec::new(), Vec::new(), Vec::new()];
-    let mut files: [Vec<SourceFile>; 3] = Default::default();
-    for (k, part) in [Part::Reference, Part::Recording, Part::HeldOut].into_iter().enumerate() {
-        for path in &paths[k] {
-            let shown = path.display();
-            ensure!(path.exists(), "there is no file or folder '{shown}'; give a table or a bag, or a folder of them");
-            let (tables, bags) = recordings(path, ignored)?;
-            for path in tables {
-                let text = table(&path)?;
-                let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-                drives[k].push(drive(part, &stem, Recorded::Table(&text))?);
-                files[k].push(source(path.display().to_string(), &text));
-            }
-            for bag in bags {
-                let found = bag_signals::signals(&bag, wanted)?;
-                let read = drive(part, &bag_signals::name_of(&bag), Recorded::Bag(&found));
-                drives[k].push(read.map_err(|error| found.explained(error))?);
-                files[k].extend(found.files);
-            }
-        }
+    fn time(&self) -> &str {
+        &self.columns.time
     }
-    Ok((drives, files))
-}
 
-/// Tables and bags of a path, sorted within each folder; a bag may have several parts.
-pub(crate) fn recordings(path: &Path, ignored: &mut Vec<String>) -> Result<(Vec<PathBuf>, Vec<Vec<PathBuf>>)> {
-    if path.is_dir() {
-        let is_table = |inside: &PathBuf| inside.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-        let tables = list(path)?.into_iter().filter(is_table).collect();
-        return Ok((tables, bag_signals::bags_below(path, ignored)?));
+    fn columns(&self) -> Vec<&str> {
+        let names = &self.columns;
+        let body = names.pose.iter().flatten().chain(&names.gyro);
+        names.wheels.iter().chain(&names.steering).chain(body).map(String::as_str).collect()
     }
-    let path = path.to_path_buf();
-    Ok(if is_bag(&path.to_string_lossy()) { (Vec::new(), vec![vec![path]]) } else { (vec![path], Vec::new()) })
-}
 
-/// A table's text.
-pub(crate) fn table(path: &Path) -> Result<String> {
-    let shown = path.display();
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read '{shown}'"))?;
-    let refused = || {
-        format!(
-            "'{shown}' is no text: robots of wheel counts and cars are read from comma-separated values and from bags (.mcap, .db3); \
-             write the table as CSV"
-        )
-    };
-    String::from_utf8(bytes).with_context(refused)
+    fn yaw(&self) -> Option<&str> {
+        self.columns.pose.as_ref().map(|[_, _, yaw]| yaw.as_str())
+    }
+
+    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Drive> {
+        Ok(if is_held_out { self.held_out(name, text)? } else { self.drive(name, text)? })
+    }
+
+    fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive> {
+        Ok(self.drive_of(name, signals, is_held_out)?)
+    }
+
+    fn told(drive: &mut Drive) -> &mut Vec<String> {
+        &mut drive.told
+    }
+
+    fn described(drive: &Drive) -> String {
+        let measured = if drive.heading_only { "the heading by a gyro" } else { "a pose" };
+        let seen = drive.pose.iter().filter(|pose| pose[2].is_finite()).count();
+        let seconds = drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first);
+        format!("{} rows in {seconds:.1} s, {measured} in {seen} of them", drive.time.len())
+    }
 }
 
 impl OdometryCase {

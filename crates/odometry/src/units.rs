@@ -49,42 +49,31 @@ pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) ->
     }
     steering(drive);
     if drive.heading_only {
-        gyro(drive, robot);
+        drive.take_bias_off();
+        turns_in_degrees(drive, robot, ["the gyro", "it is taken to be in degrees per second"]);
         return Ok(());
     }
     // Wheels before yaw: both are measured against each other, and degrees of both would cancel, but not in the way.
     wheels(drive, robot, data);
-    let turned = motions(drive, robot).map(|m| m[2].abs()).sum::<f64>();
     unwrap_yaw(drive, DEGREES_OF_A_TURN);
-    let seen = shown(drive).map(|m| m[2].abs()).sum::<f64>();
-    let degrees = 1.0_f64.to_degrees();
-    if turned > RULES.turned && is_near(seen / turned, degrees, RULES.degrees_tolerance) {
-        drive.pose.iter_mut().for_each(|pose| pose[2] = pose[2].to_radians());
-        tell(
-            drive,
-            &format!("yaw turns by {seen:.0} where the wheels turn the robot by {turned:.1} rad"),
-            "yaw is taken to be in degrees; state angle_unit",
-        );
-    } else {
+    if !turns_in_degrees(drive, robot, ["yaw", "yaw is taken to be in degrees"]) {
         unwrap_yaw(drive, TAU);
     }
     length(drive, robot)
 }
 
-/// Takes a gyro that turns by 57.3 times what the wheels say for one in degrees per second, and takes its bias off.
-fn gyro(drive: &mut Drive, robot: &WheeledRobot) {
-    drive.take_bias_off();
+/// Takes a heading that turns by 57.3 times what the wheels say to be in degrees, and whether it does; `what` turns, and how that is
+/// told.
+fn turns_in_degrees(drive: &mut Drive, robot: &WheeledRobot, [what, taken]: [&str; 2]) -> bool {
     let turned = motions(drive, robot).map(|m| m[2].abs()).sum::<f64>();
     let seen = shown(drive).map(|m| m[2].abs()).sum::<f64>();
-    let degrees = 1.0_f64.to_degrees();
-    if turned > RULES.turned && is_near(seen / turned, degrees, RULES.degrees_tolerance) {
+    let is_one = turned > RULES.turned && is_near(seen / turned, 1.0_f64.to_degrees(), RULES.degrees_tolerance);
+    if is_one {
         drive.pose.iter_mut().for_each(|pose| pose[2] = pose[2].to_radians());
-        tell(
-            drive,
-            &format!("the gyro turns by {seen:.0} where the wheels turn the robot by {turned:.1} rad"),
-            "it is taken to be in degrees per second; state angle_unit",
-        );
+        let reason = format!("{what} turns by {seen:.0} where the wheels turn the robot by {turned:.1} rad");
+        tell(drive, &reason, &format!("{taken}; state angle_unit"));
     }
+    is_one
 }
 
 fn tell(drive: &mut Drive, reason: &str, taken: &str) {

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::mapping::{Mapping, base_name};
+use bags::Format;
+
+use crate::mapping::{FileMapping, Mapping, TimeMapping, base_name};
 
 /// The files of one run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,6 +86,28 @@ impl Mapping {
         });
         Grouping { groups: groups.collect(), unmatched }
     }
+}
+
+/// Sorts bags into runs whatever is in them: parts of a split one are one run. What is no bag is unmatched.
+///
+/// ```
+/// let sorted = recordings::group_bags(&["walk/walk_1.mcap", "walk/walk_0.mcap", "run.db3", "run.csv"]);
+/// let runs: Vec<(&str, usize)> = sorted.groups.iter().map(|group| (&*group.run, group.files.len())).collect();
+/// assert_eq!(runs, [("run", 1), ("walk/walk", 2)]);
+/// assert_eq!(sorted.unmatched, ["run.csv"]);
+/// ```
+pub fn group_bags<S: AsRef<str>>(names: &[S]) -> Grouping {
+    let any = FileMapping {
+        pattern: Format::bag_pattern(),
+        topic: Some(String::new()),
+        self_describing: false,
+        clock: None,
+        delimiter: b',',
+        decimal_comma: false,
+        time: TimeMapping { column: None, ns_per_unit: 1, rate_hz: None },
+        columns: Vec::new(),
+    };
+    Mapping { name: String::new(), files: vec![any] }.group(names)
 }
 
 /// A stretch of digits or of anything else; digits compare as numbers (by length without leading zeros, then by text).

@@ -90,7 +90,7 @@ pub use channel::{Attributes, Channel};
 pub use column_survey::{ColumnContents, TimeLike, UnitBy};
 pub use error::RecordingError;
 pub use fingerprint::{Fingerprint, FingerprintBuilder, group_by_content};
-pub use group::{Group, GroupFile, Grouping};
+pub use group::{Group, GroupFile, Grouping, group_bags};
 pub use input::{Input, Opened, Policy, ReadOptions};
 pub use mapping::{ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
 pub use mapping_built_in::BUILT_IN_MAPPINGS;

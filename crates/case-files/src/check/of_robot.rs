@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use ::odometry::file::Series;
 use anyhow::Result;
 use serde_json::{Value, json};
 
-use crate::bag_signals::{self, Wanted};
+use crate::bag_signals;
 use crate::columns::Kind;
+use crate::drive_files::{NamesColumns, Recorded, name_of, table};
 use crate::{car, odometry};
 
 /// A signal that a column of the robot file reads.
@@ -62,105 +64,46 @@ impl OfRobot {
     }
 }
 
-/// A robot of one of the kinds that name their columns themselves.
-enum Robot {
-    Odometry(Box<::odometry::file::RobotFile>),
-    Car(Box<single_track::file::RobotFile>),
-}
-
-impl Robot {
-    fn read(name: &str, kind: Kind) -> Result<Option<Self>> {
-        Ok(match kind {
-            Kind::Odometry => odometry::robot(name)?.map(|file| Self::Odometry(Box::new(file))),
-            Kind::Car => car::robot(name)?.map(|(file, _)| Self::Car(Box::new(file))),
-        })
-    }
-
-    fn columns(&self) -> Vec<&str> {
-        match self {
-            Self::Odometry(file) => odometry::columns_of(file),
-            Self::Car(file) => car::columns_of(file),
-        }
-    }
-
-    /// Columns of the time and of the heading.
-    fn time_and_yaw(&self) -> (&str, Option<&str>) {
-        match self {
-            Self::Odometry(file) => (&file.columns.time, odometry::yaw_of(file)),
-            Self::Car(file) => (&file.columns.time, file.columns.yaw.as_deref()),
-        }
-    }
-
-    fn table(&self, name: &str, text: &str) -> Result<(String, Vec<String>)> {
-        Ok(match self {
-            Self::Odometry(file) => of_wheels(file.drive(name, text)?),
-            Self::Car(file) => of_car(file.drive(name, text)?),
-        })
-    }
-
-    fn bag(&self, name: &str, signals: &::odometry::file::Signals) -> Result<(String, Vec<String>)> {
-        Ok(match self {
-            Self::Odometry(file) => of_wheels(file.drive_of(name, signals, false)?),
-            Self::Car(file) => of_car(file.drive_of(name, signals, false)?),
-        })
-    }
-}
-
-fn of_wheels(drive: ::odometry::Drive) -> (String, Vec<String>) {
-    let rows = drive.time.len();
-    let measured = if drive.heading_only { "the heading by a gyro" } else { "a pose" };
-    let seen = drive.pose.iter().filter(|pose| pose[2].is_finite()).count();
-    let seconds = drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first);
-    (format!("{rows} rows in {seconds:.1} s, {measured} in {seen} of them"), drive.told)
-}
-
-fn of_car(drive: single_track::Drive) -> (String, Vec<String>) {
-    let pose = if drive.has_pose() { "with a pose" } else { "without a pose" };
-    (format!("{:.1} s, {pose}", drive.duration()), drive.told)
-}
-
 /// Reads recordings by the columns of a robot file; `None` where its kind has none.
 pub(super) fn read(name: &str, kind: Kind, paths: &[PathBuf]) -> Result<Option<OfRobot>> {
-    let Some(robot) = Robot::read(name, kind)? else { return Ok(None) };
-    let (columns, (time, yaw)) = (robot.columns(), robot.time_and_yaw());
-    let wanted = Wanted { robot: name, time, columns: &columns, yaw };
-    let mut drives = Vec::new();
-    for path in paths {
-        let (tables, bags) = odometry::recordings(path, &mut Vec::new())?;
-        for path in tables {
-            let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-            let read = odometry::table(&path).and_then(|text| robot.table(&name, &text));
-            drives.push(drive_read(name, Vec::new(), Vec::new(), read));
-        }
-        for bag in bags {
-            let name = bag_signals::name_of(&bag);
-            drives.push(match bag_signals::signals(&bag, &wanted) {
-                Ok(found) => {
-                    let column = |(column, series): (&String, &::odometry::file::Series)| ColumnRead {
-                        column: column.clone(),
-                        values: series.time.len(),
-                        span: series.span().unwrap_or_default(),
-                    };
-                    let columns = found.signals.iter().map(column).collect();
-                    let read = robot.bag(&name, &found.signals).map_err(|error| found.explained(error));
-                    drive_read(name, columns, found.told, read)
-                }
-                Err(error) => drive_read(name, Vec::new(), Vec::new(), Err(error)),
-            });
-        }
-    }
+    let drives = match kind {
+        Kind::Odometry => odometry::robot(name)?.map(|file| by(name, &file, paths)),
+        Kind::Car => car::robot(name)?.map(|(file, _)| by(name, &file, paths)),
+    };
+    let Some(drives) = drives.transpose()? else { return Ok(None) };
     Ok(Some(OfRobot { robot: name.to_owned(), kind, drives }))
 }
 
-fn drive_read(
-    name: String,
-    columns: Vec<ColumnRead>,
-    mut told: Vec<String>,
-    read: Result<(String, Vec<String>)>,
-) -> DriveRead {
-    let drive = read.map_err(|error| format!("{error:#}")).map(|(drive, own)| {
-        told.extend(own);
-        drive
-    });
-    DriveRead { name, columns, told, drive }
+fn by<F: NamesColumns>(robot: &str, file: &F, paths: &[PathBuf]) -> Result<Vec<DriveRead>> {
+    let columns = file.columns();
+    let wanted = file.wanted(robot, &columns);
+    let recorded = Recorded::below(paths)?;
+    let mut out = Vec::new();
+    for path in recorded.tables {
+        let name = name_of(&path);
+        let read = table(&path).and_then(|text| file.of_table(&name, &text, false));
+        out.push(drive_read::<F>(name, Vec::new(), read));
+    }
+    for (name, bag) in recorded.bags {
+        let (columns, read) = match bag_signals::signals((&name, &bag), &wanted) {
+            Ok(found) => (found.signals.iter().map(column_read).collect(), file.of_bag(&name, &found, false)),
+            Err(error) => (Vec::new(), Err(error)),
+        };
+        out.push(drive_read::<F>(name, columns, read));
+    }
+    Ok(out)
+}
+
+fn column_read((column, series): (&String, &Series)) -> ColumnRead {
+    ColumnRead { column: column.clone(), values: series.time.len(), span: series.span().unwrap_or_default() }
+}
+
+fn drive_read<F: NamesColumns>(name: String, columns: Vec<ColumnRead>, read: Result<F::Drive>) -> DriveRead {
+    match read {
+        Ok(mut drive) => {
+            let told = std::mem::take(F::told(&mut drive));
+            DriveRead { name, columns, told, drive: Ok(F::described(&drive)) }
+        }
+        Err(error) => DriveRead { name, columns, told: Vec::new(), drive: Err(format!("{error:#}")) },
+    }
 }

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use recordings::{Contents, HEADER_STAMP, LOG_TIME, TopicContents};
 use toml_edit::{DocumentMut, Item, TableLike};
 
-use super::draft::{fields, message, says};
+use super::draft::{fields, is_wanted, message, says};
 use super::{Proposal, joints, stamped};
 use crate::columns::{Kind, robot_text};
 use crate::edit::{document, one_line, set, tables};
@@ -14,8 +14,6 @@ const COUNTS: [&str; 3] = ["tick", "encoder", "count"];
 /// Words that make an odometry one that is not computed from the wheels.
 const MEASURED: [&str; 12] =
     ["truth", "vicon", "mocap", "optitrack", "qualisys", "vrpn", "gps", "visual", "vio", "lidar", "lio", "slam"];
-/// Words in a topic's name that make its values wanted, not measured.
-const WANTED: [&str; 7] = ["goal", "target", "initial", "cmd", "command", "desired", "setpoint"];
 
 /// What is proposed for a robot file.
 struct Draft<'a> {
@@ -80,7 +78,7 @@ impl<'a> Draft<'a> {
 
     /// Topics of measured joints, those that are set aside.
     fn joint_states(&self) -> Vec<&'a TopicContents> {
-        let is_one = |topic: &&TopicContents| message(topic) == "JointState" && !says(topic, &WANTED);
+        let is_one = |topic: &&TopicContents| message(topic) == "JointState" && !is_wanted(topic);
         self.topics.iter().copied().filter(is_one).collect()
     }
 
@@ -98,11 +96,15 @@ impl<'a> Draft<'a> {
             set(row, "column", column(topic, field));
         }
         self.used.extend(topics.iter().map(|(topic, _)| *topic));
-        let columns = self.columns();
-        set(columns, "wheels", data);
-        // What ROS messages are in; other units are told in the table where the owner says so.
-        columns.remove("angle_unit");
-        columns.remove("length_unit");
+        set(self.columns(), "wheels", data);
+        self.leave_out(&["angle_unit", "length_unit"]);
+    }
+
+    /// Takes out keys that mean something in a table only: units, which ROS fixes, and channels that the bag does not have.
+    fn leave_out(&mut self, keys: &[&str]) {
+        for key in keys {
+            self.columns().remove(key);
+        }
     }
 
     fn wheels(&mut self) -> Result<()> {
@@ -203,7 +205,7 @@ impl<'a> Draft<'a> {
         for (pose, place, turn) in ways {
             let is_one = |topic: &&&TopicContents| {
                 let is_measured = pose != "Odometry" || says(topic, &MEASURED);
-                message(topic) == pose && is_measured && !says(topic, &WANTED) && has(topic, &format!("{place}.x"))
+                message(topic) == pose && is_measured && !is_wanted(topic) && has(topic, &format!("{place}.x"))
             };
             let found: Vec<&TopicContents> = self.topics.iter().filter(is_one).copied().collect();
             if let Some((topic, others)) = found.split_first() {
@@ -217,13 +219,18 @@ impl<'a> Draft<'a> {
                 self.set("x", topic, &format!("{place}.x"));
                 self.set("y", topic, &format!("{place}.y"));
                 self.set("yaw", topic, turn);
+                if kind == Kind::Odometry {
+                    self.leave_out(&["gyro"]);
+                }
                 return;
             }
         }
-        if kind == Kind::Odometry && self.gyro() {
-            for key in ["x", "y", "yaw"] {
-                self.columns().remove(key);
-            }
+        let is_enough = match kind {
+            Kind::Odometry => self.gyro(),
+            Kind::Car => self.columns().contains_key("gyro") && self.columns().contains_key("encoder"),
+        };
+        if is_enough {
+            self.leave_out(&["x", "y", "yaw"]);
             self.inferred.push(
                 "no topic of a measured pose is in the bag: the gyro shows how the robot turns, and not how far it goes".to_owned(),
             );
@@ -277,24 +284,24 @@ impl<'a> Draft<'a> {
             ),
         }
         self.gyro();
-        let named = find(self, &["speed", "wheel", "encoder"]).filter(|topic| !says(topic, &WANTED));
-        match named {
+        match find(self, &["speed", "wheel", "encoder"]).filter(|topic| !is_wanted(topic)) {
             Some(topic) => {
                 self.infer(topic, "taken for the speed by the encoder in m/s");
                 self.set("encoder", topic, "data");
             }
-            None => drop(self.columns().remove("encoder")),
+            None => self.leave_out(&["encoder"]),
         }
-        for key in ["car_time", "enabled"] {
-            self.columns().remove(key);
-        }
+        self.leave_out(&["car_time", "enabled"]);
         Ok(())
     }
 
     /// The yaw rate by an inertial unit, if there is one.
     fn gyro(&mut self) -> bool {
         let is_one = |topic: &&TopicContents| message(topic) == "Imu" && has(topic, "angular_velocity.z");
-        let Some(topic) = self.topics.iter().copied().find(is_one) else { return false };
+        let Some(topic) = self.topics.iter().copied().find(is_one) else {
+            self.leave_out(&["gyro"]);
+            return false;
+        };
         self.infer(topic, "angular_velocity.z taken for the yaw rate in rad/s, z up");
         self.set("gyro", topic, "angular_velocity.z");
         true
@@ -302,6 +309,7 @@ impl<'a> Draft<'a> {
 
     /// One clock for all: stamps where every topic has them.
     fn time(&mut self) {
+        self.leave_out(&["time_unit"]);
         let without: Vec<String> =
             self.used.iter().filter(|topic| !stamped(topic)).map(|topic| topic.name.clone()).collect();
         if without.is_empty() {

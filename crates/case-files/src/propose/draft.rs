@@ -61,6 +61,11 @@ pub(super) fn says(topic: &TopicContents, words: &[&str]) -> bool {
     words.iter().any(|word| name.contains(word))
 }
 
+/// Whether a topic's name makes its values wanted, not measured.
+pub(super) fn is_wanted(topic: &TopicContents) -> bool {
+    says(topic, &COMMANDS) || says(topic, &GOALS)
+}
+
 /// Topics of low rank come first: joints before what repeats them, filtered sensors before raw ones.
 pub(super) fn rank(topic: &TopicContents) -> u8 {
     match message(topic) {

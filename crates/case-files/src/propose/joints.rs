@@ -52,13 +52,13 @@ const LONGEST_WORD: usize = 10;
 /// Words that may stand together without a gap, as in `frontleftwheeljoint`.
 const MOST_WORDS: usize = 4;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Side {
     Left,
     Right,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     Front,
     Middle,
@@ -66,7 +66,7 @@ enum Place {
 }
 
 /// What a part of a name says.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Word {
     Side(Side),
     /// A side by letters, such as `fl` or `l`, which may mean something else.
@@ -130,18 +130,18 @@ pub(super) fn same_wheel<'a>(wheel: &str, names: &'a [String]) -> Option<&'a str
 }
 
 /// What a name says of which wheel it is, in one order.
-fn essence(name: &str) -> Vec<String> {
-    let side = |side: &Side| format!("{side:?}").to_lowercase();
-    let place = |place: &Place| format!("{place:?}").to_lowercase();
-    let said = |word: &Word| match word {
-        Word::Side(s) => vec![side(s)],
-        Word::Letters(s, p) => std::iter::once(side(s)).chain(p.as_ref().map(place)).collect(),
-        Word::Place(p) => vec![place(p)],
-        Word::Wheel | Word::Neutral => Vec::new(),
-        Word::Idle(other) | Word::Other(other) => vec![other.clone()],
-    };
-    let mut out: Vec<String> =
-        words(name).iter().flat_map(said).filter(|word| !COUNTED.contains(&word.as_str())).collect();
+fn essence(name: &str) -> Vec<Word> {
+    let mut out = Vec::new();
+    for word in words(name) {
+        match word {
+            Word::Letters(side, place) => {
+                out.extend([Some(Word::Side(side)), place.map(Word::Place)].into_iter().flatten());
+            }
+            Word::Wheel | Word::Neutral => {}
+            Word::Other(other) if COUNTED.contains(&other.as_str()) => {}
+            other => out.push(other),
+        }
+    }
     out.sort();
     out
 }

@@ -1,39 +1,8 @@
 //! Robots whose files name their columns, of which bags are recorded: wheel counts beside a pose, and cars.
 
-use crate::common::Bench;
 use crate::common::bags::{Said, bag_of};
+use crate::common::{Bench, CART as ROBOT};
 use serde_json::Value;
-
-const ROBOT: &str = r#"
-name = "cart"
-kind = "odometry"
-
-[[wheel]]
-name = "left"            # looking ahead
-place = [0.0, 0.15]
-radius = 0.05
-radius_sigma = 0.0003
-counts_per_turn = 4000.0
-column = "left"
-
-[[wheel]]
-name = "right"
-place = [0.0, -0.15]
-radius = 0.05
-radius_sigma = 0.0003
-counts_per_turn = 4000.0
-column = "right"
-
-[known]
-track_sigma = 0.003
-
-[columns]
-time = "t"
-wheels = "counts"
-x = "x"
-y = "y"
-yaw = "yaw"
-"#;
 
 const EVERY: f64 = 0.05;
 
@@ -238,6 +207,64 @@ fn a_car_finds_its_commands_in_a_bag() {
     let run = bench.run(&["check", "lap.mcap", "--robot", "mine.toml"]);
     assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
     assert!(run.out().contains("lap: 8.0 s, with a pose"), "{}", run.out());
+}
+
+#[test]
+fn messages_without_a_stamp_backwards_or_without_a_value_are_left_out_and_told() {
+    let bench = Bench::empty();
+    bench.write("cart.toml", ROBOT);
+    let topics = [("/joint_states", "sensor_msgs/msg/JointState"), ("/vicon/cart", "geometry_msgs/msg/PoseStamped")];
+    let said = drive(0.0).into_iter().enumerate().flat_map(|(k, ([left, right], pose))| -> [Said; 2] {
+        let t = 1e9 + EVERY * k as f64;
+        let joints = format!(
+            r#"{{STAMP,"name":["wheel_left_joint","wheel_right_joint"],"position":[{left},{right}],"velocity":[],"effort":[]}}"#
+        );
+        let joints = match k {
+            10 => joints.replace("STAMP", r#""header":{"stamp":{"sec":0,"nanosec":0}}"#),
+            20 | 21 => joints.replace("STAMP", r#""header":{"stamp":{"sec":999999999,"nanosec":0}}"#),
+            30 => joints.replace("\"position\":[", "\"position\":[null,"),
+            _ => joints,
+        };
+        [(0, t, joints), (1, t + 0.02, pose_message(pose))]
+    });
+    bench.write_bytes("run.mcap", &bag_of(&topics, said.collect()));
+    bench.run(&["check", "run.mcap", "--robot", "cart.toml", "--write-mapping", "new.toml"]);
+    let run = bench.run(&["check", "run.mcap", "--robot", "new.toml"]);
+    assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
+    for part in [
+        "1 messages have a header.stamp of 0",
+        "2 messages are not later than the one before them; they were left out",
+        "1 messages do not decode, or lack a value",
+        "Can be diagnosed",
+    ] {
+        assert!(run.out().contains(part), "no `{part}` in {}", run.out());
+    }
+}
+
+#[test]
+fn a_car_without_a_pose_is_read_by_gyro_and_encoder_and_keeps_no_column_that_a_bag_lacks() {
+    let bench = Bench::empty();
+    let topics = [
+        ("/commands/throttle", "std_msgs/msg/Float64"),
+        ("/commands/servo", "std_msgs/msg/Float64"),
+        ("/imu", "sensor_msgs/msg/Imu"),
+        ("/wheel_speed", "std_msgs/msg/Float64"),
+    ];
+    let said = (0..400).flat_map(|k| -> [Said; 4] {
+        let t = 1e9 + 0.02 * f64::from(k);
+        [
+            (0, t, r#"{"data":0.3}"#.to_owned()),
+            (1, t, r#"{"data":0.1}"#.to_owned()),
+            (2, t, r#"{STAMP,"angular_velocity":{"x":0.0,"y":0.0,"z":0.02}}"#.to_owned()),
+            (3, t, r#"{"data":0.5}"#.to_owned()),
+        ]
+    });
+    bench.write_bytes("lap.mcap", &bag_of(&topics, said.collect()));
+    let run = bench.run(&["check", "lap.mcap", "--robot", "dart", "--write-mapping", "mine.toml"]);
+    assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
+    assert!(run.out().contains("lap: 8.0 s, without a pose"), "{}", run.out());
+    let mine = bench.read("mine.toml");
+    assert!(["x = ", "car_time = ", "enabled = "].iter().all(|key| !mine.contains(&format!("\n{key}\""))), "{mine}");
 }
 
 #[test]

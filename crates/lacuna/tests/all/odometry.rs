@@ -2,39 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::common::Bench;
+use crate::common::{Bench, CART as ROBOT};
 use serde_json::Value;
-
-const ROBOT: &str = r#"
-name = "cart"
-kind = "odometry"
-
-[[wheel]]
-name = "left"
-place = [0.0, 0.15]
-radius = 0.05
-radius_sigma = 0.0003
-counts_per_turn = 4000.0
-column = "left"
-
-[[wheel]]
-name = "right"
-place = [0.0, -0.15]
-radius = 0.05
-radius_sigma = 0.0003
-counts_per_turn = 4000.0
-column = "right"
-
-[known]
-track_sigma = 0.003
-
-[columns]
-time = "t"
-wheels = "counts"
-x = "x"
-y = "y"
-yaw = "yaw"
-"#;
 
 /// Levels of both wheels at 20 Hz; the right wheel is 5 % larger than the file says.
 fn drive(phase: f64) -> String {

@@ -26,6 +26,38 @@ adhesion = { value = 0.8, unit = "-", source = "test" }
 rolling_resistance = { value = 0.03, unit = "-", source = "test" }
 "#;
 
+/// A robot of which wheel counts and a pose are recorded.
+pub const CART: &str = r#"
+name = "cart"
+kind = "odometry"
+
+[[wheel]]
+name = "left"            # looking ahead
+place = [0.0, 0.15]
+radius = 0.05
+radius_sigma = 0.0003
+counts_per_turn = 4000.0
+column = "left"
+
+[[wheel]]
+name = "right"
+place = [0.0, -0.15]
+radius = 0.05
+radius_sigma = 0.0003
+counts_per_turn = 4000.0
+column = "right"
+
+[known]
+track_sigma = 0.003
+
+[columns]
+time = "t"
+wheels = "counts"
+x = "x"
+y = "y"
+yaw = "yaw"
+"#;
+
 /// Header of the recordings here.
 pub const HEADER: &str = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,torque_left_Nm,torque_right_Nm\n";
 

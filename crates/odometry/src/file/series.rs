@@ -27,6 +27,12 @@ impl Series {
         interpolate(&self.time, &self.value, time)
     }
 
+    /// Its integral up to each instant, by trapezoids.
+    fn integral(&self) -> Vec<f64> {
+        let Self { time, value } = self;
+        summed(time.len(), |row| 0.5 * (value[row] + value[row - 1]) * (time[row] - time[row - 1]))
+    }
+
     /// From its first instant to its last; `None` of nothing.
     pub fn span(&self) -> Option<[f64; 2]> {
         self.time.first().copied().zip(self.time.last().copied()).map(<[f64; 2]>::from)
@@ -67,16 +73,16 @@ impl RobotFile {
         let [from, until] = spans.fold([f64::MIN, f64::MAX], |[a, b], [from, until]| [a.max(from), b.min(until)]);
         let time = rows(&body.time, wheels.iter().flat_map(|wheel| &wheel.time).copied(), [from, until]);
         enough_rows(name, &time)?;
-        let at = |row: usize| wheels.iter().map(|wheel| wheel.at(time[row])).collect::<Vec<f64>>();
-        let turned = |row: usize| {
-            let before = at(row.saturating_sub(1));
-            at(row).iter().zip(before).map(|(now, before)| now - before).collect::<Vec<f64>>()
+        let turned: Vec<Vec<f64>> = time.iter().map(|t| wheels.iter().map(|wheel| wheel.at(*t)).collect()).collect();
+        let since_before = |row: usize| {
+            let before = &turned[row.saturating_sub(1)];
+            turned[row].iter().zip(before).map(|(now, before)| now - before).collect::<Vec<f64>>()
         };
         let seen = |time: &f64| body.time.binary_search_by(|t| t.total_cmp(time));
         let mut drive = Drive {
             name: name.to_owned(),
             session: self.session_of(name),
-            turns: (0..time.len()).map(turned).collect(),
+            turns: (0..time.len()).map(since_before).collect(),
             steering: steering.map(|s| time.iter().map(|t| s.at(*t) * names.angle).collect()),
             pose: time.iter().map(|t| seen(t).map_or([f64::NAN; 3], |k| body.pose[k])).collect(),
             heading_only: body.heading_only,
@@ -127,35 +133,29 @@ impl RobotFile {
     }
 }
 
-/// Poses of which a gyro gives the heading alone, by the trapezoids of its rates; `angle`: radians per unit of these.
-pub(crate) fn headings(Series { time, value }: &Series, angle: f64) -> Vec<[f64; 3]> {
-    let mut heading = 0.0;
-    let mut after = |row: usize| {
-        if row > 0 {
-            heading += angle * 0.5 * (value[row] + value[row - 1]) * (time[row] - time[row - 1]);
-        }
-        [f64::NAN, f64::NAN, heading]
+/// Poses of which a gyro gives the heading alone; `angle`: radians per unit of its rates.
+pub(crate) fn headings(rates: &Series, angle: f64) -> Vec<[f64; 3]> {
+    rates.integral().into_iter().map(|heading| [f64::NAN, f64::NAN, angle * heading]).collect()
+}
+
+/// Sums of what is added in each row; nothing in the first.
+fn summed(rows: usize, step: impl Fn(usize) -> f64) -> Vec<f64> {
+    let mut sum = 0.0;
+    let after = |row: usize| {
+        sum += if row == 0 { 0.0 } else { step(row) };
+        sum
     };
-    (0..time.len()).map(&mut after).collect()
+    (0..rows).map(after).collect()
 }
 
 /// How far a wheel has turned at each instant, in the unit of its column.
 fn angles(series: &Series, data: WheelData, wheel: &Wheel, told: &mut Vec<String>) -> Series {
-    let Series { time, value } = series;
-    let mut sum = 0.0;
-    let mut summed = |step: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        let after = |row: usize| {
-            sum += if row == 0 { 0.0 } else { step(row) };
-            sum
-        };
-        (0..time.len()).map(after).collect()
-    };
     let value = match data {
-        WheelData::Counter | WheelData::Angle => units::unwrapped(value, data, wheel, told),
-        WheelData::Counts => summed(&|row| value[row]),
-        WheelData::Speed => summed(&|row| 0.5 * (value[row] + value[row - 1]) * (time[row] - time[row - 1])),
+        WheelData::Counter | WheelData::Angle => units::unwrapped(&series.value, data, wheel, told),
+        WheelData::Counts => summed(series.time.len(), |row| series.value[row]),
+        WheelData::Speed => series.integral(),
     };
-    Series { time: time.clone(), value }
+    Series { time: series.time.clone(), value }
 }
 
 /// Instants of the poses, and those of the wheels where no pose is near, within a span.

@@ -142,8 +142,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let of = |out: PathBuf| drawn::Set { seed, count, out, draw_only, judge, docs };
     let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
     let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
-    let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling>(&of(out)));
-    let gyro = |out: PathBuf| pool.install(|| drawn::run::<rolling::ByGyro>(&of(out)));
+    let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling<rolling::Pose>>(&of(out)));
+    let gyro = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling<rolling::Gyro>>(&of(out)));
     let car = |out: PathBuf| pool.install(|| drawn::run::<car::Cars>(&of(out)));
     match args.kind {
         Kind::Torque => torque(args, out("blind")?, &pool),

@@ -8,7 +8,8 @@ use crate::console::heading;
 
 pub(super) fn text(of_robot: &OfRobot) -> String {
     let OfRobot { robot, kind, drives } = of_robot;
-    let mut out = format!("\n{}", heading(&format!("Robot {robot}, which compares {}", kind.compares())));
+    let mut out =
+        format!("\n{}", heading(&format!("By the columns of {robot} (kind {}: {})", kind.name(), kind.compares())));
     let mut table = TextTable::new(&["recording", "column", ">values", ">Hz", ">from s", ">to s"]);
     for drive in drives {
         for ColumnRead { column, values, span: [from, to] } in &drive.columns {

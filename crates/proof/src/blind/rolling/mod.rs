@@ -1,5 +1,6 @@
 //! `cargo xtask blind --kind odometry`, and `--kind gyro`: wheel counts beside a pose or a gyro alone, with something hidden.
 
+use std::marker::PhantomData;
 use std::path::PathBuf;
 
 use examiner::rolling::{RollingPlan, RollingTruth, Seen};
@@ -12,63 +13,46 @@ use crate::output::Figure;
 
 mod score;
 
-const ASKS: Asks = Asks {
-    named: "hidden: named, or its class",
-    held: [0.87, 0.93],
-    forecast: "position after 10 s, left out: corrected over stated, median",
-};
-
-/// The same of turning alone.
-const ASKS_OF_GYRO: Asks = Asks { forecast: "heading after 10 s, left out: corrected over stated, median", ..ASKS };
-
-/// Robots of which wheel motion and a pose are known.
-pub(super) struct Rolling;
-
-impl Subject for Rolling {
-    type Plan = RollingPlan;
-    type Truth = RollingTruth;
-    type Row = score::Row;
-    const PAGE: [&'static str; 2] = ["blind-odometry.md", "Blind cases, wheel motion beside a pose"];
-    const LAW: &'static str = "bodies that move first and wheels that follow";
-
-    fn plans(seed: u64, count: usize) -> Vec<RollingPlan> {
-        RollingPlan::set(seed, count, Seen::Pose)
-    }
-
-    fn name(plan: &RollingPlan) -> &str {
-        &plan.name
-    }
-
-    fn draw(plan: &RollingPlan) -> (Vec<(PathBuf, Vec<u8>)>, RollingTruth) {
-        let case = plan.draw();
-        (case.files, case.truth)
-    }
-
-    fn row(truth: &RollingTruth, diagnosis: &Value, processor_seconds: Option<f64>) -> score::Row {
-        score::row(truth, diagnosis, processor_seconds)
-    }
-
-    fn figures(rows: &[score::Row]) -> Vec<Figure> {
-        causes::figures(rows, &ASKS)
-    }
-
-    fn tables(rows: &[score::Row]) -> Vec<Section> {
-        causes::tables(rows)
-    }
+/// What shows how the body moves, with the page of such cases and what is forecast.
+pub(super) trait Beside {
+    const SEEN: Seen;
+    const PAGE: [&'static str; 2];
+    /// Figure of the forecasts, and the beginning of the quantity's name in the verdict.
+    const FORECAST: [&'static str; 2];
 }
 
-/// Robots of which wheel motion and a gyro are known.
-pub(super) struct ByGyro;
+/// A pose.
+pub(super) struct Pose;
 
-impl Subject for ByGyro {
+impl Beside for Pose {
+    const SEEN: Seen = Seen::Pose;
+    const PAGE: [&'static str; 2] = ["blind-odometry.md", "Blind cases, wheel motion beside a pose"];
+    const FORECAST: [&'static str; 2] =
+        ["position after 10 s, left out: corrected over stated, median", "position after 10 s"];
+}
+
+/// A gyro alone.
+pub(super) struct Gyro;
+
+impl Beside for Gyro {
+    const SEEN: Seen = Seen::Gyro;
+    const PAGE: [&'static str; 2] = ["blind-gyro.md", "Blind cases, wheel motion beside a gyro alone"];
+    const FORECAST: [&'static str; 2] =
+        ["heading after 10 s, left out: corrected over stated, median", "heading after 10 s"];
+}
+
+/// Robots of which wheel motion is known, and this beside it.
+pub(super) struct Rolling<B>(PhantomData<B>);
+
+impl<B: Beside> Subject for Rolling<B> {
     type Plan = RollingPlan;
     type Truth = RollingTruth;
     type Row = score::Row;
-    const PAGE: [&'static str; 2] = ["blind-gyro.md", "Blind cases, wheel motion beside a gyro alone"];
+    const PAGE: [&'static str; 2] = B::PAGE;
     const LAW: &'static str = "bodies that move first and wheels that follow";
 
     fn plans(seed: u64, count: usize) -> Vec<RollingPlan> {
-        RollingPlan::set(seed, count, Seen::Gyro)
+        RollingPlan::set(seed, count, B::SEEN)
     }
 
     fn name(plan: &RollingPlan) -> &str {
@@ -81,11 +65,12 @@ impl Subject for ByGyro {
     }
 
     fn row(truth: &RollingTruth, diagnosis: &Value, processor_seconds: Option<f64>) -> score::Row {
-        score::row(truth, diagnosis, processor_seconds)
+        score::row(truth, diagnosis, B::FORECAST[1], processor_seconds)
     }
 
     fn figures(rows: &[score::Row]) -> Vec<Figure> {
-        causes::figures(rows, &ASKS_OF_GYRO)
+        let [forecast, _] = B::FORECAST;
+        causes::figures(rows, &Asks { named: "hidden: named, or its class", held: [0.87, 0.93], forecast })
     }
 
     fn tables(rows: &[score::Row]) -> Vec<Section> {

@@ -60,8 +60,8 @@ fn told_as(name: &str, truth: &RollingTruth) -> String {
     }
 }
 
-/// Scores an answer; null is a refusal.
-pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64>) -> Row {
+/// Scores an answer; null is a refusal. `forecast`: what the quantity's name in the verdict begins with.
+pub(super) fn row(truth: &RollingTruth, d: &Value, forecast: &str, processor_seconds: Option<f64>) -> Row {
     let said = Said::new(d);
     let stands_for = |label: &String, hidden: Hidden| said.stands_for(label, |other| is(other, hidden, truth));
     let error = |(name, value): (&String, &f64)| {
@@ -82,7 +82,7 @@ pub(super) fn row(truth: &RollingTruth, d: &Value, processor_seconds: Option<f64
             .cloned()
             .collect(),
         errors: truth.numbers.iter().filter_map(error).collect(),
-        forecast: said.forecast("position after 10 s").or_else(|| said.forecast("heading after 10 s")),
+        forecast: said.forecast(forecast),
         named: said.named,
         processor_seconds,
     }
@@ -110,6 +110,7 @@ mod tests {
                 "free_runs": [{ "quantity": "position after 10 s from counts alone, median, m", "nominal": 0.4,
                     "corrected": 0.1 }] })
         };
+        let row = |truth: &RollingTruth, said: &Value, seconds| row(truth, said, "position after 10 s", seconds);
         let right = row(&truth, &say("radius_of_one_wheel (right)", json!([])), None);
         assert_eq!((right.found, right.invented.len()), (vec![true], 0));
         assert!((right.errors[0].1 - 1.0 / 1.645).abs() < 1e-9 && right.forecast == Some(0.25));
