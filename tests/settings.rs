@@ -8,11 +8,12 @@ use syn::buffer::{Cursor, TokenBuffer};
 use syn::visit::{self, Visit};
 
 /// Crates whose numbers decide what a verdict says.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "inference",
     "torque-driven",
     "speed-driven",
     "command-driven",
+    "hierarchical-fit",
     "odometry",
     "single-track",
     "diagnosis",

@@ -15,6 +15,11 @@ fn rooms() -> Vec<Room> {
         ("torque-driven", "robots whose torques are known", torque_driven::settings().collect()),
         ("speed-driven", "robots whose wheel speeds and currents are known", speed_driven::settings().collect()),
         ("command-driven", "robots of which only commands and motion are known", command_driven::settings().collect()),
+        (
+            "hierarchical-fit",
+            "fits with a deviation of every drive, and the causes that they name",
+            hierarchical_fit::settings().collect(),
+        ),
         ("odometry", "wheel motion against a measured pose", odometry::settings().collect()),
         ("single-track", "cars: throttle and steering against motion", single_track::settings().collect()),
         ("model-import", "robot files from models of simulators", model_import::settings().collect()),

@@ -1,11 +1,12 @@
 //! Findings as a verdict in sentences.
 
-use crate::findings::{Answer, Findings};
+use crate::findings::Findings;
 use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::settings::SETTINGS;
-use crate::telling::{Found, free_runs};
 use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
+use hierarchical_fit::Answer;
+use hierarchical_fit::telling::{Found, free_runs};
 use verdict::Diagnosis;
 
 /// The verdict of findings, with the forecasts of sessions that were left out.
@@ -63,7 +64,7 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer.{}",
-            if findings.shares[2] > SETTINGS.naming.left_most {
+            if findings.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
                 ""

@@ -3,22 +3,23 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::case::Case;
-use crate::cause::{Cause, causes};
+use crate::cause::causes;
 use crate::clock;
 use crate::constants::{ClockZero, Constant, Measured, Quantity, constants};
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
-use crate::findings::{Answer, Estimate, Findings, NamedCause};
+use crate::findings::Findings;
 use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
-use crate::name::{Named, covariance, name_from, of_class};
 use crate::settings::SETTINGS;
 use crate::traces::trace;
-use crate::weigh::{Evidence, Posterior};
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
 use catalogue::odometry::{CORNERING_SLIP, LOST_COUNTS, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
+use hierarchical_fit::{
+    Answer, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance, name_from, of_class,
+};
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
 use verdict::Trace;
@@ -260,7 +261,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     let tuned = share(data, &named.retuned.mean);
     let best = share(data, &named.posterior.mean);
 
-    let of_cause = |weighed: &crate::name::Weighed| {
+    let of_cause = |weighed: &Weighed| {
         let cause = &causes[weighed.cause];
         NamedCause {
             spec: cause.spec,
@@ -274,10 +275,10 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
     named_causes.extend(dropouts(case, data, lost));
 
-    let rules = SETTINGS.naming;
+    let rules = SETTINGS.unexplained;
     let floor = data.pose_noise().max(SETTINGS.windows.floor);
-    let is_much = best.1 > rules.left_most || best.0 > rules.left_of_retuned * tuned.0;
-    let is_left = best.1 > rules.left_share && is_much && best.0 > rules.left_noise * floor;
+    let is_much = best.1 > rules.most || best.0 > rules.of_retuned * tuned.0;
+    let is_left = best.1 > rules.share && is_much && best.0 > rules.noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
     let answer = if is_left {
         Answer::Unknown

@@ -9,6 +9,7 @@ use crate::constants::Quantity;
 use crate::fit::{Fit, columns};
 use crate::settings::{Dropout, SETTINGS};
 use crate::windows::Data;
+use hierarchical_fit::{ALIKE, NAMED, ODDS};
 
 const RULES: Dropout = SETTINGS.dropout;
 
@@ -44,7 +45,7 @@ pub(crate) fn log_odds(lost: &[Lost]) -> Vec<(usize, f64)> {
     for &(wheel, nats) in lost.iter().flat_map(|found| &found.evidence) {
         match sums.iter_mut().find(|(w, _)| *w == wheel) {
             Some((_, sum)) => *sum += nats,
-            None => sums.push((wheel, SETTINGS.naming.odds + nats)),
+            None => sums.push((wheel, ODDS + nats)),
         }
     }
     let rivals = |wheel: usize| {
@@ -210,15 +211,15 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64], scale: f64, most: f64) -> Vec
     let one = out.iter().all(|found| found.wheel == out[0].wheel);
     // Whether counts were lost at all is asked first; which wheel lost them may stay open.
     let over_none = out.iter().flat_map(|found| found.evidence.iter().filter(|(w, _)| *w == found.wheel));
-    let over_none = SETTINGS.naming.odds + over_none.map(|(_, nats)| nats).sum::<f64>();
-    if one && over_none > SETTINGS.naming.named { out } else { Vec::new() }
+    let over_none = ODDS + over_none.map(|(_, nats)| nats).sum::<f64>();
+    if one && over_none > NAMED { out } else { Vec::new() }
 }
 
 /// Wheels that account for the same windows within the odds.
 pub(crate) fn alike(lost: &[Lost], wheel: usize) -> Vec<usize> {
     let odds = log_odds(lost);
     let Some((_, own)) = odds.iter().find(|(w, _)| *w == wheel).copied() else { return Vec::new() };
-    odds.iter().filter(|(w, o)| *w != wheel && own - o < SETTINGS.naming.alike).map(|(w, _)| *w).collect()
+    odds.iter().filter(|(w, o)| *w != wheel && own - o < ALIKE).map(|(w, _)| *w).collect()
 }
 
 #[cfg(test)]
@@ -253,7 +254,7 @@ mod tests {
     fn wheels_and_none_share_one_probability() {
         let lost = [found(&[(0, 6.0), (1, -40.0)]), found(&[(0, 2.0), (1, -1.0)])];
         let odds = log_odds(&lost);
-        approx::assert_relative_eq!(odds[0].1, 8.0 + SETTINGS.naming.odds, epsilon = 1e-9);
+        approx::assert_relative_eq!(odds[0].1, 8.0 + ODDS, epsilon = 1e-9);
         let same = log_odds(&[found(&[(0, 30.0), (1, 30.0)])]);
         approx::assert_relative_eq!(same[0].1, 0.0, epsilon = 1e-6);
         assert_eq!(alike(&[found(&[(0, 30.0), (1, 30.0)])], 0), [1]);

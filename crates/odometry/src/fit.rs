@@ -1,9 +1,7 @@
 //! Fits of the constants to windows of many sessions, each with a deviation of its own.
 //!
 //! Errors `e` of a window, in sigmas, count by the pseudo-Huber loss `k² (√(1 + |e|²/k²) − 1)`. The constants of a session
-//! are those of the robot plus a deviation `δ ~ N(0, T)`, which is eliminated (Schur complement): sessions then weigh by what
-//! they say of the robot, not by their length, and the interval of a constant is as wide as sessions scatter (Laird & Ware
-//! 1982, random effects).
+//! are those of the robot plus a deviation of its own, as of [`hierarchical_fit`].
 
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
@@ -12,6 +10,7 @@ use crate::constants::Quantity;
 use crate::motion::implied;
 use crate::settings::SETTINGS;
 use crate::windows::Data;
+use hierarchical_fit::{Evidence, Session};
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
 
 /// What is known of the constants before the drives.
@@ -24,53 +23,6 @@ pub(crate) struct Prior {
 impl Prior {
     fn information(&self) -> Option<DMatrix<f64>> {
         self.covariance.clone().cholesky().map(|c| c.inverse())
-    }
-}
-
-/// Normal equations of a session: curvature, slope and cost of its own windows.
-#[derive(Debug, Clone)]
-pub struct Session {
-    /// Second derivatives of the cost by the constants, nats per unit².
-    pub curvature: DMatrix<f64>,
-    /// First derivatives, nats per unit.
-    pub slope: DVector<f64>,
-    /// Cost, nats.
-    pub cost: f64,
-}
-
-/// A session whose deviation is eliminated.
-pub struct Marginal {
-    /// Second derivatives of its cost by the constants, nats per unit².
-    pub curvature: DMatrix<f64>,
-    /// First derivatives, nats per unit.
-    pub slope: DVector<f64>,
-    /// Negative log-likelihood, nats, but for what all scatters share.
-    pub cost: f64,
-}
-
-impl Session {
-    /// The session's own most probable deviation from the constants about which it is linearised: `−S M⁻¹ S g`.
-    pub fn deviation(&self, scatter: &DVector<f64>) -> Option<DVector<f64>> {
-        let s = DMatrix::from_diagonal(scatter);
-        let n = scatter.len();
-        let cholesky = (DMatrix::identity(n, n) + &s * &self.curvature * &s).cholesky()?;
-        Some(-(&s * cholesky.solve(&(&s * &self.slope))))
-    }
-
-    /// Without its deviation, of sigmas `scatter`: with `S = diag(scatter)`, `M = I + S H S`.
-    pub fn marginal(&self, scatter: &DVector<f64>) -> Option<Marginal> {
-        let s = DMatrix::from_diagonal(scatter);
-        let sh = &s * &self.curvature;
-        let sg = &s * &self.slope;
-        let n = scatter.len();
-        let cholesky = (DMatrix::identity(n, n) + &sh * &s).cholesky()?;
-        let half_log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-        let (of_curvature, of_slope) = (cholesky.solve(&sh), cholesky.solve(&sg));
-        Some(Marginal {
-            curvature: &self.curvature - sh.transpose() * of_curvature,
-            slope: &self.slope - sh.transpose() * &of_slope,
-            cost: self.cost - 0.5 * sg.dot(&of_slope) + half_log_determinant,
-        })
     }
 }
 
@@ -245,8 +197,8 @@ fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Se
     let rules = SETTINGS.scatter;
     let score = |factors: [f64; 2]| {
         let scatter = scatter(data, factors);
-        let evidence = crate::weigh::Evidence::new(theta, sessions, &scatter, &prior.mean)
-            .and_then(|e| Some(e.of(&prior.covariance)? - e.base));
+        let evidence =
+            Evidence::new(theta, sessions, &scatter, &prior.mean).and_then(|e| Some(e.of(&prior.covariance)? - e.base));
         let [others, clocks] = [factors[0].ln() / rules.width, factors[1].ln() / rules.clock_width];
         evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (others * others + clocks * clocks)
     };

@@ -7,13 +7,13 @@
 //! * `heading`: a gyro in the place of a pose.
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
-//! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
+//! * `cause`: what may be wrong.
 //! * `alignment`: offset and rate of two devices' clocks by the speeds that both measure.
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `findings`: what the drives of a case say, as plain data.
-//! * `diagnose`, `left_out`, `telling`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
@@ -35,38 +35,22 @@ mod heading;
 mod kinematics;
 mod left_out;
 mod motion;
-mod name;
 mod rivals;
 mod settings;
-pub mod telling;
-pub mod traces;
+mod traces;
 mod units;
-mod weigh;
 mod wheel;
 mod windows;
 
-/// Sessions with deviations of their own, evidence of causes as wider priors, and their naming: for every comparison whose
-/// sessions give normal equations.
-pub mod weighing {
-    pub use crate::fit::{Marginal, Session};
-    pub use crate::name::{Named, Weighed, covariance, name, named_as, stand_ins};
-    pub use crate::weigh::{Evidence, Posterior};
-
-    /// Log odds from which a cause is named.
-    pub const NAMED: f64 = crate::settings::SETTINGS.naming.named;
-    /// Evidence within which causes cannot be told apart, nats.
-    pub const ALIKE: f64 = crate::settings::SETTINGS.naming.alike;
-}
-
 pub use answer::diagnosis;
 pub use case::Case;
-pub use cause::Cause;
 pub use constants::{ClockZero, Constant, Measured, Quantity, constants};
 pub use diagnose::diagnose;
 pub use drive::{Drive, WheelData};
 pub use error::OdometryError;
-pub use findings::{Answer, Estimate, Findings, NamedCause};
+pub use findings::Findings;
 pub use forecast::{Errors, LENGTHS};
+pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{Table, left_out};
 pub use wheel::{Sigmas, Wheel, WheeledRobot};
 

@@ -213,37 +213,16 @@
         width: f64 = 1.0, "1", "guess; a factor of e";
     }
 
-    /// When a cause is named.
-    naming: Naming {
-        /// Log odds of a cause before the data are seen.
-        odds: f64 = -3.0, "nat", "guess; one in twenty robots has a given cause";
-        /// Log odds from which a cause is named.
-        named: f64 = 1.5, "nat", "guess; a probability of 0.82";
-        /// Causes at most.
-        most: usize = 7, "1", "guess";
-        /// Causes that fit as well within these odds cannot be told apart.
-        alike: f64 = 3.0, "nat", "a factor of 20";
-        /// Error of forecasts of left-out drives over that with such a cause in its place, from which on it forecasts as well.
-        near_forecast: f64 = 0.95, "1", "guess; some drives do not tell five per cent";
-        /// Odds within which a cause that forecasts left-out drives as well cannot be told apart either.
-        near: f64 = 12.0, "nat", "guess; linear equations get a change by a fifth wrong by some nats";
-        /// Causes below this probability are not listed.
-        listed: f64 = 0.05, "1", "guess";
-        /// A factor on the radius this near to a familiar one is told as that.
-        familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
-        /// Familiar factors: counts on both edges, half turns, gears.
-        factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, std::f64::consts::TAU, 1.0 / std::f64::consts::TAU], "1",
-            "edges of encoders, diameters for radii, turns for radians";
-        /// Sigmas by which a constant has to move to be told as re-tuned.
-        moved: f64 = 0.5, "1", "guess";
+    /// When something is left that no cause accounts for.
+    unexplained: Unexplained {
         /// Remaining error over the way, beyond which what is left asks for a cause.
-        left_share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
+        share: f64 = 0.05, "1", "guess; a robot that loses a metre in twenty";
         /// Share of the re-tuned error that has to be left then.
-        left_of_retuned: f64 = 0.8, "1", "guess";
+        of_retuned: f64 = 0.8, "1", "guess";
         /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
-        left_most: f64 = 0.3, "1", "guess; wrong columns, signs and units leave half of the motion and more";
+        most: f64 = 0.3, "1", "guess; wrong columns, signs and units leave half of the motion and more";
         /// Sigmas of the pose's noise beyond which what is left is more than noise.
-        left_noise: f64 = 4.0, "1", "guess";
+        noise: f64 = 4.0, "1", "guess";
     }
 
     /// Encoders that lose counts.
@@ -311,8 +290,6 @@
     traces: Traces {
         /// Time over which a simulation runs free.
         free: f64 = 10.0, "s", "equal to the second length of forecasts: a room";
-        /// Distance of the rows that are shown.
-        step: f64 = 0.1, "s", "equal to the windows of torque-driven robots";
     }
 }
 

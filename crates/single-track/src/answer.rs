@@ -1,8 +1,8 @@
 //! Findings as a verdict in sentences.
 
 use crate::settings::SETTINGS;
-use odometry::Answer;
-use odometry::telling::{Found, free_runs};
+use hierarchical_fit::Answer;
+use hierarchical_fit::telling::{Found, free_runs};
 
 use crate::diagnose::Findings;
 use crate::forecast::{ByLength, LENGTHS};
@@ -70,7 +70,7 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer.{}",
-            if findings.shares[2] > SETTINGS.naming.left_most {
+            if findings.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
                 ""

@@ -1,6 +1,6 @@
 //! What may make a car's motion differ from what throttle and steering imply: directions in the space of the constants.
 
-use odometry::Cause;
+use hierarchical_fit::Cause;
 
 use crate::constants::Constant;
 

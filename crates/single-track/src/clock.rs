@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
+use hierarchical_fit::{Estimate, NamedCause};
 use odometry::alignment::{Clocks, Compared, fine_grid, speeds};
-use odometry::{Estimate, NamedCause};
 
 use crate::case::Case;
 use crate::drive::Drive;

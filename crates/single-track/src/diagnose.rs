@@ -2,20 +2,19 @@
 
 use std::borrow::Cow;
 
-use odometry::weighing::{Posterior, Weighed};
-use odometry::{Answer, Estimate, NamedCause};
+use hierarchical_fit::{Answer, Estimate, NamedCause, Posterior, Prior, Solved, Weighed, is_widest};
 
 use crate::case::Case;
 use crate::clock::{self, Apart};
 use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::error::CarError;
-use crate::fit::Prior;
 use crate::left_out::{Table, left_out_of};
 use crate::model::{Laws, STEP};
+use crate::rows::Shown;
 use crate::settings::SETTINGS;
-use crate::solve::{Solved, solve};
-use crate::traces::predicted;
+use crate::solve::solve;
+use crate::traces::{predicted, trace};
 use catalogue::car::CAR_CLOCK_DELAY;
 use inference::robust::NINETY;
 use verdict::{PredictedPath, Trace};
@@ -103,10 +102,10 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
     Ok((findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress)))
 }
 
-fn findings(case: &Case, solved: &Solved<'_>, apart: Option<&Apart>) -> Findings {
+fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> Findings {
     let Solved { data, causes, prior, fit, named } = solved;
     let estimates = |posterior: &Posterior| -> Vec<Estimate> {
-        data.constants.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
+        data.model.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
     };
     let (all, retuned) = (estimates(&named.posterior), estimates(&named.retuned));
     let shares = [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|theta| data.share(theta.as_slice()));
@@ -123,17 +122,15 @@ fn findings(case: &Case, solved: &Solved<'_>, apart: Option<&Apart>) -> Findings
     };
     let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
     if let Some(apart) = apart {
-        let rest = data.constants.iter().position(|c| c.cause == &CAR_CLOCK_DELAY);
+        let rest = data.model.iter().position(|c| c.cause == &CAR_CLOCK_DELAY);
         apart.lead(&mut named_causes, rest.map(|k| &all[k]));
     }
 
-    let rules = SETTINGS.naming;
-    let is_left =
-        shares[2] > rules.left_most || (shares[2] > rules.left_share && shares[2] > rules.left_of_retuned * shares[1]);
-    let is_stated = |e: &&Estimate| data.constants.iter().any(|c| c.name == e.name && c.sigma < c.usual);
+    let rules = SETTINGS.unexplained;
+    let is_left = shares[2] > rules.most || (shares[2] > rules.share && shares[2] > rules.of_retuned * shares[1]);
+    let is_stated = |e: &&Estimate| data.model.iter().any(|c| c.name == e.name && c.sigma < c.usual);
     // Deviations of single drives explain everything where they are as free as was tried.
-    let widest = SETTINGS.fitting.factors.into_iter().fold(0.0, f64::max);
-    let is_scattered = data.shown.len() > 1 && fit.factor >= widest;
+    let is_scattered = data.drives.len() > 1 && is_widest(fit.factor);
     let answer = if is_left || (is_scattered && !named_causes.is_empty()) {
         Answer::Unknown
     } else if !named_causes.is_empty() {
@@ -150,7 +147,7 @@ fn findings(case: &Case, solved: &Solved<'_>, apart: Option<&Apart>) -> Findings
         answer,
         named: named_causes,
         others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
-        unstated: data.constants.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
+        unstated: data.model.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
         constants: all,
         // Of the clocks that were measured before the fit there is none.
         rival: named.rival.filter(|_| apart.is_none()).map(|c| causes[c].label()),
@@ -160,14 +157,14 @@ fn findings(case: &Case, solved: &Solved<'_>, apart: Option<&Apart>) -> Findings
         is_scattered,
         shares,
         counts: [
-            data.shown.len(),
-            data.shown.iter().filter(|s| s.drive.has_pose()).count(),
-            data.shown.iter().map(|s| s.windows.len()).sum(),
+            data.drives.len(),
+            data.drives.iter().filter(|s| s.drive.has_pose()).count(),
+            data.drives.iter().map(|s| s.windows.len()).sum(),
         ],
         told,
-        traces: data.shown.iter().filter_map(|shown| solved.trace(shown, false)).collect(),
+        traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
         clock: apart.map(|apart| apart.usual),
-        laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.constants, p.mean.as_slice())),
+        laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.model, p.mean.as_slice())),
     }
 }
 

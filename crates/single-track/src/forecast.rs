@@ -4,11 +4,10 @@
 //! servo from the commands before it, and constants from the fit on other drives, moved by what the past of this drive says of
 //! its own deviation (battery, floor, trims). What it said fades.
 
+use hierarchical_fit::{Noise, Session, equations};
 use nalgebra::{DMatrix, DVector};
-use odometry::weighing::Session;
 
 use crate::constants::Constant;
-use crate::fit::{Noise, equations};
 use crate::model::{Inputs, Laws, STEP, State};
 use crate::rates::end;
 use crate::rows::Shown;
@@ -144,7 +143,7 @@ pub(crate) fn following(
     let of = |from: usize| {
         let now = STEP * from as f64;
         let part = shown.part(last, now, RULES.warm);
-        let (errors, columns) = (part.errors(&Laws::at(constants, &own)), part.columns(constants, &own));
+        let (errors, columns) = (part.errors_of(&Laws::at(constants, &own)), part.columns_of(constants, &own));
         let new = equations(&part, (&errors, &columns), noise);
 
         // Said about where the drive was thought to be; kept about the fit.

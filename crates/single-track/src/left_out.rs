@@ -5,8 +5,10 @@ use rayon::prelude::*;
 use crate::forecast::{ByLength, Habit, LENGTHS, collected, following, of_followed, of_laws, of_twist};
 use crate::model::Laws;
 use crate::rivals::RIVALS;
+use crate::rows::Shown;
 use crate::settings::{Forecast, SETTINGS};
-use crate::solve::Solved;
+use crate::traces::trace;
+use hierarchical_fit::Solved;
 use inference::robust::median;
 use verdict::Trace;
 
@@ -38,8 +40,8 @@ pub const FOLLOWING: usize = 4;
 const TWIST: &str = "constant twist";
 
 /// Leaves out each drive with a pose in turn, fits and names anew without it, and forecasts it.
-pub(crate) fn left_out_of(solved: &Solved<'_>, progress: &dyn Fn(&str)) -> Table {
-    let left: Vec<usize> = (0..solved.data.shown.len()).filter(|&k| solved.data.shown[k].drive.has_pose()).collect();
+pub(crate) fn left_out_of(solved: &Solved<Shown<'_>>, progress: &dyn Fn(&str)) -> Table {
+    let left: Vec<usize> = (0..solved.data.drives.len()).filter(|&k| solved.data.drives[k].drive.has_pose()).collect();
     let mut out = Table::default();
     if left.len() < 2 {
         return out;
@@ -101,10 +103,10 @@ fn chosen(others: &[&Fold]) -> [usize; 2] {
     pairs.map(|pair| (score(pair), pair)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or([0, 0], |(_, pair)| pair)
 }
 
-fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
-    let own = &all.data.shown[left];
+fn fold(all: &Solved<Shown<'_>>, left: usize) -> Option<Fold> {
+    let own = &all.data.drives[left];
     let solved = all.without(left)?;
-    let constants = &solved.data.constants;
+    let constants = &solved.data.model;
     let best = solved.named.posterior.mean.as_slice();
     let laws = |theta: &[f64]| Some(Laws::at(constants, theta));
     let mut models = vec![
@@ -130,6 +132,6 @@ fn fold(all: &Solved<'_>, left: usize) -> Option<Fold> {
         named: solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect(),
         plain: RULES.past.into_iter().map(plain).collect(),
         following: RULES.past.into_iter().map(forecast).collect(),
-        trace: solved.trace(own, true),
+        trace: trace(&solved, own, true),
     })
 }

@@ -8,8 +8,7 @@
 //! * `model`: steering, drive, tyres and motion of the single-track car.
 //! * `rates`: velocities from poses.
 //! * `rows`: windows of the pose and reports of the car against the model.
-//! * `fit`, `cause`, `answered`, `look_alikes`, `solve`: constants with a deviation of each drive, and the causes that the drives ask
-//!   for, the first of them against others that do much the same.
+//! * `cause`, `solve`: the causes that drives may ask for, and drives as the shared fit takes them.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
@@ -17,7 +16,6 @@
 //! * `settings`: every tuned number.
 
 mod answer;
-mod answered;
 mod car;
 mod case;
 mod cause;
@@ -28,11 +26,9 @@ mod diagnose;
 mod drive;
 mod error;
 pub mod file;
-mod fit;
 mod forecast;
 mod laws;
 mod left_out;
-mod look_alikes;
 mod model;
 mod rates;
 mod rivals;
@@ -51,8 +47,8 @@ pub use diagnose::{Findings, diagnose, examine};
 pub use drive::{Drive, Table as Columns};
 pub use error::CarError;
 pub use forecast::{ByLength, Errors, LENGTHS};
+pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
-pub use odometry::{Answer, Estimate, NamedCause};
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

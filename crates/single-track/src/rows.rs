@@ -8,34 +8,12 @@ use crate::drive::{Drive, Message};
 use crate::model::{Inputs, Laws, STEP, State};
 use crate::rates::{parabola, slope};
 use crate::settings::{SETTINGS, Windows};
+use hierarchical_fit::{Kind, Row};
 
 const RULES: Windows = SETTINGS.windows;
 
 /// Rows of the pose in a window: place and heading in its middle and at its end.
 pub(crate) const POSE_ROWS: usize = 6;
-
-/// What a row is about; its errors share a scale with those of its kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// Place and heading at the end and in the middle of a window, m.
-    Pose = 0,
-    /// Yaw rate, rad/s.
-    Gyro = 1,
-    /// Speed, m/s.
-    Encoder = 2,
-}
-
-/// A row of a drive.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Row {
-    pub(crate) kind: Kind,
-    /// From when it is known, s from the start.
-    pub(crate) time: f64,
-    /// Whether the car moves in it.
-    pub(crate) is_moving: bool,
-    /// How much it counts beside rows that overlap with it.
-    pub(crate) weight: f64,
-}
 
 /// A stretch that the model is run over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -200,7 +178,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
-    pub(crate) fn errors(&self, laws: &Laws) -> Vec<f64> {
+    pub(crate) fn errors_of(&self, laws: &Laws) -> Vec<f64> {
         let inputs = laws.inputs_between(self.drive, self.span.start, self.span.end);
         let mut out = Vec::with_capacity(self.rows.len());
         for &window in &self.windows {
@@ -249,7 +227,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Changes of the errors with each constant, by central differences.
-    pub(crate) fn columns(&self, constants: &[Constant], theta: &[f64]) -> Vec<Vec<f64>> {
+    pub(crate) fn columns_of(&self, constants: &[Constant], theta: &[f64]) -> Vec<Vec<f64>> {
         let of = |k: usize| {
             let is_rate = constants[k].quantity == Quantity::Slowness;
             let difference = if is_rate { RULES.difference_of_rate } else { RULES.difference };
@@ -257,7 +235,7 @@ impl<'a> Shown<'a> {
             let at = |sign: f64| {
                 let mut moved = theta.to_vec();
                 moved[k] += sign * step;
-                self.errors(&Laws::at(constants, &moved))
+                self.errors_of(&Laws::at(constants, &moved))
             };
             let (below, above) = (at(-1.0), at(1.0));
             above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * step)).collect()
@@ -307,7 +285,7 @@ fn between(states: &[State], place: f64) -> [f64; 2] {
 
 impl Shown<'_> {
     /// What a car that keeps still would err by: ways of windows of the pose, or speeds.
-    pub(crate) fn sizes(&self) -> Vec<f64> {
+    pub(crate) fn ways(&self) -> Vec<f64> {
         let pose = &self.drive.pose;
         let of = |w: &Window| {
             if !self.drive.has_pose() {

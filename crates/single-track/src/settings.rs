@@ -76,18 +76,10 @@
         shared: f64 = 0.5, "1", "guess; middle and end of a window share the errors of its start";
         /// Metres that a heading error of one radian costs.
         lever: f64 = 1.0, "m/rad", "guess; the way in a second at 1 m/s";
-        /// Errors farther off than this many sigmas count less.
-        outlier: f64 = 4.0, "1", "guess";
         /// Largest error of a row, in the unit of its kind.
         ceiling: f64 = 30.0, "m; rad/s; m/s", "guess; far above what small cars do in a second";
-        /// Quantile of the errors from which their scale is taken.
-        quantile: f64 = 0.9, "1", "guess; the rest may be outliers";
-        /// Sigmas within which that share of a normal distribution lies.
-        quantile_sigmas: f64 = 1.645, "1", "mathematics: the quantile of the normal distribution";
         /// Least sigmas of position and heading, gyro, encoder.
         floor: [f64; 3] = [1e-3, 5e-3, 5e-3], "m; rad/s; m/s", "guess; good motion capture, noise of small sensors";
-        /// Correlation of errors that follow one another, at most.
-        correlated: f64 = 0.9, "1", "guess; a twentieth of the rows then counts";
         /// Way in a window, or speed, below which the car stands.
         moving: f64 = 0.05, "m; m/s", "guess";
         /// Windows in motion below which nothing is fitted.
@@ -100,22 +92,8 @@
 
     /// Fits of all constants.
     fitting: Fitting {
-        /// Rounds in which scales of errors and scatter of drives are estimated anew.
-        rounds: usize = 2, "1", "guess";
-        /// Linearisations of a round at most.
-        iterations: usize = 15, "1", "guess";
-        /// The same of a fit with another cause, which starts where the equations end.
-        again: usize = 6, "1", "guess";
-        /// Relative fall of the cost below which a round is at rest.
-        fall: f64 = 1e-4, "1", "guess";
-        /// Factors on the usual scatter of drives that are tried.
-        factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
-        /// Sigma of the logarithm of that factor.
-        width: f64 = 1.0, "1", "guess; a factor of e";
         /// Farthest a constant may move, usual sizes and sigmas together.
         farthest: f64 = 3.0, "1", "guess; normal priors leave a thousandth beyond";
-        /// Longest step of a constant, usual sizes.
-        longest: f64 = 1.0, "1", "guess";
     }
 
     /// Values that cars have where the robot file does not say, and how well they are known: one sigma.
@@ -313,31 +291,13 @@
     }
 
     /// When something is left that no cause accounts for.
-    naming: Naming {
-        /// Remaining error of windows over their way, beyond which fits begin from another place, too.
-        near_share: f64 = 0.04, "1", "guess; twice what a good answer leaves";
-        /// Fits with what was named before, at most.
-        rounds: usize = 4, "1", "guess; two are usual";
-        /// Named causes for which fits with others in their place are tried: those that the data would miss most.
-        exchanged: usize = 2, "1", "guess; each takes a fit or two";
-        /// Others that are tried, of the equations about the re-tuned car and about the answer each.
-        stand_ins: usize = 2, "1", "guess; each takes a fit";
-        /// Evidence by the equations that another may lack before it is tried.
-        near_enough: f64 = 60.0, "nat", "guess; a straight line errs by tens of them";
-        /// Evidence within which a cause cannot be told from another, each with a fit of its own that leaves about the same errors.
-        alike_by_errors: f64 = 15.0, "nat", "five times the usual: two cars of another simulator whose steering gain was told as their wheelbase lay 10 apart";
-        /// Share by which the errors may then differ.
-        leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";
-        /// Sigmas of what is known by which one that may stand for another must move a constant.
-        moved: f64 = 1.0, "1", "guess";
-        /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas.
-        nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
+    unexplained: Unexplained {
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
-        left_share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
+        share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
         /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
-        left_most: f64 = 0.45, "1", "guess; wrong signs and units leave half of the motion and more";
+        most: f64 = 0.45, "1", "guess; wrong signs and units leave half of the motion and more";
         /// Share of the re-tuned error that has to be left then.
-        left_of_retuned: f64 = 0.8, "1", "guess";
+        of_retuned: f64 = 0.8, "1", "guess";
     }
 
     /// Drives beside their simulations, on pages and in pictures.

@@ -1,6 +1,6 @@
 //! Drives beside their simulations, as pages and pictures draw them.
 
-use odometry::traces::Beside;
+use hierarchical_fit::{Beside, Solved};
 use verdict::Trace;
 
 use crate::drive::Drive;
@@ -8,27 +8,24 @@ use crate::model::{Laws, STEP};
 use crate::rates::end;
 use crate::rows::Shown;
 use crate::settings::{SETTINGS, Traces};
-use crate::solve::Solved;
 
 const RULES: Traces = SETTINGS.traces;
 
-impl Solved<'_> {
-    /// A drive beside the motion from throttle and steering alone, as stated or as the references have it, re-tuned, and with
-    /// the named causes, the last only where there are some; `None` of a drive without a pose.
-    pub(crate) fn trace(&self, shown: &Shown<'_>, left_out: bool) -> Option<Trace> {
-        let pose = &shown.drive.pose;
-        let starts = starts(pose);
-        if starts.is_empty() {
-            return None;
-        }
-        let longest = (RULES.free / STEP).round() as usize;
-        let of = |theta: &[f64]| free_runs(&Laws::at(&self.data.constants, theta), shown.drive, &starts, longest);
-        let named = &self.named;
-        let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
-        let simulated = [of(self.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
-        let time = (0..pose.len()).map(|k| STEP * k as f64).collect();
-        Some(Beside { recording: &shown.drive.name, left_out, time, measured: pose, starts, simulated }.trace())
+/// A drive beside the motion from throttle and steering alone, as stated or as the references have it, re-tuned, and with
+/// the named causes, the last only where there are some; `None` of a drive without a pose.
+pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: bool) -> Option<Trace> {
+    let pose = &shown.drive.pose;
+    let starts = starts(pose);
+    if starts.is_empty() {
+        return None;
     }
+    let longest = (RULES.free / STEP).round() as usize;
+    let of = |theta: &[f64]| free_runs(&Laws::at(&solved.data.model, theta), shown.drive, &starts, longest);
+    let named = &solved.named;
+    let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
+    let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
+    let time = (0..pose.len()).map(|k| STEP * k as f64).collect();
+    Some(Beside { recording: &shown.drive.name, left_out, time, measured: pose, starts, simulated }.trace())
 }
 
 /// Steps at which the car's velocity is known from its past, so far apart as the simulations run free.

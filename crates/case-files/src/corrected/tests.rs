@@ -254,7 +254,7 @@ fn what_no_controller_has_is_one_clear_sentence() {
 #[test]
 fn forecasts_of_the_verdict_become_covariances() {
     let mut diagnosis = corrected("differential").diagnosis.expect("a verdict");
-    diagnosis.free_runs = odometry::telling::free_runs("run", "counts alone", [2.0, 10.0, 30.0], |row, k| {
+    diagnosis.free_runs = hierarchical_fit::telling::free_runs("run", "counts alone", [2.0, 10.0, 30.0], |row, k| {
         let size = (1 + row) as f64 * 1e-3 * (1 + k) as f64;
         Some([1.177_41 * size, 0.674_49 * size].map(Some))
     });

@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use anyhow::{Result, bail, ensure};
+use hierarchical_fit::telling::length_of;
 use inference::robust::mean;
 use model_export::ros2::{Controllers, Forecast, Geometry, Length, Scatter, Side};
 use odometry::file::RobotFile;
-use odometry::telling::length_of;
 use odometry::{Wheel, WheeledRobot};
 use verdict::FreeRun;
 

@@ -1,11 +1,10 @@
 //! A fit with what its equations name, and what two of them are weighed by.
 
-use nalgebra::DVector;
-use odometry::Cause;
-use odometry::weighing::{Evidence, Named, Posterior, covariance};
-
-use crate::constants::Constant;
+use crate::cause::Cause;
 use crate::fit::{Data, Fit, Prior, sessions};
+use crate::name::{Named, covariance};
+use crate::observed::Observed;
+use crate::weigh::{Evidence, Posterior};
 use inference::robust::NINETY;
 
 /// A fit with what its equations name.
@@ -17,7 +16,7 @@ pub(crate) struct Answered {
 }
 
 /// Evidence of two answers, nats. Errors count in the same sigmas, those of the fit that leaves less.
-pub(crate) fn scores(data: &Data<'_>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
+pub(crate) fn scores<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
     let noise = both[0].fit.noise.least(both[1].fit.noise);
     both.map(|of| {
         let sessions = sessions(data, &of.fit.theta, noise);
@@ -33,13 +32,4 @@ pub(crate) fn is_moved(cause: &Cause, prior: &Prior, posterior: &Posterior) -> b
         let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
         (posterior.mean[k] - prior.mean[k]).abs() > NINETY * sd
     })
-}
-
-/// Constants within what they can be.
-pub(crate) fn within_bounds(data: &Data<'_>, theta: &DVector<f64>) -> Vec<f64> {
-    let of = |(c, x): (&Constant, &f64)| {
-        let [least, most] = c.bounds();
-        x.clamp(least, most)
-    };
-    data.constants.iter().zip(theta.iter()).map(of).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::findings::{Answer, Estimate, NamedCause};
+use crate::found::{Answer, Estimate, NamedCause};
 use crate::settings::SETTINGS;
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::for_people;

@@ -2,20 +2,22 @@
 
 use inference::evidence::logistic;
 use nalgebra::DVector;
-use odometry::Cause;
-use odometry::weighing::{ALIKE, Evidence, NAMED, covariance, named_as, stand_ins};
 
-use crate::answered::{Answered, is_moved, scores, within_bounds};
+use crate::answered::{Answered, is_moved, scores};
+use crate::cause::Cause;
 use crate::fit::{Data, Fit, Prior, fit_like, likelier};
+use crate::name::{covariance, named_as, stand_ins};
+use crate::observed::Observed;
 use crate::settings::SETTINGS;
+use crate::weigh::Evidence;
 
 /// The same with others that may stand for its first causes, each by a fit of its own: about a fit with one of two causes that do
 /// much the same, the equations, which are straight lines, leave too much to the other one.
 ///
 /// Another one that leaves hardly more of the errors is hard to tell from it: evidence counts all errors as noise, and laws of tyres
 /// and servos are not known that well. Of such two that leads which asks the constants for far fewer sigmas of what is known.
-pub(crate) fn exchanged(
-    data: &Data<'_>,
+pub(crate) fn exchanged<D: Observed>(
+    data: &Data<D>,
     prior: &Prior,
     causes: &[Cause],
     retuned: &Fit,
@@ -30,7 +32,7 @@ pub(crate) fn exchanged(
         let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
         let fitted = |with: Vec<usize>| {
             let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
-            let ends = within_bounds(data, &lines(retuned)?.posterior(&narrow.covariance)?.mean);
+            let ends = data.within_bounds(&lines(retuned)?.posterior(&narrow.covariance)?.mean);
             let start = likelier(data, &narrow, retuned.noise, [retuned.theta.clone(), ends])?;
             let fit = fit_like(data, &narrow, start, &best.fit)?;
             let mut named = named_as(&lines(&fit)?, &prior.covariance, causes, &with)?;
@@ -55,12 +57,12 @@ pub(crate) fn exchanged(
         let mut alike: Vec<(f64, usize, Answered)> = Vec::new();
         for (candidate, other) in others {
             // What does not move stands for nothing: re-tuning does it.
-            if sigmas(prior, &other, causes[candidate].moves()) < rules.moved {
+            if sigmas(prior, &other, causes[candidate].moves()) < rules.moved_as_stand_in {
                 continue;
             }
             let [of_other, of_best] = scores(data, prior, causes, [&other, &best]);
             let leaves_as_much = data.share(&other.fit.theta) < (1.0 + rules.leaves_more) * own;
-            let odds = if leaves_as_much { rules.alike_by_errors } else { ALIKE };
+            let odds = if leaves_as_much { rules.alike_by_errors } else { rules.alike };
             if of_other > of_best - odds {
                 alike.push((of_other - of_best, candidate, other));
             }
@@ -109,7 +111,7 @@ fn leads(by: f64, [own, other]: [f64; 2], probability: f64) -> bool {
     let rules = SETTINGS.naming;
     let is_much_farther = rules.nearer * own < other && by < rules.alike_by_errors;
     let is_much_nearer = rules.nearer * other < own;
-    probability > logistic(NAMED) && (is_much_nearer || (by > ALIKE && !is_much_farther))
+    probability > logistic(rules.named) && (is_much_nearer || (by > rules.alike && !is_much_farther))
 }
 
 #[cfg(test)]

@@ -42,12 +42,7 @@ pub fn name(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Opti
 }
 
 /// The same from causes that are there already.
-pub(crate) fn name_from(
-    evidence: &Evidence,
-    known: &DMatrix<f64>,
-    causes: &[Cause],
-    already: &[usize],
-) -> Option<Named> {
+pub fn name_from(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], already: &[usize]) -> Option<Named> {
     let rules = SETTINGS.naming;
     let score = |set: &[usize]| score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
     let mut set: Vec<usize> = already.to_vec();
@@ -77,7 +72,7 @@ pub(crate) fn name_from(
 
 /// The first of several causes that stand for each other, none of which earns its place alone and all of which do together: one
 /// of them is there, and the evidence does not say which.
-pub(crate) fn of_class(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
+pub fn of_class(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause]) -> Option<Named> {
     let rules = SETTINGS.naming;
     let score = |set: &[usize]| score(evidence, known, causes, set).unwrap_or(f64::NEG_INFINITY);
     let scores: Vec<f64> = (0..causes.len()).map(|c| score(&[c])).collect();

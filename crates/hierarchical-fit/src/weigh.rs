@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fit::Session;
+use crate::session::Session;
 
 /// What the sessions say together.
 #[derive(Debug, Clone)]

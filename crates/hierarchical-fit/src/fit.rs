@@ -1,43 +1,43 @@
 //! Fits of the constants to many drives, each with a deviation of its own.
 //!
-//! As of [`odometry::weighing`]: errors in sigmas count by a loss without a corner, the deviation `δ ~ N(0, T)` of every drive
-//! is eliminated, so that drives weigh by what they say of the car and intervals are as wide as drives scatter.
+//! Errors in sigmas count by a loss without a corner (pseudo-Huber); the deviation `δ ~ N(0, T)` of every drive is eliminated, so
+//! that drives weigh by what they say of the robot and intervals are as wide as drives scatter.
 
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
-use odometry::weighing::{Evidence, Session};
 use rayon::prelude::*;
 
-use crate::car::Car;
-use crate::constant_table::constants;
-use crate::constants::Constant;
-use crate::drive::Drive;
-use crate::error::CarError;
-use crate::model::Laws;
-use crate::rows::{Kind, POSE_ROWS, Shown};
+use crate::observed::{Kind, Observed, Spread};
+use crate::session::Session;
 use crate::settings::SETTINGS;
+use crate::weigh::Evidence;
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
 use inference::robust::{quantile, rms, sorted};
 
-/// Drives of a car with its constants.
+/// Drives with the model that they are compared with.
 #[derive(Debug, Clone)]
-pub(crate) struct Data<'a> {
-    pub(crate) constants: Vec<Constant>,
-    pub(crate) shown: Vec<Shown<'a>>,
+pub struct Data<D: Observed> {
+    /// The model.
+    pub model: D::Model,
+    /// How far each of its constants may be from what is given.
+    pub spreads: Vec<Spread>,
+    /// The drives.
+    pub drives: Vec<D>,
 }
 
 /// What rows of each kind scatter by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Noise {
+pub struct Noise {
     /// Sigma of a row's error.
-    pub(crate) sigma: [f64; 3],
+    pub sigma: [f64; 3],
     /// Independent rows for each row, at most 1: errors that follow one another say less (effective number of samples).
-    pub(crate) power: [f64; 3],
+    pub power: [f64; 3],
 }
 
 impl Noise {
     /// The same with every row for itself.
-    pub(crate) fn of_single_rows(self) -> Self {
+    #[must_use]
+    pub fn of_single_rows(self) -> Self {
         Self { power: [1.0; 3], ..self }
     }
 
@@ -50,53 +50,43 @@ impl Noise {
 
 /// What is known of the constants before the drives.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Prior {
-    pub(crate) mean: DVector<f64>,
-    pub(crate) covariance: DMatrix<f64>,
+pub struct Prior {
+    /// Most probable deviations.
+    pub mean: DVector<f64>,
+    /// Covariance about them.
+    pub covariance: DMatrix<f64>,
 }
 
 /// Fitted constants with the equations about them.
 #[derive(Debug, Clone)]
-pub(crate) struct Fit {
-    pub(crate) theta: Vec<f64>,
-    pub(crate) sessions: Vec<Session>,
-    pub(crate) noise: Noise,
+pub struct Fit {
+    /// Deviations of the constants.
+    pub theta: Vec<f64>,
+    /// Equations of each drive about them.
+    pub sessions: Vec<Session>,
+    /// What rows scatter by.
+    pub noise: Noise,
     /// Factor on the scatter of all constants.
-    pub(crate) factor: f64,
+    pub factor: f64,
 }
 
-impl<'a> Data<'a> {
-    pub(crate) fn new(car: &Car, drives: &[&'a Drive]) -> Result<Self, CarError> {
-        let shown: Vec<Shown<'a>> = drives.iter().map(|d| Shown::new(d, car.encoder_window)).collect();
-        let moving = |s: &Shown<'_>| s.rows.iter().filter(|r| r.is_moving && r.kind == Kind::Pose).count() / POSE_ROWS;
-        let blind = |s: &Shown<'_>| if s.drive.has_pose() { 0 } else { s.windows.len() };
-        let windows: usize = shown.iter().map(|s| moving(s) + blind(s)).sum();
-        let (length, needed) = (SETTINGS.windows.length, SETTINGS.windows.least);
-        if windows < needed {
-            return Err(CarError::Short { windows, length, needed });
-        }
-        Ok(Self { constants: constants(car), shown })
-    }
-
+impl<D: Observed> Data<D> {
     pub(crate) fn errors(&self, thetas: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(s, theta): (&Shown<'_>, &Vec<f64>)| s.errors(&Laws::at(&self.constants, theta));
-        self.shown.par_iter().zip(thetas).map(of).collect()
+        let of = |(drive, theta): (&D, &Vec<f64>)| drive.errors(&self.model, theta);
+        self.drives.par_iter().zip(thetas).map(of).collect()
     }
 
     /// Of errors of rows in motion: sigmas by their upper quantile, and how many are independent.
     pub(crate) fn noise(&self, errors: &[Vec<f64>]) -> Noise {
         let sigma = self.sigmas(errors);
-        let power = [Kind::Pose, Kind::Gyro, Kind::Encoder].map(|kind| {
-            let most = 2.0 * SETTINGS.windows.quantile_sigmas * sigma[kind as usize];
+        let power = Kind::ALL.map(|kind| {
+            let most = 2.0 * SETTINGS.errors.quantile_sigmas * sigma[kind as usize];
             let (mut square, mut product) = (0.0, 0.0);
-            for (shown, errors) in self.shown.iter().zip(errors) {
-                let of_kind = || shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind);
+            for (drive, errors) in self.drives.iter().zip(errors) {
+                let of_kind = drive.rows().iter().zip(errors).filter(|(r, _)| r.kind == kind);
                 let held: Vec<Option<f64>> =
-                    of_kind().map(|(r, e)| (r.is_moving && *e != 0.0).then(|| e.clamp(-most, most))).collect();
-                // Rows that the weights take for one are not compared with each other.
-                let Some(weight) = of_kind().map(|(r, _)| r.weight).next() else { continue };
-                let apart = if kind == Kind::Pose { POSE_ROWS } else { weight.recip().ceil() as usize };
-                for (a, b) in held.iter().zip(held.iter().skip(apart)) {
+                    of_kind.map(|(r, e)| (r.is_moving && *e != 0.0).then(|| e.clamp(-most, most))).collect();
+                for (a, b) in held.iter().zip(held.iter().skip(drive.apart(kind))) {
                     if let (Some(a), Some(b)) = (a, b) {
                         product += a * b;
                         square += 0.5 * (a * a + b * b);
@@ -104,59 +94,64 @@ impl<'a> Data<'a> {
                 }
             }
             // Of a process of first order with this correlation.
-            let correlation = (product / square.max(f64::MIN_POSITIVE)).clamp(0.0, SETTINGS.windows.correlated);
+            let correlation = (product / square.max(f64::MIN_POSITIVE)).clamp(0.0, SETTINGS.errors.correlated);
             (1.0 - correlation) / (1.0 + correlation)
         });
         Noise { sigma, power }
     }
 
     fn sigmas(&self, errors: &[Vec<f64>]) -> [f64; 3] {
-        let rules = SETTINGS.windows;
-        [Kind::Pose, Kind::Gyro, Kind::Encoder].map(|kind| {
-            let of = |(s, e): (&Shown<'_>, &Vec<f64>)| {
-                let rows = s.rows.iter().zip(e).filter(|(r, e)| r.kind == kind && r.is_moving && **e != 0.0);
+        let rules = SETTINGS.errors;
+        Kind::ALL.map(|kind| {
+            let of = |(drive, e): (&D, &Vec<f64>)| {
+                let rows = drive.rows().iter().zip(e).filter(|(r, e)| r.kind == kind && r.is_moving && **e != 0.0);
                 rows.map(|(_, e)| e.abs()).collect::<Vec<f64>>()
             };
-            let sizes = sorted(self.shown.iter().zip(errors).flat_map(of));
+            let sizes = sorted(self.drives.iter().zip(errors).flat_map(of));
             let limit = quantile(&sizes, rules.quantile).unwrap_or(0.0) / rules.quantile_sigmas;
             let cut = 2.0 * rules.quantile_sigmas * limit;
-            rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0).max(rules.floor[kind as usize])
+            rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0).max(D::FLOOR[kind as usize])
         })
     }
 
     /// Root mean square error of the rows in motion over the size of what they measure.
-    pub(crate) fn share(&self, theta: &[f64]) -> f64 {
-        let errors = self.errors(&vec![theta.to_vec(); self.shown.len()]);
+    pub fn share(&self, theta: &[f64]) -> f64 {
+        let errors = self.errors(&vec![theta.to_vec(); self.drives.len()]);
         let (mut ways, mut sizes) = (Vec::new(), Vec::new());
-        for (shown, errors) in self.shown.iter().zip(&errors) {
-            let kind = if shown.drive.has_pose() { Kind::Pose } else { Kind::Encoder };
-            let moving = shown.rows.iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
+        for (drive, errors) in self.drives.iter().zip(&errors) {
+            let kind = drive.judged_by();
+            let moving = drive.rows().iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
             ways.extend(moving.map(|(_, e)| *e));
-            sizes.extend(shown.sizes());
+            sizes.extend(drive.sizes());
         }
         rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
     }
 
     /// One sigma by which drives differ.
-    pub(crate) fn scatter(&self, factor: f64) -> DVector<f64> {
-        DVector::from_iterator(self.constants.len(), self.constants.iter().map(|c| factor * c.scatter))
+    pub fn scatter(&self, factor: f64) -> DVector<f64> {
+        DVector::from_iterator(self.spreads.len(), self.spreads.iter().map(|c| factor * c.scatter))
+    }
+
+    /// Constants within what they can be.
+    pub(crate) fn within_bounds(&self, theta: &DVector<f64>) -> Vec<f64> {
+        self.spreads.iter().zip(theta.iter()).map(|(c, x)| x.clamp(c.bounds[0], c.bounds[1])).collect()
     }
 
     /// What the robot file knows.
     pub(crate) fn prior(&self) -> Prior {
-        let n = self.constants.len();
-        let variances = DVector::from_iterator(n, self.constants.iter().map(|c| c.sigma.powi(2)));
+        let n = self.spreads.len();
+        let variances = DVector::from_iterator(n, self.spreads.iter().map(|c| c.sigma.powi(2)));
         Prior { mean: DVector::zeros(n), covariance: DMatrix::from_diagonal(&variances) }
     }
 }
 
 /// Normal equations of rows whose errors and columns are known.
-pub(crate) fn equations(shown: &Shown<'_>, (errors, columns): (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
+pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
     let n = columns.len();
     let mut out = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
-    let outlier = SETTINGS.windows.outlier;
+    let outlier = SETTINGS.errors.outlier;
     let mut row = DVector::zeros(n);
-    for (i, r) in shown.rows.iter().enumerate() {
+    for (i, r) in drive.rows().iter().enumerate() {
         let (scale, weight) = (noise.sigma[r.kind as usize], r.weight * noise.power[r.kind as usize]);
         let error = errors[i] / scale;
         let root = (1.0 + (error / outlier).powi(2)).sqrt();
@@ -171,16 +166,16 @@ pub(crate) fn equations(shown: &Shown<'_>, (errors, columns): (&[f64], &[Vec<f64
 }
 
 /// Normal equations of every drive.
-pub(crate) fn sessions(data: &Data<'_>, theta: &[f64], noise: Noise) -> Vec<Session> {
-    let of = |s: &Shown<'_>| {
-        let errors = s.errors(&Laws::at(&data.constants, theta));
-        equations(s, (&errors, &s.columns(&data.constants, theta)), noise)
+pub(crate) fn sessions<D: Observed>(data: &Data<D>, theta: &[f64], noise: Noise) -> Vec<Session> {
+    let of = |drive: &D| {
+        let errors = drive.errors(&data.model, theta);
+        equations(drive, (&errors, &drive.columns(&data.model, theta)), noise)
     };
-    data.shown.par_iter().map(of).collect()
+    data.drives.par_iter().map(of).collect()
 }
 
-struct Driven<'a, 'd> {
-    data: &'a Data<'d>,
+struct Driven<'a, D: Observed> {
+    data: &'a Data<D>,
     prior: &'a Prior,
     information: DMatrix<f64>,
     scatter: DVector<f64>,
@@ -192,14 +187,14 @@ struct Point {
     sessions: Vec<Session>,
 }
 
-impl Driven<'_, '_> {
+impl<D: Observed> Driven<'_, D> {
     fn at(&self, theta: Vec<f64>) -> Point {
         let sessions = sessions(self.data, &theta, self.noise);
         Point { theta, sessions }
     }
 }
 
-impl Problem for Driven<'_, '_> {
+impl<D: Observed> Problem for Driven<'_, D> {
     type Point = Point;
 
     fn cost(&self, at: &Point) -> f64 {
@@ -209,12 +204,12 @@ impl Problem for Driven<'_, '_> {
     }
 
     fn parameters(&self, at: &Point) -> Vec<Parameter> {
-        let of = |(value, c): (&f64, &Constant)| Parameter {
+        let of = |(value, c): (&f64, &Spread)| Parameter {
             longest: SETTINGS.fitting.longest,
-            bounds: c.bounds(),
+            bounds: c.bounds,
             ..Parameter::unbounded(*value, c.usual)
         };
-        at.theta.iter().zip(&self.data.constants).map(of).collect()
+        at.theta.iter().zip(&self.data.spreads).map(of).collect()
     }
 
     fn linearise(&self, at: &mut Point, _: usize) -> Option<Normal> {
@@ -226,7 +221,7 @@ impl Problem for Driven<'_, '_> {
             curvature += marginal.curvature;
             slope += marginal.slope;
         }
-        let unit = |i: usize| self.data.constants[i].usual;
+        let unit = |i: usize| self.data.spreads[i].usual;
         let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
         Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
     }
@@ -237,12 +232,12 @@ impl Problem for Driven<'_, '_> {
 }
 
 /// Fits the constants from `start`, scales of errors and scatter of drives included; `None` where a prior is no covariance.
-pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
+pub(crate) fn fit<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
     let rules = SETTINGS.fitting;
     let information = prior.covariance.clone().cholesky()?.inverse();
     let settings =
         Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
-    let noise = data.noise(&data.errors(&vec![start.clone(); data.shown.len()]));
+    let noise = data.noise(&data.errors(&vec![start.clone(); data.drives.len()]));
     // Before the first fit errors are no noise, and follow one another.
     let mut out = Fit { theta: start, sessions: Vec::new(), noise: noise.of_single_rows(), factor: 1.0 };
     for _ in 0..rules.rounds {
@@ -265,7 +260,7 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
 }
 
 /// One fit with the scales of errors and the scatter of drives of another.
-pub(crate) fn fit_like(data: &Data<'_>, prior: &Prior, start: Vec<f64>, like: &Fit) -> Option<Fit> {
+pub(crate) fn fit_like<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>, like: &Fit) -> Option<Fit> {
     let rules = SETTINGS.fitting;
     let information = prior.covariance.clone().cholesky()?.inverse();
     let settings = Settings { iterations: rules.again, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
@@ -275,7 +270,12 @@ pub(crate) fn fit_like(data: &Data<'_>, prior: &Prior, start: Vec<f64>, like: &F
 }
 
 /// Of two values of the constants those that are more probable; `None` where a prior is no covariance.
-pub(crate) fn likelier(data: &Data<'_>, prior: &Prior, noise: Noise, both: [Vec<f64>; 2]) -> Option<Vec<f64>> {
+pub(crate) fn likelier<D: Observed>(
+    data: &Data<D>,
+    prior: &Prior,
+    noise: Noise,
+    both: [Vec<f64>; 2],
+) -> Option<Vec<f64>> {
     let information = prior.covariance.clone().cholesky()?.inverse();
     let problem = Driven { data, prior, information, scatter: data.scatter(1.0), noise };
     let [a, b] = both.map(|theta| problem.at(theta));
@@ -283,7 +283,7 @@ pub(crate) fn likelier(data: &Data<'_>, prior: &Prior, noise: Noise, both: [Vec<
 }
 
 /// A fit without one of its drives: equations and scales of the others, about where it ended.
-pub(crate) fn without(data: &Data<'_>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
+pub(crate) fn without<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
     let mut out = fit.clone();
     out.sessions.remove(left);
     out.factor = scatter_factor(data, prior, &out);
@@ -291,7 +291,7 @@ pub(crate) fn without(data: &Data<'_>, prior: &Prior, fit: &Fit, left: usize) ->
 }
 
 /// The factor on the scatter of drives under which they are most probable together.
-fn scatter_factor(data: &Data<'_>, prior: &Prior, fit: &Fit) -> f64 {
+fn scatter_factor<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> f64 {
     let rules = SETTINGS.fitting;
     let score = |factor: f64| {
         let evidence = Evidence::new(&fit.theta, &fit.sessions, &data.scatter(factor), &prior.mean)

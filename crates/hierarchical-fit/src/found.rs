@@ -1,0 +1,58 @@
+//! What the drives of a case say, as plain data.
+
+use crate::settings::SETTINGS;
+use catalogue::CauseSpec;
+
+/// Kind of answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Wheels and pose agree as well as the robot is known: nothing is missing.
+    Nothing,
+    /// They agree once constants are set within what the owner states.
+    Retune,
+    /// Causes beyond that were named.
+    Named,
+    /// Something is missing, and nothing that can be named accounts for it.
+    Unknown,
+}
+
+/// A constant as it was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Its name.
+    pub name: String,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// As the robot file, or the references, have it.
+    pub given: f64,
+    /// As the recordings have it.
+    pub value: f64,
+    /// Half width of its 90 % interval.
+    pub half_width: f64,
+    /// How far it moved, in the sigmas with which it was known.
+    pub sigmas: f64,
+}
+
+impl Estimate {
+    /// Whether it moved by a good part of what is known of it, to where its interval leaves the given value out.
+    pub fn is_moved(&self) -> bool {
+        (self.value - self.given).abs() > self.half_width && self.sigmas.abs() > SETTINGS.naming.moved
+    }
+}
+
+/// A cause that was named, or may be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCause {
+    /// What is known about it.
+    pub spec: &'static CauseSpec,
+    /// Its id with what it is about.
+    pub label: String,
+    /// Probability that it is part of the truth.
+    pub probability: f64,
+    /// Labels of causes that these drives cannot tell from it.
+    pub alike: Vec<String>,
+    /// The constants that it moves.
+    pub estimates: Vec<Estimate>,
+    /// When it was there: recording, and from when to when, s; empty where it was there all the time.
+    pub intervals: Vec<(String, [f64; 2])>,
+}

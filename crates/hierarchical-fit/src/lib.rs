@@ -1,0 +1,55 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `observed`: what a fit needs of a drive and of the model that it is compared with.
+//! * `session`: normal equations of a drive or session, with and without its own deviation.
+//! * `fit`: constants with a deviation of each drive, scales of errors, scatter of drives.
+//! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
+//! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
+//! * `found`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `beside`: drives beside their simulations, for pages and pictures.
+//! * `settings`: every tuned number.
+
+mod answered;
+mod beside;
+mod cause;
+mod fit;
+mod found;
+mod look_alikes;
+mod name;
+mod observed;
+mod session;
+mod settings;
+mod solve;
+pub mod telling;
+mod weigh;
+
+pub use beside::Beside;
+pub use cause::Cause;
+pub use fit::{Data, Fit, Noise, Prior, equations};
+pub use found::{Answer, Estimate, NamedCause};
+pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
+pub use observed::{Kind, Observed, Row, Spread};
+pub use session::{Marginal, Session};
+pub use solve::{Solved, solve};
+pub use weigh::{Evidence, Posterior};
+
+/// Log odds of a cause before the data are seen, nats.
+pub const ODDS: f64 = settings::SETTINGS.naming.odds;
+/// Log odds from which a cause is named, nats.
+pub const NAMED: f64 = settings::SETTINGS.naming.named;
+/// Evidence within which causes cannot be told apart, nats.
+pub const ALIKE: f64 = settings::SETTINGS.naming.alike;
+/// Sigmas beyond which an error counts less.
+pub const OUTLIER: f64 = settings::SETTINGS.errors.outlier;
+
+/// Whether drives differ by as much as was tried: what is named with all of them is then not to be trusted.
+pub fn is_widest(factor: f64) -> bool {
+    settings::SETTINGS.fitting.factors.iter().all(|tried| *tried <= factor)
+}
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

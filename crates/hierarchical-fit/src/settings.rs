@@ -1,0 +1,88 @@
+//! The tuned numbers of this crate.
+
+::settings::settings! {
+    /// Tuned numbers of fits with a deviation of every drive, and of the causes that they name.
+    pub(crate) struct Settings;
+
+    /// Errors of rows.
+    errors: Errors {
+        /// Errors farther off than this many sigmas count less.
+        outlier: f64 = 4.0, "1", "guess";
+        /// Quantile of the errors from which their scale is taken.
+        quantile: f64 = 0.9, "1", "guess; the rest may be outliers";
+        /// Sigmas within which that share of a normal distribution lies.
+        quantile_sigmas: f64 = 1.645, "1", "mathematics: the quantile of the normal distribution";
+        /// Correlation of errors that follow one another, at most.
+        correlated: f64 = 0.9, "1", "guess; a twentieth of the rows then counts";
+    }
+
+    /// Fits of all constants.
+    fitting: Fitting {
+        /// Rounds in which scales of errors and scatter of drives are estimated anew.
+        rounds: usize = 2, "1", "guess";
+        /// Linearisations of a round at most.
+        iterations: usize = 15, "1", "guess";
+        /// The same of a fit with another cause, which starts where the equations end.
+        again: usize = 6, "1", "guess";
+        /// Relative fall of the cost below which a round is at rest.
+        fall: f64 = 1e-4, "1", "guess";
+        /// Factors on the usual scatter of drives that are tried.
+        factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
+        /// Sigma of the logarithm of that factor.
+        width: f64 = 1.0, "1", "guess; a factor of e";
+        /// Longest step of a constant, usual sizes.
+        longest: f64 = 1.0, "1", "guess";
+    }
+
+    /// Which causes the drives ask for.
+    naming: Naming {
+        /// Log odds of a cause before the data are seen.
+        odds: f64 = -3.0, "nat", "guess; one in twenty robots has a given cause";
+        /// Log odds from which a cause is named.
+        named: f64 = 1.5, "nat", "guess; a probability of 0.82";
+        /// Causes at most.
+        most: usize = 7, "1", "guess";
+        /// Causes that fit as well within these odds cannot be told apart.
+        alike: f64 = 3.0, "nat", "a factor of 20";
+        /// Error of forecasts of left-out drives over that with such a cause in its place, from which on it forecasts as well.
+        near_forecast: f64 = 0.95, "1", "guess; some drives do not tell five per cent";
+        /// Odds within which a cause that forecasts left-out drives as well cannot be told apart either.
+        near: f64 = 12.0, "nat", "guess; linear equations get a change by a fifth wrong by some nats";
+        /// Causes below this probability are not listed.
+        listed: f64 = 0.05, "1", "guess";
+        /// A factor on the radius this near to a familiar one is told as that.
+        familiar: f64 = 0.03, "1", "guess; tyres do not differ by more";
+        /// Familiar factors: counts on both edges, half turns, gears.
+        factors: [f64; 8] = [2.0, 0.5, 4.0, 0.25, 10.0, 0.1, std::f64::consts::TAU, 1.0 / std::f64::consts::TAU], "1",
+            "edges of encoders, diameters for radii, turns for radians";
+        /// Sigmas by which a constant has to move to be told as re-tuned.
+        moved: f64 = 0.5, "1", "guess";
+        /// Remaining error of windows over their way, beyond which fits begin from another place, too.
+        near_share: f64 = 0.04, "1", "guess; twice what a good answer leaves";
+        /// Fits with what was named before, at most.
+        rounds: usize = 4, "1", "guess; two are usual";
+        /// Named causes for which fits with others in their place are tried: those that the data would miss most.
+        exchanged: usize = 2, "1", "guess; each takes a fit or two";
+        /// Others that are tried, of the equations about the re-tuned robot and about the answer each.
+        stand_ins: usize = 2, "1", "guess; each takes a fit";
+        /// Evidence by the equations that another may lack before it is tried.
+        near_enough: f64 = 60.0, "nat", "guess; a straight line errs by tens of them";
+        /// Evidence within which a cause cannot be told from another, each with a fit of its own that leaves about the same errors.
+        alike_by_errors: f64 = 15.0, "nat", "five times the usual: two cars of another simulator whose steering gain was told as their wheelbase lay 10 apart";
+        /// Share by which the errors may then differ.
+        leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";
+        /// Sigmas of what is known by which one that may stand for another must move a constant.
+        moved_as_stand_in: f64 = 1.0, "1", "guess";
+        /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas.
+        nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
+    }
+
+    /// Drives beside their simulations, on pages and in pictures.
+    traces: Traces {
+        /// Distance of the rows that are shown.
+        step: f64 = 0.1, "s", "equal to the windows of torque-driven robots";
+    }
+}
+
+/// As this crate uses them.
+pub(crate) const SETTINGS: Settings = Settings::DEFAULT;
