@@ -22,6 +22,28 @@ const NO_SLIP: f64 = 1e-20;
 /// implicit wheel step, which takes the falling branch as flat.
 #[inline(always)]
 pub fn combined<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T) {
+    let sx2 = slip[0] * slip[0];
+    let (per_speed, slope, inverse_s2) = shape(slip, reference_speed2, slip_at_peak, sliding);
+    (per_speed, (per_speed + (slope - per_speed) * sx2 * inverse_s2).max(T::zero()))
+}
+
+/// The same with all changes of the force: `K/s` and `∂(K s_i/s)/∂s_j`, symmetric: 11, 12, 22.
+#[inline(always)]
+pub(crate) fn combined_in_plane<T: Scalar>(
+    slip: [T; 2],
+    reference_speed2: T,
+    slip_at_peak: T,
+    sliding: T,
+) -> (T, [T; 3]) {
+    let (per_speed, slope, inverse_s2) = shape(slip, reference_speed2, slip_at_peak, sliding);
+    let along = (slope - per_speed) * inverse_s2;
+    let [x, y] = slip;
+    (per_speed, [per_speed + along * x * x, along * x * y, per_speed + along * y * y])
+}
+
+/// `K/s`, `dK/ds` where it rises, and `1/s²`.
+#[inline(always)]
+fn shape<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T, T) {
     let (sx2, d2) = (slip[0] * slip[0], reference_speed2);
     let s2 = sx2 + slip[1] * slip[1] + real(NO_SLIP);
     let peak2 = slip_at_peak * slip_at_peak * d2;
@@ -33,7 +55,7 @@ pub fn combined<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, s
     let beyond = sliding * s2.sqrt() * inverse_s2 + (T::one() - sliding) * rising;
     let per_speed = s2.if_less(peak2, rising, beyond);
     let slope = s2.if_less(peak2, rising * (peak2 - s2) * inverse_sum, T::zero());
-    (per_speed, (per_speed + (slope - per_speed) * sx2 * inverse_s2).max(T::zero()))
+    (per_speed, slope, inverse_s2)
 }
 
 /// What the loads depend on: mass, height of the centre of mass and where the wheels stand relative to it.
@@ -90,30 +112,15 @@ impl<T: Scalar> Stance<T> {
     ///
     /// Two contacts at one place share the load of one. The contacts must not all lie on one line.
     pub(crate) fn on(wheel: [[T; 2]; 4], mass: T, gravity: T, com_height: T) -> Self {
-        let (mut s, mut m) = ([T::zero(); 3], [T::zero(); 2]);
-        for [x, y] in wheel {
-            s = [s[0] + x * x, s[1] + x * y, s[2] + y * y];
-            m = [m[0] + x, m[1] + y];
-        }
-        let n = real::<T>(4.0);
-
-        // Sum of loads, and of their moments: Σ [1, x, y]ᵀ [1, x, y] (α, β, γ) = (m g, −m h s_x, −m h s_y).
-        let minors = [
-            [s[0] * s[2] - s[1] * s[1], s[1] * m[1] - m[0] * s[2], m[0] * s[1] - s[0] * m[1]],
-            [s[1] * m[1] - m[0] * s[2], n * s[2] - m[1] * m[1], m[0] * m[1] - n * s[1]],
-            [m[0] * s[1] - s[0] * m[1], m[0] * m[1] - n * s[1], n * s[0] - m[0] * m[0]],
-        ];
-        let inverse = T::one() / (n * minors[0][0] + m[0] * minors[0][1] + m[1] * minors[0][2]);
-        let share = |[x, y]: [T; 2], k: usize| (minors[0][k] + x * minors[1][k] + y * minors[2][k]) * inverse;
-
+        let plane = Plane::of(wheel.into_iter());
         let (weight, lever) = (mass * gravity, mass * com_height);
         Self {
             mass,
-            static_load: wheel.map(|at| share(at, 0) * weight),
+            static_load: wheel.map(|at| plane.share(at, 0) * weight),
             pitch: T::zero(),
             roll: T::zero(),
             wheel,
-            per_force: Some(wheel.map(|at| [-(share(at, 1) * lever), -(share(at, 2) * lever)])),
+            per_force: Some(wheel.map(|at| [-(plane.share(at, 1) * lever), -(plane.share(at, 2) * lever)])),
         }
     }
 
@@ -187,6 +194,42 @@ impl<T: Scalar> Stance<T> {
             out.force[i] = f;
         }
         out
+    }
+}
+
+/// Loads of a rigid body on equal springs: a plane over the places of its contacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plane<T> {
+    minors: [[T; 3]; 3],
+    inverse: T,
+}
+
+impl<T: Scalar> Plane<T> {
+    /// Of contacts at these places, which must not all lie on one line.
+    pub(crate) fn of(contacts: impl Iterator<Item = [T; 2]>) -> Self {
+        let (mut s, mut m, mut n) = ([T::zero(); 3], [T::zero(); 2], T::zero());
+        for [x, y] in contacts {
+            s = [s[0] + x * x, s[1] + x * y, s[2] + y * y];
+            m = [m[0] + x, m[1] + y];
+            n += T::one();
+        }
+
+        // Sum of loads, and of their moments: Σ [1, x, y]ᵀ [1, x, y] (α, β, γ) = (m g, −m h s_x, −m h s_y).
+        let minors = [
+            [s[0] * s[2] - s[1] * s[1], s[1] * m[1] - m[0] * s[2], m[0] * s[1] - s[0] * m[1]],
+            [s[1] * m[1] - m[0] * s[2], n * s[2] - m[1] * m[1], m[0] * m[1] - n * s[1]],
+            [m[0] * s[1] - s[0] * m[1], m[0] * m[1] - n * s[1], n * s[0] - m[0] * m[0]],
+        ];
+        let inverse = T::one() / (n * minors[0][0] + m[0] * minors[0][1] + m[1] * minors[0][2]);
+        Self { minors, inverse }
+    }
+
+    /// Load at a place per unit of the sum of all loads (0), of their moment along x (1), and along y (2).
+    #[inline(always)]
+    pub(crate) fn share(&self, [x, y]: [T; 2], k: usize) -> T {
+        let [zero, one, two] = &self.minors;
+        let pick = |row: &[T; 3]| row.get(k).copied().unwrap_or(T::zero());
+        (pick(zero) + x * pick(one) + y * pick(two)) * self.inverse
     }
 }
 

@@ -45,6 +45,17 @@ pub enum ModelError {
         /// The value given, m.
         value: f64,
     },
+    /// A part of a robot that is referred to and is not there.
+    #[error("the {what} is not there; add it, or take the reference to it out")]
+    NotThere {
+        /// What it is.
+        what: &'static str,
+    },
+    /// Wheels and casters that do not hold a robot up.
+    #[error(
+        "all wheels and casters stand on one line, on which no robot stands; add the casters, or correct the places"
+    )]
+    OnALine,
     /// No constant has this name.
     #[error("a robot has no constant `{name}`; `Robot::CONSTANTS` lists them")]
     Unknown {

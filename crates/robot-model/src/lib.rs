@@ -1,8 +1,9 @@
-//! Wheeled robots with wheel slip: four wheels on two sides, or two driven wheels and casters.
+//! Wheeled robots with wheel slip: four wheels on two sides, two driven wheels and casters, or any wheels.
 //!
-//! Two plants share the contact patch of [`contact`]:
+//! Three plants share the contact patch of [`contact`]:
 //! * [`paper`]: the robot of Hendzel & Trojnacki 2014, Eq. 8 taken literally, closed by planar body dynamics;
-//! * [`plant`]: the robot of a user's simulation, torque-driven or speed-driven, which any [`Effect`] may change.
+//! * [`plant`]: the robot of a user's simulation, torque-driven or speed-driven, which any [`Effect`] may change;
+//! * [`wheels`]: a robot of any wheels, fixed, steered, with rollers or dragged along, driven by torques.
 //!
 //! Axes: x forward, y left, z up. Wheels: 0 front left, 1 front right, 2 rear left, 3 rear right
 //! (the paper's 1, 2, 3, 4); where casters hold a robot up, 0 and 1 are these. Sides: 0 left, 1 right. All quantities in SI units and radians.
@@ -25,6 +26,7 @@
 //! * `disturbance`: what acts beside the catalogue's effects.
 //! * `active`: an effect at values; `presence`: from an instant, in a disc, on one side.
 //! * `paper/*`: the robot of the paper, two variants, and its equation as a regressor.
+//! * `wheels/*`: a robot of any wheels: its constants, its state, its step.
 //! * `scalar`: functions of a number that only plants need; `error`: what can be wrong with a
 //!   model.
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -46,6 +48,7 @@ mod scalar;
 mod settle;
 mod state;
 pub mod tunable;
+pub mod wheels;
 
 /// The effects a simulation may lack, one file each; found by the build script in file-name order.
 pub mod effects {

@@ -14,6 +14,7 @@ use identifier::{
 };
 use nn_basis::{Activation, Basis, LinearNet, SigmoidLayer};
 use robot_model::paper::{self, PaperRobot, Parameters};
+use robot_model::wheels;
 use robot_model::{Active, Lanes, Plant, Presence, Robot, Scalar, State, effects};
 
 #[panic_handler]
@@ -23,7 +24,7 @@ fn panic(_: &PanicInfo) -> ! {
 
 /// Kept by the linker, so that nothing below is thrown away.
 #[used]
-static KEPT: [extern "C" fn(f32) -> f32; 8] = [plant, paper_plant, side_by_side, identify, every_law, remember, coupled, control];
+static KEPT: [extern "C" fn(f32) -> f32; 9] = [plant, any_wheels, paper_plant, side_by_side, identify, every_law, remember, coupled, control];
 
 /// One step of the plant with every effect of the catalogue at its neutral value.
 extern "C" fn plant(torque: f32) -> f32 {
@@ -36,6 +37,47 @@ extern "C" fn plant(torque: f32) -> f32 {
     let mut readings = plant.readings(&state);
     plant.sense(&mut readings);
     readings.velocity[0] + readings.torque[0]
+}
+
+/// One step of a robot of any wheels: one steered and driven, one with rollers, one caster.
+extern "C" fn any_wheels(torque: f32) -> f32 {
+    let place = [torque, 0.0];
+    let driven = wheels::Wheel {
+        place,
+        direction: 0.0,
+        roller: None,
+        radius: 0.1,
+        inertia: 0.01,
+        motor: Some(0),
+        joint: Some(0),
+    };
+    let mut robot = wheels::Robot {
+        mass: 10.0,
+        yaw_inertia: 1.0,
+        com: [0.0; 3],
+        wheels: [None; wheels::MOST],
+        casters: [Some(wheels::Caster { pivot: place, trail: 0.1, rolling: 0.0, pivot_friction: 0.1 }); wheels::MOST_CASTERS],
+        motors: [None; wheels::MOST],
+        joints: [None; wheels::MOST],
+        ground: wheels::Ground::usual(),
+    };
+    robot.wheels[0] = Some(driven);
+    robot.wheels[1] = Some(wheels::Wheel { roller: Some(torque), motor: Some(1), joint: None, ..driven });
+    robot.motors = [Some(wheels::Motor {
+        coupling: wheels::Coupling::Differential,
+        inertia: 0.01,
+        gain: 1.0,
+        lag: 0.1,
+        coulomb: 0.1,
+        viscous: 0.1,
+    }); wheels::MOST];
+    robot.joints[0] = Some(wheels::Joint { place, about: 0.0, offset: 0.0, gain: 1.0, lag: 0.1 });
+    let plant = wheels::Plant::new(&robot, 5e-3);
+    let mut state = wheels::State::default();
+    plant.set_velocity(&mut state, [torque; 2]);
+    plant.settle(&mut state, &[torque; wheels::MOST], &[torque; wheels::MOST]);
+    plant.step(&mut state, &[torque; wheels::MOST], &[torque; wheels::MOST]);
+    plant.velocity_of(&state, place)[0] + plant.place_of(&state, place)[1]
 }
 
 /// The rate of the paper's robot, and a step by each scheme.
