@@ -8,7 +8,7 @@ use syn::buffer::{Cursor, TokenBuffer};
 use syn::visit::{self, Visit};
 
 /// Crates whose numbers decide what a verdict says.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "inference",
     "torque-driven",
     "speed-driven",
@@ -16,6 +16,7 @@ const CRATES: [&str; 10] = [
     "hierarchical-fit",
     "odometry",
     "single-track",
+    "wheeled",
     "diagnosis",
     "weak-form",
     "rehearsal",

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use catalogue::{CauseSpec, answer, car, command_driven, odometry, speed_driven};
+use catalogue::{CauseSpec, answer, car, command_driven, odometry, speed_driven, wheeled};
 use robot_model::{EffectSpec, Kind};
 
 /// Kinds in the order of the page: kind, heading, what they have in common.
@@ -49,6 +49,11 @@ pub(super) fn page() -> String {
     out +=
         "\n## Odometry\n\nWheel motion goes in, a measured pose comes out: what lies between a count and the pose.\n";
     for cause in odometry::ALL {
+        without_law(&mut out, cause, &effects);
+    }
+    out += "\n## Robots of any wheels\n\nTorques of motors go in, motion of body and wheels comes out: constants of the plant that moved. Beside these, \
+            those of wheel counts are named that lengths, steering, pose and gyro have.\n";
+    for cause in wheeled::ALL {
         without_law(&mut out, cause, &effects);
     }
     out += "\n## Cars\n\nThrottle and steering go in, motion and what the car reports of it come out.\n";

@@ -21,6 +21,7 @@ fn rooms() -> Vec<Room> {
             hierarchical_fit::settings().collect(),
         ),
         ("odometry", "wheel motion against a measured pose", odometry::settings().collect()),
+        ("wheeled", "robots of any wheels: torques of motors against motion", wheeled::settings().collect()),
         ("single-track", "cars: throttle and steering against motion", single_track::settings().collect()),
         ("model-import", "robot files from models of simulators", model_import::settings().collect()),
         ("weak-form", "screening without simulation", weak_form::settings().collect()),

@@ -19,17 +19,20 @@ pub enum Kind {
     Odometry,
     /// Throttle and steering in, motion out.
     Car,
+    /// Torques of motors in, motion out, on any wheels.
+    Wheeled,
 }
 
 impl Kind {
-    /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::Odometry, Self::Car];
+    /// All of them.
+    pub(crate) const ALL: [Self; 3] = [Self::Odometry, Self::Car, Self::Wheeled];
 
     /// The kind of a robot file; `None` where it names no columns itself.
     pub(crate) fn of_file(text: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| match kind {
             Self::Odometry => odometry::file::RobotFile::is_one(text),
             Self::Car => single_track::file::RobotFile::is_one(text),
+            Self::Wheeled => wheeled::file::RobotFile::is_one(text),
         })
     }
 
@@ -38,6 +41,7 @@ impl Kind {
         match self {
             Self::Odometry => odometry::file::BUILT_IN,
             Self::Car => single_track::file::BUILT_IN,
+            Self::Wheeled => wheeled::file::BUILT_IN,
         }
     }
 
@@ -46,6 +50,7 @@ impl Kind {
         match self {
             Self::Odometry => "odometry",
             Self::Car => "car",
+            Self::Wheeled => "wheeled",
         }
     }
 
@@ -54,6 +59,7 @@ impl Kind {
         match self {
             Self::Odometry => "wheel motion beside a pose or a gyro",
             Self::Car => "motion beside throttle and steering",
+            Self::Wheeled => "motion beside the torques of motors",
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Cases of robots whose files name their columns themselves: wheel motion beside a pose, and cars.
+//! Cases of robots whose files name their columns themselves: wheel motion beside a pose, cars, and
+//! robots of any wheels under torque.
 
 use std::path::{Path, PathBuf};
 
@@ -9,6 +10,7 @@ use crate::car::{self, CarCase};
 use crate::columns::{ColumnsEnvelope, Kind};
 use crate::inputs;
 use crate::odometry::{self, OdometryCase};
+use crate::wheeled::{self, WheeledCase};
 
 /// A case of one of these kinds.
 #[derive(Debug)]
@@ -17,6 +19,8 @@ pub enum ColumnsCase {
     Odometry(Box<OdometryCase>),
     /// Of kind car.
     Car(Box<CarCase>),
+    /// Of kind wheeled.
+    Wheeled(Box<WheeledCase>),
 }
 
 impl ColumnsCase {
@@ -26,10 +30,13 @@ impl ColumnsCase {
     /// # Errors
     /// A robot file or tables that cannot be read, or hold what no such robot can have.
     pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<Self>> {
-        Ok(match car::read(folder, robot, parts)? {
-            Some(case) => Some(Self::Car(Box::new(case))),
-            None => odometry::read(folder, robot, parts)?.map(|case| Self::Odometry(Box::new(case))),
-        })
+        if let Some(case) = car::read(folder, robot, parts)? {
+            return Ok(Some(Self::Car(Box::new(case))));
+        }
+        if let Some(case) = wheeled::read(folder, robot, parts)? {
+            return Ok(Some(Self::Wheeled(Box::new(case))));
+        }
+        Ok(odometry::read(folder, robot, parts)?.map(|case| Self::Odometry(Box::new(case))))
     }
 
     /// Its kind.
@@ -37,6 +44,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(_) => Kind::Odometry,
             Self::Car(_) => Kind::Car,
+            Self::Wheeled(_) => Kind::Wheeled,
         }
     }
 
@@ -45,6 +53,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => &case.robot,
             Self::Car(case) => &case.robot,
+            Self::Wheeled(case) => &case.robot,
         }
     }
 
@@ -53,6 +62,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => &case.case.robot.name,
             Self::Car(case) => &case.case.car.name,
+            Self::Wheeled(case) => &case.case.robot.name,
         }
     }
 
@@ -61,6 +71,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => case.case.recordings.iter().map(|d| d.name.as_str()).collect(),
             Self::Car(case) => case.case.recordings.iter().map(|d| d.name.as_str()).collect(),
+            Self::Wheeled(case) => case.case.recordings.iter().map(|d| d.name.as_str()).collect(),
         }
     }
 
@@ -69,6 +80,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => case.case.recordings.first().map(odometry_length),
             Self::Car(case) => case.case.recordings.first().map(single_track::Drive::duration),
+            Self::Wheeled(case) => case.case.recordings.first().map(::wheeled::Drive::duration),
         }
     }
 
@@ -77,6 +89,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => &case.ignored,
             Self::Car(case) => &case.ignored,
+            Self::Wheeled(case) => &case.ignored,
         }
     }
 
@@ -88,6 +101,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => case.diagnose(progress),
             Self::Car(case) => case.diagnose(progress),
+            Self::Wheeled(case) => case.diagnose(progress),
         }
     }
 
@@ -96,6 +110,7 @@ impl ColumnsCase {
         match self {
             Self::Odometry(case) => case.envelope(diagnosis),
             Self::Car(case) => case.envelope(diagnosis),
+            Self::Wheeled(case) => case.envelope(diagnosis),
         }
     }
 }
@@ -111,6 +126,9 @@ fn odometry_length(drive: &::odometry::Drive) -> f64 {
 pub fn kind_of(robot: &str) -> Result<Option<Kind>> {
     if car::robot(robot)?.is_some() {
         return Ok(Some(Kind::Car));
+    }
+    if wheeled::robot(robot)?.is_some() {
+        return Ok(Some(Kind::Wheeled));
     }
     Ok(odometry::robot(robot)?.map(|_| Kind::Odometry))
 }

@@ -31,6 +31,7 @@ mod text_error;
 mod twins;
 pub mod visits;
 mod watched;
+pub mod wheeled;
 pub mod which_mapping;
 
 pub use text_error::TextError;

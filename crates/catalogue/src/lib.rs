@@ -3,7 +3,7 @@
 //! Two kinds of data meet here: the effects of the plants, each with its law in a file of `robot-model`, and causes that
 //! have no law in a plant: those of command-driven robots ([`command_driven`]), of which neither torques nor currents are
 //! known, of speed-driven robots ([`speed_driven`]), of robots whose wheel motion is compared with a pose ([`odometry`]), of
-//! cars ([`car`]), and the answers that name no cause ([`answer`]). A name may be both: the lag of a motor is an effect of the
+//! robots of any wheels under torque ([`wheeled`]), of cars ([`car`]), and the answers that name no cause ([`answer`]). A name may be both: the lag of a motor is an effect of the
 //! torque-driven plant, and of a command-driven robot it is seen between command and wheel speed.
 
 use robot_model::Effect;
@@ -16,6 +16,7 @@ mod cause;
 pub mod command_driven;
 pub mod odometry;
 pub mod speed_driven;
+pub mod wheeled;
 
 pub use cause::CauseSpec;
 
@@ -43,9 +44,15 @@ pub fn effects() -> impl Iterator<Item = &'static EffectSpec> {
 }
 
 /// The causes that have no law in a plant: of command-driven robots in causal order, of speed-driven ones, of odometry, of
-/// cars, then the answers that name none.
+/// robots of any wheels, of cars, then the answers that name none.
 pub fn causes() -> impl Iterator<Item = &'static CauseSpec> {
-    command_driven::ALL.into_iter().chain(speed_driven::ALL).chain(odometry::ALL).chain(car::ALL).chain(answer::ALL)
+    command_driven::ALL
+        .into_iter()
+        .chain(speed_driven::ALL)
+        .chain(odometry::ALL)
+        .chain(wheeled::ALL)
+        .chain(car::ALL)
+        .chain(answer::ALL)
 }
 
 /// Every name once: effects first.

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use catalogue::{answer, car, causes, command_driven, effects, find, names, odometry, of_load_term, speed_driven};
+use catalogue::{
+    answer, car, causes, command_driven, effects, find, names, odometry, of_load_term, speed_driven, wheeled,
+};
 use robot_model::effect::LoadTerm;
 
 #[test]
@@ -21,7 +23,11 @@ fn every_name_is_there_once_and_is_found() {
 fn three_causes_of_command_driven_robots_are_effects_of_the_plants_too() {
     let both = names().filter(|name| find(name).is_some_and(|e| e.effect.is_some() && e.cause.is_some()));
     assert_eq!(both.collect::<Vec<_>>(), ["motor_lag", "transport_delay", "wheel_radius_mismatch"]);
-    let causes = command_driven::ALL.len() - 3 + speed_driven::ALL.len() + odometry::ALL.len() + car::ALL.len();
+    let causes = command_driven::ALL.len() - 3
+        + speed_driven::ALL.len()
+        + odometry::ALL.len()
+        + car::ALL.len()
+        + wheeled::ALL.len();
     assert_eq!(names().count(), effects().count() + causes + answer::ALL.len());
 }
 

@@ -84,6 +84,9 @@ fn told<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], answer: An
     // About where it stands the fit is what it was fitted to be.
     if named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)) {
         named.posterior.mean = DVector::from_column_slice(&fit.theta);
+        if set.is_empty() {
+            named.retuned = named.posterior.clone();
+        }
     }
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);

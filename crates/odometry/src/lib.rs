@@ -8,6 +8,7 @@
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
 //! * `cause`: what may be wrong.
+//! * `rates`, `held`: velocities from poses, and signals as integrals, on a grid of steps.
 //! * `alignment`: offset and rate of two devices' clocks by the speeds that both measure.
 //! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
@@ -32,9 +33,11 @@ mod findings;
 mod fit;
 mod forecast;
 mod heading;
+pub mod held;
 mod kinematics;
 mod left_out;
 mod motion;
+pub mod rates;
 mod rivals;
 mod settings;
 mod traces;

@@ -4,6 +4,7 @@ use crate::error::CarError;
 use crate::model::STEP;
 use crate::settings::{Grid, SETTINGS};
 use inference::robust::{median, quantile, sorted};
+use odometry::held::Command;
 
 const RULES: Grid = SETTINGS.grid;
 
@@ -26,58 +27,6 @@ pub struct Table {
     pub gyro: Vec<f64>,
     /// Speed by the encoder, m/s.
     pub encoder: Vec<f64>,
-}
-
-/// A command held between messages, as its integral on the grid.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Command {
-    sums: Vec<f64>,
-    ends: [f64; 2],
-}
-
-impl Command {
-    /// From values that hold from their times on.
-    fn new(times: &[f64], values: &[f64], steps: usize) -> Self {
-        let mut sums = Vec::with_capacity(steps + 1);
-        let (mut k, mut sum, mut at) = (0, 0.0, 0.0);
-        for step in 0..=steps {
-            let until = STEP * step as f64;
-            while k + 1 < times.len() && times[k + 1] <= until {
-                sum += values[k] * (times[k + 1] - at).max(0.0);
-                at = at.max(times[k + 1]);
-                k += 1;
-            }
-            sum += values[k] * (until - at).max(0.0);
-            at = until;
-            sums.push(sum);
-        }
-        Self { sums, ends: [values[0], values[values.len() - 1]] }
-    }
-
-    fn sum(&self, time: f64) -> f64 {
-        let last = self.sums.len() - 1;
-        let place = time / STEP;
-        if place <= 0.0 {
-            return self.ends[0] * time;
-        }
-        if place >= last as f64 {
-            return self.sums[last] + self.ends[1] * (time - STEP * last as f64);
-        }
-        let k = place as usize;
-        self.sums[k] + (place - k as f64) * (self.sums[k + 1] - self.sums[k])
-    }
-
-    /// The same command on another clock, which shows `time` as `start + pace time`.
-    fn retimed(&self, start: f64, pace: f64) -> Self {
-        let before = self.sum(start);
-        let sum = |step: usize| (self.sum(start + pace * STEP * step as f64) - before) / pace;
-        Self { sums: (0..self.sums.len()).map(sum).collect(), ends: self.ends }
-    }
-
-    /// Mean over the step that begins at a time, s from the start of the drive.
-    pub(crate) fn mean(&self, time: f64) -> f64 {
-        (self.sum(time + STEP) - self.sum(time)) / STEP
-    }
 }
 
 /// What the car reported at one instant.
@@ -185,7 +134,7 @@ impl Drive {
             let value = |&(_, row): &(f64, usize)| {
                 column[row] * enabled.get(row).map_or(1.0, |e| f64::from(u8::from(*e > 0.5)))
             };
-            Command::new(&times, &reported.iter().map(value).collect::<Vec<f64>>(), steps)
+            Command::held((&times, &reported.iter().map(value).collect::<Vec<f64>>()), steps, STEP)
         };
         let cell = |column: &[f64], row: usize| column.get(row).copied().filter(|x| x.is_finite());
         let messages = reported

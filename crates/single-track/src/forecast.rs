@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::constants::Constant;
 use crate::model::{Inputs, Laws, STEP, State};
-use crate::rates::end;
 use crate::rows::Shown;
 use crate::settings::{Forecast, SETTINGS};
 use inference::robust::median;
+use odometry::rates::end;
 
 const RULES: Forecast = SETTINGS.forecast;
 
@@ -99,7 +99,7 @@ pub(crate) fn of_laws(shown: &Shown<'_>, laws: &Laws, past: f64) -> Vec<[[f64; 2
 
 fn one(shown: &Shown<'_>, laws: &Laws, inputs: &Inputs, from: usize, past: f64) -> Option<[[f64; 2]; 3]> {
     let pose = &shown.drive.pose;
-    let (at, rates) = end(pose, from, past)?;
+    let (at, rates) = end(pose, from, past, STEP)?;
     let steps = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
     let states: Vec<State> = laws.run(laws.state(at, rates), inputs, from, steps);
     Some(judge(pose, from, |k| laws.tracked(&states[k - 1])))
@@ -109,7 +109,7 @@ fn one(shown: &Shown<'_>, laws: &Laws, inputs: &Inputs, from: usize, past: f64) 
 pub(crate) fn of_twist(shown: &Shown<'_>, past: f64) -> Vec<[[f64; 2]; 3]> {
     let pose = &shown.drive.pose;
     let of = |from: usize| {
-        let (at, [vx, vy, rate]) = end(pose, from, past)?;
+        let (at, [vx, vy, rate]) = end(pose, from, past, STEP)?;
         Some(judge(pose, from, |k| {
             let turned = rate * STEP * k as f64;
             // Chord and its direction.

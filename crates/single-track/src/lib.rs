@@ -6,7 +6,6 @@
 //! * `clock`: clocks of car and pose that start or run apart.
 //! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
 //! * `model`: steering, drive, tyres and motion of the single-track car.
-//! * `rates`: velocities from poses.
 //! * `rows`: windows of the pose and reports of the car against the model.
 //! * `cause`, `solve`: the causes that drives may ask for, and drives as the shared fit takes them.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
@@ -30,7 +29,6 @@ mod forecast;
 mod laws;
 mod left_out;
 mod model;
-mod rates;
 mod rivals;
 mod rows;
 mod settings;

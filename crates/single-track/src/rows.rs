@@ -6,9 +6,9 @@ use std::sync::Arc;
 use crate::constants::{Constant, Quantity};
 use crate::drive::{Drive, Message};
 use crate::model::{Inputs, Laws, STEP, State};
-use crate::rates::{parabola, slope};
 use crate::settings::{SETTINGS, Windows};
 use hierarchical_fit::{Kind, Row};
+use odometry::rates::{parabola, slope};
 
 const RULES: Windows = SETTINGS.windows;
 
@@ -43,7 +43,7 @@ impl<'a> Shown<'a> {
         let steps = drive.steps();
         let rate = |k: usize| {
             let inside = k >= half && k + half < steps;
-            inside.then(|| slope(&drive.pose, k - half, k + half, k)).flatten().unwrap_or([f64::NAN; 3])
+            inside.then(|| slope(&drive.pose, [k - half, k + half], k, STEP)).flatten().unwrap_or([f64::NAN; 3])
         };
         let rates = (0..if drive.has_pose() { steps } else { 0 }).map(rate).collect();
         let mut out = Self {
@@ -264,7 +264,7 @@ fn smoothed_too_fast(laws: &Laws, inputs: &Inputs, from: usize, speed: f64) -> f
         v = next;
         ways.push(way);
     }
-    parabola(ways.into_iter(), Some(half)) - at
+    parabola(ways.into_iter(), Some(half), STEP) - at
 }
 
 /// Error of a pose in m: ahead and to the side of the measured one, and heading by its lever.
@@ -325,7 +325,7 @@ mod tests {
         let pose: Vec<[f64; 3]> = std::iter::once(&start).chain(&states).map(|s| laws.tracked(s)).collect();
         let half = (SETTINGS.grid.smoothing / STEP).round() as usize;
         for k in 45..=55 {
-            let rates = slope(&pose, k - half, k + half, k).expect("a slope");
+            let rates = slope(&pose, [k - half, k + half], k, STEP).expect("a slope");
             let (shown, truth) = (rates[0].hypot(rates[1]), states[k - 1].speed);
             let corrected = shown - smoothed_too_fast(&laws, &inputs, k, shown);
             assert!((corrected - truth).abs() < 2e-3, "step {k}: {corrected} for {truth}");

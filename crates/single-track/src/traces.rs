@@ -5,9 +5,9 @@ use verdict::Trace;
 
 use crate::drive::Drive;
 use crate::model::{Laws, STEP};
-use crate::rates::end;
 use crate::rows::Shown;
 use crate::settings::{SETTINGS, Traces};
+use odometry::rates::end;
 
 const RULES: Traces = SETTINGS.traces;
 
@@ -33,7 +33,7 @@ fn starts(pose: &[[f64; 3]]) -> Vec<usize> {
     let apart = (RULES.free / STEP).round() as usize;
     let mut out: Vec<usize> = Vec::new();
     for step in 0..pose.len() {
-        if out.last().is_none_or(|last| step - last >= apart) && end(pose, step, RULES.past).is_some() {
+        if out.last().is_none_or(|last| step - last >= apart) && end(pose, step, RULES.past, STEP).is_some() {
             out.push(step);
         }
     }
@@ -45,7 +45,7 @@ fn starts(pose: &[[f64; 3]]) -> Vec<usize> {
 /// any pose. The pose before is as it was seen.
 pub(crate) fn predicted(laws: &Laws, drive: &Drive) -> Vec<[f64; 3]> {
     let pose = &drive.pose;
-    let known = |step: usize| end(pose, step, RULES.past).is_some();
+    let known = |step: usize| end(pose, step, RULES.past, STEP).is_some();
     let is_end = |k: usize| k == 0 || !known(k - 1) || (k + 1 < pose.len() && !known(k + 1));
     let mut starts: Vec<usize> = (0..pose.len()).filter(|&k| known(k) && is_end(k)).collect();
     if starts.is_empty() {
@@ -66,7 +66,7 @@ fn free_runs(laws: &Laws, drive: &Drive, starts: &[usize], longest: usize) -> Ve
     for (k, &start) in starts.iter().enumerate() {
         let next = starts.get(k + 1).copied().unwrap_or(steps);
         let last = next.min(start + longest);
-        let (at, rates) = end(&drive.pose, start, RULES.past).unwrap_or_default();
+        let (at, rates) = end(&drive.pose, start, RULES.past, STEP).unwrap_or_default();
         out[start] = at;
         // A state stands at the end of its step.
         for (after, state) in laws.run(laws.state(at, rates), &inputs, start, last - start - 1).iter().enumerate() {

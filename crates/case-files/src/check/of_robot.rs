@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::bag_signals;
 use crate::columns::Kind;
 use crate::drive_files::{NamesColumns, Recorded, name_of, table};
-use crate::{car, odometry};
+use crate::{car, odometry, wheeled};
 
 /// A signal that a column of the robot file reads.
 #[derive(Debug)]
@@ -69,6 +69,7 @@ pub(super) fn read(name: &str, kind: Kind, paths: &[PathBuf]) -> Result<Option<O
     let drives = match kind {
         Kind::Odometry => odometry::robot(name)?.map(|file| by(name, &file, paths)),
         Kind::Car => car::robot(name)?.map(|(file, _)| by(name, &file, paths)),
+        Kind::Wheeled => wheeled::robot(name)?.map(|(file, _)| by(name, &file, paths)),
     };
     let Some(drives) = drives.transpose()? else { return Ok(None) };
     Ok(Some(OfRobot { robot: name.to_owned(), kind, drives }))

@@ -1,9 +1,10 @@
 //! Robots whose files name their columns, as a verdict corrects them: their robot file, and parameters of ROS 2
 //! controllers.
 //!
-//! `edit`: numbers in TOML; `unheld`: what a target cannot hold; `wheels`, `car`: robot files; `wheels_ros2`,
+//! `edit`: numbers in TOML; `unheld`: what a target cannot hold; `wheels`, `car`, `any_wheels`: robot files; `wheels_ros2`,
 //! `car_ros2`: controllers.
 
+mod any_wheels;
 mod car;
 mod car_ros2;
 #[cfg(test)]
@@ -15,7 +16,7 @@ mod wheels_ros2;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use verdict::{Diagnosis, Verdict};
 
 use crate::columns::{ColumnsEnvelope, Kind};
@@ -53,13 +54,7 @@ impl ColumnsRobot {
     pub fn of_file(file: &Path) -> Result<Option<Self>> {
         let name = file.display().to_string();
         let text = std::fs::read_to_string(file).with_context(|| format!("cannot read robot file '{name}'"))?;
-        let kind = if odometry::file::RobotFile::is_one(&text) {
-            Kind::Odometry
-        } else if single_track::file::RobotFile::is_one(&text) {
-            Kind::Car
-        } else {
-            return Ok(None);
-        };
+        let Some(kind) = Kind::of_file(&text) else { return Ok(None) };
         Ok(Some(Self { kind, name, text, diagnosis: None, is_nominal: false }))
     }
 
@@ -112,6 +107,7 @@ impl ColumnsRobot {
         let (edited, unheld) = match self.kind {
             Kind::Odometry => wheels::robot_file(&self.name, &self.text, diagnosis)?,
             Kind::Car => car::robot_file(&self.name, &self.text, diagnosis)?,
+            Kind::Wheeled => any_wheels::robot_file(&self.name, &self.text, diagnosis)?,
         };
         let holder = format!("a robot file of kind {}", self.kind.name());
         let not_held: Vec<String> = unheld.iter().map(|u| u.sentence(&holder)).collect();
@@ -131,6 +127,11 @@ impl ColumnsRobot {
         let mut controllers = match self.kind {
             Kind::Odometry => wheels_ros2::controllers(self)?,
             Kind::Car => car_ros2::controllers(self)?,
+            Kind::Wheeled => bail!(
+                "robot '{}' is driven by torques, and the controllers of ros2_controllers that have wheels command speeds: write its \
+                 corrected robot file instead, with --format robot-file",
+                self.name
+            ),
         };
         controllers.told.splice(0..0, self.headline());
         Ok(Written { text: controllers.yaml()?, not_held: controllers.not_held })

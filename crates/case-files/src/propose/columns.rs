@@ -35,6 +35,10 @@ pub fn columns(robot: &str, kind: Kind, contents: &Contents) -> Result<Proposal>
     match kind {
         Kind::Odometry => draft.wheels()?,
         Kind::Car => draft.car()?,
+        Kind::Wheeled => bail!(
+            "columns of torques, joints and wheels are not proposed; `lacuna check` lists the topics and fields of a bag: name them as \
+             column of each motor, joint and wheel, `/topic.field`, in robot '{robot}'"
+        ),
     }
     draft.pose(kind);
     draft.time();
@@ -227,7 +231,7 @@ impl<'a> Draft<'a> {
         }
         let is_enough = match kind {
             Kind::Odometry => self.gyro(),
-            Kind::Car => self.columns().contains_key("gyro") && self.columns().contains_key("encoder"),
+            Kind::Car | Kind::Wheeled => self.columns().contains_key("gyro") && self.columns().contains_key("encoder"),
         };
         if is_enough {
             self.leave_out(&["x", "y", "yaw"]);

@@ -28,7 +28,7 @@ impl Series {
     }
 
     /// Its integral up to each instant, by trapezoids.
-    fn integral(&self) -> Vec<f64> {
+    pub fn integral(&self) -> Vec<f64> {
         let Self { time, value } = self;
         summed(time.len(), |row| 0.5 * (value[row] + value[row - 1]) * (time[row] - time[row - 1]))
     }

@@ -207,6 +207,35 @@ fn a_caster_swings_behind_and_its_pivot_holds_it() {
 }
 
 #[test]
+fn wheels_roll_with_the_body_and_the_body_with_its_wheels() {
+    for (robot, body, steering) in
+        [(differential(), [0.7, 0.0, 0.4], 0.0), (omni(), [0.5, -0.3, 0.6], 0.0), (tricycle(), [0.8, 0.0, 0.0], 0.0)]
+    {
+        let plant = Plant::new(&robot, STEP);
+        let mut s = State { yaw_rate: body[2], ..State::default() };
+        plant.settle(&mut s, &[0.0; MOST], &all([steering]));
+        plant.set_velocity(&mut s, [body[0], body[1]]);
+        plant.roll_wheels(&mut s);
+        let mut speeds = [None; MOST];
+        for (to, (speed, wheel)) in speeds.iter_mut().zip(s.wheel_speed.iter().zip(&robot.wheels)) {
+            *to = wheel.and_then(|w| w.motor).map(|_| *speed);
+        }
+        let mut found = State::default();
+        plant.settle(&mut found, &[0.0; MOST], &all([steering]));
+        plant.roll_body(&mut found, &speeds, None);
+        for (a, b) in
+            [(found.velocity[0], s.velocity[0]), (found.velocity[1], s.velocity[1]), (found.yaw_rate, body[2])]
+        {
+            assert_relative_eq!(a, b, epsilon = 1e-6);
+        }
+        // Nothing slips, so that nothing but inertia changes the speeds.
+        let before = s.velocity;
+        plant.step(&mut s, &[0.0; MOST], &all([steering]));
+        assert!((s.velocity[0] - before[0]).hypot(s.velocity[1] - before[1]) < 5e-3, "{:?} {before:?}", s.velocity);
+    }
+}
+
+#[test]
 fn a_slope_pulls_along_the_world() {
     let mut robot = omni();
     robot.ground.slope = [0.0, -1.0];

@@ -1,0 +1,140 @@
+//! Robot files of robots of any wheels.
+
+use anyhow::{Context, Result};
+use toml_edit::{Array, Item, TableLike};
+use verdict::Diagnosis;
+use wheeled::file::RobotFile;
+use wheeled::{AnyWheels, Constant, Quantity, constants};
+
+use super::unheld::{Told, Unheld, told};
+use crate::edit::{document, rounded, set, set_source, tables};
+
+/// The corrected file, and what it cannot hold.
+pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Result<(String, Vec<Unheld>)> {
+    let robot = RobotFile::parse(name, text)?.robot;
+    let all = constants(&robot, true, true);
+    let mut document = document(name, text)?;
+    let root = document.as_table_mut() as &mut dyn TableLike;
+    for constant in &all {
+        let Some(found) = diagnosis.tuning.get(&constant.name) else { continue };
+        edit(root, &robot, constant, *found);
+    }
+    let edited = document.to_string();
+    RobotFile::parse(name, &edited).context("no robot can have the corrected numbers")?;
+    let unheld = |told: Told| {
+        let constant = all.iter().find(|c| c.name == told.name)?;
+        let remedy = remedy(constant.quantity)?;
+        told.differs_from(constant.given).then_some(Unheld { told, unit: constant.unit, remedy })
+    };
+    Ok((edited, self::told(diagnosis).into_iter().filter_map(unheld).collect()))
+}
+
+/// Writes a number where its file has it.
+fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found: f64) {
+    use Quantity as Q;
+    let row = |root: &mut dyn TableLike, list: &str, k: usize, key: &str, by: &dyn Fn(f64) -> f64| {
+        let Some(row) = root.get_mut(list).map(tables).and_then(|rows| rows.into_iter().nth(k)) else { return };
+        let from = row.get(key).and_then(number);
+        write(row, key, (from, by(from.unwrap_or(constant.given))));
+    };
+    let to = |_: f64| found;
+    let times = |from: f64| from * found;
+    match constant.quantity {
+        Q::Mass => value(root, "mass", found),
+        Q::YawInertia => value(root, "yaw_inertia", found),
+        Q::ComX => element(root, "centre_of_mass", 0, &to),
+        Q::ComY => element(root, "centre_of_mass", 1, &to),
+        Q::Gain(k) => row(root, "motor", k, "torque_per_unit", &times),
+        Q::Coulomb(k) => row(root, "motor", k, "coulomb", &to),
+        Q::Viscous(k) => row(root, "motor", k, "viscous", &to),
+        Q::Lag => (0..robot.motors.len()).for_each(|k| row(root, "motor", k, "lag", &to)),
+        Q::Radius(k) => row(root, "wheel", k, "radius", &to),
+        Q::Direction(k) => row(root, "wheel", k, "direction_deg", &|_| found.to_degrees()),
+        Q::Across | Q::Along => {
+            let axis = usize::from(constant.quantity == Q::Across);
+            for list in ["wheel", "caster", "joint"] {
+                for row in root.get_mut(list).map(tables).unwrap_or_default() {
+                    element(row, "place", axis, &times);
+                }
+            }
+        }
+        Q::CasterRolling | Q::CasterPivot => {
+            let key = if constant.quantity == Q::CasterRolling { "rolling_resistance" } else { "pivot_friction" };
+            (0..robot.plant.casters.iter().flatten().count()).for_each(|k| row(root, "caster", k, key, &to));
+        }
+        Q::Slip => inside(root, "ground", "slip_at_peak", constant.given, found),
+        Q::Rolling => inside(root, "ground", "rolling_resistance", constant.given, found),
+        Q::RollerDrag => inside(root, "ground", "roller_drag", constant.given, found),
+        Q::PoseX => inside(root, "point", "x", constant.given, found),
+        Q::PoseY => inside(root, "point", "y", constant.given, found),
+        Q::PoseDirection => inside(root, "point", "yaw_deg", constant.given.to_degrees(), found.to_degrees()),
+        Q::Delay
+        | Q::SteeringZero(_)
+        | Q::SteeringGain(_)
+        | Q::SlopeX
+        | Q::SlopeY
+        | Q::GyroScale
+        | Q::GyroBias
+        | Q::Clock => {}
+    }
+}
+
+fn number(item: &Item) -> Option<f64> {
+    item.as_float().or_else(|| item.as_integer().map(|n| n as f64))
+}
+
+fn write(row: &mut dyn TableLike, key: &str, (from, to): (Option<f64>, f64)) {
+    let to = rounded(to);
+    if from.map_or(to == 0.0, |from| rounded(from) == to) {
+        return;
+    }
+    let before = from.map_or_else(|| "nothing stated".to_owned(), |from| from.to_string());
+    set(row, key, to);
+    set_source(row, &format!("{key} re-tuned by lacuna from {before}"));
+}
+
+/// A number with a sigma and a source of its own.
+fn value(root: &mut dyn TableLike, key: &str, found: f64) {
+    if let Some(row) = root.get_mut(key).and_then(Item::as_table_like_mut) {
+        let from = row.get("value").and_then(number);
+        write(row, "value", (from, found));
+    }
+}
+
+/// A number of a list.
+fn element(row: &mut dyn TableLike, key: &str, at: usize, by: &dyn Fn(f64) -> f64) {
+    let Some(list) = row.get_mut(key).and_then(Item::as_array_mut) else { return };
+    let mut values: Vec<f64> =
+        list.iter().filter_map(|v| v.as_float().or_else(|| v.as_integer().map(|n| n as f64))).collect();
+    let Some(own) = values.get_mut(at) else { return };
+    let to = rounded(by(*own));
+    if to != rounded(*own) {
+        *own = to;
+        set(row, key, Array::from_iter(values));
+    }
+}
+
+/// A number of a table that may not be there.
+fn inside(root: &mut dyn TableLike, table: &str, key: &str, given: f64, found: f64) {
+    if rounded(given) == rounded(found) {
+        return;
+    }
+    if let Some(row) = root.entry(table).or_insert_with(toml_edit::table).as_table_like_mut() {
+        write(row, key, (Some(given), found));
+    }
+}
+
+/// What to do about a constant that a robot file has no key for.
+fn remedy(quantity: Quantity) -> Option<&'static str> {
+    use Quantity as Q;
+    match quantity {
+        Q::Delay => Some("correct the time stamps of the torques by it"),
+        Q::SteeringZero(_) => Some("subtract it where the steering angle is recorded"),
+        Q::SteeringGain(_) => Some("multiply the recorded steering angle by it"),
+        Q::SlopeX | Q::SlopeY => Some("it is of the ground, not of the robot: simulate on that slope"),
+        Q::GyroScale => Some("divide the gyro's readings by it"),
+        Q::GyroBias => Some("subtract it from the gyro's readings"),
+        Q::Clock => Some("correct the time stamps by it"),
+        _ => None,
+    }
+}

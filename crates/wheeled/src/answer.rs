@@ -1,0 +1,117 @@
+//! Findings as a verdict in sentences.
+
+use hierarchical_fit::Answer;
+use hierarchical_fit::telling::{Found, free_runs};
+use verdict::Diagnosis;
+
+use crate::diagnose::Findings;
+use crate::left_out::{LENGTHS, Medians, Table};
+use crate::settings::SETTINGS;
+use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
+
+/// The verdict of findings, with the forecasts of drives that were left out.
+pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
+    let found = Found {
+        answer: findings.answer,
+        named: &findings.named,
+        others: &findings.others,
+        constants: &findings.constants,
+        retuned: &findings.retuned,
+        rival: findings.rival.as_deref(),
+        shares: findings.shares,
+    };
+    let of_drive = |(drive, medians): &(String, Vec<Medians>)| {
+        let of = |row: usize, k: usize| medians.get(row).and_then(|m| m[k]).map(|m| m.map(Some));
+        free_runs(drive, "torques alone", LENGTHS, of)
+    };
+    let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());
+    out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
+    out.sentences = found.undecided().into_iter().collect();
+    out.sentences.push(headline(findings, &found, has_references));
+    if findings.answer == Answer::Retune {
+        out.sentences.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
+    }
+    out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
+    out.sentences.extend(forecast_sentence(table));
+    out.limits.splice(0..0, limits(findings, has_references));
+    out
+}
+
+fn headline(findings: &Findings, found: &Found<'_>, has_references: bool) -> String {
+    let [stated, is_known, leaves] = if has_references {
+        ["the references", "are known", "leave"]
+    } else {
+        ["the robot file", "is known", "leaves"]
+    };
+    let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
+    match findings.answer {
+        Answer::Nothing => format!(
+            "Nothing is missing: the robot moves as the torques of its motors imply, as well as {stated} {is_known} (errors after a \
+             second are {given:.1} % of the motion, {tuned:.1} % re-tuned)."
+        ),
+        Answer::Retune => format!(
+            "Re-tune: the robot moves as the torques of its motors imply once constants are set within what {stated} {leaves} open \
+             (errors after a second go from {given:.1} to {tuned:.1} % of the motion)."
+        ),
+        Answer::Named => format!(
+            "The robot moves otherwise than the torques of its motors imply, by more than {stated} {leaves} open: {} (errors after \
+             a second go from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
+            found.names()
+        ),
+        Answer::Unknown if findings.is_scattered => format!(
+            "Unknown: the drives of this robot differ from each other by {:.0} times what is usual or more, so that no cause that \
+             all of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best \
+             answer). Diagnose drives of one day, floor and load by themselves; candidates follow.",
+            findings.scatter
+        ),
+        Answer::Unknown => format!(
+            "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
+             {best:.1} % remain with the best answer.{}",
+            if findings.shares[2] > SETTINGS.unexplained.most {
+                " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
+            } else {
+                ""
+            }
+        ),
+    }
+}
+
+fn forecast_sentence(table: &Table) -> Option<String> {
+    let last = LENGTHS.len() - 1;
+    let shown: Vec<String> = table
+        .rows
+        .iter()
+        .filter_map(|(name, medians)| Some(format!("{name} {:.1} cm", 100.0 * medians[last]?[0])))
+        .collect();
+    (!shown.is_empty()).then(|| {
+        format!(
+            "Place {:.0} s ahead from torques alone on what was left out of the fit, {} drives in turn (medians): {}.",
+            LENGTHS[last],
+            table.by_drive.len(),
+            shown.join(", ")
+        )
+    })
+}
+
+fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
+    let [drives, with_pose, windows] = findings.counts;
+    let mut out = vec![format!(
+        "{drives} drives, {with_pose} with a pose, {windows} windows of {} s; constants are taken to differ between drives by \
+         {:.2} times the usual scatter",
+        SETTINGS.windows.length, findings.scatter
+    )];
+    if with_pose == 0 {
+        out.push(
+            "no pose was recorded: lengths, slip and slopes are hardly seen, and wrong radii look like wrong inertia"
+                .to_owned(),
+        );
+    }
+    out.extend(findings.told.iter().cloned());
+    if drives == 1 {
+        out.push("one drive cannot tell by how much constants differ from drive to drive".to_owned());
+    }
+    if !has_references {
+        out.push("no references were given: the robot file, as sure as it states, stands in their place".to_owned());
+    }
+    out
+}

@@ -1,0 +1,325 @@
+//! The constants on which motion and reports of a robot depend, and what may be wrong with them.
+
+use catalogue::odometry as odo;
+use catalogue::{CauseSpec, wheeled as spec};
+use hierarchical_fit::{Cause, Spread};
+
+use crate::robot::AnyWheels;
+use crate::settings::SETTINGS;
+
+/// What a constant is; numbers are places in the lists of wheels, motors and joints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "their names and units stand in the table of constants")]
+pub enum Quantity {
+    Gain(usize),
+    Lag,
+    Delay,
+    Coulomb(usize),
+    Viscous(usize),
+    Mass,
+    ComX,
+    ComY,
+    YawInertia,
+    Radius(usize),
+    Across,
+    Along,
+    Direction(usize),
+    SteeringZero(usize),
+    SteeringGain(usize),
+    Slip,
+    Rolling,
+    RollerDrag,
+    CasterRolling,
+    CasterPivot,
+    SlopeX,
+    SlopeY,
+    GyroScale,
+    GyroBias,
+    PoseX,
+    PoseY,
+    PoseDirection,
+    Clock,
+}
+
+/// A constant: a deviation `θ` from what is given, as a factor `e^θ` or as a sum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constant {
+    /// What it is.
+    pub quantity: Quantity,
+    /// Its name.
+    pub name: String,
+    /// Unit of its value.
+    pub unit: &'static str,
+    /// Its value as stated, or as usual.
+    pub given: f64,
+    /// Whether the deviation is the logarithm of a factor.
+    pub is_factor: bool,
+    /// How far it may be from that.
+    pub spread: Spread,
+    /// The cause that it stands for, and of which part of the robot.
+    pub cause: (&'static CauseSpec, Option<String>),
+}
+
+impl Constant {
+    /// The value at a deviation.
+    pub fn value(&self, deviation: f64) -> f64 {
+        if self.is_factor { self.given * deviation.exp() } else { self.given + deviation }
+    }
+
+    /// One sigma by which a number that is told may be off because a robot has another law, in the unit of its value.
+    pub(crate) fn of_another_law(&self, value: f64) -> f64 {
+        match self.quantity {
+            Quantity::Slip => SETTINGS.told.slip * value.abs(),
+            Quantity::Lag | Quantity::Delay => SETTINGS.told.time,
+            _ => 0.0,
+        }
+    }
+}
+
+/// What the drives hold beside torques and wheels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Has {
+    pub(crate) pose: bool,
+    pub(crate) gyro: bool,
+}
+
+/// All constants of a robot of which drives hold a pose and a gyro, or not.
+#[expect(clippy::too_many_lines, reason = "a table")]
+pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Constant> {
+    use Quantity as Q;
+    let (sigmas, usual, scatter) = (&robot.sigmas, SETTINGS.usual, SETTINGS.scatter);
+    let plant = &robot.plant;
+    let mut out: Vec<Constant> = Vec::new();
+    let mut add = |quantity: Q,
+                   (name, of, unit): (&str, Option<&String>, &'static str),
+                   (given, is_factor, least): (f64, bool, f64),
+                   [sigma, usual, scatter]: [f64; 3],
+                   cause: &'static CauseSpec| {
+        let far = SETTINGS.fitting.farthest * (usual + sigma);
+        // What cannot be below some value is not.
+        let bounds = [(-far).max(least - given), far];
+        let of_part = of.map_or_else(|| name.to_owned(), |part| format!("{name} of {part}"));
+        out.push(Constant {
+            quantity,
+            name: of_part,
+            unit,
+            given,
+            is_factor,
+            spread: Spread { sigma, usual, scatter, bounds },
+            cause: (cause, of.cloned()),
+        });
+    };
+    let any = f64::NEG_INFINITY;
+    let motors: Vec<_> = plant.motors.iter().flatten().zip(&robot.motors).enumerate().collect();
+    for &(k, (motor, name)) in &motors {
+        let name = Some(name);
+        add(
+            Q::Gain(k),
+            ("factor on the torque", name, "1"),
+            (motor.gain, true, any),
+            [sigmas.gain, usual.gain, scatter.gain],
+            &spec::MOTOR_TORQUE_SCALE,
+        );
+        add(
+            Q::Coulomb(k),
+            ("dry friction", name, "N m"),
+            (motor.coulomb, false, 0.0),
+            [sigmas.coulomb[k], usual.friction * robot.torque_scale(), scatter.friction * robot.torque_scale()],
+            &spec::MOTOR_DRY_FRICTION,
+        );
+        add(
+            Q::Viscous(k),
+            ("viscous friction", name, "N m s/rad"),
+            (motor.viscous, false, 0.0),
+            [sigmas.viscous[k], usual.friction * robot.viscous_scale(), scatter.friction * robot.viscous_scale()],
+            &spec::MOTOR_VISCOUS_FRICTION,
+        );
+    }
+    let lag = motors.first().map_or(0.0, |(_, (motor, _))| motor.lag);
+    let lags = [sigmas.lag, usual.lag, scatter.lag];
+    add(Q::Lag, ("time constant of the motors", None, "s"), (lag, false, 0.0), lags, &spec::MOTOR_TORQUE_LAG);
+    add(Q::Delay, ("dead time of the motors", None, "s"), (0.0, false, 0.0), lags, &spec::MOTOR_TORQUE_LAG);
+
+    let mass = [sigmas.mass, usual.mass, scatter.geometry];
+    add(Q::Mass, ("mass", None, "kg"), (plant.mass, true, any), mass, &spec::BODY_MASS);
+    let com = [sigmas.com, usual.com * robot.size(), scatter.geometry];
+    add(Q::ComX, ("centre of mass, forward", None, "m"), (plant.com[0], false, any), com, &spec::BODY_COM);
+    add(Q::ComY, ("centre of mass, left", None, "m"), (plant.com[1], false, any), com, &spec::BODY_COM);
+    let inertia = [sigmas.yaw_inertia, usual.yaw_inertia, scatter.geometry];
+    add(
+        Q::YawInertia,
+        ("yaw inertia", None, "kg m²"),
+        (plant.yaw_inertia, true, any),
+        inertia,
+        &spec::BODY_YAW_INERTIA,
+    );
+
+    let wheels: Vec<_> = plant.wheels.iter().flatten().zip(&robot.wheels).enumerate().collect();
+    for &(k, (wheel, name)) in &wheels {
+        if wheel.motor.is_some() || robot.measured.contains(&k) {
+            let radius = [sigmas.radius[k], usual.radius, scatter.geometry];
+            add(
+                Q::Radius(k),
+                ("radius", Some(name), "m"),
+                (wheel.radius, true, any),
+                radius,
+                &odo::RADIUS_OF_ONE_WHEEL,
+            );
+        }
+        if wheel.joint.is_none() && wheel.roller.is_none() {
+            let direction = [sigmas.direction, usual.direction, scatter.direction];
+            add(
+                Q::Direction(k),
+                ("direction", Some(name), "rad"),
+                (wheel.direction, false, any),
+                direction,
+                &spec::WHEEL_DIRECTION,
+            );
+        }
+    }
+    let places = [sigmas.place, usual.place, scatter.geometry];
+    for (axis, quantity, name) in [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along it")] {
+        if plant.wheels.iter().flatten().any(|w| w.place[axis] != 0.0) {
+            add(quantity, (name, None, "1"), (1.0, true, any), places, &odo::WHEEL_DISTANCE);
+        }
+    }
+    for (k, (joint, name)) in plant.joints.iter().flatten().zip(&robot.joints).enumerate() {
+        let zero = [sigmas.steering, usual.steering, scatter.direction];
+        let gain = [sigmas.steering_gain, usual.steering_gain, scatter.gain];
+        add(
+            Q::SteeringZero(k),
+            ("steering zero", Some(name), "rad"),
+            (joint.offset, false, any),
+            zero,
+            &odo::STEERING_ZERO,
+        );
+        add(Q::SteeringGain(k), ("steering gain", Some(name), "1"), (joint.gain, true, any), gain, &odo::STEERING_GAIN);
+    }
+
+    let ground = &plant.ground;
+    let slip = [sigmas.slip, usual.slip, scatter.slip];
+    add(
+        Q::Slip,
+        ("slip at the largest force", None, "1"),
+        (ground.slip_at_peak, true, any),
+        slip,
+        &spec::TYRE_STIFFNESS,
+    );
+    let rolling = [sigmas.rolling, usual.rolling, scatter.rolling];
+    add(Q::Rolling, ("rolling resistance", None, "1"), (ground.rolling, false, 0.0), rolling, &spec::ROLLING_DRAG);
+    if wheels.iter().any(|(_, (w, _))| w.roller.is_some()) {
+        add(
+            Q::RollerDrag,
+            ("drag of rollers", None, "1"),
+            (ground.roller_drag, false, 0.0),
+            rolling,
+            &spec::ROLLER_DRAG,
+        );
+    }
+    if let Some(caster) = plant.casters.iter().flatten().next() {
+        let drag = [sigmas.caster_rolling, usual.rolling, scatter.rolling];
+        let (given, pivot) = (caster.rolling, caster.pivot_friction);
+        add(
+            Q::CasterRolling,
+            ("rolling resistance of casters", None, "1"),
+            (given, false, 0.0),
+            drag,
+            &spec::CASTER_ROLLING_DRAG,
+        );
+        let held = SETTINGS.known.pivot * caster.trail * plant.mass * ground.gravity;
+        let usual = [held, usual.pivot * caster.trail * plant.mass * ground.gravity, scatter.friction * held];
+        add(
+            Q::CasterPivot,
+            ("friction of a caster's pivot", None, "N m"),
+            (pivot, false, 0.0),
+            usual,
+            &spec::CASTER_PIVOT_FRICTION,
+        );
+    }
+    if has_gyro {
+        let (known, bias) = (SETTINGS.known.gyro_scale, SETTINGS.known.gyro_bias);
+        let (scale, of_bias) = ([known, usual.gyro_scale, scatter.gain], [bias, usual.gyro_bias, scatter.gyro_bias]);
+        add(Q::GyroScale, ("scale of the gyro", None, "1"), (1.0, true, any), scale, &odo::GYRO_SCALE);
+        add(Q::GyroBias, ("bias of the gyro", None, "rad/s"), (0.0, false, any), of_bias, &odo::GYRO_BIAS);
+    }
+    if has_pose {
+        let slope = [sigmas.slope, usual.slope, scatter.slope];
+        add(Q::SlopeX, ("slope along x", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
+        add(Q::SlopeY, ("slope along y", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
+        let origin = [sigmas.pose_origin, usual.pose_origin, scatter.pose_origin];
+        add(Q::PoseX, ("tracked point, forward", None, "m"), (robot.point[0], false, any), origin, &odo::POSE_ORIGIN);
+        add(Q::PoseY, ("tracked point, left", None, "m"), (robot.point[1], false, any), origin, &odo::POSE_ORIGIN);
+        let direction = [sigmas.pose_direction, usual.pose_direction, scatter.direction];
+        add(
+            Q::PoseDirection,
+            ("direction of the tracked axes", None, "rad"),
+            (robot.point[2], false, any),
+            direction,
+            &odo::POSE_MOUNTING,
+        );
+        let clock = [SETTINGS.known.clock, usual.clock, scatter.clock];
+        add(
+            Q::Clock,
+            ("robot's channels come late by", None, "s"),
+            (0.0, false, any),
+            clock,
+            &odo::COUNTS_CLOCK_OFFSET,
+        );
+    }
+    out
+}
+
+/// The causes that can show: of one part, and of all parts alike.
+pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
+    let mut out: Vec<Cause> = Vec::new();
+    for (k, c) in constants.iter().enumerate() {
+        // A constant of which nothing is known cannot be wrong.
+        if c.spread.sigma >= c.spread.usual {
+            continue;
+        }
+        let (spec, of) = &c.cause;
+        let direction = (vec![(k, 1.0)], c.spread.usual);
+        let is_alone = constants.iter().filter(|other| other.cause.0 == *spec).count() == 1;
+        let of = of.clone().filter(|_| !is_alone);
+        match out.iter_mut().find(|cause| cause.spec == *spec && cause.of.is_none() && of.is_none()) {
+            Some(cause) => cause.directions.push(direction),
+            None => out.push(Cause { spec, of, directions: vec![direction], at_least_zero: None }),
+        }
+    }
+    let all = [
+        (&spec::MOTOR_TORQUE_SCALE, &spec::MOTOR_TORQUE_SCALE),
+        (&spec::MOTOR_DRY_FRICTION, &spec::MOTOR_DRY_FRICTION),
+        (&spec::MOTOR_VISCOUS_FRICTION, &spec::MOTOR_VISCOUS_FRICTION),
+        (&odo::RADIUS_OF_ONE_WHEEL, &odo::RADIUS_OF_ALL_WHEELS),
+    ];
+    for (one, all) in all {
+        let parts: Vec<&Cause> = out.iter().filter(|cause| cause.spec == one && cause.of.is_some()).collect();
+        if parts.len() > 1 {
+            let together = parts.iter().flat_map(|cause| cause.directions[0].0.iter().copied()).collect();
+            let usual = parts[0].directions[0].1;
+            out.push(Cause { spec: all, of: None, directions: vec![(together, usual)], at_least_zero: None });
+        }
+    }
+    out
+}
+
+impl AnyWheels {
+    /// A torque at a wheel that is a fair part of what moves the robot: a tenth of its weight at a wheel's radius, N m.
+    pub(crate) fn torque_scale(&self) -> f64 {
+        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(0.0, f64::max);
+        let motors = self.motors.len().max(1) as f64;
+        0.1 * self.plant.mass * self.plant.ground.gravity * radius / motors
+    }
+
+    /// The same over the wheel speed of a walking pace, N m s/rad.
+    pub(crate) fn viscous_scale(&self) -> f64 {
+        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(f64::INFINITY, f64::min);
+        self.torque_scale() * radius / SETTINGS.known.pace
+    }
+
+    /// Longest distance between two contacts, m.
+    pub(crate) fn size(&self) -> f64 {
+        let of = |a: [f64; 2]| self.plant.contacts().map(move |b| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
+        self.plant.contacts().map(of).fold(0.0, f64::max)
+    }
+}

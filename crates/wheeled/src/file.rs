@@ -1,0 +1,575 @@
+//! The robot file of `kind = "wheeled"`, and drives from tables and from the messages of bags.
+
+use std::collections::BTreeMap;
+
+use odometry::file::{Series, Signals, seconds_in};
+use robot_model::wheels::{Caster, Coupling, Ground, Joint, MOST, MOST_CASTERS, Motor, Robot, Wheel};
+use serde::Deserialize;
+
+use crate::drive::{Drive, Measured};
+use crate::error::WheeledError;
+use crate::robot::{AnyWheels, Sigmas};
+use crate::settings::{Known, SETTINGS};
+
+const KNOWN: Known = SETTINGS.known;
+
+/// Robots that are there by name.
+pub const BUILT_IN: &[(&str, &str)] = &[
+    ("torque-tricycle", include_str!("../robots/torque-tricycle.toml")),
+    ("torque-car", include_str!("../robots/torque-car.toml")),
+    ("torque-omni-3", include_str!("../robots/torque-omni-3.toml")),
+    ("torque-mecanum-4", include_str!("../robots/torque-mecanum-4.toml")),
+    ("torque-six-wheel", include_str!("../robots/torque-six-wheel.toml")),
+];
+
+/// A robot with the columns in which its drives are recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotFile {
+    /// The robot.
+    pub robot: AnyWheels,
+    /// What it is, for people.
+    pub description: Option<String>,
+    /// Where its drives are recorded.
+    pub columns: Columns,
+}
+
+/// Columns of a drive.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    /// Column of the time.
+    pub time: String,
+    /// Seconds per unit of the time.
+    second: f64,
+    /// Columns of the motors' torques, with N m per unit of each.
+    pub torque: Vec<(String, f64)>,
+    /// Columns of the angles of joints.
+    pub joints: Vec<String>,
+    /// Columns of the measured wheels.
+    pub wheels: Vec<String>,
+    is_speed: bool,
+    /// Radians per unit of angles and yaw.
+    angle: f64,
+    /// Column of the yaw rate, rad/s.
+    pub gyro: Option<String>,
+    /// Columns of x, y and yaw.
+    pub pose: Option<[String; 3]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: String,
+    description: Option<String>,
+    kind: String,
+    mass: Number,
+    yaw_inertia: Number,
+    centre_of_mass: [f64; 3],
+    centre_of_mass_sigma: Option<f64>,
+    #[serde(rename = "centre_of_mass_source")]
+    _centre_of_mass_source: Option<String>,
+    wheel: Vec<WheelRow>,
+    #[serde(default)]
+    caster: Vec<CasterRow>,
+    motor: Vec<MotorRow>,
+    #[serde(default)]
+    joint: Vec<JointRow>,
+    #[serde(default)]
+    ground: GroundRow,
+    #[serde(default)]
+    known: KnownRow,
+    #[serde(default)]
+    point: PointRow,
+    columns: Option<ColumnNames>,
+}
+
+/// A number with its sigma and where it comes from.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Number {
+    value: f64,
+    sigma: Option<f64>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WheelRow {
+    name: String,
+    place: [f64; 2],
+    #[serde(default)]
+    direction_deg: f64,
+    /// 0 without rollers.
+    #[serde(default)]
+    roller_deg: f64,
+    radius: f64,
+    radius_sigma: Option<f64>,
+    inertia: f64,
+    motor: Option<String>,
+    steered_by: Option<String>,
+    column: Option<String>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CasterRow {
+    place: [f64; 2],
+    trail: f64,
+    #[serde(default)]
+    rolling_resistance: f64,
+    #[serde(default)]
+    pivot_friction: f64,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotorRow {
+    name: String,
+    column: String,
+    /// N m at the wheels per unit of the column: torque constant times gear where the column is a current.
+    #[serde(default = "one")]
+    torque_per_unit: f64,
+    #[serde(default)]
+    differential: bool,
+    #[serde(default)]
+    inertia: f64,
+    #[serde(default)]
+    lag: f64,
+    #[serde(default)]
+    coulomb: f64,
+    coulomb_sigma: Option<f64>,
+    #[serde(default)]
+    viscous: f64,
+    viscous_sigma: Option<f64>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JointRow {
+    name: String,
+    place: [f64; 2],
+    #[serde(default)]
+    unsteered_axle_x: f64,
+    column: String,
+    #[serde(default)]
+    lag: f64,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GroundRow {
+    adhesion: Option<f64>,
+    slip_at_peak: Option<f64>,
+    rolling_resistance: Option<f64>,
+    roller_drag: Option<f64>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+/// How well other numbers are known: one sigma.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KnownRow {
+    place_share: Option<f64>,
+    direction_deg: Option<f64>,
+    torque_share: Option<f64>,
+    lag: Option<f64>,
+    steering_deg: Option<f64>,
+    steering_share: Option<f64>,
+    rolling_resistance: Option<f64>,
+    slip_share: Option<f64>,
+    slope_deg: Option<f64>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PointRow {
+    #[serde(default)]
+    x: f64,
+    #[serde(default)]
+    y: f64,
+    #[serde(default)]
+    yaw_deg: f64,
+    sigma: Option<f64>,
+    yaw_sigma_deg: Option<f64>,
+    /// Read by people.
+    #[serde(rename = "source")]
+    _source: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColumnNames {
+    time: String,
+    time_unit: Option<String>,
+    wheels: Option<String>,
+    angle_unit: Option<String>,
+    gyro: Option<String>,
+    x: Option<String>,
+    y: Option<String>,
+    yaw: Option<String>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Place of a name in a list.
+fn place(names: &[String], name: Option<&String>, what: &str, of: &str) -> Result<Option<usize>, String> {
+    let Some(name) = name else { return Ok(None) };
+    let found = names.iter().position(|n| n == name);
+    found.map(Some).ok_or_else(|| {
+        format!(
+            "{of} names the {what} '{name}', which is not there; it has {}: correct the name, or add it",
+            names.join(", ")
+        )
+    })
+}
+
+impl RobotFile {
+    /// Whether a robot file is one of this kind.
+    pub fn is_one(text: &str) -> bool {
+        let is_named = |rest: &str| rest.contains("\"wheeled\"") || rest.contains("'wheeled'");
+        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
+    }
+
+    /// Reads a robot file.
+    ///
+    /// # Errors
+    /// Syntax, unknown keys, parts that are named and not there, and numbers that no robot can have, with what to do.
+    pub fn parse(file: &str, text: &str) -> Result<Self, WheeledError> {
+        let wrong = |what: String| WheeledError::Robot { robot: file.to_owned(), what };
+        let read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
+        if read.kind != "wheeled" {
+            return Err(wrong(format!(
+                "kind = \"{}\"; wheels, motors and joints belong to kind = \"wheeled\"",
+                read.kind
+            )));
+        }
+        let Some(names) = &read.columns else {
+            return Err(wrong("no [columns]; say at least which column holds the time".to_owned()));
+        };
+        let columns = columns(&read, names).map_err(wrong)?;
+        let robot = robot(&read).map_err(wrong)?;
+        robot.plant.checked().map_err(|e| wrong(e.to_string()))?;
+        Ok(Self { robot, description: read.description, columns })
+    }
+
+    /// A drive from a table with a line of column names; its name is that of the file. Empty cells were not measured.
+    ///
+    /// # Errors
+    /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
+    pub fn drive(&self, name: &str, table: &str, is_held_out: bool) -> Result<Drive, WheeledError> {
+        self.drive_of(name, &self.signals(name, table)?, is_held_out)
+    }
+
+    /// A drive from signals at instants of their own, as the messages of a bag have them.
+    ///
+    /// # Errors
+    /// Torques or angles that are missing, and what [`Drive::new`] refuses.
+    pub fn drive_of(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive, WheeledError> {
+        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
+        let scaled = |series: &Series, unit: f64| Series {
+            time: series.time.clone(),
+            value: series.value.iter().map(|x| x * unit).collect(),
+        };
+        let needed = |column: &String, unit: f64| {
+            let missing = || wrong(format!("'{column}' has no values; correct the columns of the robot file"));
+            signals.get(column).filter(|s| !s.time.is_empty()).map(|s| scaled(s, unit)).ok_or_else(missing)
+        };
+        let optional =
+            |column: &String, unit: f64| signals.get(column).map_or_else(Series::default, |s| scaled(s, unit));
+        let names = &self.columns;
+        let pose =
+            names.pose.as_ref().map(|[x, y, yaw]| [optional(x, 1.0), optional(y, 1.0), optional(yaw, names.angle)]);
+        let pose = pose.unwrap_or_default();
+        if pose[0].time != pose[1].time || pose[0].time != pose[2].time {
+            return Err(wrong("x, y and yaw are not measured at one time; take them of one topic".to_owned()));
+        }
+        let measured = Measured {
+            torque: names.torque.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
+            steering: names.joints.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?,
+            wheels: if is_held_out {
+                Vec::new()
+            } else {
+                names.wheels.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?
+            },
+            is_speed: names.is_speed,
+            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, 1.0)).unwrap_or_default(),
+            pose,
+        };
+        Drive::new(name, &self.robot, &measured, is_held_out)
+    }
+
+    fn signals(&self, name: &str, table: &str) -> Result<Signals, WheeledError> {
+        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
+        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
+        let Some(time_at) = header.iter().position(|h| h == self.columns.time) else {
+            let there: Vec<&str> = header.iter().collect();
+            let what = format!(
+                "no column '{}'; it has {}: correct [columns] of the robot file",
+                self.columns.time,
+                there.join(", ")
+            );
+            return Err(wrong(what));
+        };
+        let wanted: Vec<(usize, String)> =
+            self.names().filter_map(|n| header.iter().position(|h| h == n).map(|at| (at, n.to_owned()))).collect();
+        let mut out: Signals = BTreeMap::new();
+        let mut last = f64::NEG_INFINITY;
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
+            let number = |at: usize| {
+                let cell = record.get(at).unwrap_or("");
+                let column = header.get(at).unwrap_or("");
+                cell.parse::<f64>()
+                    .map_err(|_| wrong(format!("row {}, column '{column}': '{cell}' is no number", row + 1)))
+            };
+            let time = number(time_at)? * self.columns.second;
+            if !(time > last && time.is_finite()) {
+                let what = format!("time does not rise in row {}; sort the rows, or remove repeated ones", row + 1);
+                return Err(wrong(what));
+            }
+            last = time;
+            for (at, column) in &wanted {
+                if !record.get(*at).unwrap_or("").is_empty() {
+                    let series = out.entry(column.clone()).or_default();
+                    series.time.push(time);
+                    series.value.push(number(*at)?);
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// All columns but that of the time.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        let names = &self.columns;
+        let inputs = names.torque.iter().map(|(c, _)| c).chain(&names.joints);
+        inputs.chain(&names.wheels).chain(&names.gyro).chain(names.pose.iter().flatten()).map(String::as_str)
+    }
+}
+
+fn columns(read: &File, names: &ColumnNames) -> Result<Columns, String> {
+    let pose = match (&names.x, &names.y, &names.yaw) {
+        (Some(x), Some(y), Some(yaw)) => Some([x, y, yaw].map(Clone::clone)),
+        (None, None, None) => None,
+        _ => return Err("[columns] names a part of the pose; give x, y and yaw, or none of them".to_owned()),
+    };
+    let wheels: Vec<String> = read.wheel.iter().filter_map(|w| w.column.clone()).collect();
+    if wheels.is_empty() && pose.is_none() {
+        return Err(
+            "there is neither a wheel with a column nor a pose in [columns]; name the column of one, so that there is \
+                    something to compare the torques with"
+                .to_owned(),
+        );
+    }
+    let is_speed = match (names.wheels.as_deref(), wheels.is_empty()) {
+        (Some("speed"), _) | (None, true) => true,
+        (Some("angle"), _) => false,
+        (Some(other), _) => return Err(format!("[columns] wheels = \"{other}\"; write speed or angle")),
+        (None, false) => return Err("[columns] has no wheels; write wheels = \"speed\" or \"angle\"".to_owned()),
+    };
+    let angle = match names.angle_unit.as_deref() {
+        None | Some("rad") => 1.0,
+        Some("deg") => 1.0_f64.to_radians(),
+        Some(other) => return Err(format!("angle_unit = \"{other}\"; write rad or deg")),
+    };
+    Ok(Columns {
+        time: names.time.clone(),
+        second: seconds_in(names.time_unit.as_deref())?,
+        torque: read.motor.iter().map(|m| (m.column.clone(), m.torque_per_unit)).collect(),
+        joints: read.joint.iter().map(|j| j.column.clone()).collect(),
+        wheels,
+        is_speed,
+        angle,
+        gyro: names.gyro.clone(),
+        pose,
+    })
+}
+
+fn robot(read: &File) -> Result<AnyWheels, String> {
+    let names = |all: Vec<&String>, what: &str, most: usize| -> Result<Vec<String>, String> {
+        if all.len() > most {
+            return Err(format!(
+                "{} {what}s, but a robot has {most} at most; leave out those that carry nothing",
+                all.len()
+            ));
+        }
+        let twice = all.iter().enumerate().find(|(k, name)| all[..*k].contains(name));
+        match twice {
+            Some((_, name)) => Err(format!("{what} '{name}': two {what}s have this name; give each its own")),
+            None => Ok(all.into_iter().cloned().collect()),
+        }
+    };
+    let wheels = names(read.wheel.iter().map(|w| &w.name).collect(), "wheel", MOST)?;
+    let motors = names(read.motor.iter().map(|m| &m.name).collect(), "motor", MOST)?;
+    let joints = names(read.joint.iter().map(|j| &j.name).collect(), "joint", MOST)?;
+    if read.caster.len() > MOST_CASTERS {
+        return Err(format!("{} casters, but a robot has {MOST_CASTERS} at most", read.caster.len()));
+    }
+
+    let mut plant = Robot {
+        mass: read.mass.value,
+        yaw_inertia: read.yaw_inertia.value,
+        com: read.centre_of_mass,
+        wheels: [None; MOST],
+        casters: [None; MOST_CASTERS],
+        motors: [None; MOST],
+        joints: [None; MOST],
+        ground: ground(&read.ground),
+    };
+    for (to, row) in plant.wheels.iter_mut().zip(&read.wheel) {
+        let of = format!("wheel '{}'", row.name);
+        *to = Some(Wheel {
+            place: row.place,
+            direction: row.direction_deg.to_radians(),
+            roller: (row.roller_deg != 0.0).then(|| row.roller_deg.to_radians()),
+            radius: row.radius,
+            inertia: row.inertia,
+            motor: place(&motors, row.motor.as_ref(), "motor", &of)?,
+            joint: place(&joints, row.steered_by.as_ref(), "joint", &of)?,
+        });
+    }
+    for (k, row) in read.motor.iter().enumerate() {
+        if read.wheel.iter().all(|w| w.motor.as_ref() != Some(&row.name)) {
+            return Err(format!("motor '{}' turns no wheel; write motor = \"{}\" at its wheels", row.name, row.name));
+        }
+        let coupling = if row.differential { Coupling::Differential } else { Coupling::Rigid };
+        plant.motors[k] = Some(Motor {
+            coupling,
+            inertia: row.inertia,
+            gain: 1.0,
+            lag: row.lag,
+            coulomb: row.coulomb,
+            viscous: row.viscous,
+        });
+    }
+    for (to, row) in plant.casters.iter_mut().zip(&read.caster) {
+        *to = Some(Caster {
+            pivot: row.place,
+            trail: row.trail,
+            rolling: row.rolling_resistance,
+            pivot_friction: row.pivot_friction,
+        });
+    }
+    for (to, row) in plant.joints.iter_mut().zip(&read.joint) {
+        if row.unsteered_axle_x == row.place[0] {
+            return Err(format!(
+                "joint '{}': unsteered_axle_x is that of the joint itself; give x of an axle that does not steer, or any other x \
+                 where each steered wheel has its own joint",
+                row.name
+            ));
+        }
+        *to = Some(Joint { place: row.place, about: row.unsteered_axle_x, offset: 0.0, gain: 1.0, lag: row.lag });
+    }
+    let mut out = AnyWheels {
+        name: read.name.clone(),
+        plant,
+        wheels,
+        motors,
+        joints,
+        measured: read.wheel.iter().enumerate().filter(|(_, w)| w.column.is_some()).map(|(k, _)| k).collect(),
+        point: [read.point.x, read.point.y, read.point.yaw_deg.to_radians()],
+        sigmas: usual_sigmas(read.wheel.len()),
+    };
+    out.sigmas = sigmas(read, &out)?;
+    Ok(out)
+}
+
+fn ground(row: &GroundRow) -> Ground<f64> {
+    let usual = Ground::usual();
+    Ground {
+        adhesion: row.adhesion.unwrap_or(usual.adhesion),
+        slip_at_peak: row.slip_at_peak.unwrap_or(usual.slip_at_peak),
+        rolling: row.rolling_resistance.unwrap_or(usual.rolling),
+        roller_drag: row.roller_drag.unwrap_or(usual.roller_drag),
+        ..usual
+    }
+}
+
+fn usual_sigmas(wheels: usize) -> Sigmas {
+    Sigmas {
+        mass: KNOWN.mass,
+        com: KNOWN.com,
+        yaw_inertia: KNOWN.yaw_inertia,
+        radius: vec![KNOWN.radius; wheels],
+        place: KNOWN.place,
+        direction: KNOWN.direction,
+        coulomb: Vec::new(),
+        viscous: Vec::new(),
+        gain: KNOWN.gain,
+        lag: KNOWN.lag,
+        steering: KNOWN.steering,
+        steering_gain: KNOWN.steering_gain,
+        rolling: KNOWN.rolling,
+        caster_rolling: KNOWN.caster_rolling,
+        slip: KNOWN.slip,
+        slope: KNOWN.slope,
+        pose_direction: KNOWN.pose_direction,
+        pose_origin: KNOWN.pose_origin,
+    }
+}
+
+/// What the owner states of how well the robot is known, or what is usual.
+fn sigmas(read: &File, robot: &AnyWheels) -> Result<Sigmas, String> {
+    let usual = usual_sigmas(read.wheel.len());
+    let above = |name: &str, stated: Option<f64>, unit: f64, usual: f64| match stated {
+        Some(sigma) if sigma.is_nan() || sigma <= 0.0 => Err(format!(
+            "{name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
+        )),
+        Some(sigma) => Ok(sigma * unit),
+        None => Ok(usual),
+    };
+    let (known, degree) = (&read.known, 1.0_f64.to_radians());
+    let motors = |of: &dyn Fn(&MotorRow) -> Option<f64>, name: &str, scale: f64| {
+        read.motor.iter().map(|m| above(name, of(m), 1.0, KNOWN.friction * scale)).collect::<Result<Vec<f64>, String>>()
+    };
+    Ok(Sigmas {
+        mass: above("sigma of mass", read.mass.sigma, 1.0 / read.mass.value, usual.mass)?,
+        com: above("centre_of_mass_sigma", read.centre_of_mass_sigma, 1.0, KNOWN.com * robot.size())?,
+        yaw_inertia: above(
+            "sigma of yaw_inertia",
+            read.yaw_inertia.sigma,
+            1.0 / read.yaw_inertia.value,
+            usual.yaw_inertia,
+        )?,
+        radius: read
+            .wheel
+            .iter()
+            .map(|w| above("radius_sigma", w.radius_sigma, 1.0 / w.radius, KNOWN.radius))
+            .collect::<Result<_, _>>()?,
+        place: above("place_share of [known]", known.place_share, 1.0, usual.place)?,
+        direction: above("direction_deg of [known]", known.direction_deg, degree, usual.direction)?,
+        coulomb: motors(&|m| m.coulomb_sigma, "coulomb_sigma", robot.torque_scale())?,
+        viscous: motors(&|m| m.viscous_sigma, "viscous_sigma", robot.viscous_scale())?,
+        gain: above("torque_share of [known]", known.torque_share, 1.0, usual.gain)?,
+        lag: above("lag of [known]", known.lag, 1.0, usual.lag)?,
+        steering: above("steering_deg of [known]", known.steering_deg, degree, usual.steering)?,
+        steering_gain: above("steering_share of [known]", known.steering_share, 1.0, usual.steering_gain)?,
+        rolling: above("rolling_resistance of [known]", known.rolling_resistance, 1.0, usual.rolling)?,
+        slip: above("slip_share of [known]", known.slip_share, 1.0, usual.slip)?,
+        slope: above("slope_deg of [known]", known.slope_deg, degree, usual.slope)?,
+        pose_direction: above("yaw_sigma_deg of [point]", read.point.yaw_sigma_deg, degree, usual.pose_direction)?,
+        pose_origin: above("sigma of [point]", read.point.sigma, 1.0, usual.pose_origin)?,
+        ..usual
+    })
+}

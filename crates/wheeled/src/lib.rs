@@ -1,0 +1,38 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Files
+//!
+//! * `robot`, `constants`: a robot as its owner states it, and the constants on which its motion and its reports depend.
+//! * `drive`: torques, steering, wheels, gyro and pose of a drive on one grid.
+//! * `model`: the plant at values of the constants, and runs of it.
+//! * `rows`: windows of the motion against the model, several values of the constants side by side.
+//! * `diagnose`, `left_out`, `answer`: a case in, findings out, forecasts of what is left out, and findings as a verdict in
+//!   sentences.
+//! * `file`: robot files of this kind, and drives from tables and from the messages of bags.
+//! * `settings`: every tuned number.
+
+mod answer;
+mod constants;
+mod diagnose;
+mod drive;
+mod error;
+pub mod file;
+mod left_out;
+mod model;
+mod robot;
+mod rows;
+mod settings;
+
+pub use answer::diagnosis;
+pub use constants::{Constant, Quantity, constants};
+pub use diagnose::{Case, Findings, diagnose, examine};
+pub use drive::{Drive, Measured};
+pub use error::WheeledError;
+pub use hierarchical_fit::{Answer, Estimate, NamedCause};
+pub use left_out::{LENGTHS, Medians, Table};
+pub use robot::{AnyWheels, Sigmas};
+
+/// Every tuned number of this crate, for the page of settings.
+pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {
+    settings::Settings::ALL.iter()
+}

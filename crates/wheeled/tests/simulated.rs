@@ -1,0 +1,62 @@
+//! Robots of several kinds of which something is changed: it is named with its size, and nothing else is.
+
+mod drawn;
+
+use drawn::{With, case};
+use robot_model::wheels::Robot;
+use wheeled::{Answer, diagnose, diagnosis, examine};
+
+#[test]
+fn nothing_is_missing_of_a_robot_as_stated() {
+    for (name, with) in
+        [("torque-tricycle", With::Gyro), ("torque-six-wheel", With::Pose), ("torque-omni-3", With::Gyro)]
+    {
+        let out = diagnose(&case(name, with, |_| {}), &|_| {}).expect("findings");
+        assert!(out.named.is_empty() && out.answer != Answer::Unknown, "{name}: {:?} {:?}", out.answer, out.named);
+        assert!(out.shares[0] < 0.02, "{name}: {:?}", out.shares);
+    }
+}
+
+#[test]
+fn what_is_changed_is_named_with_its_size() {
+    type Change = fn(&mut Robot<f64>);
+    let cases: [(&str, With, &str, f64, Change); 4] = [
+        ("torque-tricycle", With::Pose, "rolling_drag", 0.05, |r| r.ground.rolling = 0.05),
+        ("torque-car", With::Pose, "radius_of_one_wheel (rear left)", 0.092, |r| {
+            r.wheels[2].iter_mut().for_each(|w| w.radius = 0.092);
+        }),
+        ("torque-omni-3", With::Gyro, "motor_torque_scale (motor 2)", 0.75, |r| {
+            r.motors[1].iter_mut().for_each(|m| m.gain = 0.75);
+        }),
+        ("torque-mecanum-4", With::Pose, "roller_drag", 0.06, |r| r.ground.roller_drag = 0.06),
+    ];
+    for (name, with, cause, size, change) in cases {
+        let out = diagnose(&case(name, with, change), &|_| {}).expect("findings");
+        let labels: Vec<&str> = out.named.iter().map(|c| c.label.as_str()).collect();
+        assert_eq!((out.answer, labels.as_slice()), (Answer::Named, [cause].as_slice()), "{name}");
+        let estimate = &out.named[0].estimates[0];
+        let off = (estimate.value - size).abs();
+        assert!(off < 1.5 * estimate.half_width && estimate.half_width < 0.2 * size, "{cause}: {estimate:?}");
+    }
+}
+
+#[test]
+fn drives_that_are_left_out_are_forecast_and_the_verdict_says_by_how_much() {
+    let case = case("torque-tricycle", With::Pose, |r| r.mass += 20.0);
+    let (findings, table) = examine(&case, &|_| {}).expect("findings");
+    let told = diagnosis(&findings, &table, false);
+    // A mass and a torque constant differ only by what resists.
+    let class: Vec<&str> = told.indistinguishable.iter().flatten().map(String::as_str).collect();
+    assert!(class.contains(&"body_mass") && class.contains(&"motor_torque_scale"), "{:#?}", told.sentences);
+    let after = |name: &str| {
+        let row = table.rows.iter().find(|(n, _)| n == name).expect("a row");
+        row.1[2].expect("forecasts")[0]
+    };
+    assert!(after("corrected") < 0.3 * after("as stated"), "{:?}", table.rows);
+    assert!(after("corrected") < 0.5 * after("constant twist"), "{:?}", table.rows);
+    assert!(told.free_runs.iter().any(|run| run.quantity.contains("from torques alone")));
+    assert!(table.traces.iter().all(|trace| trace.left_out) && !table.traces.is_empty());
+
+    let predicted = findings.predict(&case.recordings[0]);
+    assert!(predicted.corrected.iter().all(|p| p.iter().all(|x| x.is_finite())), "from the first pose on");
+}
