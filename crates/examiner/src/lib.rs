@@ -15,6 +15,7 @@
 //! * `command`: command-driven cases, with a controller, wheels and a ground of their own.
 //! * `rolling`: wheel counts beside a pose or a gyro alone, of robots with two, three and four wheels, steered and omnidirectional.
 //! * `speed`: speed-driven cases, with a law of steady torques, sensors and events of their own.
+//! * `wheeled`: robots of any wheels under torque, with a controller, brush tyres and casters of their own.
 //! * `csv`, `truth`: the files of a case, and what was hidden, for the scorer.
 //! * `random`: random numbers fixed by a path of keys; `error`: what can go wrong.
 
@@ -49,6 +50,7 @@ pub mod speed;
 mod truth;
 mod turns;
 mod tyre;
+pub mod wheeled;
 mod wide;
 
 pub use case::{Again, Case, DrawnCase};

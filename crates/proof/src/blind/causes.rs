@@ -1,7 +1,6 @@
 //! Answers that name causes, against what was hidden: the rows, figures and tables of kinds whose cases hide things by name.
 
-use examiner::rolling::Chassis;
-use examiner::{car, command, rolling};
+use examiner::{car, command, rolling, wheeled};
 use serde::Serialize;
 
 use super::drawn::{List, intervals};
@@ -27,7 +26,7 @@ macro_rules! hidden {
         })*
     };
 }
-hidden!(command::Hidden, rolling::Hidden, car::CarHidden);
+hidden!(command::Hidden, rolling::Hidden, car::CarHidden, wheeled::WheeledHidden);
 
 /// What came of a case.
 #[derive(Debug, Clone, Serialize)]
@@ -35,7 +34,7 @@ pub(in crate::blind) struct Row<H> {
     pub(super) case: String,
     /// Kind of the robot, where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) chassis: Option<Chassis>,
+    pub(super) robot: Option<&'static str>,
     pub(super) hidden: Vec<H>,
     /// As the verdict says it; "refused" without one.
     pub(super) verdict: String,
@@ -89,12 +88,18 @@ pub(super) fn figures<H: Hidden>(rows: &[Row<H>], asks: &Asks) -> Vec<Figure> {
     list.share(asks.named, Some(AtLeast(0.95)), hidden().flat_map(|r| r.found.iter().copied()));
     list.share("something hidden: a cause is invented", Some(AtMost(0.05)), hidden().map(|r| !r.invented.is_empty()));
     list.share("something hidden: called unknown", None, hidden().map(|r| r.verdict == "unknown"));
-    for chassis in Chassis::ALL {
-        let of = || hidden().filter(move |r| r.chassis == Some(chassis));
+    let mut robots: Vec<&str> = Vec::new();
+    for robot in rows.iter().filter_map(|r| r.robot) {
+        if !robots.contains(&robot) {
+            robots.push(robot);
+        }
+    }
+    for robot in robots {
+        let of = || hidden().filter(move |r| r.robot == Some(robot));
         let found = of().flat_map(|r| r.found.iter().copied());
-        list.share(&format!("{}: named", chassis.name()), Some(AtLeast(0.95)), found);
+        list.share(&format!("{robot}: named"), Some(AtLeast(0.95)), found);
         let invented = of().map(|r| !r.invented.is_empty());
-        list.share(&format!("{}: a cause is invented", chassis.name()), None, invented);
+        list.share(&format!("{robot}: a cause is invented"), None, invented);
     }
     for kind in H::ALL {
         let of = hidden().flat_map(|r| r.hidden.iter().zip(&r.found).filter(|(h, _)| *h == kind));
@@ -114,7 +119,7 @@ pub(super) fn figures<H: Hidden>(rows: &[Row<H>], asks: &Asks) -> Vec<Figure> {
 /// Intervals by number, and every case that is not right.
 pub(super) fn tables<H: Hidden>(rows: &[Row<H>]) -> Vec<Section> {
     let numbers = intervals(rows.iter().flat_map(|r| &r.errors));
-    let has_robots = rows.iter().any(|r| r.chassis.is_some());
+    let has_robots = rows.iter().any(|r| r.robot.is_some());
     let mut head = vec!["case", "hidden", "verdict", "named"];
     if has_robots {
         head.insert(1, "robot");
@@ -129,7 +134,7 @@ pub(super) fn tables<H: Hidden>(rows: &[Row<H>]) -> Vec<Section> {
         let hidden = if hidden.is_empty() { "nothing".to_owned() } else { hidden.join(", ") };
         let mut cells = vec![r.case.clone(), hidden, r.verdict.clone(), r.named.join(", ")];
         if has_robots {
-            cells.insert(1, r.chassis.map_or("", Chassis::name).to_owned());
+            cells.insert(1, r.robot.unwrap_or_default().to_owned());
         }
         wrong.rows.push(cells.into_iter().map(Into::into).collect());
     }

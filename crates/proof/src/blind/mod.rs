@@ -33,6 +33,7 @@ mod speed;
 mod tables;
 mod totals;
 pub(crate) mod truth;
+mod wheeled;
 mod wide;
 mod write;
 
@@ -96,6 +97,8 @@ enum Kind {
     Gyro,
     /// Throttle, steering command and a pose of a car are given.
     Car,
+    /// Torques of a robot of any wheels are given, with wheel speeds, a gyro and a pose.
+    Wheeled,
     /// So many of each kind, one after the other.
     All,
 }
@@ -145,6 +148,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling<rolling::Pose>>(&of(out)));
     let gyro = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling<rolling::Gyro>>(&of(out)));
     let car = |out: PathBuf| pool.install(|| drawn::run::<car::Cars>(&of(out)));
+    let wheeled = |out: PathBuf| pool.install(|| drawn::run::<wheeled::AnyWheels>(&of(out)));
     match args.kind {
         Kind::Torque => torque(args, out("blind")?, &pool),
         Kind::Speed => speed(out("blind-speed")?),
@@ -152,6 +156,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         Kind::Odometry => rolling(out("blind-odometry")?),
         Kind::Gyro => gyro(out("blind-gyro")?),
         Kind::Car => car(out("blind-car")?),
+        Kind::Wheeled => wheeled(out("blind-wheeled")?),
         Kind::All => {
             let folder = out("blind-all")?;
             let kinds = [
@@ -161,6 +166,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
                 rolling(folder.join("odometry"))?,
                 gyro(folder.join("gyro"))?,
                 car(folder.join("car"))?,
+                wheeled(folder.join("wheeled"))?,
             ];
             Ok(kinds.into_iter().all(|met| met))
         }

@@ -76,7 +76,7 @@ pub(super) fn row(truth: &CarTruth, d: &Value, processor_seconds: Option<f64>) -
     };
     Row {
         case: truth.case.clone(),
-        chassis: None,
+        robot: None,
         hidden: truth.hidden.clone(),
         verdict: said.verdict(),
         headline: said.headline(),

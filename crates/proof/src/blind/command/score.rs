@@ -46,7 +46,7 @@ pub(super) fn row(truth: &CommandTruth, d: &Value, processor_seconds: Option<f64
         .find(|f| f["quantity"].as_str().is_some_and(|q| q.starts_with("position (rms)")));
     Row {
         case: truth.case.clone(),
-        chassis: None,
+        robot: None,
         hidden: truth.hidden.clone(),
         verdict: d["verdict"].as_str().unwrap_or("refused").to_owned(),
         headline: list(d, &["sentences"]).first().map(text).unwrap_or_default(),

@@ -70,7 +70,7 @@ pub(super) fn row(truth: &RollingTruth, d: &Value, forecast: &str, processor_sec
     };
     Row {
         case: truth.case.clone(),
-        chassis: Some(truth.chassis),
+        robot: Some(truth.chassis.name()),
         hidden: truth.hidden.clone(),
         verdict: said.verdict(),
         headline: said.headline(),
