@@ -119,6 +119,18 @@ pub const TYRE_STIFFNESS: CauseSpec = cause(
     ],
 );
 
+/// Grip of the ground.
+pub const GROUND_GRIP: CauseSpec = cause(
+    ["ground_grip", "another grip of the ground"],
+    "The ground holds wheels that skid in turns by more, or less, than stated: carpet for concrete, wet for dry.",
+    ["friction coefficient", "-"],
+    [
+        "Turns of a robot whose wheels skid take more torque, or less, and straight lines do not",
+        "turns on the spot and in motion, to both sides",
+        "wheel_distance and body_yaw_inertia in turns of one sort",
+    ],
+);
+
 /// A slope.
 pub const GROUND_SLOPE: CauseSpec = cause(
     ["ground_slope", "the ground is a slope"],
@@ -180,7 +192,7 @@ pub const WHEEL_DIRECTION: CauseSpec = cause(
 );
 
 /// All of them, from the motor to the ground.
-pub const ALL: [&CauseSpec; 14] = [
+pub const ALL: [&CauseSpec; 15] = [
     &MOTOR_TORQUE_SCALE,
     &MOTOR_TORQUE_LAG,
     &MOTOR_DRY_FRICTION,
@@ -190,6 +202,7 @@ pub const ALL: [&CauseSpec; 14] = [
     &BODY_YAW_INERTIA,
     &WHEEL_DIRECTION,
     &TYRE_STIFFNESS,
+    &GROUND_GRIP,
     &ROLLING_DRAG,
     &ROLLER_DRAG,
     &CASTER_ROLLING_DRAG,

@@ -50,6 +50,9 @@ pub trait Observed: Clone + Send + Sync {
     /// Least sigmas of errors, by kind.
     const FLOOR: [f64; 3];
 
+    /// Remaining error over the motion, beyond which fits begin from where every cause is free, too.
+    const NEAR: f64;
+
     /// Its rows.
     fn rows(&self) -> &[Row];
 

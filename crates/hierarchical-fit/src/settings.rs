@@ -57,8 +57,6 @@
             "edges of encoders, diameters for radii, turns for radians";
         /// Sigmas by which a constant has to move to be told as re-tuned.
         moved: f64 = 0.5, "1", "guess";
-        /// Remaining error of windows over their way, beyond which fits begin from another place, too.
-        near_share: f64 = 0.04, "1", "guess; twice what a good answer leaves";
         /// Fits with what was named before, at most.
         rounds: usize = 4, "1", "guess; two are usual";
         /// Named causes for which fits with others in their place are tried: those that the data would miss most.

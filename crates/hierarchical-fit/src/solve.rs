@@ -66,7 +66,7 @@ impl<D: Observed> Solved<D> {
 fn answered<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Answered, Fit)> {
     let retuned = fit(data, prior, start.clone())?;
     let near = settled(data, prior, causes, retuned.clone())?;
-    let best = if data.share(&near.fit.theta) > SETTINGS.naming.near_share {
+    let best = if data.share(&near.fit.theta) > D::NEAR {
         let every: Vec<usize> = (0..causes.len()).collect();
         let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
         let far = settled(data, prior, causes, fit(data, &wide, start)?)?;

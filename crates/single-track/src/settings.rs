@@ -82,6 +82,8 @@
         floor: [f64; 3] = [1e-3, 5e-3, 5e-3], "m; rad/s; m/s", "guess; good motion capture, noise of small sensors";
         /// Way in a window, or speed, below which the car stands.
         moving: f64 = 0.05, "m; m/s", "guess";
+        /// Remaining error of windows over their way, beyond which fits begin from another place, too.
+        near: f64 = 0.04, "1", "guess; twice what a good answer leaves";
         /// Windows in motion below which nothing is fitted.
         least: usize = 8, "1", "guess";
         /// Step of finite differences, shares of a cause's usual size.

@@ -16,6 +16,7 @@ impl Observed for Shown<'_> {
     type Model = Vec<Constant>;
 
     const FLOOR: [f64; 3] = SETTINGS.windows.floor;
+    const NEAR: f64 = SETTINGS.windows.near;
 
     fn rows(&self) -> &[Row] {
         &self.rows

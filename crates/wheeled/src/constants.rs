@@ -5,7 +5,7 @@ use catalogue::{CauseSpec, wheeled as spec};
 use hierarchical_fit::{Cause, Spread};
 
 use crate::robot::AnyWheels;
-use crate::settings::SETTINGS;
+use crate::settings::{Form, SETTINGS};
 
 /// What a constant is; numbers are places in the lists of wheels, motors and joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +27,7 @@ pub enum Quantity {
     SteeringZero(usize),
     SteeringGain(usize),
     Slip,
+    Grip,
     Rolling,
     RollerDrag,
     CasterRolling,
@@ -154,6 +155,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         &spec::BODY_YAW_INERTIA,
     );
 
+    let form = if robot.skids() { SETTINGS.form } else { Form { skidding_place: 0.0, skidding_direction: 0.0 } };
     let wheels: Vec<_> = plant.wheels.iter().flatten().zip(&robot.wheels).enumerate().collect();
     for &(k, (wheel, name)) in &wheels {
         if wheel.motor.is_some() || robot.measured.contains(&k) {
@@ -167,7 +169,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
         if wheel.joint.is_none() && wheel.roller.is_none() {
-            let direction = [sigmas.direction, usual.direction, scatter.direction];
+            let direction = [sigmas.direction.hypot(form.skidding_direction), usual.direction, scatter.direction];
             add(
                 Q::Direction(k),
                 ("direction", Some(name), "rad"),
@@ -177,7 +179,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
     }
-    let places = [sigmas.place, usual.place, scatter.geometry];
+    let places = [sigmas.place.hypot(form.skidding_place), usual.place, scatter.geometry];
     for (axis, quantity, name) in [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along it")] {
         if plant.wheels.iter().flatten().any(|w| w.place[axis] != 0.0) {
             add(quantity, (name, None, "1"), (1.0, true, any), places, &odo::WHEEL_DISTANCE);
@@ -205,6 +207,17 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         slip,
         &spec::TYRE_STIFFNESS,
     );
+    // Of wheels that roll, grip and slip at the largest force are one stiffness.
+    if robot.skids() {
+        let grip = [sigmas.grip, usual.grip, scatter.grip];
+        add(
+            Q::Grip,
+            ("friction coefficient of the ground", None, "1"),
+            (ground.adhesion, true, any),
+            grip,
+            &spec::GROUND_GRIP,
+        );
+    }
     let rolling = [sigmas.rolling, usual.rolling, scatter.rolling];
     add(Q::Rolling, ("rolling resistance", None, "1"), (ground.rolling, false, 0.0), rolling, &spec::ROLLING_DRAG);
     if wheels.iter().any(|(_, (w, _))| w.roller.is_some()) {
@@ -315,6 +328,13 @@ impl AnyWheels {
     pub(crate) fn viscous_scale(&self) -> f64 {
         let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(f64::INFINITY, f64::min);
         self.torque_scale() * radius / SETTINGS.known.pace
+    }
+
+    /// Whether fixed wheels without rollers stand behind each other: turning then makes them skid.
+    pub(crate) fn skids(&self) -> bool {
+        let is_fixed = |w: &&robot_model::wheels::Wheel<f64>| w.joint.is_none() && w.roller.is_none();
+        let along = || self.plant.wheels.iter().flatten().filter(is_fixed).map(|w| w.place[0]);
+        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min) > SETTINGS.known.com * self.size()
     }
 
     /// Longest distance between two contacts, m.

@@ -192,6 +192,7 @@ struct KnownRow {
     steering_share: Option<f64>,
     rolling_resistance: Option<f64>,
     slip_share: Option<f64>,
+    adhesion_share: Option<f64>,
     slope_deg: Option<f64>,
     /// Read by people.
     #[serde(rename = "source")]
@@ -523,6 +524,7 @@ fn usual_sigmas(wheels: usize) -> Sigmas {
         rolling: KNOWN.rolling,
         caster_rolling: KNOWN.caster_rolling,
         slip: KNOWN.slip,
+        grip: KNOWN.grip,
         slope: KNOWN.slope,
         pose_direction: KNOWN.pose_direction,
         pose_origin: KNOWN.pose_origin,
@@ -567,6 +569,7 @@ fn sigmas(read: &File, robot: &AnyWheels) -> Result<Sigmas, String> {
         steering_gain: above("steering_share of [known]", known.steering_share, 1.0, usual.steering_gain)?,
         rolling: above("rolling_resistance of [known]", known.rolling_resistance, 1.0, usual.rolling)?,
         slip: above("slip_share of [known]", known.slip_share, 1.0, usual.slip)?,
+        grip: above("adhesion_share of [known]", known.adhesion_share, 1.0, usual.grip)?,
         slope: above("slope_deg of [known]", known.slope_deg, degree, usual.slope)?,
         pose_direction: above("yaw_sigma_deg of [point]", read.point.yaw_sigma_deg, degree, usual.pose_direction)?,
         pose_origin: above("sigma of [point]", read.point.sigma, 1.0, usual.pose_origin)?,

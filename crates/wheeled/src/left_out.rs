@@ -187,7 +187,7 @@ fn free_runs(model: &Constants, theta: &[f64], drive: &Drive, (starts, longest):
     out
 }
 
-/// The tracked pose of a drive at each step from torques and steering alone.
+/// The tracked pose of a drive at each step from torques and steering alone; as it was seen before a velocity was known.
 pub(crate) fn predicted(model: &Constants, theta: &[f64], drive: &Drive) -> Vec<[f64; 3]> {
     let known = |step: usize| end(&drive.pose, step, RULES.past, STEP).is_some();
     let seen = |step: usize| drive.pose.get(step).is_some_and(|p| p[0].is_finite());
@@ -199,5 +199,7 @@ pub(crate) fn predicted(model: &Constants, theta: &[f64], drive: &Drive) -> Vec<
     if starts.is_empty() {
         starts.push(0);
     }
-    free_runs(model, theta, drive, (&starts, drive.steps))
+    let mut out = free_runs(model, theta, drive, (&starts, drive.steps));
+    out[..starts[0]].copy_from_slice(&drive.pose[..starts[0]]);
+    out
 }

@@ -18,12 +18,14 @@ pub(crate) trait PerLane: Scalar {
 }
 
 impl PerLane for f64 {
+    #[inline(always)]
     fn per_lane(self, of: impl Fn(f64) -> f64) -> Self {
         of(self)
     }
 }
 
 impl PerLane for Lanes<LANES> {
+    #[inline(always)]
     fn per_lane(self, of: impl Fn(f64) -> f64) -> Self {
         Self(self.0.map(of))
     }
@@ -71,6 +73,7 @@ impl<T: PerLane> Model<T> {
                 Q::SteeringZero(k) => r.joints[k].iter_mut().for_each(|j| j.offset = value),
                 Q::SteeringGain(k) => r.joints[k].iter_mut().for_each(|j| j.gain = value),
                 Q::Slip => r.ground.slip_at_peak = value,
+                Q::Grip => r.ground.adhesion = value,
                 Q::Rolling => r.ground.rolling = value,
                 Q::RollerDrag => r.ground.roller_drag = value,
                 Q::CasterRolling => r.casters.iter_mut().flatten().for_each(|c| c.rolling = value),
@@ -100,6 +103,7 @@ impl<T: PerLane> Model<T> {
     }
 
     /// Torques and steering angles over a step of the grid.
+    #[inline(always)]
     fn inputs(&self, drive: &Drive, step: usize) -> [[T; MOST]; 2] {
         let mut out = [[T::zero(); MOST]; 2];
         let time = STEP * step as f64;
@@ -192,6 +196,7 @@ impl<T: PerLane> Model<T> {
     }
 
     /// Runs over steps of the grid, and gives the state after each.
+    #[inline(always)]
     pub(crate) fn run(
         &self,
         mut s: State<T>,

@@ -35,6 +35,8 @@ pub struct Sigmas {
     pub caster_rolling: f64,
     /// Slip at the peak, relative.
     pub slip: f64,
+    /// Friction coefficient of the ground, relative.
+    pub grip: f64,
     /// Slope, rad.
     pub slope: f64,
     /// Direction of the tracked axes, rad.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use hierarchical_fit::{Data, Kind, Observed, Row};
 use odometry::rates::slope;
+use pulp::NullaryFnOnce;
 use robot_model::{Lanes, real};
 
 use crate::constants::{Constant, Has, constants};
@@ -86,6 +87,7 @@ impl<'a> Shown<'a> {
     }
 
     /// Errors of all rows at one value of the constants in each lane.
+    #[inline(always)]
     fn errors_of<T: PerLane>(&self, model: &Constants, theta: &[T]) -> Vec<T> {
         let robot = model.robot.as_ref();
         let at = Model::at(robot, &model.all, theta);
@@ -150,10 +152,27 @@ fn pose_error<T: PerLane>([x, y, turned]: [T; 3], begun: [f64; 3], measured: [f6
     [d[0] * cos + d[1] * sin, d[1] * cos - d[0] * sin, turn * real(RULES.lever)]
 }
 
+/// Errors of several values of the constants, which [`pulp`] compiles once for each vector unit.
+struct Vectorised<'s, 'a> {
+    shown: &'s Shown<'a>,
+    model: &'s Constants,
+    values: &'s [Lanes<LANES>],
+}
+
+impl NullaryFnOnce for Vectorised<'_, '_> {
+    type Output = Vec<Lanes<LANES>>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.shown.errors_of(self.model, self.values)
+    }
+}
+
 impl Observed for Shown<'_> {
     type Model = Constants;
 
     const FLOOR: [f64; 3] = RULES.floor;
+    const NEAR: f64 = RULES.near;
 
     fn rows(&self) -> &[Row] {
         &self.rows
@@ -166,20 +185,18 @@ impl Observed for Shown<'_> {
     fn columns(&self, model: &Constants, theta: &[f64]) -> Vec<Vec<f64>> {
         let step = |k: usize| RULES.difference * model.all[k].spread.usual;
         let mut out = Vec::with_capacity(theta.len());
-        // Below and above for each constant, as many constants at once as there are lanes for.
-        let pairs = LANES / 2;
-        for first in (0..theta.len()).step_by(pairs) {
+        // As they are in the first lane, one constant farther on in each of the others: none goes below what it can be.
+        let others = LANES - 1;
+        for first in (0..theta.len()).step_by(others) {
             let lanes = |k: usize| {
-                Lanes(std::array::from_fn(|lane| {
-                    let sign = if lane % 2 == 0 { -1.0 } else { 1.0 };
-                    if first + lane / 2 == k { theta[k] + sign * step(k) } else { theta[k] }
-                }))
+                let at = |lane: usize| if lane > 0 && first + lane - 1 == k { theta[k] + step(k) } else { theta[k] };
+                Lanes(std::array::from_fn(at))
             };
             let values: Vec<Lanes<LANES>> = (0..theta.len()).map(lanes).collect();
-            let errors = self.errors_of(model, &values);
-            for pair in 0..pairs.min(theta.len() - first) {
-                let per = 1.0 / (2.0 * step(first + pair));
-                out.push(errors.iter().map(|e| (e.0[2 * pair + 1] - e.0[2 * pair]) * per).collect());
+            let errors = pulp::Arch::new().dispatch(Vectorised { shown: self, model, values: &values });
+            for lane in 1..=others.min(theta.len() - first) {
+                let per = 1.0 / step(first + lane - 1);
+                out.push(errors.iter().map(|e| (e.0[lane] - e.0[0]) * per).collect());
             }
         }
         out

@@ -63,6 +63,7 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
             (0..robot.plant.casters.iter().flatten().count()).for_each(|k| row(root, "caster", k, key, &to));
         }
         Q::Slip => inside(root, "ground", "slip_at_peak", constant.given, found),
+        Q::Grip => inside(root, "ground", "adhesion", constant.given, found),
         Q::Rolling => inside(root, "ground", "rolling_resistance", constant.given, found),
         Q::RollerDrag => inside(root, "ground", "roller_drag", constant.given, found),
         Q::PoseX => inside(root, "point", "x", constant.given, found),

@@ -10,7 +10,7 @@ use super::{Layout, WheeledCase, WheeledHidden as Hidden, WheeledPlan, WheeledTr
 use crate::random::Stream;
 
 /// Step of the true robot, s.
-const STEP: f64 = 5e-4;
+const STEP: f64 = 2.5e-4;
 /// Seconds of a recording, at least and at most.
 const SECONDS: [f64; 2] = [25.0, 40.0];
 /// Recordings of a case.

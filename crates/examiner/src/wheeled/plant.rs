@@ -68,6 +68,8 @@ pub(super) struct State {
     torque: Vec<f64>,
     caster: Vec<f64>,
     specific: [f64; 2],
+    /// Last changes of velocity and yaw rate, per second.
+    gained: [f64; 3],
 }
 
 const GRAVITY: f64 = 9.81;
@@ -87,6 +89,7 @@ impl Robot {
             torque: vec![0.0; self.motors.len()],
             caster: vec![0.0; self.casters.len()],
             specific: [0.0; 2],
+            gained: [0.0; 3],
         }
     }
 
@@ -180,8 +183,13 @@ impl Robot {
             let f = [per_slip * slip[0] + drag[0], per_slip * slip[1] + drag[1]];
             push(f, p);
             let held = self.rolling * loads[i] * wheel.radius * (s.spin[i] / STICKS).tanh();
-            turning[i] = -wheel.radius * (f[0] * e[0] + f[1] * e[1]) - held;
-            stiff[i] = wheel.radius.powi(2) * per_slip
+            // How stiff the contact is along the wheel, and how fast the ground runs away below it.
+            let a = wheel.roller.map_or(e, |_| self.axis(wheel, steering));
+            let along = (e[0] * a[0] + e[1] * a[1]).powi(2);
+            let gained = [s.gained[0] - s.gained[2] * p[1], s.gained[1] + s.gained[2] * p[0]];
+            let ahead = h * (gained[0] * a[0] + gained[1] * a[1]) * (e[0] * a[0] + e[1] * a[1]);
+            turning[i] = wheel.radius * (per_slip * ahead - f[0] * e[0] - f[1] * e[1]) - held;
+            stiff[i] = wheel.radius.powi(2) * per_slip * along
                 + (self.rolling * loads[i] * wheel.radius) / STICKS * (1.0 - (s.spin[i] / STICKS).tanh().powi(2));
         }
         for (k, caster) in self.casters.iter().enumerate() {
@@ -221,11 +229,10 @@ impl Robot {
         let g = self.slope;
         let pull = [g[0] * cos + g[1] * sin, g[1] * cos - g[0] * sin];
         let v = s.velocity;
-        s.velocity = [
-            v[0] + h * (s.specific[0] + pull[0] + s.rate * v[1]),
-            v[1] + h * (s.specific[1] + pull[1] - s.rate * v[0]),
-        ];
-        s.rate += h * moment / self.inertia;
+        s.gained =
+            [s.specific[0] + pull[0] + s.rate * v[1], s.specific[1] + pull[1] - s.rate * v[0], moment / self.inertia];
+        s.velocity = [v[0] + h * s.gained[0], v[1] + h * s.gained[1]];
+        s.rate += h * s.gained[2];
         let origin = [s.velocity[0] + s.rate * self.com[1], s.velocity[1] - s.rate * self.com[0]];
         s.place[0] += h * (origin[0] * cos - origin[1] * sin);
         s.place[1] += h * (origin[0] * sin + origin[1] * cos);

@@ -144,6 +144,7 @@ impl<T: Scalar> Plant<T> {
     }
 
     /// Advances motors and joints alone by one step.
+    #[inline(always)]
     pub fn step_drives(&self, s: &mut State<T>, torque: &[T; MOST], steering: &[T; MOST]) {
         for k in 0..MOST {
             let asked = self.gain(k) * torque[k];
@@ -235,10 +236,12 @@ impl<T: Scalar> Plant<T> {
         [-e[1] * c - e[0] * d, e[0] * c - e[1] * d]
     }
 
+    #[inline(always)]
     fn gain(&self, k: usize) -> T {
         self.robot.motors.get(k).copied().flatten().map_or(T::zero(), |m| m.gain)
     }
 
+    #[inline(always)]
     fn angle(&self, k: usize, asked: T) -> T {
         self.robot.joints.get(k).copied().flatten().map_or(T::zero(), |j| j.offset + j.gain * asked)
     }
