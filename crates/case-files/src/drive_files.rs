@@ -132,7 +132,7 @@ pub(crate) fn table(path: &Path) -> Result<String> {
     let bytes = std::fs::read(path).with_context(|| format!("cannot read '{shown}'"))?;
     let refused = || {
         format!(
-            "'{shown}' is no text: robots of wheel counts and cars are read from comma-separated values and from bags (.mcap, .db3); \
+            "'{shown}' is no text: robots whose files name their columns are read from comma-separated values and from bags (.mcap, .db3); \
              write the table as CSV"
         )
     };

@@ -8,7 +8,7 @@
 //! * `rows`: windows of the motion against the model, several values of the constants side by side.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, forecasts of what is left out, and findings as a verdict in
 //!   sentences.
-//! * `file`: robot files of this kind, and drives from tables and from the messages of bags.
+//! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `settings`: every tuned number.
 
 mod answer;

@@ -129,7 +129,7 @@ impl ColumnsRobot {
             Kind::Car => car_ros2::controllers(self)?,
             Kind::Wheeled => bail!(
                 "robot '{}' is driven by torques, and the controllers of ros2_controllers that have wheels command speeds: write its \
-                 corrected robot file instead, with --format robot-file",
+                 corrected robot file instead, with --to toml",
                 self.name
             ),
         };

@@ -281,3 +281,32 @@ fn a_verdict_that_did_not_keep_the_robot_file_is_refused_with_the_remedy() {
     let refused = ColumnsRobot::of_verdict("old.json", older).unwrap_err().to_string();
     assert!(refused.contains("did not keep the robot file in it: run `lacuna diagnose"), "{refused}");
 }
+
+#[test]
+fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
+    let (_, text) = wheeled::file::BUILT_IN[0];
+    let tuning = [
+        ("mass", 75.0),
+        ("centre of mass, forward", 0.4),
+        ("factor on the torque of front", 0.8),
+        ("dry friction of front", 1.1),
+        ("radius of front", 0.105),
+        ("rolling resistance", 0.03),
+        ("distances along it", 1.02),
+        ("tracked point, left", 0.01),
+        ("steering zero of front", 0.05),
+    ];
+    let corrected = robot(Kind::Wheeled, text, Some(verdict(&tuning, &[("steering zero of front", 0.05)])));
+    let written = corrected.robot_file().expect("a file");
+    let file = wheeled::file::RobotFile::parse("robot.toml", &written.text).expect("a robot");
+    let plant = file.robot.plant;
+    assert_eq!((plant.mass, plant.com[0], plant.ground.rolling), (75.0, 0.4, 0.03));
+    let front = plant.wheels[0].expect("a wheel");
+    assert_eq!((front.radius, front.place[0]), (0.105, 0.816));
+    assert_eq!((plant.motors[0].expect("a motor").coulomb, file.columns.torque[0].1), (1.1, 0.8));
+    assert_eq!((plant.joints[0].expect("a joint").place[0], file.robot.point[1]), (0.816, 0.01));
+    assert!(written.text.contains("re-tuned by lacuna from 60"), "{}", written.text);
+    assert!(written.not_held.iter().any(|s| s.contains("subtract it where the steering angle is recorded")));
+    let refused = corrected.controllers().unwrap_err().to_string();
+    assert!(refused.contains("driven by torques") && refused.contains("--to toml"), "{refused}");
+}

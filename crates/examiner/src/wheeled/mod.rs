@@ -6,6 +6,7 @@
 
 mod draw;
 mod plant;
+mod sheet;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -35,9 +35,9 @@ where they come from. What an engine cannot hold is listed in the model as
 lines to be added, with the reason; for MuJoCo they also are a Python file
 beside the model, robot_residual.py.
 
-Verdicts of kind odometry and car become the owner's robot file with the
-corrected numbers (toml), or parameters of the controller of ros2_controllers
-that the wheels ask for (ros2). What such a file cannot hold is a warning and
+Verdicts of kind odometry, car and wheeled become the owner's robot file with
+the corrected numbers (toml); of the first two, parameters of the controller
+of ros2_controllers that the wheels ask for (ros2). What such a file cannot hold is a warning and
 a comment in it.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";

@@ -20,6 +20,7 @@
 
 mod plant;
 mod robot;
+mod rolling;
 mod state;
 
 pub use plant::Plant;

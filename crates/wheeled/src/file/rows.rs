@@ -1,66 +1,21 @@
-//! The robot file of `kind = "wheeled"`, and drives from tables and from the messages of bags.
+//! Rows of a robot file of this kind, and the robot that they make.
 
-use std::collections::BTreeMap;
-
-use odometry::file::{Series, Signals, seconds_in};
+use odometry::file::seconds_in;
 use robot_model::wheels::{Caster, Coupling, Ground, Joint, MOST, MOST_CASTERS, Motor, Robot, Wheel};
 use serde::Deserialize;
 
-use crate::drive::{Drive, Measured};
-use crate::error::WheeledError;
+use crate::file::Columns;
 use crate::robot::{AnyWheels, Sigmas};
 use crate::settings::{Known, SETTINGS};
 
 const KNOWN: Known = SETTINGS.known;
 
-/// Robots that are there by name.
-pub const BUILT_IN: &[(&str, &str)] = &[
-    ("torque-tricycle", include_str!("../robots/torque-tricycle.toml")),
-    ("torque-car", include_str!("../robots/torque-car.toml")),
-    ("torque-omni-3", include_str!("../robots/torque-omni-3.toml")),
-    ("torque-mecanum-4", include_str!("../robots/torque-mecanum-4.toml")),
-    ("torque-six-wheel", include_str!("../robots/torque-six-wheel.toml")),
-];
-
-/// A robot with the columns in which its drives are recorded.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RobotFile {
-    /// The robot.
-    pub robot: AnyWheels,
-    /// What it is, for people.
-    pub description: Option<String>,
-    /// Where its drives are recorded.
-    pub columns: Columns,
-}
-
-/// Columns of a drive.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Columns {
-    /// Column of the time.
-    pub time: String,
-    /// Seconds per unit of the time.
-    second: f64,
-    /// Columns of the motors' torques, with N m per unit of each.
-    pub torque: Vec<(String, f64)>,
-    /// Columns of the angles of joints.
-    pub joints: Vec<String>,
-    /// Columns of the measured wheels.
-    pub wheels: Vec<String>,
-    is_speed: bool,
-    /// Radians per unit of angles and yaw.
-    angle: f64,
-    /// Column of the yaw rate, rad/s.
-    pub gyro: Option<String>,
-    /// Columns of x, y and yaw.
-    pub pose: Option<[String; 3]>,
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+pub(super) struct File {
     name: String,
-    description: Option<String>,
-    kind: String,
+    pub(super) description: Option<String>,
+    pub(super) kind: String,
     mass: Number,
     yaw_inertia: Number,
     centre_of_mass: [f64; 3],
@@ -79,7 +34,7 @@ struct File {
     known: KnownRow,
     #[serde(default)]
     point: PointRow,
-    columns: Option<ColumnNames>,
+    pub(super) columns: Option<ColumnNames>,
 }
 
 /// A number with its sigma and where it comes from.
@@ -217,7 +172,7 @@ struct PointRow {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ColumnNames {
+pub(super) struct ColumnNames {
     time: String,
     time_unit: Option<String>,
     wheels: Option<String>,
@@ -244,132 +199,7 @@ fn place(names: &[String], name: Option<&String>, what: &str, of: &str) -> Resul
     })
 }
 
-impl RobotFile {
-    /// Whether a robot file is one of this kind.
-    pub fn is_one(text: &str) -> bool {
-        let is_named = |rest: &str| rest.contains("\"wheeled\"") || rest.contains("'wheeled'");
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
-    }
-
-    /// Reads a robot file.
-    ///
-    /// # Errors
-    /// Syntax, unknown keys, parts that are named and not there, and numbers that no robot can have, with what to do.
-    pub fn parse(file: &str, text: &str) -> Result<Self, WheeledError> {
-        let wrong = |what: String| WheeledError::Robot { robot: file.to_owned(), what };
-        let read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
-        if read.kind != "wheeled" {
-            return Err(wrong(format!(
-                "kind = \"{}\"; wheels, motors and joints belong to kind = \"wheeled\"",
-                read.kind
-            )));
-        }
-        let Some(names) = &read.columns else {
-            return Err(wrong("no [columns]; say at least which column holds the time".to_owned()));
-        };
-        let columns = columns(&read, names).map_err(wrong)?;
-        let robot = robot(&read).map_err(wrong)?;
-        robot.plant.checked().map_err(|e| wrong(e.to_string()))?;
-        Ok(Self { robot, description: read.description, columns })
-    }
-
-    /// A drive from a table with a line of column names; its name is that of the file. Empty cells were not measured.
-    ///
-    /// # Errors
-    /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
-    pub fn drive(&self, name: &str, table: &str, is_held_out: bool) -> Result<Drive, WheeledError> {
-        self.drive_of(name, &self.signals(name, table)?, is_held_out)
-    }
-
-    /// A drive from signals at instants of their own, as the messages of a bag have them.
-    ///
-    /// # Errors
-    /// Torques or angles that are missing, and what [`Drive::new`] refuses.
-    pub fn drive_of(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive, WheeledError> {
-        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
-        let scaled = |series: &Series, unit: f64| Series {
-            time: series.time.clone(),
-            value: series.value.iter().map(|x| x * unit).collect(),
-        };
-        let needed = |column: &String, unit: f64| {
-            let missing = || wrong(format!("'{column}' has no values; correct the columns of the robot file"));
-            signals.get(column).filter(|s| !s.time.is_empty()).map(|s| scaled(s, unit)).ok_or_else(missing)
-        };
-        let optional =
-            |column: &String, unit: f64| signals.get(column).map_or_else(Series::default, |s| scaled(s, unit));
-        let names = &self.columns;
-        let pose =
-            names.pose.as_ref().map(|[x, y, yaw]| [optional(x, 1.0), optional(y, 1.0), optional(yaw, names.angle)]);
-        let pose = pose.unwrap_or_default();
-        if pose[0].time != pose[1].time || pose[0].time != pose[2].time {
-            return Err(wrong("x, y and yaw are not measured at one time; take them of one topic".to_owned()));
-        }
-        let measured = Measured {
-            torque: names.torque.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
-            steering: names.joints.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?,
-            wheels: if is_held_out {
-                Vec::new()
-            } else {
-                names.wheels.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?
-            },
-            is_speed: names.is_speed,
-            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, 1.0)).unwrap_or_default(),
-            pose,
-        };
-        Drive::new(name, &self.robot, &measured, is_held_out)
-    }
-
-    fn signals(&self, name: &str, table: &str) -> Result<Signals, WheeledError> {
-        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
-        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
-        let Some(time_at) = header.iter().position(|h| h == self.columns.time) else {
-            let there: Vec<&str> = header.iter().collect();
-            let what = format!(
-                "no column '{}'; it has {}: correct [columns] of the robot file",
-                self.columns.time,
-                there.join(", ")
-            );
-            return Err(wrong(what));
-        };
-        let wanted: Vec<(usize, String)> =
-            self.names().filter_map(|n| header.iter().position(|h| h == n).map(|at| (at, n.to_owned()))).collect();
-        let mut out: Signals = BTreeMap::new();
-        let mut last = f64::NEG_INFINITY;
-        for (row, record) in reader.records().enumerate() {
-            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
-            let number = |at: usize| {
-                let cell = record.get(at).unwrap_or("");
-                let column = header.get(at).unwrap_or("");
-                cell.parse::<f64>()
-                    .map_err(|_| wrong(format!("row {}, column '{column}': '{cell}' is no number", row + 1)))
-            };
-            let time = number(time_at)? * self.columns.second;
-            if !(time > last && time.is_finite()) {
-                let what = format!("time does not rise in row {}; sort the rows, or remove repeated ones", row + 1);
-                return Err(wrong(what));
-            }
-            last = time;
-            for (at, column) in &wanted {
-                if !record.get(*at).unwrap_or("").is_empty() {
-                    let series = out.entry(column.clone()).or_default();
-                    series.time.push(time);
-                    series.value.push(number(*at)?);
-                }
-            }
-        }
-        Ok(out)
-    }
-
-    /// All columns but that of the time.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        let names = &self.columns;
-        let inputs = names.torque.iter().map(|(c, _)| c).chain(&names.joints);
-        inputs.chain(&names.wheels).chain(&names.gyro).chain(names.pose.iter().flatten()).map(String::as_str)
-    }
-}
-
-fn columns(read: &File, names: &ColumnNames) -> Result<Columns, String> {
+pub(super) fn columns(read: &File, names: &ColumnNames) -> Result<Columns, String> {
     let pose = match (&names.x, &names.y, &names.yaw) {
         (Some(x), Some(y), Some(yaw)) => Some([x, y, yaw].map(Clone::clone)),
         (None, None, None) => None,
@@ -407,7 +237,7 @@ fn columns(read: &File, names: &ColumnNames) -> Result<Columns, String> {
     })
 }
 
-fn robot(read: &File) -> Result<AnyWheels, String> {
+pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
     let names = |all: Vec<&String>, what: &str, most: usize| -> Result<Vec<String>, String> {
         if all.len() > most {
             return Err(format!(

@@ -1,0 +1,144 @@
+//! Drives from tables of comma-separated values, and from the messages of bags.
+
+use std::collections::BTreeMap;
+
+use odometry::file::{Series, Signals};
+
+use crate::drive::{Drive, Measured};
+use crate::error::WheeledError;
+use crate::file::RobotFile;
+
+impl RobotFile {
+    /// A drive from a table with a line of column names; its name is that of the file. Empty cells were not measured.
+    ///
+    /// # Errors
+    /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
+    pub fn drive(&self, name: &str, table: &str, is_held_out: bool) -> Result<Drive, WheeledError> {
+        self.drive_of(name, &self.signals(name, table)?, is_held_out)
+    }
+
+    /// A drive from signals at instants of their own, as the messages of a bag have them.
+    ///
+    /// # Errors
+    /// Torques or angles that are missing, and what [`Drive::new`] refuses.
+    pub fn drive_of(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive, WheeledError> {
+        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
+        let scaled = |series: &Series, unit: f64| Series {
+            time: series.time.clone(),
+            value: series.value.iter().map(|x| x * unit).collect(),
+        };
+        let needed = |column: &String, unit: f64| {
+            let missing = || wrong(format!("'{column}' has no values; correct the columns of the robot file"));
+            signals.get(column).filter(|s| !s.time.is_empty()).map(|s| scaled(s, unit)).ok_or_else(missing)
+        };
+        let optional =
+            |column: &String, unit: f64| signals.get(column).map_or_else(Series::default, |s| scaled(s, unit));
+        let names = &self.columns;
+        let pose =
+            names.pose.as_ref().map(|[x, y, yaw]| [optional(x, 1.0), optional(y, 1.0), optional(yaw, names.angle)]);
+        let pose = pose.unwrap_or_default();
+        if pose[0].time != pose[1].time || pose[0].time != pose[2].time {
+            return Err(wrong("x, y and yaw are not measured at one time; take them of one topic".to_owned()));
+        }
+        let measured = Measured {
+            torque: names.torque.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
+            steering: names.joints.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?,
+            wheels: if is_held_out {
+                Vec::new()
+            } else {
+                names.wheels.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?
+            },
+            is_speed: names.is_speed,
+            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, 1.0)).unwrap_or_default(),
+            pose,
+        };
+        Drive::new(name, &self.robot, &measured, is_held_out)
+    }
+
+    fn signals(&self, name: &str, table: &str) -> Result<Signals, WheeledError> {
+        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
+        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
+        let Some(time_at) = header.iter().position(|h| h == self.columns.time) else {
+            let there: Vec<&str> = header.iter().collect();
+            let what = format!(
+                "no column '{}'; it has {}: correct [columns] of the robot file",
+                self.columns.time,
+                there.join(", ")
+            );
+            return Err(wrong(what));
+        };
+        let wanted: Vec<(usize, String)> =
+            self.names().filter_map(|n| header.iter().position(|h| h == n).map(|at| (at, n.to_owned()))).collect();
+        let mut out: Signals = BTreeMap::new();
+        let mut last = f64::NEG_INFINITY;
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
+            let number = |at: usize| {
+                let cell = record.get(at).unwrap_or("");
+                let column = header.get(at).unwrap_or("");
+                cell.parse::<f64>()
+                    .map_err(|_| wrong(format!("row {}, column '{column}': '{cell}' is no number", row + 1)))
+            };
+            let time = number(time_at)? * self.columns.second;
+            if !(time > last && time.is_finite()) {
+                let what = format!("time does not rise in row {}; sort the rows, or remove repeated ones", row + 1);
+                return Err(wrong(what));
+            }
+            last = time;
+            for (at, column) in &wanted {
+                if !record.get(*at).unwrap_or("").is_empty() {
+                    let series = out.entry(column.clone()).or_default();
+                    series.time.push(time);
+                    series.value.push(number(*at)?);
+                }
+            }
+        }
+        Ok(out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{BUILT_IN, RobotFile};
+
+    #[test]
+    fn what_is_wrong_with_a_table_is_one_clear_sentence() {
+        let (_, text) = BUILT_IN[0];
+        let file = RobotFile::parse("robot.toml", text).expect("a robot");
+        let rows = |n: usize| -> String {
+            let row = |k: usize| format!("{:.2},1.0,0.1,3.0,0.2,{:.3},0.0,0.1\n", 0.02 * k as f64, 0.01 * k as f64);
+            let head = "time_s,torque_front,steer_rad,speed_front,gyro_z,x_m,y_m,yaw_rad\n";
+            head.to_owned() + &(0..n).map(row).collect::<String>()
+        };
+        let drive = file.drive("a", &rows(200), false).expect("a drive");
+        assert!(drive.has_pose() && (drive.duration() - 3.98).abs() < 0.03, "{}", drive.duration());
+        let refused = |table: &str| file.drive("a", table, false).unwrap_err().to_string();
+        assert!(refused(&rows(200).replace("torque_front", "torque")).contains("'torque_front' has no values"));
+        assert!(refused(&rows(200).replace("time_s", "t")).contains("no column 'time_s'; it has t, torque_front"));
+        assert!(
+            refused(&rows(200).replace("0.06,1.0", "0.06,one")).contains("column 'torque_front': 'one' is no number")
+        );
+        assert!(refused(&rows(200).replace("0.06,1.0", "0.02,1.0")).contains("time does not rise in row 4"));
+        assert!(refused(&rows(20)).contains("20 rows, but at least 50 are needed"));
+        assert!(refused(&rows(200).replace("0.06,1.0", "0.06,NaN")).contains("is no number; cut the drive there"));
+        // A pose that is to be predicted, and wheels, may be missing.
+        let row = |k: u32| format!("{:.2},1.0,0.1\n", 0.02 * f64::from(k));
+        let held_out = "time_s,torque_front,steer_rad\n".to_owned() + &(0..200).map(row).collect::<String>();
+        assert!(!file.drive("a", &held_out, true).expect("a drive").has_pose());
+        let milli = text.replace("time = \"time_s\"", "time = \"time_s\"\ntime_unit = \"ms\"");
+        let milli = RobotFile::parse("robot.toml", &milli).expect("a robot");
+        let scaled: String = rows(200)
+            .lines()
+            .map(|line| match line.split_once(',') {
+                Some((t, rest)) if !t.starts_with('t') => {
+                    format!("{:.0},{rest}\n", 1e3 * t.parse::<f64>().expect("a number"))
+                }
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        assert!(refused(&scaled).contains("its rows are 20 s apart"), "{}", refused(&scaled));
+        let same = milli.drive("a", &scaled, false).expect("a drive");
+        approx::assert_relative_eq!(same.duration(), drive.duration(), epsilon = 1e-9);
+    }
+}
