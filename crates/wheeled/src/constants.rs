@@ -168,7 +168,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
                 &odo::RADIUS_OF_ONE_WHEEL,
             );
         }
-        if wheel.joint.is_none() && wheel.roller.is_none() {
+        if wheel.joint.is_none() {
             let direction = [sigmas.direction.hypot(form.skidding_direction), usual.direction, scatter.direction];
             add(
                 Q::Direction(k),
@@ -317,11 +317,11 @@ pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
 }
 
 impl AnyWheels {
-    /// A torque at a wheel that is a fair part of what moves the robot: a tenth of its weight at a wheel's radius, N m.
+    /// A torque at a wheel that is a fair part of what moves the robot: a share of its weight at a wheel's radius, N m.
     pub(crate) fn torque_scale(&self) -> f64 {
         let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(0.0, f64::max);
         let motors = self.motors.len().max(1) as f64;
-        0.1 * self.plant.mass * self.plant.ground.gravity * radius / motors
+        SETTINGS.known.push * self.plant.mass * self.plant.ground.gravity * radius / motors
     }
 
     /// The same over the wheel speed of a walking pace, N m s/rad.
