@@ -3,15 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use ::odometry::file::Signals;
-use anyhow::{Result, bail};
+use anyhow::Result;
 use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::Diagnosis;
 
-use crate::case_folder::robot_of;
-use crate::columns::{ColumnsEnvelope, Kind, robot_text};
-use crate::drive_files::{NamesColumns, drives};
-use crate::envelope::SourceFile;
+use crate::columns::Kind;
+use crate::drive_files::{self, NamesColumns, Origin};
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -20,53 +18,30 @@ pub struct CarCase {
     pub case: Case,
     /// Drives whose pose is to be predicted.
     pub held_out: Vec<Drive>,
-    /// The robot file.
-    pub robot: String,
-    /// What it says.
-    pub text: String,
-    /// Files of the references, of the recordings, and of the drives to be predicted.
-    pub files: [Vec<SourceFile>; 3],
-    /// Other things in the folders, which were not read.
-    pub ignored: Vec<String>,
+    /// What was read for it.
+    pub origin: Origin,
 }
 
-/// The car of a robot file, and what the file says; `None` where it is of another kind.
+/// The case of a folder, or of a robot with files, if its robot is of this kind.
 ///
 /// # Errors
-/// A file that cannot be read, or holds what no car can have.
-pub fn robot(name: &str) -> Result<Option<(RobotFile, String)>> {
-    let Some(text) = robot_text(name, Kind::Car)? else { return Ok(None) };
-    let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
-    Ok(Some((RobotFile::parse(&shown, &text)?, text)))
-}
-
-/// The case of a folder, or of a robot with files, if its robot is a car.
-///
-/// # Errors
-/// A robot file or tables that cannot be read, or hold what no car can have.
+/// A robot file or recordings that cannot be read, or hold what no car can have.
 pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<CarCase>> {
-    let name = match (robot, folder) {
-        (Some(name), _) => name.to_owned(),
-        // What is wrong with a folder without a robot is said where other kinds are read.
-        (None, Some(folder)) => match robot_of(folder) {
-            Ok(path) => path.display().to_string(),
-            Err(_) => return Ok(None),
-        },
-        (None, None) => return Ok(None),
+    let Some((file, [references, recordings, held_out], origin)) =
+        drive_files::read::<RobotFile>(folder, robot, parts)?
+    else {
+        return Ok(None);
     };
-    let Some((file, text)) = self::robot(&name)? else { return Ok(None) };
-    let mut ignored = Vec::new();
-    let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
-    let [references, recordings, held_out] = drives;
-    if recordings.is_empty() {
-        bail!("robot '{name}' is of kind car, but there are no recordings; give CSV files or bags with --recordings");
-    }
-    let case = Case { car: file.car, references, recordings };
-    Ok(Some(CarCase { case, held_out, robot: name, text, files, ignored }))
+    Ok(Some(CarCase { case: Case { car: file.car, references, recordings }, held_out, origin }))
 }
 
 impl NamesColumns for RobotFile {
     type Drive = Drive;
+    const KIND: Kind = Kind::Car;
+
+    fn read(shown: &str, text: &str) -> Result<Self> {
+        Ok(Self::parse(shown, text)?)
+    }
 
     fn time(&self) -> &str {
         &self.columns.time
@@ -111,10 +86,5 @@ impl CarCase {
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
         out.predicted_paths = self.held_out.iter().map(|d| findings.predict(d)).collect();
         Ok(out)
-    }
-
-    /// A diagnosis with what it was made from.
-    pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
-        ColumnsEnvelope::new(Kind::Car, [&self.robot, &self.text], &self.files, &self.ignored, diagnosis)
     }
 }

@@ -36,6 +36,14 @@ impl Kind {
         })
     }
 
+    /// The kind of a robot that is named, a file or built in.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(crate) fn of_robot(name: &str) -> Result<Option<Self>> {
+        Ok(named(name)?.map(|(kind, _)| kind))
+    }
+
     /// Names and files of the robots that are built in.
     pub(crate) fn built_in(self) -> &'static [(&'static str, &'static str)] {
         match self {
@@ -117,11 +125,20 @@ impl ColumnsEnvelope {
 /// # Errors
 /// A file that cannot be read.
 pub(crate) fn robot_text(name: &str, kind: Kind) -> Result<Option<String>> {
+    Ok(named(name)?.filter(|(own, _)| *own == kind).map(|(_, text)| text))
+}
+
+/// The kind of a robot that is named, a file or built in, and what its file says.
+fn named(name: &str) -> Result<Option<(Kind, String)>> {
     if Path::new(name).is_file() {
         let text = std::fs::read_to_string(name).with_context(|| format!("cannot read robot file '{name}'"))?;
-        return Ok((Kind::of_file(&text) == Some(kind)).then_some(text));
+        return Ok(Kind::of_file(&text).map(|kind| (kind, text)));
     }
-    Ok(kind.built_in().iter().find(|robot| robot.0 == name).map(|(_, text)| (*text).to_owned()))
+    let built_in = |kind: Kind| {
+        let (_, text) = kind.built_in().iter().find(|robot| robot.0 == name)?;
+        Some((kind, (*text).to_owned()))
+    };
+    Ok(Kind::ALL.into_iter().find_map(built_in))
 }
 
 /// A file that was read whole.

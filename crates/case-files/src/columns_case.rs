@@ -8,6 +8,7 @@ use verdict::Diagnosis;
 
 use crate::car::{self, CarCase};
 use crate::columns::{ColumnsEnvelope, Kind};
+use crate::drive_files;
 use crate::inputs;
 use crate::odometry::{self, OdometryCase};
 use crate::wheeled::{self, WheeledCase};
@@ -51,9 +52,9 @@ impl ColumnsCase {
     /// The robot file, or the built-in robot's name.
     pub fn robot(&self) -> &str {
         match self {
-            Self::Odometry(case) => &case.robot,
-            Self::Car(case) => &case.robot,
-            Self::Wheeled(case) => &case.robot,
+            Self::Odometry(case) => &case.origin.robot,
+            Self::Car(case) => &case.origin.robot,
+            Self::Wheeled(case) => &case.origin.robot,
         }
     }
 
@@ -87,9 +88,9 @@ impl ColumnsCase {
     /// Other things in the folders, which were not read.
     pub fn ignored(&self) -> &[String] {
         match self {
-            Self::Odometry(case) => &case.ignored,
-            Self::Car(case) => &case.ignored,
-            Self::Wheeled(case) => &case.ignored,
+            Self::Odometry(case) => &case.origin.ignored,
+            Self::Car(case) => &case.origin.ignored,
+            Self::Wheeled(case) => &case.origin.ignored,
         }
     }
 
@@ -108,9 +109,9 @@ impl ColumnsCase {
     /// A diagnosis with what it was made from.
     pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
         match self {
-            Self::Odometry(case) => case.envelope(diagnosis),
-            Self::Car(case) => case.envelope(diagnosis),
-            Self::Wheeled(case) => case.envelope(diagnosis),
+            Self::Odometry(case) => case.origin.envelope(self.kind(), diagnosis),
+            Self::Car(case) => case.origin.envelope(self.kind(), diagnosis),
+            Self::Wheeled(case) => case.origin.envelope(self.kind(), diagnosis),
         }
     }
 }
@@ -124,13 +125,12 @@ fn odometry_length(drive: &::odometry::Drive) -> f64 {
 /// # Errors
 /// A file that cannot be read, or holds what no such robot can have.
 pub fn kind_of(robot: &str) -> Result<Option<Kind>> {
-    if car::robot(robot)?.is_some() {
-        return Ok(Some(Kind::Car));
-    }
-    if wheeled::robot(robot)?.is_some() {
-        return Ok(Some(Kind::Wheeled));
-    }
-    Ok(odometry::robot(robot)?.map(|_| Kind::Odometry))
+    Ok(match Kind::of_robot(robot)? {
+        Some(Kind::Car) => drive_files::robot::<single_track::file::RobotFile>(robot)?.map(|_| Kind::Car),
+        Some(Kind::Wheeled) => drive_files::robot::<::wheeled::file::RobotFile>(robot)?.map(|_| Kind::Wheeled),
+        Some(Kind::Odometry) => drive_files::robot::<::odometry::file::RobotFile>(robot)?.map(|_| Kind::Odometry),
+        None => None,
+    })
 }
 
 /// The same of a robot that has to name its columns itself.

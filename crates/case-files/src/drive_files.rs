@@ -2,21 +2,27 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use odometry::file::Signals;
 use recordings::{group_bags, is_bag};
+use verdict::Diagnosis;
 
 use crate::bag_signals::{self, Found, Wanted};
-use crate::case_folder::folders;
-use crate::columns::source;
+use crate::case_folder::{folders, robot_of};
+use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
 use crate::envelope::SourceFile;
 use crate::inputs::{list, run_names};
 use crate::which_mapping;
 
 /// A robot file that names the columns of its drives.
-pub(crate) trait NamesColumns {
+pub(crate) trait NamesColumns: Sized {
     /// A drive of such a robot.
     type Drive;
+    /// Its kind.
+    const KIND: Kind;
+
+    /// Reads a robot file; `shown` is what messages call it.
+    fn read(shown: &str, text: &str) -> Result<Self>;
 
     /// Column of the time.
     fn time(&self) -> &str;
@@ -46,11 +52,74 @@ pub(crate) trait NamesColumns {
     }
 }
 
+/// The robot that is named, a file or built in, and what its file says; `None` where it is of another kind.
+///
+/// # Errors
+/// A file that cannot be read, or holds what no such robot can have.
+pub(crate) fn robot<F: NamesColumns>(name: &str) -> Result<Option<(F, String)>> {
+    let Some(text) = robot_text(name, F::KIND)? else { return Ok(None) };
+    let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
+    Ok(Some((F::read(&shown, &text)?, text)))
+}
+
+/// What was read for a case.
+#[derive(Debug)]
+pub struct Origin {
+    /// The robot file, or the built-in robot's name.
+    pub robot: String,
+    /// What it says.
+    pub text: String,
+    /// Files of the references, of the recordings, and of the drives to be predicted.
+    pub files: [Vec<SourceFile>; 3],
+    /// Other things in the folders, which were not read.
+    pub ignored: Vec<String>,
+}
+
+impl Origin {
+    /// A diagnosis with what it was made from.
+    pub fn envelope(&self, kind: Kind, diagnosis: Diagnosis) -> ColumnsEnvelope {
+        ColumnsEnvelope::new(kind, [&self.robot, &self.text], &self.files, &self.ignored, diagnosis)
+    }
+}
+
+/// A robot file with the drives of a case: references, recordings, held out.
+pub(crate) type Read<F> = (F, [Vec<<F as NamesColumns>::Drive>; 3], Origin);
+
+/// What there is of the case of a folder, or of a robot with files, if its robot is of this kind.
+///
+/// # Errors
+/// A robot file or recordings that cannot be read, or hold what no such robot can have.
+pub(crate) fn read<F: NamesColumns>(
+    folder: Option<&Path>,
+    robot_name: Option<&str>,
+    parts: [&[PathBuf]; 3],
+) -> Result<Option<Read<F>>> {
+    let name = match (robot_name, folder) {
+        (Some(name), _) => name.to_owned(),
+        // What is wrong with a folder without a robot is said where other kinds are read.
+        (None, Some(folder)) => match robot_of(folder) {
+            Ok(path) => path.display().to_string(),
+            Err(_) => return Ok(None),
+        },
+        (None, None) => return Ok(None),
+    };
+    let Some((file, text)) = robot::<F>(&name)? else { return Ok(None) };
+    let mut ignored = Vec::new();
+    let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
+    if drives[1].is_empty() {
+        bail!(
+            "robot '{name}' is of kind {}, but there are no recordings; give CSV files or bags with --recordings",
+            F::KIND.name()
+        );
+    }
+    Ok(Some((file, drives, Origin { robot: name, text, files, ignored })))
+}
+
 /// Drives and files: of the references, of the recordings, and of what is to be predicted.
 type Parts<D> = ([Vec<D>; 3], [Vec<SourceFile>; 3]);
 
 /// Drives of a case folder, or of paths (references, recordings, held out), of the robot that is called so.
-pub(crate) fn drives<F: NamesColumns>(
+fn drives<F: NamesColumns>(
     (robot, file): (&str, &F),
     folder: Option<&Path>,
     paths: [&[PathBuf]; 3],

@@ -2,15 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use odometry::file::{RobotFile, Signals};
 use odometry::{Case, Drive, diagnosis, left_out};
 use verdict::Diagnosis;
 
-use crate::case_folder::robot_of;
-use crate::columns::{ColumnsEnvelope, Kind, robot_text};
-use crate::drive_files::{NamesColumns, drives};
-use crate::envelope::SourceFile;
+use crate::columns::Kind;
+use crate::drive_files::{self, NamesColumns, Origin};
 
 /// A case with what was read for it.
 #[derive(Debug)]
@@ -19,60 +17,30 @@ pub struct OdometryCase {
     pub case: Case,
     /// Drives whose pose is to be predicted.
     pub held_out: Vec<Drive>,
-    /// The robot file, or the built-in robot's name.
-    pub robot: String,
-    /// What the robot file says.
-    pub text: String,
-    /// Files of the references, of the recordings, and of the drives to be predicted.
-    pub files: [Vec<SourceFile>; 3],
-    /// Other things in the folders, which were not read.
-    pub ignored: Vec<String>,
-}
-
-/// The robot that is named, a file or built in; `None` where it is of another kind.
-///
-/// # Errors
-/// A file that cannot be read, or holds what no such robot can have.
-pub fn robot(name: &str) -> Result<Option<RobotFile>> {
-    let Some(text) = text(name)? else { return Ok(None) };
-    let shown = if Path::new(name).is_file() { name.to_owned() } else { format!("{name}.toml") };
-    Ok(Some(RobotFile::parse(&shown, &text)?))
-}
-
-fn text(name: &str) -> Result<Option<String>> {
-    robot_text(name, Kind::Odometry)
+    /// What was read for it.
+    pub origin: Origin,
 }
 
 /// The case of a folder, or of a robot with files, if its robot is of this kind.
 ///
 /// # Errors
-/// As [`robot`]; tables that cannot be read.
-pub fn read(folder: Option<&Path>, robot_name: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<OdometryCase>> {
-    let name = match (robot_name, folder) {
-        (Some(name), _) => name.to_owned(),
-        // What is wrong with a folder without a robot is said where other kinds are read.
-        (None, Some(folder)) => match robot_of(folder) {
-            Ok(path) => path.display().to_string(),
-            Err(_) => return Ok(None),
-        },
-        (None, None) => return Ok(None),
+/// A robot file or recordings that cannot be read, or hold what no such robot can have.
+pub fn read(folder: Option<&Path>, robot: Option<&str>, parts: [&[PathBuf]; 3]) -> Result<Option<OdometryCase>> {
+    let Some((file, [references, recordings, held_out], origin)) =
+        drive_files::read::<RobotFile>(folder, robot, parts)?
+    else {
+        return Ok(None);
     };
-    let Some((file, text)) = robot(&name)?.zip(text(&name)?) else { return Ok(None) };
-
-    let mut ignored = Vec::new();
-    let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
-    let [references, recordings, held_out] = drives;
-    if recordings.is_empty() {
-        bail!(
-            "robot '{name}' is of kind odometry, but there are no recordings; give CSV files or bags with --recordings"
-        );
-    }
-    let case = Case { robot: file.robot, references, recordings };
-    Ok(Some(OdometryCase { case, held_out, robot: name, text, files, ignored }))
+    Ok(Some(OdometryCase { case: Case { robot: file.robot, references, recordings }, held_out, origin }))
 }
 
 impl NamesColumns for RobotFile {
     type Drive = Drive;
+    const KIND: Kind = Kind::Odometry;
+
+    fn read(shown: &str, text: &str) -> Result<Self> {
+        Ok(Self::parse(shown, text)?)
+    }
 
     fn time(&self) -> &str {
         &self.columns.time
@@ -119,10 +87,5 @@ impl OdometryCase {
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
         out.predicted_paths = self.held_out.iter().map(|d| findings.predict(&self.case.robot, d)).collect();
         Ok(out)
-    }
-
-    /// A diagnosis with what it was made from.
-    pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
-        ColumnsEnvelope::new(Kind::Odometry, [&self.robot, &self.text], &self.files, &self.ignored, diagnosis)
     }
 }

@@ -77,7 +77,7 @@ pub const MOTOR_VISCOUS_FRICTION: CauseSpec = cause(
 
 /// Torque over what is recorded.
 pub const MOTOR_TORQUE_SCALE: CauseSpec = cause(
-    ["motor_torque_scale", "torque over what is recorded"],
+    ["motor_torque_scale", "motors give another torque than recorded"],
     "Motors give more or less torque than their current or command says: torque constant, gear, or units.",
     ["factor on the torque", "-"],
     [
@@ -89,7 +89,7 @@ pub const MOTOR_TORQUE_SCALE: CauseSpec = cause(
 
 /// Lag of motors.
 pub const MOTOR_TORQUE_LAG: CauseSpec = cause(
-    ["motor_torque_lag", "torque settles slowly or begins late"],
+    ["motor_torque_lag", "torque comes later than recorded"],
     "Torque follows what is recorded with a time constant or a dead time: current loops, buses.",
     ["time constant beyond what is stated", "s"],
     [
@@ -181,8 +181,8 @@ pub const ROLLER_DRAG: CauseSpec = cause(
 
 /// A wheel that is out of true.
 pub const WHEEL_DIRECTION: CauseSpec = cause(
-    ["wheel_direction", "a wheel points elsewhere"],
-    "A wheel is mounted, or bent, at an angle to where it should roll.",
+    ["wheel_direction", "a wheel is out of alignment"],
+    "A wheel is mounted, or bent, at an angle to the direction in which it should roll.",
     ["angle to the stated direction, positive to the left", "rad"],
     [
         "The robot drifts to one side in steady driving, and resists it at the same time",

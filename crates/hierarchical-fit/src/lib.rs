@@ -7,30 +7,37 @@
 //! * `fit`: constants with a deviation of each drive, scales of errors, scatter of drives.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
-//! * `found`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `ahead`: forecasts of a pose: where they begin, and how far off they are. `error`: why a case cannot be compared.
 //! * `beside`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
+mod ahead;
 mod answered;
 mod beside;
 mod cause;
+mod error;
 mod fit;
 mod found;
 mod look_alikes;
 mod name;
 mod observed;
+mod said;
 mod session;
 mod settings;
 mod solve;
 pub mod telling;
 mod weigh;
 
+pub use ahead::Ahead;
 pub use beside::Beside;
 pub use cause::Cause;
+pub use error::CaseError;
 pub use fit::{Data, Fit, Noise, Prior, equations};
 pub use found::{Answer, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};
+pub use said::{Said, Unexplained, Valued};
 pub use session::{Marginal, Session};
 pub use solve::{Solved, solve};
 pub use weigh::{Evidence, Posterior};

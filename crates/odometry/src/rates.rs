@@ -43,6 +43,35 @@ pub fn end(pose: &[[f64; 3]], last: usize, past: f64, step: f64) -> Option<([f64
     Some((pose[last], slope(pose, [first, last], last, step)?))
 }
 
+/// Pose at the beginning of each step, between the instants at which it was seen by lines that bridge no gap; yaw without jumps; NaN
+/// where it was not seen. `poses`: each with its time from the start of the grid, s.
+pub fn on_grid(poses: impl Iterator<Item = (f64, [f64; 3])>, steps: usize, step: f64, gap: f64) -> Vec<[f64; 3]> {
+    let mut seen: Vec<(f64, [f64; 3])> = Vec::new();
+    for (time, mut pose) in poses {
+        if pose.iter().all(|x| x.is_finite()) {
+            if let Some((_, last)) = seen.last() {
+                pose[2] -= ((pose[2] - last[2]) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+            }
+            seen.push((time, pose));
+        }
+    }
+    let mut k = 0;
+    (0..steps)
+        .map(|at| {
+            let time = step * at as f64;
+            while k + 2 < seen.len() && seen[k + 1].0 <= time {
+                k += 1;
+            }
+            let (Some((t0, a)), Some((t1, b))) = (seen.get(k), seen.get(k + 1)) else { return [f64::NAN; 3] };
+            if t1 - t0 > gap || time < *t0 || time > *t1 {
+                return [f64::NAN; 3];
+            }
+            let share = (time - t0) / (t1 - t0);
+            [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]))
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +89,16 @@ mod tests {
         let found = slope(&pose, [0, 10], 5, STEP).expect("a slope");
         assert!((found[0].hypot(found[1]) - speed).abs() < 2e-3 * speed, "{found:?}");
         assert!((found[2] - rate).abs() < 1e-9 && (found[1].atan2(found[0]) - pose[5][2]).abs() < 1e-3, "{found:?}");
+    }
+
+    #[test]
+    fn a_pose_on_the_grid_bridges_no_gap_and_its_yaw_does_not_jump() {
+        let rows = [(0.0, 3.1), (0.05, -3.1), (0.1, -3.0), (0.4, -2.9), (0.45, -2.8)];
+        let poses = rows.into_iter().map(|(t, yaw)| (t, [t, f64::from(t > 0.2), yaw]));
+        let pose = on_grid(poses.chain([(0.5, [f64::NAN; 3])]), 25, STEP, 0.1);
+        let turn = std::f64::consts::TAU;
+        assert!((pose[2][2] - (3.1 + 0.8 * (turn - 6.2))).abs() < 1e-9, "{:?}", pose[2]);
+        assert!((pose[5][2] - (turn - 3.0)).abs() < 1e-9 && (pose[5][0] - 0.1).abs() < 1e-12, "{:?}", pose[5]);
+        assert!(pose[6..20].iter().all(|p| p[0].is_nan()) && pose[21][1] == 1.0 && pose[24][0].is_nan());
     }
 }

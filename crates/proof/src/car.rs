@@ -95,11 +95,11 @@ fn forecasts(table: &Table, note: String) -> Section {
 fn causes(findings: &Findings, table: &Table) -> Section {
     let note = format!(
         "Answer: {}. Named with all drives, with 90 % intervals; how many folds named it.",
-        word(findings.answer)
+        word(findings.said.answer)
     );
     let header = ["cause", "probability", "constant", "stated", "found", "±", "folds"];
     let mut section = Section::new("What was named", &note, &header);
-    for cause in &findings.named {
+    for cause in &findings.said.named {
         let folds = table.named.iter().filter(|n| n.contains(&cause.label)).count();
         for e in &cause.estimates {
             let unit = if e.unit == "1" { String::new() } else { format!(", {}", e.unit) };

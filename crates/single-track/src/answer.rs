@@ -12,15 +12,7 @@ use verdict::Diagnosis;
 
 /// The verdict of findings, with the forecasts of drives that were left out.
 pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
-    let found = Found {
-        answer: findings.answer,
-        named: &findings.named,
-        others: &findings.others,
-        constants: &findings.constants,
-        retuned: &findings.retuned,
-        rival: findings.rival.as_deref(),
-        shares: findings.shares,
-    };
+    let found = findings.said.found();
     let of_drive = |(drive, errors): &(String, Vec<ByLength>)| {
         let medians = |row: usize, k: usize| errors.get(row).and_then(|e| e[k].medians()).map(|m| m.map(Some));
         free_runs(drive, "throttle and steering alone", LENGTHS, medians)
@@ -41,8 +33,8 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         ["the robot file", "is known", "leaves"]
     };
     let mut text: Vec<String> = found.undecided().into_iter().collect();
-    let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
-    match findings.answer {
+    let [given, tuned, best] = findings.said.shares.map(|s| 100.0 * s);
+    match findings.said.answer {
         Answer::Nothing => text.push(format!(
             "Nothing is missing: the car moves as throttle and steering imply, as well as {stated} {is_known} (errors after a \
              second are {given:.1} % of the motion, {tuned:.1} % with the drive train fitted)."
@@ -61,16 +53,16 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
                 found.names()
             ));
         }
-        Answer::Unknown if findings.is_scattered => text.push(format!(
+        Answer::Unknown if findings.said.is_scattered => text.push(format!(
             "Unknown: the drives of this car differ from each other by {:.0} times what is usual or more, so that no cause that all \
              of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best answer). \
              Diagnose drives of one day, floor and battery by themselves; candidates follow.",
-            findings.scatter
+            findings.said.scatter
         )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer.{}",
-            if findings.shares[2] > SETTINGS.unexplained.most {
+            if findings.said.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
                 ""
@@ -103,7 +95,7 @@ fn limits(findings: &Findings, table: &Table, has_references: bool) -> Vec<Strin
         format!(
             "{} drives, {} with a pose, {} windows; constants are taken to differ between drives by {:.2} times the usual \
              scatter",
-            findings.counts[0], findings.counts[1], findings.counts[2], findings.scatter
+            findings.counts[0], findings.counts[1], findings.counts[2], findings.said.scatter
         ),
     ];
     out.extend(findings.told.iter().cloned());

@@ -1,6 +1,7 @@
 //! The constants of a car on which its motion and its reports depend, and how well they are known.
 
 use catalogue::CauseSpec;
+use hierarchical_fit::Valued;
 
 use crate::settings::SETTINGS;
 
@@ -96,9 +97,22 @@ impl Constant {
                 | Q::WheelSlip
         )
     }
+}
 
-    /// One sigma by which a number that is told may be off because the car has another law, in the unit of its value.
-    pub(crate) fn of_another_law(&self, value: f64) -> f64 {
+impl Valued for Constant {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    fn is_factor(&self) -> bool {
+        self.is_factor
+    }
+
+    fn of_another_law(&self, value: f64) -> f64 {
         use Quantity as Q;
         let told = SETTINGS.told;
         match self.quantity {
@@ -119,8 +133,7 @@ impl Constant {
         }
     }
 
-    /// The value at a deviation.
-    pub fn value(&self, deviation: f64) -> f64 {
+    fn value(&self, deviation: f64) -> f64 {
         if self.is_factor { self.given * deviation.exp() } else { self.given + deviation }
     }
 }

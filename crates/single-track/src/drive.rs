@@ -1,10 +1,11 @@
 //! A drive: commands, pose and what the car reports, brought to one grid of steps.
 
-use crate::error::CarError;
 use crate::model::STEP;
 use crate::settings::{Grid, SETTINGS};
+use hierarchical_fit::CaseError as CarError;
 use inference::robust::{median, quantile, sorted};
 use odometry::held::Command;
+use odometry::rates::on_grid;
 
 const RULES: Grid = SETTINGS.grid;
 
@@ -141,11 +142,12 @@ impl Drive {
             .iter()
             .map(|&(time, row)| Message { time, gyro: cell(&table.gyro, row), encoder: cell(&table.encoder, row) })
             .collect();
+        let seen = table.time.iter().zip(&table.pose).map(|(time, pose)| (time - start, *pose));
         Ok(Self {
             name: name.to_owned(),
             steering: command(&table.steering, &[]),
             throttle: command(&table.throttle, &table.enabled),
-            pose: if has_pose(table) { on_grid(table, start, steps) } else { Vec::new() },
+            pose: if has_pose(table) { on_grid(seen, steps, STEP, RULES.gap) } else { Vec::new() },
             messages,
             steps,
             start,
@@ -230,33 +232,4 @@ fn messages(table: &Table, start: f64, told: &mut Vec<String>, name: &str) -> Ve
         if (own - table.time[row]).abs() <= between { own } else { table.time[row] }
     };
     arrived.into_iter().map(|row| (instant(row) - start, row)).collect()
-}
-
-/// Pose at the beginning of each step, between rows by lines; yaw without jumps.
-fn on_grid(table: &Table, start: f64, steps: usize) -> Vec<[f64; 3]> {
-    let mut seen: Vec<(f64, [f64; 3])> = Vec::new();
-    for (time, pose) in table.time.iter().zip(&table.pose) {
-        if pose.iter().all(|x| x.is_finite()) {
-            let mut pose = *pose;
-            if let Some((_, last)) = seen.last() {
-                pose[2] -= ((pose[2] - last[2]) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
-            }
-            seen.push((time - start, pose));
-        }
-    }
-    let mut k = 0;
-    (0..steps)
-        .map(|step| {
-            let time = STEP * step as f64;
-            while k + 2 < seen.len() && seen[k + 1].0 <= time {
-                k += 1;
-            }
-            let (Some((t0, a)), Some((t1, b))) = (seen.get(k), seen.get(k + 1)) else { return [f64::NAN; 3] };
-            if t1 - t0 > RULES.gap || time < *t0 || time > *t1 {
-                return [f64::NAN; 3];
-            }
-            let share = (time - t0) / (t1 - t0);
-            [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]))
-        })
-        .collect()
 }

@@ -4,7 +4,7 @@
 //! servo from the commands before it, and constants from the fit on other drives, moved by what the past of this drive says of
 //! its own deviation (battery, floor, trims). What it said fades.
 
-use hierarchical_fit::{Noise, Session, equations};
+use hierarchical_fit::{Ahead, Noise, Session, equations};
 use nalgebra::{DMatrix, DVector};
 
 use crate::constants::Constant;
@@ -53,30 +53,20 @@ pub(crate) struct Habit {
     pub(crate) freedom: f64,
 }
 
+/// Which forecasts are made.
+const AHEAD: Ahead = Ahead {
+    step: STEP,
+    lengths: LENGTHS,
+    every: RULES.every,
+    past: RULES.past[RULES.past.len() - 1],
+    way: RULES.way,
+    // A car does not turn on the spot.
+    turn: f64::INFINITY,
+};
+
 /// Steps at which forecasts begin.
 pub(crate) fn beginnings(shown: &Shown<'_>) -> Vec<usize> {
-    let pose = &shown.drive.pose;
-    let longest = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
-    let every = (RULES.every / STEP).round() as usize;
-    let past = (RULES.past[RULES.past.len() - 1] / STEP).ceil() as usize;
-    let seen = |k: usize| pose[k][0].is_finite();
-    let moves = |k: usize| {
-        let (a, b) = (pose[k], pose[k + longest]);
-        (b[0] - a[0]).hypot(b[1] - a[1]) > RULES.way
-    };
-    let usable = |&k: &usize| {
-        (k - past..=k).all(seen) && LENGTHS.iter().all(|l| seen(k + (l / STEP).round() as usize)) && moves(k)
-    };
-    (past..pose.len().saturating_sub(longest + 1)).step_by(every).filter(usable).collect()
-}
-
-/// Errors of one forecast over each length, of a run of states.
-pub(crate) fn judge(pose: &[[f64; 3]], from: usize, tracked: impl Fn(usize) -> [f64; 3]) -> [[f64; 2]; 3] {
-    LENGTHS.map(|length| {
-        let steps = (length / STEP).round() as usize;
-        let ([x, y, yaw], truth) = (tracked(steps), pose[from + steps]);
-        [(x - truth[0]).hypot(y - truth[1]), (yaw - truth[2]).abs()]
-    })
+    AHEAD.beginnings(&shown.drive.pose)
 }
 
 /// Errors by length from those of each beginning.
@@ -100,27 +90,15 @@ pub(crate) fn of_laws(shown: &Shown<'_>, laws: &Laws, past: f64) -> Vec<[[f64; 2
 fn one(shown: &Shown<'_>, laws: &Laws, inputs: &Inputs, from: usize, past: f64) -> Option<[[f64; 2]; 3]> {
     let pose = &shown.drive.pose;
     let (at, rates) = end(pose, from, past, STEP)?;
-    let steps = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
+    let steps = AHEAD.longest();
     let states: Vec<State> = laws.run(laws.state(at, rates), inputs, from, steps);
-    Some(judge(pose, from, |k| laws.tracked(&states[k - 1])))
+    Some(AHEAD.judge(pose, from, |k| laws.tracked(&states[k - 1])))
 }
 
 /// A twist that does not change.
 pub(crate) fn of_twist(shown: &Shown<'_>, past: f64) -> Vec<[[f64; 2]; 3]> {
     let pose = &shown.drive.pose;
-    let of = |from: usize| {
-        let (at, [vx, vy, rate]) = end(pose, from, past, STEP)?;
-        Some(judge(pose, from, |k| {
-            let turned = rate * STEP * k as f64;
-            // Chord and its direction.
-            let (along, across) = if turned.abs() < SETTINGS.model.tiny {
-                (STEP * k as f64, 0.0)
-            } else {
-                (turned.sin() / rate, (1.0 - turned.cos()) / rate)
-            };
-            [at[0] + along * vx - across * vy, at[1] + along * vy + across * vx, at[2] + turned]
-        }))
-    };
+    let of = |from: usize| Some(AHEAD.judge_twist(pose, from, end(pose, from, past, STEP)?));
     beginnings(shown).into_iter().filter_map(of).collect()
 }
 
@@ -171,7 +149,7 @@ pub(crate) fn of_followed(
     past: f64,
 ) -> Vec<[[f64; 2]; 3]> {
     let warm = (RULES.warm / STEP) as usize;
-    let ahead = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
+    let ahead = AHEAD.longest();
     let of = |(from, theta): &(usize, Vec<f64>)| {
         let laws = Laws::at(constants, theta);
         let inputs = laws.inputs_between(shown.drive, from.saturating_sub(warm), from + ahead + 1);

@@ -2,6 +2,7 @@
 
 use crate::constants::{Constant, Quantity};
 use crate::model::{Lateral, Laws};
+use hierarchical_fit::Valued;
 
 impl Laws {
     /// Laws at deviations of the constants.

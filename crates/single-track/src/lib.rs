@@ -23,7 +23,6 @@ mod constant_table;
 mod constants;
 mod diagnose;
 mod drive;
-mod error;
 pub mod file;
 mod forecast;
 mod laws;
@@ -43,8 +42,8 @@ pub use constant_table::constants;
 pub use constants::{Constant, Quantity};
 pub use diagnose::{Findings, diagnose, examine};
 pub use drive::{Drive, Table as Columns};
-pub use error::CarError;
 pub use forecast::{ByLength, Errors, LENGTHS};
+pub use hierarchical_fit::CaseError as CarError;
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
 

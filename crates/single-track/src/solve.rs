@@ -1,5 +1,6 @@
 //! Drives of a car as the shared fit takes them.
 
+use hierarchical_fit::CaseError as CarError;
 use hierarchical_fit::{Data, Kind, Observed, Row, Solved, Spread};
 
 use crate::car::Car;
@@ -7,7 +8,6 @@ use crate::cause::causes;
 use crate::constant_table::constants;
 use crate::constants::Constant;
 use crate::drive::Drive;
-use crate::error::CarError;
 use crate::model::Laws;
 use crate::rows::{POSE_ROWS, Shown};
 use crate::settings::SETTINGS;

@@ -10,7 +10,7 @@ fn found(hidden: Hidden, seed: u64) -> Findings {
 }
 
 fn value(findings: &Findings, name: &str) -> (f64, f64) {
-    let e = findings.constants.iter().find(|e| e.name == name).unwrap_or_else(|| panic!("no {name}"));
+    let e = findings.said.constants.iter().find(|e| e.name == name).unwrap_or_else(|| panic!("no {name}"));
     (e.value, e.half_width)
 }
 
@@ -32,8 +32,8 @@ fn what_is_hidden_is_named_with_its_size() {
         let findings = found(hidden, 10 * seed as u64 + 1);
         let is_named = |c: &single_track::NamedCause| c.spec.id == cause || c.alike.iter().any(|a| a == cause);
         let (value, half_width) = value(&findings, constant);
-        let names: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
-        if !findings.named.iter().any(is_named) || (value - truth).abs() > f64::max(tolerance, half_width) {
+        let names: Vec<&str> = findings.said.named.iter().map(|c| c.spec.id).collect();
+        if !findings.said.named.iter().any(is_named) || (value - truth).abs() > f64::max(tolerance, half_width) {
             wrong.push(format!("{cause}: {names:?}, {constant} {value} ± {half_width} where {truth} is true"));
         }
     }
@@ -45,14 +45,14 @@ fn other_distances_of_the_axles_are_not_re_tuned_away() {
     for wheelbase in [-0.15, 0.2] {
         let findings = found(Hidden { wheelbase, ..Hidden::default() }, 31);
         // Another gain of the steering shows nearly the same.
-        let first = &findings.named.first().expect("a cause");
+        let first = &findings.said.named.first().expect("a cause");
         let told: Vec<&str> = [first.label.as_str()]
             .into_iter()
             .chain(first.alike.iter().map(String::as_str))
-            .chain(findings.rival.as_deref())
+            .chain(findings.said.rival.as_deref())
             .collect();
-        assert_eq!(findings.answer, Answer::Named, "{wheelbase}");
-        assert!(told.contains(&"car_wheelbase"), "{wheelbase}: {told:?} {:?}", findings.others);
+        assert_eq!(findings.said.answer, Answer::Named, "{wheelbase}");
+        assert!(told.contains(&"car_wheelbase"), "{wheelbase}: {told:?} {:?}", findings.said.others);
     }
 }
 
@@ -61,12 +61,13 @@ fn a_larger_gain_of_the_steering_is_not_told_as_another_distance_of_the_axles() 
     for (gain, seed) in [(0.15, 41), (0.2, 51)] {
         let findings = found(Hidden { gain, ..Hidden::default() }, seed);
         let told: Vec<&str> = findings
+            .said
             .named
             .iter()
             .flat_map(|c| std::iter::once(c.label.as_str()).chain(c.alike.iter().map(String::as_str)))
             .collect();
-        assert_eq!(findings.answer, Answer::Named, "{gain}: {told:?}");
-        assert!(told.contains(&"steering_command_gain"), "{gain}: {told:?} {:?}", findings.others);
+        assert_eq!(findings.said.answer, Answer::Named, "{gain}: {told:?}");
+        assert!(told.contains(&"steering_command_gain"), "{gain}: {told:?} {:?}", findings.said.others);
     }
 }
 
@@ -74,8 +75,8 @@ fn a_larger_gain_of_the_steering_is_not_told_as_another_distance_of_the_axles() 
 fn nothing_is_named_of_a_car_as_stated() {
     let named: Vec<Vec<&str>> = (0..5)
         .map(|seed| found(Hidden::default(), 100 + 10 * seed))
-        .filter(|f| matches!(f.answer, Answer::Named | Answer::Unknown))
-        .map(|f| f.named.iter().map(|c| c.spec.id).collect())
+        .filter(|f| matches!(f.said.answer, Answer::Named | Answer::Unknown))
+        .map(|f| f.said.named.iter().map(|c| c.spec.id).collect())
         .collect();
     assert!(named.is_empty(), "{named:?}");
 }
@@ -174,15 +175,15 @@ fn clocks_of_car_and_pose_that_are_far_apart_are_told_with_their_sizes() {
         ([-1.5, 0.0], "car_clock_delay", -1.5),
     ] {
         let findings = of(Vec::new(), apart(centre, clocks, 5));
-        let [first, second] = [0, 1].map(|k| findings.named.get(k).map_or("", |c| c.spec.id));
+        let [first, second] = [0, 1].map(|k| findings.said.named.get(k).map_or("", |c| c.spec.id));
         assert_eq!((first, second), (id, "steering_centre"), "{clocks:?}");
-        let told = &findings.named[0].estimates[0];
+        let told = &findings.said.named[0].estimates[0];
         assert!((told.value - size).abs() < told.half_width.max(0.06 * size.abs()), "{clocks:?}: {told:?}");
         assert!(findings.told.iter().any(|t| t.contains("brought to the pose's clock")), "{:?}", findings.told);
     }
     // What references show as well is not what differs.
     let clocks = [0.0, 0.03];
     let findings = of(apart(Hidden::default(), clocks, 15), apart(centre, clocks, 5));
-    let named: Vec<&str> = findings.named.iter().map(|c| c.spec.id).collect();
+    let named: Vec<&str> = findings.said.named.iter().map(|c| c.spec.id).collect();
     assert_eq!(named, ["steering_centre"]);
 }

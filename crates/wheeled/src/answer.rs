@@ -11,15 +11,7 @@ use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
 
 /// The verdict of findings, with the forecasts of drives that were left out.
 pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
-    let found = Found {
-        answer: findings.answer,
-        named: &findings.named,
-        others: &findings.others,
-        constants: &findings.constants,
-        retuned: &findings.retuned,
-        rival: findings.rival.as_deref(),
-        shares: findings.shares,
-    };
+    let found = findings.said.found();
     let of_drive = |(drive, medians): &(String, Vec<Medians>)| {
         let of = |row: usize, k: usize| medians.get(row).and_then(|m| m[k]).map(|m| m.map(Some));
         free_runs(drive, "torques alone", LENGTHS, of)
@@ -28,7 +20,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = found.undecided().into_iter().collect();
     out.sentences.push(headline(findings, &found, has_references));
-    if findings.answer == Answer::Retune {
+    if findings.said.answer == Answer::Retune {
         out.sentences.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
     }
     out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
@@ -43,8 +35,8 @@ fn headline(findings: &Findings, found: &Found<'_>, has_references: bool) -> Str
     } else {
         ["the robot file", "is known", "leaves"]
     };
-    let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
-    match findings.answer {
+    let [given, tuned, best] = findings.said.shares.map(|s| 100.0 * s);
+    match findings.said.answer {
         Answer::Nothing => format!(
             "Nothing is missing: the robot moves as the torques of its motors imply, as well as {stated} {is_known} (errors after a \
              second are {given:.1} % of the motion, {tuned:.1} % re-tuned)."
@@ -58,16 +50,16 @@ fn headline(findings: &Findings, found: &Found<'_>, has_references: bool) -> Str
              a second go from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
             found.names()
         ),
-        Answer::Unknown if findings.is_scattered => format!(
+        Answer::Unknown if findings.said.is_scattered => format!(
             "Unknown: the drives of this robot differ from each other by {:.0} times what is usual or more, so that no cause that \
              all of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best \
              answer). Diagnose drives of one day, floor and load by themselves; candidates follow.",
-            findings.scatter
+            findings.said.scatter
         ),
         Answer::Unknown => format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer.{}",
-            if findings.shares[2] > SETTINGS.unexplained.most {
+            if findings.said.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
                 ""
@@ -98,7 +90,7 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
     let mut out = vec![format!(
         "{drives} drives, {with_pose} with a pose, {windows} windows of {} s; constants are taken to differ between drives by \
          {:.2} times the usual scatter",
-        SETTINGS.windows.length, findings.scatter
+        SETTINGS.windows.length, findings.said.scatter
     )];
     if with_pose == 0 {
         out.push(

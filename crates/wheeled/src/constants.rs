@@ -2,7 +2,7 @@
 
 use catalogue::odometry as odo;
 use catalogue::{CauseSpec, wheeled as spec};
-use hierarchical_fit::{Cause, Spread};
+use hierarchical_fit::{Cause, Spread, Valued};
 
 use crate::robot::AnyWheels;
 use crate::settings::{Form, SETTINGS};
@@ -61,14 +61,24 @@ pub struct Constant {
     pub cause: (&'static CauseSpec, Option<String>),
 }
 
-impl Constant {
-    /// The value at a deviation.
-    pub fn value(&self, deviation: f64) -> f64 {
+impl Valued for Constant {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    fn is_factor(&self) -> bool {
+        self.is_factor
+    }
+
+    fn value(&self, deviation: f64) -> f64 {
         if self.is_factor { self.given * deviation.exp() } else { self.given + deviation }
     }
 
-    /// One sigma by which a number that is told may be off because a robot has another law, in the unit of its value.
-    pub(crate) fn of_another_law(&self, value: f64) -> f64 {
+    fn of_another_law(&self, value: f64) -> f64 {
         match self.quantity {
             Quantity::Slip => SETTINGS.told.slip * value.abs(),
             Quantity::Lag | Quantity::Delay => SETTINGS.told.time,

@@ -1,14 +1,13 @@
 //! From a case to what was found.
 
+use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
-use hierarchical_fit::{Answer, Estimate, NamedCause, Posterior, Prior, Solved, Weighed, is_widest};
-use inference::robust::NINETY;
+use hierarchical_fit::{Said, Solved, Unexplained};
 use verdict::{PredictedPath, Trace};
 
-use crate::constants::{Constant, Has, causes};
+use crate::constants::{Has, causes};
 use crate::drive::{Drive, STEP};
-use crate::error::WheeledError;
 use crate::left_out::{Table, left_out_of, predicted, trace};
 use crate::robot::AnyWheels;
 use crate::rows::{Constants, Shown, data};
@@ -28,24 +27,8 @@ pub struct Case {
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
 pub struct Findings {
-    /// Kind of answer.
-    pub answer: Answer,
-    /// Causes that were named, the one that the data would miss most first.
-    pub named: Vec<NamedCause>,
-    /// Causes that were not, with their probabilities.
-    pub others: Vec<(String, f64)>,
-    /// All constants with the named causes.
-    pub constants: Vec<Estimate>,
-    /// Constants re-tuned within what is known, with no cause.
-    pub retuned: Vec<Estimate>,
-    /// The cause that is little less probable than the first.
-    pub rival: Option<String>,
-    /// Factor on the usual scatter of constants between drives.
-    pub scatter: f64,
-    /// Whether that is as much as was tried: what is named with all drives is then not trusted.
-    pub is_scattered: bool,
-    /// Root mean square error of windows over that of a robot that keeps still: as given, re-tuned, with the named causes.
-    pub shares: [f64; 3],
+    /// What they say whatever the model is.
+    pub said: Said,
     /// Drives, those with a pose, windows.
     pub counts: [usize; 3],
     /// What was done to the recordings, for people.
@@ -104,51 +87,15 @@ fn solved<'a>(case: &'a Case, progress: &dyn Fn(&str)) -> Result<Solved<Shown<'a
 }
 
 fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
-    let Solved { data, causes, prior, fit, named } = solved;
-    let all_constants = &data.model.all;
-    let estimates = |posterior: &Posterior| -> Vec<Estimate> {
-        all_constants.iter().enumerate().map(|(k, c)| estimate(c, prior, posterior, k)).collect()
-    };
-    let (all, retuned) = (estimates(&named.posterior), estimates(&named.retuned));
-    let shares = [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|theta| data.share(theta.as_slice()));
-    let of_cause = |weighed: &Weighed| {
-        let cause = &causes[weighed.cause];
-        NamedCause {
-            spec: cause.spec,
-            label: cause.label(),
-            probability: weighed.probability,
-            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
-            estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
-            intervals: Vec::new(),
-        }
-    };
-    let named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
-
+    let Solved { data, named, .. } = solved;
     let rules = SETTINGS.unexplained;
-    let is_left = shares[2] > rules.most || (shares[2] > rules.share && shares[2] > rules.of_retuned * shares[1]);
-    let is_scattered = data.drives.len() > 1 && is_widest(fit.factor);
-    let answer = if is_left || (is_scattered && !named_causes.is_empty()) {
-        Answer::Unknown
-    } else if !named_causes.is_empty() {
-        Answer::Named
-    } else if retuned.iter().any(Estimate::is_moved) {
-        Answer::Retune
-    } else {
-        Answer::Nothing
-    };
+    let mut said = solved.said(&data.model.all);
+    said.decide(Unexplained { share: rules.share, of_retuned: rules.of_retuned, most: rules.most }, |_| true);
     let mut told: Vec<String> =
         case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
     told.dedup();
     Findings {
-        answer,
-        named: named_causes,
-        others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
-        constants: all,
-        rival: named.rival.map(|c| causes[c].label()),
-        retuned,
-        scatter: fit.factor,
-        is_scattered,
-        shares,
+        said,
         counts: [
             data.drives.len(),
             data.drives.iter().filter(|s| s.drive.has_pose()).count(),
@@ -158,19 +105,5 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
         traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
         model: data.model.clone(),
         thetas: [&named.retuned, &named.posterior].map(|p| p.mean.as_slice().to_vec()),
-    }
-}
-
-fn estimate(constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
-    let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
-    let value = constant.value(posterior.mean[k]);
-    let sd_of_value = sd * if constant.is_factor { value.abs() } else { 1.0 };
-    Estimate {
-        name: constant.name.clone(),
-        unit: constant.unit,
-        given: constant.value(prior.mean[k]),
-        value,
-        half_width: NINETY * sd_of_value.hypot(constant.of_another_law(value)),
-        sigmas: (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt(),
     }
 }

@@ -1,11 +1,12 @@
 //! A drive: torques, steering, wheels, gyro and pose, on one grid of steps.
 
+use hierarchical_fit::CaseError as WheeledError;
 use inference::interpolate;
 use inference::robust::median;
 use odometry::file::Series;
 use odometry::held::Command;
+use odometry::rates::on_grid;
 
-use crate::error::WheeledError;
 use crate::robot::AnyWheels;
 use crate::settings::{Grid, SETTINGS};
 
@@ -118,13 +119,19 @@ impl Drive {
             let [from, until] = series.span().unwrap_or([start, end]);
             gaps.extend([[f64::MIN, from - start - RULES.gap], [until - start + RULES.gap, f64::MAX]]);
         }
+        let [x, y, yaw] = &of.pose;
+        let seen = x
+            .time
+            .iter()
+            .enumerate()
+            .map(|(k, t)| (t - start, [x, y, yaw].map(|s| s.value.get(k).copied().unwrap_or(f64::NAN))));
         Ok(Self {
             name: name.to_owned(),
             torque: of.torque.iter().map(held).collect(),
             steering: of.steering.iter().map(|s| summed_angle(s, start, steps)).collect(),
             wheels: of.wheels.iter().map(|s| summed(s, of.is_speed)).collect(),
             gyro: (!of.gyro.time.is_empty()).then(|| summed(&of.gyro, true)),
-            pose: if has_pose { on_grid(&of.pose, start, steps) } else { Vec::new() },
+            pose: if has_pose { on_grid(seen, steps, STEP, RULES.gap) } else { Vec::new() },
             gaps,
             steps,
             start,
@@ -158,33 +165,4 @@ fn summed_angle(s: &Series, start: f64, steps: usize) -> Command {
     }
     let ends = [at(0), at(steps - 1)];
     Command::summed(sums, ends, STEP)
-}
-
-/// Pose at the beginning of each step, between instants by lines; yaw without jumps.
-fn on_grid(pose: &[Series; 3], start: f64, steps: usize) -> Vec<[f64; 3]> {
-    let mut seen: Vec<(f64, [f64; 3])> = Vec::new();
-    for (k, time) in pose[0].time.iter().enumerate() {
-        let mut at = [0, 1, 2].map(|axis| pose[axis].value.get(k).copied().unwrap_or(f64::NAN));
-        if at.iter().all(|x| x.is_finite()) {
-            if let Some((_, last)) = seen.last() {
-                at[2] -= ((at[2] - last[2]) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
-            }
-            seen.push((time - start, at));
-        }
-    }
-    let mut k = 0;
-    (0..steps)
-        .map(|step| {
-            let time = STEP * step as f64;
-            while k + 2 < seen.len() && seen[k + 1].0 <= time {
-                k += 1;
-            }
-            let (Some((t0, a)), Some((t1, b))) = (seen.get(k), seen.get(k + 1)) else { return [f64::NAN; 3] };
-            if t1 - t0 > RULES.gap || time < *t0 || time > *t1 {
-                return [f64::NAN; 3];
-            }
-            let share = (time - t0) / (t1 - t0);
-            [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]))
-        })
-        .collect()
 }

@@ -1,6 +1,6 @@
 //! Drives left out in turn, and forecast from torques and steering alone.
 
-use hierarchical_fit::{Beside, Solved};
+use hierarchical_fit::{Ahead, Beside, Solved};
 use inference::robust::median;
 use odometry::rates::end;
 use rayon::prelude::*;
@@ -83,39 +83,19 @@ pub(crate) fn left_out_of(all: &Solved<Shown<'_>>, progress: &dyn Fn(&str)) -> T
     out
 }
 
-/// Steps at which forecasts begin: their past and their end were seen, and the robot moves.
-fn beginnings(drive: &Drive) -> Vec<usize> {
-    let pose = &drive.pose;
-    let longest = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
-    let past = (RULES.past / STEP).ceil() as usize;
-    let seen = |k: usize| pose[k][0].is_finite();
-    let usable = |&k: &usize| {
-        let (a, b) = (pose[k], pose[k + longest]);
-        let moves = (b[0] - a[0]).hypot(b[1] - a[1]) > RULES.way || (b[2] - a[2]).abs() > RULES.way;
-        moves && (k - past..=k).all(seen) && LENGTHS.iter().all(|l| seen(k + (l / STEP).round() as usize))
-    };
-    let every = (RULES.every / STEP).round() as usize;
-    (past..pose.len().saturating_sub(longest + 1)).step_by(every).filter(usable).collect()
-}
-
-/// Errors of one forecast over each length.
-fn judge(pose: &[[f64; 3]], from: usize, at: impl Fn(usize) -> [f64; 3]) -> [[f64; 2]; 3] {
-    LENGTHS.map(|length| {
-        let steps = (length / STEP).round() as usize;
-        let ([x, y, yaw], truth) = (at(steps), pose[from + steps]);
-        [(x - truth[0]).hypot(y - truth[1]), (yaw - truth[2]).abs()]
-    })
-}
+/// Which forecasts are made.
+const AHEAD: Ahead =
+    Ahead { step: STEP, lengths: LENGTHS, every: RULES.every, past: RULES.past, way: RULES.way, turn: RULES.turn };
 
 fn forecasts(model: &Constants, theta: &[f64], drive: &Drive) -> Errors {
     let at = Model::at(&model.robot, &model.all, theta);
-    let steps = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
+    let steps = AHEAD.longest();
     let of = |from: usize| {
         let begun = end(&drive.pose, from, RULES.past, STEP)?;
         let run = run((&at, &model.robot), drive, (from, steps), begun);
-        Some(judge(&drive.pose, from, |k| run[k - 1]))
+        Some(AHEAD.judge(&drive.pose, from, |k| run[k - 1]))
     };
-    beginnings(drive).into_iter().filter_map(of).collect()
+    AHEAD.beginnings(&drive.pose).into_iter().filter_map(of).collect()
 }
 
 /// Tracked poses after each step from a measured one with its rates.
@@ -135,26 +115,15 @@ fn run(
 
 /// A twist that does not change.
 fn twist(drive: &Drive) -> Errors {
-    let of = |from: usize| {
-        let (at, [vx, vy, rate]) = end(&drive.pose, from, RULES.past, STEP)?;
-        Some(judge(&drive.pose, from, |k| {
-            let time = STEP * k as f64;
-            // Chord and its direction.
-            let half = 0.5 * rate * time;
-            let chord = if half == 0.0 { time } else { time * half.sin() / half };
-            let (sin, cos) = half.sin_cos();
-            let (dx, dy) = (chord * (cos * vx - sin * vy), chord * (sin * vx + cos * vy));
-            [at[0] + dx, at[1] + dy, at[2] + rate * time]
-        }))
-    };
-    beginnings(drive).into_iter().filter_map(of).collect()
+    let of = |from: usize| Some(AHEAD.judge_twist(&drive.pose, from, end(&drive.pose, from, RULES.past, STEP)?));
+    AHEAD.beginnings(&drive.pose).into_iter().filter_map(of).collect()
 }
 
 /// A drive beside the motion from torques and steering alone, as stated or as the references have it, re-tuned, and with the
 /// named causes, the last only where there are some; `None` of a drive without a pose.
 pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: bool) -> Option<Trace> {
     let drive = shown.drive;
-    let longest = (LENGTHS[LENGTHS.len() - 1] / STEP).round() as usize;
+    let longest = AHEAD.longest();
     let mut starts: Vec<usize> = Vec::new();
     for step in 0..drive.pose.len() {
         let is_next = starts.last().is_none_or(|last| step - last >= longest);

@@ -1,5 +1,6 @@
 //! What a drive shows, row by row: windows of pose, wheels and gyro against a free run of the plant.
 
+use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
 use hierarchical_fit::{Data, Kind, Observed, Row};
@@ -9,7 +10,6 @@ use robot_model::{Lanes, real};
 
 use crate::constants::{Constant, Has, constants};
 use crate::drive::{Drive, STEP};
-use crate::error::WheeledError;
 use crate::model::{LANES, Model, PerLane};
 use crate::robot::AnyWheels;
 use crate::settings::{SETTINGS, Windows};

@@ -12,8 +12,13 @@ fn nothing_is_missing_of_a_robot_as_stated() {
         [("torque-tricycle", With::Gyro), ("torque-six-wheel", With::Pose), ("torque-omni-3", With::Gyro)]
     {
         let out = diagnose(&case(name, with, |_| {}), &|_| {}).expect("findings");
-        assert!(out.named.is_empty() && out.answer != Answer::Unknown, "{name}: {:?} {:?}", out.answer, out.named);
-        assert!(out.shares[0] < 0.02, "{name}: {:?}", out.shares);
+        assert!(
+            out.said.named.is_empty() && out.said.answer != Answer::Unknown,
+            "{name}: {:?} {:?}",
+            out.said.answer,
+            out.said.named
+        );
+        assert!(out.said.shares[0] < 0.02, "{name}: {:?}", out.said.shares);
     }
 }
 
@@ -32,9 +37,9 @@ fn what_is_changed_is_named_with_its_size() {
     ];
     for (name, with, cause, size, change) in cases {
         let out = diagnose(&case(name, with, change), &|_| {}).expect("findings");
-        let labels: Vec<&str> = out.named.iter().map(|c| c.label.as_str()).collect();
-        assert_eq!((out.answer, labels.as_slice()), (Answer::Named, [cause].as_slice()), "{name}");
-        let estimate = &out.named[0].estimates[0];
+        let labels: Vec<&str> = out.said.named.iter().map(|c| c.label.as_str()).collect();
+        assert_eq!((out.said.answer, labels.as_slice()), (Answer::Named, [cause].as_slice()), "{name}");
+        let estimate = &out.said.named[0].estimates[0];
         let off = (estimate.value - size).abs();
         assert!(off < 1.5 * estimate.half_width && estimate.half_width < 0.2 * size, "{cause}: {estimate:?}");
     }

@@ -8,8 +8,7 @@ use serde_json::{Value, json};
 
 use crate::bag_signals;
 use crate::columns::Kind;
-use crate::drive_files::{NamesColumns, Recorded, name_of, table};
-use crate::{car, odometry, wheeled};
+use crate::drive_files::{NamesColumns, Recorded, name_of, robot, table};
 
 /// A signal that a column of the robot file reads.
 #[derive(Debug)]
@@ -67,12 +66,16 @@ impl OfRobot {
 /// Reads recordings by the columns of a robot file; `None` where its kind has none.
 pub(super) fn read(name: &str, kind: Kind, paths: &[PathBuf]) -> Result<Option<OfRobot>> {
     let drives = match kind {
-        Kind::Odometry => odometry::robot(name)?.map(|file| by(name, &file, paths)),
-        Kind::Car => car::robot(name)?.map(|(file, _)| by(name, &file, paths)),
-        Kind::Wheeled => wheeled::robot(name)?.map(|(file, _)| by(name, &file, paths)),
+        Kind::Odometry => of_kind::<odometry::file::RobotFile>(name, paths),
+        Kind::Car => of_kind::<single_track::file::RobotFile>(name, paths),
+        Kind::Wheeled => of_kind::<wheeled::file::RobotFile>(name, paths),
     };
-    let Some(drives) = drives.transpose()? else { return Ok(None) };
+    let Some(drives) = drives? else { return Ok(None) };
     Ok(Some(OfRobot { robot: name.to_owned(), kind, drives }))
+}
+
+fn of_kind<F: NamesColumns>(name: &str, paths: &[PathBuf]) -> Result<Option<Vec<DriveRead>>> {
+    robot::<F>(name)?.map(|(file, _)| by(name, &file, paths)).transpose()
 }
 
 fn by<F: NamesColumns>(robot: &str, file: &F, paths: &[PathBuf]) -> Result<Vec<DriveRead>> {

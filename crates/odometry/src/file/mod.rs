@@ -25,5 +25,5 @@ mod robot;
 mod series;
 mod table;
 
-pub use robot::{BUILT_IN, Columns, RobotFile, seconds_in};
+pub use robot::{BUILT_IN, Columns, RobotFile, is_of_kind, seconds_in};
 pub use series::{Series, Signals};

@@ -117,6 +117,12 @@ struct ColumnNames {
     session_separator: Option<String>,
 }
 
+/// Whether a robot file says that it is of a kind.
+pub fn is_of_kind(text: &str, kind: &str) -> bool {
+    let quoted = |rest: &str| ["\"", "'"].iter().any(|quote| rest.contains(&format!("{quote}{kind}{quote}")));
+    text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(quoted))
+}
+
 /// Every sigma that is stated is above zero.
 fn known_above_none(read: &File) -> Result<(), String> {
     let known = &read.known;
@@ -168,8 +174,7 @@ fn pose_columns(names: &ColumnNames) -> Result<Option<[String; 3]>, String> {
 impl RobotFile {
     /// Whether a robot file is one of this kind.
     pub fn is_one(text: &str) -> bool {
-        let is_named = |rest: &str| rest.contains("\"odometry\"") || rest.contains("'odometry'");
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
+        is_of_kind(text, "odometry")
     }
 
     /// A built-in robot; `None` where there is none of this name.

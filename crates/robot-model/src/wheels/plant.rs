@@ -379,7 +379,8 @@ impl<T: Scalar> Plant<T> {
     }
 }
 
-/// `x` of `m x = b`, `m` symmetric and positive definite: 11, 12, 13, 22, 23, 33.
+/// `x` of `m x = b`, `m` symmetric and positive definite: 11, 12, 13, 22, 23, 33. By hand, for lanes have no order to pivot by, which
+/// nalgebra's solvers ask for.
 #[inline(always)]
 pub(super) fn solve<T: Scalar>(m: [T; 6], b: [T; 3]) -> [T; 3] {
     let [a11, a12, a13, a22, a23, a33] = m;

@@ -1,9 +1,9 @@
 //! The robot file of `kind = "car"`.
 
+use hierarchical_fit::CaseError as CarError;
 use serde::Deserialize;
 
 use crate::car::{Car, Stated};
-use crate::error::CarError;
 
 /// Cars that are there by name.
 pub const BUILT_IN: &[(&str, &str)] =
@@ -121,8 +121,7 @@ struct Encoder {
 impl RobotFile {
     /// Whether a robot file is one of this kind.
     pub fn is_one(text: &str) -> bool {
-        let is_named = |rest: &str| rest.contains("\"car\"") || rest.contains("'car'");
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
+        odometry::file::is_of_kind(text, "car")
     }
 
     /// Reads a robot file.

@@ -1,9 +1,9 @@
 //! Drives from signals at instants of their own, as the messages of a bag have them.
 
+use hierarchical_fit::CaseError as CarError;
 use odometry::file::{Series, Signals};
 
 use crate::drive::{Drive, Table};
-use crate::error::CarError;
 use crate::file::robot::RobotFile;
 
 impl RobotFile {

@@ -1,8 +1,8 @@
 //! Drives from tables of comma-separated values.
 
 use crate::drive::{Drive, Table};
-use crate::error::CarError;
 use crate::file::robot::RobotFile;
+use hierarchical_fit::CaseError as CarError;
 
 impl RobotFile {
     /// A drive from a table with a line of column names; its name is that of the file.

@@ -3,8 +3,8 @@
 mod rows;
 mod table;
 
-use crate::error::WheeledError;
 use crate::robot::AnyWheels;
+use hierarchical_fit::CaseError as WheeledError;
 
 /// Robots that are there by name.
 pub const BUILT_IN: &[(&str, &str)] = &[
@@ -51,8 +51,7 @@ pub struct Columns {
 impl RobotFile {
     /// Whether a robot file is one of this kind.
     pub fn is_one(text: &str) -> bool {
-        let is_named = |rest: &str| rest.contains("\"wheeled\"") || rest.contains("'wheeled'");
-        text.lines().map(str::trim).any(|l| l.strip_prefix("kind").is_some_and(is_named))
+        odometry::file::is_of_kind(text, "wheeled")
     }
 
     /// Reads a robot file.

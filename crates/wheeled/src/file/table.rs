@@ -1,11 +1,11 @@
 //! Drives from tables of comma-separated values, and from the messages of bags.
 
+use hierarchical_fit::CaseError as WheeledError;
 use std::collections::BTreeMap;
 
 use odometry::file::{Series, Signals};
 
 use crate::drive::{Drive, Measured};
-use crate::error::WheeledError;
 use crate::file::RobotFile;
 
 impl RobotFile {

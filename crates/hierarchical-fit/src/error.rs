@@ -3,7 +3,7 @@
 /// Why a robot cannot be compared with its drives.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum WheeledError {
+pub enum CaseError {
     /// The robot file cannot be.
     #[error("robot '{robot}': {what}")]
     Robot {

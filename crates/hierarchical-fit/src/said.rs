@@ -1,0 +1,187 @@
+//! What the drives of a fit say, whatever its model is.
+
+use inference::robust::NINETY;
+
+use crate::found::{Answer, Estimate, NamedCause};
+use crate::is_widest;
+use crate::name::Weighed;
+use crate::observed::Observed;
+use crate::solve::Solved;
+use crate::telling::Found;
+use crate::weigh::Posterior;
+
+/// A constant as it is told.
+pub trait Valued {
+    /// Its name.
+    fn name(&self) -> &str;
+    /// Unit of its value.
+    fn unit(&self) -> &'static str;
+    /// Whether the deviation is the logarithm of a factor.
+    fn is_factor(&self) -> bool;
+    /// The value at a deviation.
+    fn value(&self, deviation: f64) -> f64;
+    /// One sigma by which a number that is told may be off because the robot has another law than the model, in the unit of its
+    /// value.
+    fn of_another_law(&self, value: f64) -> f64;
+}
+
+/// When something is left that no cause accounts for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unexplained {
+    /// Remaining error over the motion, beyond which what is left asks for a cause.
+    pub share: f64,
+    /// Share of the re-tuned error that has to be left then.
+    pub of_retuned: f64,
+    /// Remaining error over the motion, beyond which nothing is explained, however much more was left before.
+    pub most: f64,
+}
+
+/// What the drives of a fit say.
+#[derive(Debug, Clone)]
+pub struct Said {
+    /// Kind of answer.
+    pub answer: Answer,
+    /// Causes that were named, the one that the data would miss most first.
+    pub named: Vec<NamedCause>,
+    /// Causes that were not, with their probabilities.
+    pub others: Vec<(String, f64)>,
+    /// All constants with the named causes.
+    pub constants: Vec<Estimate>,
+    /// Constants re-tuned within what is known, with no cause.
+    pub retuned: Vec<Estimate>,
+    /// The cause that is little less probable than the first.
+    pub rival: Option<String>,
+    /// Factor on the usual scatter of constants between drives.
+    pub scatter: f64,
+    /// Whether that is as much as was tried: what is named with all drives is then not trusted.
+    pub is_scattered: bool,
+    /// Root mean square error of windows over that of a robot that keeps still: as given, re-tuned, with the named causes.
+    pub shares: [f64; 3],
+}
+
+impl<D: Observed> Solved<D> {
+    /// What the drives say; its answer is yet to be [decided](Said::decide).
+    pub fn said(&self, constants: &[impl Valued]) -> Said {
+        let Self { data, causes, prior, fit, named } = self;
+        let estimates = |posterior: &Posterior| -> Vec<Estimate> {
+            constants.iter().enumerate().map(|(k, c)| self.estimate(c, posterior, k)).collect()
+        };
+        let all = estimates(&named.posterior);
+        let of_cause = |weighed: &Weighed| {
+            let cause = &causes[weighed.cause];
+            NamedCause {
+                spec: cause.spec,
+                label: cause.label(),
+                probability: weighed.probability,
+                alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
+                estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
+                intervals: Vec::new(),
+            }
+        };
+        Said {
+            answer: Answer::Nothing,
+            named: named.chosen.iter().map(of_cause).collect(),
+            others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
+            retuned: estimates(&named.retuned),
+            rival: named.rival.map(|c| causes[c].label()),
+            scatter: fit.factor,
+            // Deviations of single drives explain everything where they are as free as was tried.
+            is_scattered: data.drives.len() > 1 && is_widest(fit.factor),
+            shares: [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|t| data.share(t.as_slice())),
+            constants: all,
+        }
+    }
+
+    fn estimate(&self, constant: &impl Valued, posterior: &Posterior, k: usize) -> Estimate {
+        let prior = &self.prior;
+        let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
+        let value = constant.value(posterior.mean[k]);
+        let sd_of_value = sd * if constant.is_factor() { value.abs() } else { 1.0 };
+        Estimate {
+            name: constant.name().to_owned(),
+            unit: constant.unit(),
+            given: constant.value(prior.mean[k]),
+            value,
+            half_width: NINETY * sd_of_value.hypot(constant.of_another_law(value)),
+            sigmas: (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt(),
+        }
+    }
+}
+
+impl Said {
+    /// Decides the answer. `is_stated`: whether a constant that moved is told as re-tuned.
+    pub fn decide(&mut self, rules: Unexplained, is_stated: impl Fn(&Estimate) -> bool) {
+        let [_, retuned, left] = self.shares;
+        let is_left = left > rules.most || (left > rules.share && left > rules.of_retuned * retuned);
+        self.answer = if is_left || (self.is_scattered && !self.named.is_empty()) {
+            Answer::Unknown
+        } else if !self.named.is_empty() {
+            Answer::Named
+        } else if self.retuned.iter().filter(|e| is_stated(e)).any(Estimate::is_moved) {
+            Answer::Retune
+        } else {
+            Answer::Nothing
+        };
+    }
+
+    /// The same for a verdict.
+    pub fn found(&self) -> Found<'_> {
+        Found {
+            answer: self.answer,
+            named: &self.named,
+            others: &self.others,
+            constants: &self.constants,
+            retuned: &self.retuned,
+            rival: self.rival.as_deref(),
+            shares: self.shares,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_is_unknown_where_much_is_left_or_drives_differ_too_much_to_trust_a_cause() {
+        let rules = Unexplained { share: 0.1, of_retuned: 0.8, most: 0.4 };
+        let estimate = |value: f64| Estimate {
+            name: "length".to_owned(),
+            unit: "m",
+            given: 1.0,
+            value,
+            half_width: 0.1,
+            sigmas: (value - 1.0) / 0.1,
+        };
+        let decided = |shares, is_scattered, retuned: f64, is_named: bool| {
+            let cause = NamedCause {
+                spec: &catalogue::odometry::STEERING_ZERO,
+                label: "steering_zero".to_owned(),
+                probability: 0.9,
+                alike: Vec::new(),
+                estimates: Vec::new(),
+                intervals: Vec::new(),
+            };
+            let mut said = Said {
+                answer: Answer::Nothing,
+                named: if is_named { vec![cause] } else { Vec::new() },
+                others: Vec::new(),
+                constants: Vec::new(),
+                retuned: vec![estimate(retuned)],
+                rival: None,
+                scatter: 1.0,
+                is_scattered,
+                shares,
+            };
+            said.decide(rules, |e| e.name == "length");
+            said.answer
+        };
+        assert_eq!(decided([0.2, 0.05, 0.05], false, 1.0, false), Answer::Nothing);
+        assert_eq!(decided([0.2, 0.05, 0.05], false, 1.5, false), Answer::Retune);
+        assert_eq!(decided([0.2, 0.15, 0.05], false, 1.5, true), Answer::Named);
+        assert_eq!(decided([0.2, 0.15, 0.05], true, 1.5, true), Answer::Unknown);
+        assert_eq!(decided([0.2, 0.12, 0.11], false, 1.5, true), Answer::Unknown);
+        assert_eq!(decided([0.9, 0.3, 0.12], false, 1.5, true), Answer::Named);
+        assert_eq!(decided([2.0, 1.9, 0.5], false, 1.5, true), Answer::Unknown);
+    }
+}
