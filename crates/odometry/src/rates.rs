@@ -98,7 +98,7 @@ mod tests {
         let pose = on_grid(poses.chain([(0.5, [f64::NAN; 3])]), 25, STEP, 0.1);
         let turn = std::f64::consts::TAU;
         assert!((pose[2][2] - (3.1 + 0.8 * (turn - 6.2))).abs() < 1e-9, "{:?}", pose[2]);
-        assert!((pose[5][2] - (turn - 3.0)).abs() < 1e-9 && (pose[5][0] - 0.1).abs() < 1e-12, "{:?}", pose[5]);
-        assert!(pose[6..20].iter().all(|p| p[0].is_nan()) && pose[21][1] == 1.0 && pose[24][0].is_nan());
+        assert!((pose[4][2] - (turn - 3.04)).abs() < 1e-9 && (pose[4][0] - 0.08).abs() < 1e-12, "{:?}", pose[4]);
+        assert!(pose[5..20].iter().all(|p| p[0].is_nan()) && pose[21][1] == 1.0 && pose[24][0].is_nan());
     }
 }
