@@ -19,7 +19,7 @@ pub(crate) struct Answered {
 pub(crate) fn scores<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
     let noise = both[0].fit.noise.least(both[1].fit.noise);
     both.map(|of| {
-        let sessions = sessions(data, &of.fit.theta, noise);
+        let sessions = sessions(data, &of.fit.theta, &of.fit.own, noise);
         let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
         let known = covariance(&prior.covariance, causes, &of.set);
         evidence.and_then(|e| Some(e.of(&known)? - e.base)).unwrap_or(f64::NEG_INFINITY)

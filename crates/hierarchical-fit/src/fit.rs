@@ -3,6 +3,8 @@
 //! Errors in sigmas count by a loss without a corner (pseudo-Huber); the deviation `δ ~ N(0, T)` of every drive is eliminated, so
 //! that drives weigh by what they say of the robot and intervals are as wide as drives scatter.
 
+use std::sync::Arc;
+
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -62,7 +64,9 @@ pub struct Prior {
 pub struct Fit {
     /// Deviations of the constants.
     pub theta: Vec<f64>,
-    /// Equations of each drive about them.
+    /// Deviation of each drive from them, about which it is linearised.
+    pub own: Vec<DVector<f64>>,
+    /// Equations of each drive about the constants.
     pub sessions: Vec<Session>,
     /// What rows scatter by.
     pub noise: Noise,
@@ -137,6 +141,11 @@ impl<D: Observed> Data<D> {
         self.spreads.iter().zip(theta.iter()).map(|(c, x)| x.clamp(c.bounds[0], c.bounds[1])).collect()
     }
 
+    /// Constants of a drive that deviates from the robot's.
+    pub(crate) fn own_constants(&self, theta: &[f64], own: &DVector<f64>) -> Vec<f64> {
+        self.within_bounds(&(DVector::from_column_slice(theta) + own))
+    }
+
     /// What the robot file knows.
     pub(crate) fn prior(&self) -> Prior {
         let n = self.spreads.len();
@@ -165,13 +174,31 @@ pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]
     out
 }
 
-/// Normal equations of every drive.
-pub(crate) fn sessions<D: Observed>(data: &Data<D>, theta: &[f64], noise: Noise) -> Vec<Session> {
-    let of = |drive: &D| {
-        let errors = drive.errors(&data.model, theta);
-        equations(drive, (&errors, &drive.columns(&data.model, theta)), noise)
+/// Normal equations of every drive, linearised about its own constants and seen from those of the robot: where drives deviate
+/// much, the equations about the robot's would not say where the cost falls (conditional estimation, Lindstrom & Bates 1990).
+pub(crate) fn sessions<D: Observed>(
+    data: &Data<D>,
+    theta: &[f64],
+    own: &[DVector<f64>],
+    noise: Noise,
+) -> Vec<Session> {
+    let of = |(drive, own): (&D, &DVector<f64>)| {
+        let at = data.own_constants(theta, own);
+        session(data, drive, (theta, &at), &drive.columns(&data.model, &at), noise)
     };
-    data.drives.par_iter().map(of).collect()
+    data.drives.par_iter().zip(own).map(of).collect()
+}
+
+/// The same of one drive at its own constants `at`, of which the columns are known.
+fn session<D: Observed>(
+    data: &Data<D>,
+    drive: &D,
+    (theta, at): (&[f64], &[f64]),
+    columns: &[Vec<f64>],
+    noise: Noise,
+) -> Session {
+    let shift = DVector::from_iterator(theta.len(), at.iter().zip(theta).map(|(a, t)| a - t));
+    equations(drive, (&drive.errors(&data.model, at), columns), noise).seen_from(&shift)
 }
 
 struct Driven<'a, D: Observed> {
@@ -182,15 +209,35 @@ struct Driven<'a, D: Observed> {
     noise: Noise,
 }
 
+/// Columns of every drive.
+type Columns = Arc<Vec<Vec<Vec<f64>>>>;
+
 struct Point {
     theta: Vec<f64>,
+    own: Vec<DVector<f64>>,
     sessions: Vec<Session>,
+    columns: Columns,
+    /// Whether the columns are those of where the fit stands.
+    is_renewed: bool,
 }
 
 impl<D: Observed> Driven<'_, D> {
-    fn at(&self, theta: Vec<f64>) -> Point {
-        let sessions = sessions(self.data, &theta, self.noise);
-        Point { theta, sessions }
+    fn at(&self, theta: Vec<f64>, own: Vec<DVector<f64>>) -> Point {
+        let of = |(drive, own): (&D, &DVector<f64>)| {
+            drive.columns(&self.data.model, &self.data.own_constants(&theta, own))
+        };
+        let columns = Arc::new(self.data.drives.par_iter().zip(&own).map(of).collect());
+        Point { is_renewed: true, ..self.with(theta, own, columns) }
+    }
+
+    /// With the columns of elsewhere: near by they hardly differ, and they take most of the time.
+    fn with(&self, theta: Vec<f64>, own: Vec<DVector<f64>>, columns: Columns) -> Point {
+        let of = |((drive, own), columns): ((&D, &DVector<f64>), &Vec<Vec<f64>>)| {
+            let at = self.data.own_constants(&theta, own);
+            session(self.data, drive, (&theta, &at), columns, self.noise)
+        };
+        let sessions = self.data.drives.par_iter().zip(&own).zip(columns.par_iter()).map(of).collect();
+        Point { theta, own, sessions, columns, is_renewed: false }
     }
 }
 
@@ -212,7 +259,10 @@ impl<D: Observed> Problem for Driven<'_, D> {
         at.theta.iter().zip(&self.data.spreads).map(of).collect()
     }
 
-    fn linearise(&self, at: &mut Point, _: usize) -> Option<Normal> {
+    fn linearise(&self, at: &mut Point, iteration: usize) -> Option<Normal> {
+        if iteration.is_multiple_of(SETTINGS.fitting.renewed) {
+            self.renew(at);
+        }
         let n = at.theta.len();
         let mut curvature = self.information.clone();
         let mut slope = &self.information * (DVector::from_column_slice(&at.theta) - &self.prior.mean);
@@ -226,8 +276,29 @@ impl<D: Observed> Problem for Driven<'_, D> {
         Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
     }
 
-    fn moved(&self, _: &Point, step: &Step<'_>) -> Option<Point> {
-        Some(self.at(step.values.clone()))
+    fn renew(&self, at: &mut Point) -> bool {
+        if at.is_renewed {
+            return false;
+        }
+        let Some(own) = at.sessions.iter().map(|s| s.deviation(&self.scatter)).collect() else { return false };
+        *at = self.at(std::mem::take(&mut at.theta), own);
+        true
+    }
+
+    fn moved(&self, from: &Point, step: &Step<'_>) -> Option<Point> {
+        Some(self.with(step.values.clone(), from.own.clone(), Arc::clone(&from.columns)))
+    }
+}
+
+/// How steps are taken: undamped ones first, for most fits are close to linear.
+fn damped(iterations: usize) -> Settings {
+    let rules = SETTINGS.fitting;
+    Settings {
+        iterations,
+        least_relative_fall: rules.fall,
+        least_damping: rules.damping[0],
+        lower: rules.damping[1],
+        ..Settings::gauss_newton()
     }
 }
 
@@ -235,27 +306,24 @@ impl<D: Observed> Problem for Driven<'_, D> {
 pub(crate) fn fit<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
     let rules = SETTINGS.fitting;
     let information = prior.covariance.clone().cholesky()?.inverse();
-    let settings =
-        Settings { iterations: rules.iterations, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let settings = damped(rules.iterations);
     let noise = data.noise(&data.errors(&vec![start.clone(); data.drives.len()]));
     // Before the first fit errors are no noise, and follow one another.
-    let mut out = Fit { theta: start, sessions: Vec::new(), noise: noise.of_single_rows(), factor: 1.0 };
+    let own = vec![DVector::zeros(start.len()); data.drives.len()];
+    let mut out = Fit { theta: start, own, sessions: Vec::new(), noise: noise.of_single_rows(), factor: 1.0 };
     for _ in 0..rules.rounds {
         let scatter = data.scatter(out.factor);
         let problem =
             Driven { data, prior, information: information.clone(), scatter: scatter.clone(), noise: out.noise };
-        let at = minimise(&problem, problem.at(out.theta), &settings).at;
+        let at = minimise(&problem, problem.at(out.theta, out.own), &settings).at;
+        out.own = at.sessions.iter().map(|s| s.deviation(&scatter)).collect::<Option<_>>()?;
         (out.theta, out.sessions) = (at.theta, at.sessions);
         // What a drive has of its own is no noise of its rows.
-        let own = |s: &Session| match s.deviation(&scatter) {
-            Some(d) => out.theta.iter().zip(d.iter()).map(|(t, d)| t + d).collect(),
-            None => out.theta.clone(),
-        };
-        let thetas: Vec<Vec<f64>> = out.sessions.iter().map(own).collect();
+        let thetas: Vec<Vec<f64>> = out.own.iter().map(|own| data.own_constants(&out.theta, own)).collect();
         out.noise = data.noise(&data.errors(&thetas));
         out.factor = scatter_factor(data, prior, &out);
     }
-    out.sessions = sessions(data, &out.theta, out.noise);
+    out.sessions = sessions(data, &out.theta, &out.own, out.noise);
     Some(out)
 }
 
@@ -263,22 +331,24 @@ pub(crate) fn fit<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>) -
 pub(crate) fn fit_like<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>, like: &Fit) -> Option<Fit> {
     let rules = SETTINGS.fitting;
     let information = prior.covariance.clone().cholesky()?.inverse();
-    let settings = Settings { iterations: rules.again, least_relative_fall: rules.fall, ..Settings::gauss_newton() };
+    let settings = damped(rules.again);
     let problem = Driven { data, prior, information, scatter: data.scatter(like.factor), noise: like.noise };
-    let Point { theta, sessions } = minimise(&problem, problem.at(start), &settings).at;
-    Some(Fit { theta, sessions, noise: like.noise, factor: like.factor })
+    let at = minimise(&problem, problem.at(start, like.own.clone()), &settings).at;
+    let own = at.sessions.iter().map(|s| s.deviation(&problem.scatter)).collect::<Option<Vec<_>>>()?;
+    let sessions = sessions(data, &at.theta, &own, like.noise);
+    Some(Fit { theta: at.theta, own, sessions, noise: like.noise, factor: like.factor })
 }
 
 /// Of two values of the constants those that are more probable; `None` where a prior is no covariance.
 pub(crate) fn likelier<D: Observed>(
     data: &Data<D>,
     prior: &Prior,
-    noise: Noise,
+    like: &Fit,
     both: [Vec<f64>; 2],
 ) -> Option<Vec<f64>> {
     let information = prior.covariance.clone().cholesky()?.inverse();
-    let problem = Driven { data, prior, information, scatter: data.scatter(1.0), noise };
-    let [a, b] = both.map(|theta| problem.at(theta));
+    let problem = Driven { data, prior, information, scatter: data.scatter(1.0), noise: like.noise };
+    let [a, b] = both.map(|theta| problem.at(theta, like.own.clone()));
     Some(if problem.cost(&b) < problem.cost(&a) { b.theta } else { a.theta })
 }
 
@@ -286,6 +356,7 @@ pub(crate) fn likelier<D: Observed>(
 pub(crate) fn without<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit, left: usize) -> Fit {
     let mut out = fit.clone();
     out.sessions.remove(left);
+    out.own.remove(left);
     out.factor = scatter_factor(data, prior, &out);
     out
 }

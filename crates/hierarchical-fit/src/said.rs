@@ -62,7 +62,7 @@ pub struct Said {
 impl<D: Observed> Solved<D> {
     /// What the drives say; its answer is yet to be [decided](Said::decide).
     pub fn said(&self, constants: &[impl Valued]) -> Said {
-        let Self { data, causes, prior, fit, named } = self;
+        let Self { data, causes, prior, fit, named, .. } = self;
         let estimates = |posterior: &Posterior| -> Vec<Estimate> {
             constants.iter().enumerate().map(|(k, c)| self.estimate(c, posterior, k)).collect()
         };

@@ -23,11 +23,21 @@ pub struct Marginal {
     pub curvature: DMatrix<f64>,
     /// First derivatives, nats per unit.
     pub slope: DVector<f64>,
-    /// Negative log-likelihood, nats, but for what all scatters share.
+    /// Negative log-likelihood of the most probable deviation, its prior included, nats.
     pub cost: f64,
+    /// What is added where all deviations count by their probability, nats, but for what all scatters share.
+    pub width: f64,
 }
 
 impl Session {
+    /// Equations about constants that lie `shift` beyond a place, seen from there.
+    pub(crate) fn seen_from(mut self, shift: &DVector<f64>) -> Self {
+        let turned = &self.curvature * shift;
+        self.cost += 0.5 * shift.dot(&turned) - self.slope.dot(shift);
+        self.slope -= turned;
+        self
+    }
+
     /// The session's own most probable deviation from the constants about which it is linearised: `−S M⁻¹ S g`.
     pub fn deviation(&self, scatter: &DVector<f64>) -> Option<DVector<f64>> {
         let s = DMatrix::from_diagonal(scatter);
@@ -48,7 +58,8 @@ impl Session {
         Some(Marginal {
             curvature: &self.curvature - sh.transpose() * of_curvature,
             slope: &self.slope - sh.transpose() * &of_slope,
-            cost: self.cost - 0.5 * sg.dot(&of_slope) + half_log_determinant,
+            cost: self.cost - 0.5 * sg.dot(&of_slope),
+            width: half_log_determinant,
         })
     }
 }

@@ -24,8 +24,14 @@
         iterations: usize = 15, "1", "guess";
         /// The same of a fit with another cause, which starts where the equations end.
         again: usize = 6, "1", "guess";
+        /// Linearisations of which one takes the columns anew; the others keep those of the one before.
+        renewed: usize = 2, "1", "guess; columns take most of the time, and a step changes them little";
+        /// Damping after an undamped step that failed, and factor of the damping after one that did not.
+        damping: [f64; 2] = [0.01, 0.3], "1", "guess; what curves still does at the next step";
         /// Relative fall of the cost below which a round is at rest.
         fall: f64 = 1e-4, "1", "guess";
+        /// Errors of a fit in which every cause is free over those of the best answer, from which on no other answer is looked for.
+        freed: f64 = 0.9, "1", "guess; a cause that was missed left twice as much and more";
         /// Factors on the usual scatter of drives that are tried.
         factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
         /// Sigma of the logarithm of that factor.

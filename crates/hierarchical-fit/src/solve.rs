@@ -9,7 +9,7 @@ use crate::look_alikes::exchanged;
 use crate::name::{Named, covariance, name};
 use crate::observed::Observed;
 use crate::settings::SETTINGS;
-use crate::weigh::Evidence;
+use crate::weigh::{Evidence, Posterior};
 
 /// Drives with the constants fitted to them, and what was named.
 pub struct Solved<D: Observed> {
@@ -21,6 +21,8 @@ pub struct Solved<D: Observed> {
     pub prior: Prior,
     /// Constants as they fit best.
     pub fit: Fit,
+    /// Constants as they fit best where none of the causes is there.
+    pub retuned: Fit,
     /// What was named.
     pub named: Named,
 }
@@ -30,8 +32,8 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
     let mut prior = data.prior();
     if let Some(right) = references {
         // What they may be told to lack is of no interest: constants and scatter are.
-        let (of_right, _) = answered(right, &prior, &causes, prior.mean.as_slice().to_vec())?;
-        let (fit, named) = told(right, &prior, &causes, of_right);
+        let (of_right, retuned) = answered(right, &prior, &causes, prior.mean.as_slice().to_vec())?;
+        let (fit, named) = told(right, &prior, &causes, of_right, &retuned)?;
         let scatter = right.scatter(fit.factor);
         let between = DMatrix::from_diagonal(&scatter.component_mul(&scatter));
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
@@ -39,8 +41,8 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
     let start = prior.mean.as_slice().to_vec();
     let (best, retuned) = answered(&data, &prior, &causes, start)?;
     let best = exchanged(&data, &prior, &causes, &retuned, best)?;
-    let (fit, named) = told(&data, &prior, &causes, best);
-    Some(Solved { data, causes, prior, fit, named })
+    let (fit, named) = told(&data, &prior, &causes, best, &retuned)?;
+    Some(Solved { data, causes, prior, fit, retuned, named })
 }
 
 impl<D: Observed> Solved<D> {
@@ -49,15 +51,29 @@ impl<D: Observed> Solved<D> {
     pub fn without(&self, left: usize) -> Option<Self> {
         let mut data = self.data.clone();
         data.drives.remove(left);
-        let mut fit = without(&data, &self.prior, &self.fit, left);
-        let mut first = named_about(&data, &self.prior, &self.causes, &fit)?;
-        within(&data, &mut first);
-        fit.theta = first.posterior.mean.as_slice().to_vec();
-        fit.sessions = sessions(&data, &fit.theta, fit.noise);
-        let mut named = named_about(&data, &self.prior, &self.causes, &fit)?;
-        within(&data, &mut named);
-        drop_unmoved(&self.causes, &self.prior, &mut named);
-        Some(Self { data, causes: self.causes.clone(), prior: self.prior.clone(), fit, named })
+        let Self { causes, prior, .. } = self;
+        let of_named = |fit: &Fit| {
+            let mut named = named_about(&data, prior, causes, fit)?;
+            within(&data, &mut named);
+            Some(named)
+        };
+        let of_none = |fit: &Fit| {
+            let posterior = about(&data, prior, fit)?.posterior(&prior.covariance)?;
+            Some(Posterior { mean: DVector::from_vec(data.within_bounds(&posterior.mean)), ..posterior })
+        };
+        let moved = |from: &Fit, to: &dyn Fn(&Fit) -> Option<DVector<f64>>| {
+            let mut fit = without(&data, prior, from, left);
+            fit.theta = to(&fit)?.as_slice().to_vec();
+            fit.sessions = sessions(&data, &fit.theta, &fit.own, fit.noise);
+            Some(fit)
+        };
+        let fit = moved(&self.fit, &|fit| Some(of_named(fit)?.posterior.mean))?;
+        let retuned = moved(&self.retuned, &|fit| Some(of_none(fit)?.mean))?;
+        let mut named = of_named(&fit)?;
+        named.retuned = of_none(&retuned)?;
+        drop_unmoved(causes, prior, &mut named);
+        let (causes, prior) = (causes.clone(), prior.clone());
+        Some(Self { data, causes, prior, fit, retuned, named })
     }
 }
 
@@ -66,31 +82,44 @@ impl<D: Observed> Solved<D> {
 fn answered<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Answered, Fit)> {
     let retuned = fit(data, prior, start.clone())?;
     let near = settled(data, prior, causes, retuned.clone())?;
-    let best = if data.share(&near.fit.theta) > D::NEAR {
-        let every: Vec<usize> = (0..causes.len()).collect();
-        let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
-        let far = settled(data, prior, causes, fit(data, &wide, start)?)?;
-        let [of_far, of_near] = scores(data, prior, causes, [&far, &near]);
-        if of_far > of_near { far } else { near }
-    } else {
-        near
-    };
-    Some((best, retuned))
+    let left = data.share(&near.fit.theta);
+    if left <= D::NEAR {
+        return Some((near, retuned));
+    }
+    let every: Vec<usize> = (0..causes.len()).collect();
+    let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
+    let free = fit(data, &wide, start)?;
+    // Where the free robot leaves about as much, there is no better answer far from here.
+    if data.share(&free.theta) > SETTINGS.fitting.freed * left {
+        return Some((near, retuned));
+    }
+    let far = settled(data, prior, causes, free)?;
+    let [of_far, of_near] = scores(data, prior, causes, [&far, &near]);
+    Some((if of_far > of_near { far } else { near }, retuned))
 }
 
 /// What is told of an answer.
-fn told<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], answer: Answered) -> (Fit, Named) {
+fn told<D: Observed>(
+    data: &Data<D>,
+    prior: &Prior,
+    causes: &[Cause],
+    answer: Answered,
+    retuned: &Fit,
+) -> Option<(Fit, Named)> {
     let Answered { fit, mut named, set } = answer;
     // About where it stands the fit is what it was fitted to be.
     if named.chosen.len() == set.len() && named.chosen.iter().all(|w| set.contains(&w.cause)) {
         named.posterior.mean = DVector::from_column_slice(&fit.theta);
-        if set.is_empty() {
-            named.retuned = named.posterior.clone();
-        }
     }
+    named.retuned = if set.is_empty() && named.chosen.is_empty() {
+        named.posterior.clone()
+    } else {
+        let posterior = about(data, prior, retuned)?.posterior(&prior.covariance)?;
+        Posterior { mean: DVector::from_column_slice(&retuned.theta), ..posterior }
+    };
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);
-    (fit, named)
+    Some((fit, named))
 }
 
 /// Weighs the causes about a fit, and fits anew with what they name, until the same are named.
@@ -107,7 +136,7 @@ fn settled<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], from: F
         let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
         // Along a valley that only what is known closes, a fit hardly moves; the equations know where it ends.
         let ends = data.within_bounds(&out.named.posterior.mean);
-        let start = likelier(data, &narrow, out.fit.noise, [out.fit.theta, ends])?;
+        let start = likelier(data, &narrow, &out.fit, [out.fit.theta.clone(), ends])?;
         let fit = fit(data, &narrow, start)?;
         let named = named_about(data, prior, causes, &fit)?;
         tried.push(set.clone());
@@ -131,6 +160,10 @@ fn within<D: Observed>(data: &Data<D>, named: &mut Named) {
 }
 
 fn named_about<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], fit: &Fit) -> Option<Named> {
-    let evidence = Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)?;
-    name(&evidence, &prior.covariance, causes)
+    name(&about(data, prior, fit)?, &prior.covariance, causes)
+}
+
+/// What the drives say together, by the equations of a fit.
+fn about<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> Option<Evidence> {
+    Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)
 }

@@ -37,7 +37,7 @@ impl Evidence {
         for session in sessions {
             let marginal = session.marginal(scatter)?;
             let turned = &marginal.curvature * &d;
-            out.base += marginal.cost + marginal.slope.dot(&d) + 0.5 * d.dot(&turned);
+            out.base += marginal.cost + marginal.width + marginal.slope.dot(&d) + 0.5 * d.dot(&turned);
             out.slope += marginal.slope + turned;
             out.curvature += marginal.curvature;
         }

@@ -27,23 +27,9 @@ pub fn combined<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, s
     (per_speed, (per_speed + (slope - per_speed) * sx2 * inverse_s2).max(T::zero()))
 }
 
-/// The same with all changes of the force: `K/s` and `∂(K s_i/s)/∂s_j`, symmetric: 11, 12, 22.
-#[inline(always)]
-pub(crate) fn combined_in_plane<T: Scalar>(
-    slip: [T; 2],
-    reference_speed2: T,
-    slip_at_peak: T,
-    sliding: T,
-) -> (T, [T; 3]) {
-    let (per_speed, slope, inverse_s2) = shape(slip, reference_speed2, slip_at_peak, sliding);
-    let along = (slope - per_speed) * inverse_s2;
-    let [x, y] = slip;
-    (per_speed, [per_speed + along * x * x, along * x * y, per_speed + along * y * y])
-}
-
 /// `K/s`, `dK/ds` where it rises, and `1/s²`.
 #[inline(always)]
-fn shape<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T, T) {
+pub(crate) fn shape<T: Scalar>(slip: [T; 2], reference_speed2: T, slip_at_peak: T, sliding: T) -> (T, T, T) {
     let (sx2, d2) = (slip[0] * slip[0], reference_speed2);
     let s2 = sx2 + slip[1] * slip[1] + real(NO_SLIP);
     let peak2 = slip_at_peak * slip_at_peak * d2;

@@ -27,6 +27,9 @@ pub enum Quantity {
     SteeringZero(usize),
     SteeringGain(usize),
     Slip,
+    Brush,
+    Lateral,
+    Rest,
     Grip,
     Rolling,
     RollerDrag,
@@ -108,7 +111,8 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
                    cause: &'static CauseSpec| {
         let far = SETTINGS.fitting.farthest * (usual + sigma);
         // What cannot be below some value is not.
-        let bounds = [(-far).max(least - given), far];
+        let most = if quantity == Q::Brush { 1.0 - given } else { far };
+        let bounds = [(-far).max(least - given), far.min(most)];
         let of_part = of.map_or_else(|| name.to_owned(), |part| format!("{name} of {part}"));
         out.push(Constant {
             quantity,
@@ -215,6 +219,34 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         ("slip at the largest force", None, "1"),
         (ground.slip_at_peak, true, any),
         slip,
+        &spec::TYRE_STIFFNESS,
+    );
+    // Laws of tyres differ: what is known of theirs can be wrong of no robot.
+    let (law, of_law) = (SETTINGS.tyre, scatter.slip);
+    let brush = [law.brush_share, law.brush_share, law.brush_scatter];
+    add(
+        Q::Brush,
+        ("share of the brush model in the tyres' law", None, "1"),
+        (ground.brush_share, false, 0.0),
+        brush,
+        &spec::TYRE_STIFFNESS,
+    );
+    if wheels.iter().any(|(_, (w, _))| w.roller.is_none()) {
+        let lateral = [law.lateral_stiffness, law.lateral_stiffness, law.lateral_scatter];
+        add(
+            Q::Lateral,
+            ("stiffness of tyres sideways over that ahead", None, "1"),
+            (ground.lateral_stiffness, true, any),
+            lateral,
+            &spec::TYRE_STIFFNESS,
+        );
+    }
+    let rest = [law.rest_speed, law.rest_speed, of_law];
+    add(
+        Q::Rest,
+        ("speed below which slip is taken as at this speed", None, "m/s"),
+        (ground.rest_speed, true, any),
+        rest,
         &spec::TYRE_STIFFNESS,
     );
     // Of wheels that roll, grip and slip at the largest force are one stiffness.

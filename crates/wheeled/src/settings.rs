@@ -68,6 +68,20 @@
         skidding_direction: f64 = 0.03, "rad", "guess; the same drives";
     }
 
+    /// How far laws of tyres differ from that of the model: one sigma.
+    tyre: Tyre {
+        /// Share of the brush model.
+        brush_share: f64 = 0.5, "1", "guess; both laws within one sigma";
+        /// Stiffness sideways over that ahead.
+        lateral_stiffness: f64 = 0.25, "share", "Pacejka 2012, Tire and Vehicle Dynamics: car tyres at 0.5 to 1.2";
+        /// Speed below which slip is taken as at this speed.
+        rest_speed: f64 = 0.5, "share", "guess; a matter of the model, not of the tyre";
+        /// The same share from drive to drive.
+        brush_scatter: f64 = 0.05, "1", "guess; dust";
+        /// The same stiffness from drive to drive.
+        lateral_scatter: f64 = 0.03, "share", "guess; dust";
+    }
+
     /// By how much a number that is told may be off because a robot has another law than the model: one sigma.
     told: Told {
         /// Slip at the largest force.

@@ -63,6 +63,9 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
             (0..robot.plant.casters.iter().flatten().count()).for_each(|k| row(root, "caster", k, key, &to));
         }
         Q::Slip => inside(root, "ground", "slip_at_peak", constant.given, found),
+        Q::Brush => inside(root, "ground", "brush_share", constant.given, found),
+        Q::Lateral => inside(root, "ground", "lateral_stiffness", constant.given, found),
+        Q::Rest => inside(root, "ground", "rest_speed", constant.given, found),
         Q::Grip => inside(root, "ground", "adhesion", constant.given, found),
         Q::Rolling => inside(root, "ground", "rolling_resistance", constant.given, found),
         Q::RollerDrag => inside(root, "ground", "roller_drag", constant.given, found),

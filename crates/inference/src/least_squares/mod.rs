@@ -42,8 +42,13 @@ pub trait Problem {
 
     /// Normal equations at a point, priors included, parameters in units of their scales; `None` where
     /// they are not defined. Columns may be kept in the point and renewed before a certain iteration,
-    /// counted from 0.
+    /// counted from 0; the cost is asked for again then, which may depend on them.
     fn linearise(&self, at: &mut Self::Point, iteration: usize) -> Option<Normal>;
+
+    /// Renews what is kept in the point where no step lowered the cost; whether there was anything to renew.
+    fn renew(&self, _at: &mut Self::Point) -> bool {
+        false
+    }
 
     /// The point that a step leads to; `None` if there is none.
     fn moved(&self, from: &Self::Point, step: &Step<'_>) -> Option<Self::Point>;
@@ -100,11 +105,16 @@ pub fn minimise<P: Problem>(problem: &P, start: P::Point, settings: &Settings) -
             out.stopped = Stopped::Undefined;
             break;
         };
+        out.cost = problem.cost(&out.at);
         normal.stiffen(&parameters);
         out.linearisations += 1;
 
         let stopped = descend(problem, &mut out, &parameters, &normal, &mut damping, settings);
         if let Some(stopped) = stopped {
+            if stopped == Stopped::NoDescent && problem.renew(&mut out.at) {
+                damping = settings.first_damping;
+                continue;
+            }
             out.stopped = stopped;
             break;
         }

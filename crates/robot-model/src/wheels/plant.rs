@@ -3,17 +3,24 @@
 use core::array::from_fn;
 
 use crate::chassis::{dragged, swung};
-use crate::contact::{Plane, combined_in_plane};
+use crate::contact::Plane;
 use crate::plant::FRICTION_REST;
-use crate::scalar::{Scalar, real, smooth_sign};
+use crate::scalar::{Scalar, real, smooth_sign, smooth_sign_per};
 use crate::wheels::robot::{Caster, Coupling, Robot, Wheel};
 use crate::wheels::state::State;
+use crate::wheels::tyre::{of_wheel, tyre};
 use crate::wheels::{MOST, MOST_CASTERS};
 
 /// Speed over which a caster's or a roller's drag changes its sign, m/s.
 const DRAG_REST: f64 = 0.03;
 /// Rate over which the friction of a caster's pivot changes its sign, rad/s.
 const SWING_REST: f64 = 0.5;
+
+/// Dry friction over its size and the speed of a wheel, s/rad.
+#[inline(always)]
+fn dry<T: Scalar>(speed: T) -> T {
+    smooth_sign_per(speed * real(1.0 / FRICTION_REST)) * real(1.0 / FRICTION_REST)
+}
 
 /// Wheels that turn at one speed.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +53,7 @@ pub struct Plant<T> {
     keep_angle: [T; MOST],
 }
 
-/// Forces of an instant with their changes.
+/// Forces of an instant, and what they are over the speeds that make them.
 struct Sum<T> {
     /// Σ Gᵀ F and what acts beside the contacts: forward, left, yaw.
     force: [T; 3],
@@ -199,7 +206,7 @@ impl<T: Scalar> Plant<T> {
         self.advance(s, &sum);
     }
 
-    /// Forces, their changes with all speeds, and torques.
+    /// Forces, what they are over the speeds that make them, and torques.
     #[inline(always)]
     fn forces(&self, s: &State<T>) -> Sum<T> {
         let (zero, ground, h) = (T::zero(), &self.robot.ground, self.step);
@@ -231,18 +238,15 @@ impl<T: Scalar> Plant<T> {
             let (force, b) = if wheel.roller.is_some() {
                 let axle = self.axis(i, e);
                 let along = slip[0] * axle[0] + slip[1] * axle[1];
-                let (per_speed, [k, ..]) =
-                    combined_in_plane([along, zero], rim * rim + rest2, ground.slip_at_peak, ground.sliding_share);
-                let pushed = peak * per_speed * along;
+                let k = peak * tyre([along, zero], rim * rim + rest2, ground);
+                let pushed = k * along;
                 let free = slip[0] * axle[1] - slip[1] * axle[0];
                 let drag = ground.roller_drag * n * smooth_sign(free * real(1.0 / DRAG_REST));
                 let force = [pushed * axle[0] + drag * axle[1], pushed * axle[1] - drag * axle[0]];
-                let k = peak * k;
                 (force, [k * axle[0] * axle[0], k * axle[0] * axle[1], k * axle[1] * axle[1]])
             } else {
-                let (per_speed, k) =
-                    combined_in_plane(slip, rim * rim + rest2, ground.slip_at_peak, ground.sliding_share);
-                (slip.map(|x| peak * per_speed * x), k.map(|x| peak * x))
+                let (force, per_slip) = of_wheel(slip, e, rim * rim + rest2, ground);
+                (force.map(|x| peak * x), per_slip.map(|x| peak * x))
             };
 
             // G: the body's speeds to those of the contact, [[1, 0, −y], [0, 1, x]].
@@ -256,11 +260,9 @@ impl<T: Scalar> Plant<T> {
             for (to, x) in sum.coupled[g].iter_mut().zip([be[0], be[1], turned(be)]) {
                 *to += wheel.radius * x;
             }
-            let sign = smooth_sign(speed * real(1.0 / FRICTION_REST));
-            let rolling = ground.rolling * n * wheel.radius;
-            sum.torque[g] -= wheel.radius * (force[0] * e[0] + force[1] * e[1]) + rolling * sign;
-            let steep = rolling * (T::one() - sign * sign) * real(1.0 / FRICTION_REST);
-            sum.inertia[g] += h * (wheel.radius * wheel.radius * (be[0] * e[0] + be[1] * e[1]) + steep);
+            let rolling = ground.rolling * n * wheel.radius * dry(speed);
+            sum.torque[g] -= wheel.radius * (force[0] * e[0] + force[1] * e[1]) + rolling * speed;
+            sum.inertia[g] += h * (wheel.radius * wheel.radius * (be[0] * e[0] + be[1] * e[1]) + rolling);
             for (to, x) in sum.force.iter_mut().zip([force[0], force[1], turned(force)]) {
                 *to += x;
             }
@@ -268,10 +270,9 @@ impl<T: Scalar> Plant<T> {
         for g in 0..MOST {
             let group = &self.groups[g];
             let speed = s.wheel_speed[g];
-            let sign = smooth_sign(speed * real(1.0 / FRICTION_REST));
-            sum.torque[g] += group.share * s.torque[group.motor % MOST] - group.coulomb * sign - group.viscous * speed;
-            let steep = group.coulomb * (T::one() - sign * sign) * real(1.0 / FRICTION_REST);
-            sum.inertia[g] += h * (group.viscous + steep);
+            let held = group.coulomb * dry(speed) + group.viscous;
+            sum.torque[g] += group.share * s.torque[group.motor % MOST] - held * speed;
+            sum.inertia[g] += h * held;
         }
         for k in 0..MOST_CASTERS {
             let Some(caster) = self.robot.casters[k] else { continue };

@@ -1,6 +1,6 @@
 //! The constants of a robot of any wheels, checked.
 
-use crate::error::{ModelError, not_negative, positive};
+use crate::error::{ModelError, not_negative, positive, within};
 use crate::scalar::{Scalar, real};
 use crate::wheels::{MOST, MOST_CASTERS};
 
@@ -89,6 +89,10 @@ pub struct Ground<T> {
     pub slip_at_peak: T,
     /// Share of the peak that no slip takes away.
     pub sliding_share: T,
+    /// Share of the force that follows the brush model; the rest follows Kiencke's law.
+    pub brush_share: T,
+    /// Stiffness of a wheel without rollers sideways over that ahead.
+    pub lateral_stiffness: T,
     /// Speed below which slip is taken as if at this speed, m/s.
     pub rest_speed: T,
     /// Rolling resistance of wheels, share of the load.
@@ -190,6 +194,8 @@ impl<T: Scalar> Robot<T> {
                 adhesion: to(g.adhesion),
                 slip_at_peak: to(g.slip_at_peak),
                 sliding_share: to(g.sliding_share),
+                brush_share: to(g.brush_share),
+                lateral_stiffness: to(g.lateral_stiffness),
                 rest_speed: to(g.rest_speed),
                 rolling: to(g.rolling),
                 roller_drag: to(g.roller_drag),
@@ -212,6 +218,7 @@ impl Robot<f64> {
             ("yaw_inertia", self.yaw_inertia),
             ("adhesion", g.adhesion),
             ("slip_at_peak", g.slip_at_peak),
+            ("lateral_stiffness", g.lateral_stiffness),
             ("rest_speed", g.rest_speed),
             ("gravity", g.gravity),
         ];
@@ -227,6 +234,7 @@ impl Robot<f64> {
         for (name, value) in rest {
             not_negative(name, value)?;
         }
+        within("brush_share", g.brush_share, 0.0, 1.0)?;
         for wheel in self.wheels.iter().flatten() {
             positive("radius of a wheel", wheel.radius)?;
             positive("inertia of a wheel", wheel.inertia)?;
@@ -282,6 +290,8 @@ impl<T: Scalar> Ground<T> {
             adhesion: real(0.7),
             slip_at_peak: real(0.15),
             sliding_share: real(crate::robot::USUAL_SLIDING_SHARE),
+            brush_share: real(0.5),
+            lateral_stiffness: T::one(),
             rest_speed: real(crate::robot::USUAL_REST_SPEED),
             rolling: real(0.015),
             roller_drag: real(0.01),

@@ -170,6 +170,7 @@ fn four_wheels_by_side_move_as_the_plant_of_four_wheels_says() {
         adhesion: 0.7,
         slip_at_peak: 0.15,
         sliding_share: four.sliding_share,
+        brush_share: 0.0,
         rest_speed: four.rest_speed,
         rolling: 0.02,
         gravity: four.gravity,

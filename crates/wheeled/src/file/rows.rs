@@ -128,6 +128,9 @@ struct JointRow {
 struct GroundRow {
     adhesion: Option<f64>,
     slip_at_peak: Option<f64>,
+    brush_share: Option<f64>,
+    lateral_stiffness: Option<f64>,
+    rest_speed: Option<f64>,
     rolling_resistance: Option<f64>,
     roller_drag: Option<f64>,
     /// Read by people.
@@ -331,6 +334,9 @@ fn ground(row: &GroundRow) -> Ground<f64> {
     Ground {
         adhesion: row.adhesion.unwrap_or(usual.adhesion),
         slip_at_peak: row.slip_at_peak.unwrap_or(usual.slip_at_peak),
+        brush_share: row.brush_share.unwrap_or(usual.brush_share),
+        lateral_stiffness: row.lateral_stiffness.unwrap_or(usual.lateral_stiffness),
+        rest_speed: row.rest_speed.unwrap_or(usual.rest_speed),
         rolling: row.rolling_resistance.unwrap_or(usual.rolling),
         roller_drag: row.roller_drag.unwrap_or(usual.roller_drag),
         ..usual
