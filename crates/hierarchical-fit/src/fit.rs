@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::observed::{Kind, Observed, Spread};
-use crate::session::Session;
+use crate::session::{Session, overdispersion};
 use crate::settings::SETTINGS;
 use crate::weigh::Evidence;
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
@@ -41,6 +41,11 @@ impl Noise {
     #[must_use]
     pub fn of_single_rows(self) -> Self {
         Self { power: [1.0; 3], ..self }
+    }
+
+    /// The same where rows say so many times as much.
+    fn times(self, by: f64) -> Self {
+        Self { power: self.power.map(|p| p * by), ..self }
     }
 
     /// The less noisy of two, kind by kind.
@@ -157,7 +162,8 @@ impl<D: Observed> Data<D> {
 /// Normal equations of rows whose errors and columns are known.
 pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
     let n = columns.len();
-    let mut out = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let mut out = Session::of_nothing(n);
+    let (mut stretch, mut own) = (0.0, DVector::zeros(n));
     let outlier = SETTINGS.errors.outlier;
     let mut row = DVector::zeros(n);
     for (i, r) in drive.rows().iter().enumerate() {
@@ -169,8 +175,17 @@ pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]
             row[k] = columns[k][i] / scale;
         }
         out.curvature.ger(weight / root, &row, &row, 1.0);
-        out.slope.axpy(weight / root * error, &row, 1.0);
+        let of_stretch = (r.time / SETTINGS.errors.stretch).floor();
+        if of_stretch != stretch {
+            out.scores.ger(1.0, &own, &own, 1.0);
+            out.slope += &own;
+            own.fill(0.0);
+            stretch = of_stretch;
+        }
+        own.axpy(weight / root * error, &row, 1.0);
     }
+    out.scores.ger(1.0, &own, &own, 1.0);
+    out.slope += own;
     out
 }
 
@@ -322,8 +337,12 @@ pub(crate) fn fit<D: Observed>(data: &Data<D>, prior: &Prior, start: Vec<f64>) -
         let thetas: Vec<Vec<f64>> = out.own.iter().map(|own| data.own_constants(&out.theta, own)).collect();
         out.noise = data.noise(&data.errors(&thetas));
         out.factor = scatter_factor(data, prior, &out);
+        out.sessions = sessions(data, &out.theta, &out.own, out.noise);
+        let scales = DVector::from_iterator(data.spreads.len(), data.spreads.iter().map(|c| c.usual));
+        let less = 1.0 / overdispersion(&out.sessions, &scales);
+        out.noise = out.noise.times(less);
+        out.sessions = out.sessions.into_iter().map(|s| s.scaled(less)).collect();
     }
-    out.sessions = sessions(data, &out.theta, &out.own, out.noise);
     Some(out)
 }
 

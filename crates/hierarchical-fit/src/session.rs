@@ -15,6 +15,25 @@ pub struct Session {
     pub slope: DVector<f64>,
     /// Cost, nats.
     pub cost: f64,
+    /// Sum of squares of the slopes of stretches of it, nats² per unit²: about the curvature where its rows are independent and
+    /// nothing but noise.
+    pub scores: DMatrix<f64>,
+}
+
+/// By how many times rows seem to say more than they do, at least 1: the mean over all directions of what the slopes of stretches
+/// scatter by over what the curvature promises, `tr(H⁻¹ J)/n`.
+///
+/// Source: Varin, Reid & Firth 2011, Statistica Sinica 21, Section 2.3 (composite likelihoods, adjusted in magnitude).
+pub(crate) fn overdispersion(sessions: &[Session], scales: &DVector<f64>) -> f64 {
+    let n = scales.len();
+    let s = DMatrix::from_diagonal(scales);
+    let sum = |of: fn(&Session) -> &DMatrix<f64>| sessions.iter().fold(DMatrix::zeros(n, n), |sum, x| sum + of(x));
+    let [curvature, scores] = [sum(|x| &x.curvature), sum(|x| &x.scores)].map(|m| &s * m * &s);
+    // Directions of which the rows say nothing have nothing to scatter.
+    let Some(cholesky) = (DMatrix::identity(n, n) + curvature).cholesky() else { return 1.0 };
+    let inverse = cholesky.inverse();
+    let known = n as f64 - inverse.trace();
+    ((inverse * scores).trace() / known.max(f64::MIN_POSITIVE)).max(1.0)
 }
 
 /// A session whose deviation is eliminated.
@@ -30,11 +49,26 @@ pub struct Marginal {
 }
 
 impl Session {
+    /// Equations of no rows.
+    pub fn of_nothing(constants: usize) -> Self {
+        let zero = DMatrix::zeros(constants, constants);
+        Self { curvature: zero.clone(), slope: DVector::zeros(constants), cost: 0.0, scores: zero }
+    }
+
     /// Equations about constants that lie `shift` beyond a place, seen from there.
     pub(crate) fn seen_from(mut self, shift: &DVector<f64>) -> Self {
         let turned = &self.curvature * shift;
         self.cost += 0.5 * shift.dot(&turned) - self.slope.dot(shift);
         self.slope -= turned;
+        self
+    }
+
+    /// The same where each row says so much less.
+    pub(crate) fn scaled(mut self, by: f64) -> Self {
+        self.curvature *= by;
+        self.slope *= by;
+        self.cost *= by;
+        self.scores *= by * by;
         self
     }
 

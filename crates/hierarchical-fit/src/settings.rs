@@ -12,6 +12,8 @@
         quantile: f64 = 0.9, "1", "guess; the rest may be outliers";
         /// Sigmas within which that share of a normal distribution lies.
         quantile_sigmas: f64 = 1.645, "1", "mathematics: the quantile of the normal distribution";
+        /// Stretches over which errors that a model's laws leave may follow one another.
+        stretch: f64 = 4.0, "s", "guess; longer than a manoeuvre";
         /// Correlation of errors that follow one another, at most.
         correlated: f64 = 0.9, "1", "guess; a twentieth of the rows then counts";
     }

@@ -103,7 +103,7 @@ impl Problem for Windowed<'_, '_> {
 /// Normal equations of every session at these values, errors in units of `scale`.
 pub(crate) fn equations(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Session> {
     let n = theta.len();
-    let empty = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let empty = Session::of_nothing(n);
     let mut out = vec![empty; data.sessions.len()];
     let rules = SETTINGS.windows;
     let laws = data.laws(theta);

@@ -5,7 +5,7 @@
 //! its own deviation (battery, floor, trims). What it said fades.
 
 use hierarchical_fit::{Ahead, Noise, Session, equations};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::constants::Constant;
 use crate::model::{Inputs, Laws, STEP, State};
@@ -115,7 +115,7 @@ pub(crate) fn following(
     let scatter = scatter * habit.freedom;
     let about = DVector::from_column_slice(theta);
     let n = theta.len();
-    let mut so_far = Session { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), cost: 0.0 };
+    let mut so_far = Session::of_nothing(n);
     let mut own = theta.to_vec();
     let mut last = f64::NEG_INFINITY;
     let of = |from: usize| {

@@ -63,7 +63,7 @@
     /// states.
     form: Form {
         /// Distances of wheels, where fixed ones stand behind each other, so that turning makes them skid.
-        skidding_place: f64 = 0.06, "share", "a look at seeds 1 and 2 of drawn robots: six wheels on brush tyres turn as if up to 9 % wider and 7 % shorter";
+        skidding_place: f64 = 0.3, "share", "Mandow et al. 2007, IROS: on one ground tracks 1.2 to 2 times as wide as measured; as wide as that no cause is asked for";
         /// Direction of a wheel of such a robot.
         skidding_direction: f64 = 0.03, "rad", "guess; the same drives";
     }
