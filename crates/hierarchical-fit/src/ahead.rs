@@ -61,18 +61,12 @@ impl Ahead {
             let time = self.step * k as f64;
             let turned = rate * time;
             // Chord and its direction.
-            let (along, across) = if turned.abs() < LEAST_TURN {
-                (time, 0.0)
-            } else {
-                (turned.sin() / rate, (1.0 - turned.cos()) / rate)
-            };
+            let (along, across) =
+                if turned == 0.0 { (time, 0.0) } else { (turned.sin() / rate, (1.0 - turned.cos()) / rate) };
             [at[0] + along * vx - across * vy, at[1] + along * vy + across * vx, at[2] + turned]
         })
     }
 }
-
-/// Turning below which a chord is the way, rad.
-const LEAST_TURN: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {

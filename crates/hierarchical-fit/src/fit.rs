@@ -191,12 +191,7 @@ pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]
 
 /// Normal equations of every drive, linearised about its own constants and seen from those of the robot: where drives deviate
 /// much, the equations about the robot's would not say where the cost falls (conditional estimation, Lindstrom & Bates 1990).
-pub(crate) fn sessions<D: Observed>(
-    data: &Data<D>,
-    theta: &[f64],
-    own: &[DVector<f64>],
-    noise: Noise,
-) -> Vec<Session> {
+pub(crate) fn sessions<D: Observed>(data: &Data<D>, theta: &[f64], own: &[DVector<f64>], noise: Noise) -> Vec<Session> {
     let of = |(drive, own): (&D, &DVector<f64>)| {
         let at = data.own_constants(theta, own);
         session(data, drive, (theta, &at), &drive.columns(&data.model, &at), noise)
@@ -238,9 +233,8 @@ struct Point {
 
 impl<D: Observed> Driven<'_, D> {
     fn at(&self, theta: Vec<f64>, own: Vec<DVector<f64>>) -> Point {
-        let of = |(drive, own): (&D, &DVector<f64>)| {
-            drive.columns(&self.data.model, &self.data.own_constants(&theta, own))
-        };
+        let of =
+            |(drive, own): (&D, &DVector<f64>)| drive.columns(&self.data.model, &self.data.own_constants(&theta, own));
         let columns = Arc::new(self.data.drives.par_iter().zip(&own).map(of).collect());
         Point { is_renewed: true, ..self.with(theta, own, columns) }
     }

@@ -97,3 +97,62 @@ impl Session {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use inference::robust::normal_quantile;
+    use rand_core::{Rng, SeedableRng};
+    use rand_pcg::Pcg64;
+
+    const CONSTANTS: usize = 3;
+
+    /// A session of rows with these columns and errors, `½ Σ (e + c·x)²`, in stretches of so many rows.
+    fn session(rows: &[(DVector<f64>, f64)], stretch: usize) -> Session {
+        let mut out = Session::of_nothing(CONSTANTS);
+        for rows in rows.chunks(stretch) {
+            let mut own = DVector::zeros(CONSTANTS);
+            for (column, error) in rows {
+                out.curvature.ger(1.0, column, column, 1.0);
+                own.axpy(*error, column, 1.0);
+                out.cost += 0.5 * error * error;
+            }
+            out.scores.ger(1.0, &own, &own, 1.0);
+            out.slope += own;
+        }
+        out
+    }
+
+    fn drawn(count: usize) -> Vec<(DVector<f64>, f64)> {
+        let mut random = Pcg64::seed_from_u64(7);
+        let mut normal = || normal_quantile(((random.next_u64() >> 11) as f64 + 0.5) * 2.0_f64.powi(-53));
+        let row = |_| (DVector::from_fn(CONSTANTS, |_, _| normal()), normal());
+        (0..count).map(row).collect()
+    }
+
+    #[test]
+    fn equations_seen_from_elsewhere_are_those_of_there() {
+        let rows = drawn(20);
+        let shift = DVector::from_vec(vec![0.3, -0.7, 0.2]);
+        let there: Vec<_> = rows.iter().map(|(c, e)| (c.clone(), e + c.dot(&shift))).collect();
+        let (seen, here) = (session(&there, 4).seen_from(&shift), session(&rows, 4));
+        assert_relative_eq!(seen.cost, here.cost, epsilon = 1e-10);
+        assert_relative_eq!(seen.slope, here.slope, epsilon = 1e-10);
+        assert_eq!(seen.curvature, here.curvature);
+    }
+
+    #[test]
+    fn rows_that_are_there_four_times_say_as_much_as_once() {
+        let rows = drawn(4000);
+        let scales = DVector::from_element(CONSTANTS, 1.0);
+        assert_relative_eq!(overdispersion(&[session(&rows, 4)], &scales), 1.0, epsilon = 0.1);
+        let four: Vec<_> = rows.iter().flat_map(|row| std::iter::repeat_n(row.clone(), 4)).collect();
+        let times = overdispersion(&[session(&four, 16)], &scales);
+        assert_relative_eq!(times, 4.0, epsilon = 0.4);
+        let once = session(&four, 16).scaled(1.0 / times);
+        assert_relative_eq!(overdispersion(&[once], &scales), 1.0, epsilon = 1e-9);
+        // Of no rows nothing is said.
+        assert_eq!(overdispersion(&[Session::of_nothing(CONSTANTS)], &scales), 1.0);
+    }
+}

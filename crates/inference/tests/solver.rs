@@ -2,7 +2,9 @@
 
 use faer::Mat;
 use inference::algebra::solve_spd;
-use inference::least_squares::{Constant, Loss, Residuals, Settings};
+use inference::least_squares::{
+    Constant, Loss, Normal, Parameter, Problem, Residuals, Settings, Step, Stopped, minimise,
+};
 use inference::robust::{NINETY, normal_quantile};
 use proptest::prelude::*;
 use rand_core::{Rng, SeedableRng};
@@ -151,4 +153,45 @@ fn bad_constants_and_residuals_are_errors_that_say_where() {
     let undefined = Residuals::new(vec![good], |x: &[f64]| vec![x[0], f64::NAN]);
     let error = undefined.fit(&Settings::default()).expect_err("not a number").to_string();
     assert!(error.starts_with("residual 1 is not finite"), "{error}");
+}
+
+/// `½ (x² − 2)²` whose column `2 x` is kept from where it was last renewed.
+struct Kept {
+    may_renew: bool,
+}
+
+impl Problem for Kept {
+    type Point = [f64; 2];
+
+    fn cost(&self, [x, _]: &[f64; 2]) -> f64 {
+        0.5 * (x * x - 2.0).powi(2)
+    }
+
+    fn parameters(&self, [x, _]: &[f64; 2]) -> Vec<Parameter> {
+        vec![Parameter::unbounded(*x, 1.0)]
+    }
+
+    fn linearise(&self, [x, column]: &mut [f64; 2], _: usize) -> Option<Normal> {
+        let downhill = -*column * (*x * *x - 2.0);
+        Some(Normal::new(Mat::from_fn(1, 1, |_, _| *column * *column), Mat::from_fn(1, 1, |_, _| downhill)))
+    }
+
+    fn renew(&self, [x, column]: &mut [f64; 2]) -> bool {
+        let was = std::mem::replace(column, 2.0 * *x);
+        self.may_renew && was != *column
+    }
+
+    fn moved(&self, [_, column]: &[f64; 2], step: &Step<'_>) -> Option<[f64; 2]> {
+        Some([step.values[0], *column])
+    }
+}
+
+#[test]
+fn where_no_step_lowers_the_cost_what_is_kept_is_renewed_first() {
+    // The column points the wrong way.
+    let start = [1.0, -2.0];
+    let stuck = minimise(&Kept { may_renew: false }, start, &Settings::gauss_newton());
+    assert_eq!((stuck.at[0], stuck.stopped), (1.0, Stopped::NoDescent));
+    let renewed = minimise(&Kept { may_renew: true }, start, &Settings::gauss_newton());
+    assert!((renewed.at[0] - 2.0_f64.sqrt()).abs() < 1e-4, "{renewed:?}");
 }

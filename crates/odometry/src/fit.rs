@@ -68,7 +68,8 @@ impl Problem for Windowed<'_, '_> {
     type Point = Point;
 
     fn cost(&self, at: &Point) -> f64 {
-        let marginal = at.sessions.iter().map(|s| s.marginal(&self.scatter).map_or(f64::INFINITY, |m| m.cost + m.width));
+        let marginal =
+            at.sessions.iter().map(|s| s.marginal(&self.scatter).map_or(f64::INFINITY, |m| m.cost + m.width));
         let d = self.distance(&at.theta);
         marginal.sum::<f64>() + 0.5 * d.dot(&(&self.information * &d))
     }

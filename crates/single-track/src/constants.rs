@@ -123,7 +123,8 @@ impl Valued for Constant {
             | Q::Clock
             | Q::GyroDelay
             | Q::EncoderDelay => told.time.hypot(told.share * value),
-            Q::Slowness | Q::Play | Q::DriveGain | Q::DeadZone => told.share * value.abs(),
+            Q::Slowness => told.rate * value.abs(),
+            Q::Play | Q::DriveGain | Q::DeadZone => told.share * value.abs(),
             Q::FrontCompliance | Q::RearCompliance | Q::FrontInverseGrip | Q::RearInverseGrip | Q::WheelSlip => {
                 told.tyre * value.abs()
             }

@@ -176,11 +176,12 @@ fn four_wheels_by_side_move_as_the_plant_of_four_wheels_says() {
         gravity: four.gravity,
         ..any.ground
     };
-    let step = 1e-3;
+    // Forces that are held over a step come half a step late.
+    let step = 5e-4;
     let (plant, other) = (crate::Plant::new(&four, &[], step), Plant::new(&any, step));
     let (mut a, mut b) = (FourState::default(), State::default());
     let mut farthest = 0.0_f64;
-    for k in 0..6000 {
+    for k in 0..12_000 {
         let t = step * f64::from(k);
         let torque = [3.5 + 2.0 * (1.1 * t).sin(), 3.5 + 2.5 * (0.7 * t).cos()];
         plant.step(&mut a, torque);
@@ -278,4 +279,76 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(robot.checked(), Err(crate::ModelError::Value { name: "trail of a caster", .. })));
     robot.mass = f64::NAN;
     assert!(robot.checked().is_err());
+}
+
+#[test]
+fn a_wheel_that_slips_comes_to_roll_and_never_swings_beyond() {
+    // Light wheels in long steps: the tangent of a tyre that holds less the more it slips would throw them far beyond.
+    let mut light = omni();
+    for wheel in light.wheels.iter_mut().flatten() {
+        wheel.inertia = 1e-3;
+    }
+    for motor in light.motors.iter_mut().flatten() {
+        (motor.inertia, motor.coulomb) = (2e-3, 0.3);
+    }
+    for over_peak in [0.2, 0.5, 0.9, 1.5, 4.0] {
+        let plant = Plant::new(&light, STEP);
+        let mut s = State::default();
+        plant.set_velocity(&mut s, [0.3, 0.1]);
+        plant.roll_wheels(&mut s);
+        let rolling = s.wheel_speed[0];
+        let slip = over_peak * light.ground.slip_at_peak * light.ground.rest_speed / 0.1;
+        s.wheel_speed[0] = rolling + slip;
+        let mut before = slip;
+        for _ in 0..20 {
+            plant.step(&mut s, &[0.0; MOST], &[0.0; MOST]);
+            let mut rolls = s;
+            plant.roll_wheels(&mut rolls);
+            let now = s.wheel_speed[0] - rolls.wheel_speed[0];
+            // What dry friction holds it back by is a small share of the slip at the peak.
+            assert!(now < before + 1e-3 && now > -0.1 * slip.max(0.1), "{over_peak}: {before} then {now}");
+            before = now;
+        }
+        assert!(before.abs() < 0.05, "{over_peak}: {before} rad/s after 0.1 s");
+    }
+}
+
+#[test]
+fn tyres_lie_between_kienckes_law_and_the_brush_and_have_one_stiffness() {
+    use super::tyre::{of_wheel, tyre};
+    let ground = |brush_share: f64, lateral_stiffness: f64| Ground {
+        brush_share,
+        lateral_stiffness,
+        sliding_share: 1.0,
+        slip_at_peak: 0.15,
+        ..Ground::usual()
+    };
+    let d2 = 0.5;
+    let d = f64::sqrt(d2);
+    for slip in [1e-6, 0.02, 0.06, 0.11, 0.14, 0.3] {
+        let share = |brush| slip * tyre([slip, 0.0], d2, &ground(brush, 1.0));
+        let kiencke = slip * crate::contact::combined([slip, 0.0], d2, 0.15, 1.0).0;
+        let rho: f64 = slip / (1.5 * 0.15 * d);
+        let brush = if rho < 1.0 { 3.0 * rho - 3.0 * rho * rho + rho * rho * rho } else { 1.0 };
+        assert_relative_eq!(share(0.0), kiencke, max_relative = 1e-9);
+        assert_relative_eq!(share(1.0), brush, max_relative = 1e-9);
+        assert_relative_eq!(share(0.25), 0.75 * kiencke + 0.25 * brush, max_relative = 1e-9);
+    }
+    // Both begin with 2/λp over the reference speed.
+    for brush in [0.0, 1.0] {
+        assert_relative_eq!(tyre([1e-7, 0.0], d2, &ground(brush, 1.0)), 2.0 / (0.15 * d), max_relative = 1e-5);
+    }
+
+    // A wheel that points to the left, twice as stiff sideways, which is along x.
+    let (force, per_slip) = of_wheel([1e-7, 1e-7], [0.0, 1.0], d2, &ground(0.5, 2.0));
+    assert_relative_eq!(force[0], 2.0 * force[1], max_relative = 1e-5);
+    assert_relative_eq!(force[1], 2e-7 / (0.15 * d), max_relative = 1e-5);
+    assert_relative_eq!(per_slip[0] * 1e-7 + per_slip[1] * 1e-7, force[0], max_relative = 1e-9);
+    // Sliding, it holds as much as any.
+    let (force, _) = of_wheel([3.0, 0.0], [0.0, 1.0], d2, &ground(0.5, 2.0));
+    assert_relative_eq!(force[0], 1.0, max_relative = 1e-6);
+    for wrong in [ground(1.5, 1.0), ground(0.5, 0.0)] {
+        let robot = Robot { ground: wrong, ..differential() };
+        assert!(matches!(robot.checked(), Err(crate::ModelError::Value { .. })), "{wrong:?}");
+    }
 }
