@@ -1,7 +1,9 @@
 //! A fit with what its equations name, and what two of them are weighed by.
 
 use crate::cause::Cause;
-use crate::fit::{Data, Fit, Prior, sessions};
+use crate::data::{Data, Prior};
+use crate::descent::sessions;
+use crate::fit::Fit;
 use crate::name::{Named, covariance};
 use crate::observed::Observed;
 use crate::weigh::{Evidence, Posterior};

@@ -4,7 +4,8 @@
 //!
 //! * `observed`: what a fit needs of a drive and of the model that it is compared with.
 //! * `session`: normal equations of a drive or session, with and without its own deviation.
-//! * `fit`: constants with a deviation of each drive, scales of errors, scatter of drives.
+//! * `data`: drives with their model, scales of errors, and what is known before them.
+//! * `descent`, `fit`: equations of every drive and steps down them; constants with a deviation of each drive, and how drives scatter.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
 //! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
@@ -16,6 +17,8 @@ mod ahead;
 mod answered;
 mod beside;
 mod cause;
+mod data;
+mod descent;
 mod error;
 mod fit;
 mod found;
@@ -32,8 +35,10 @@ mod weigh;
 pub use ahead::Ahead;
 pub use beside::Beside;
 pub use cause::Cause;
+pub use data::{Data, Noise, Prior};
+pub use descent::equations;
 pub use error::CaseError;
-pub use fit::{Data, Fit, Noise, Prior, equations};
+pub use fit::Fit;
 pub use found::{Answer, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};

@@ -5,7 +5,8 @@ use nalgebra::DVector;
 
 use crate::answered::{Answered, is_moved, scores};
 use crate::cause::Cause;
-use crate::fit::{Data, Fit, Prior, fit_like, likelier};
+use crate::data::{Data, Prior};
+use crate::fit::{Fit, fit_like, likelier};
 use crate::name::{covariance, named_as, stand_ins};
 use crate::observed::Observed;
 use crate::settings::SETTINGS;

@@ -4,7 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::answered::{Answered, is_moved, scores};
 use crate::cause::Cause;
-use crate::fit::{Data, Fit, Prior, fit, likelier, sessions, without};
+use crate::data::{Data, Prior};
+use crate::descent::sessions;
+use crate::fit::{Fit, fit, likelier, without};
 use crate::look_alikes::exchanged;
 use crate::name::{Named, covariance, name};
 use crate::observed::Observed;

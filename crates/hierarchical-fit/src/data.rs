@@ -1,0 +1,136 @@
+//! Drives with the model that they are compared with, what their rows scatter by, and what is known before them.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::observed::{Kind, Observed, Spread};
+use crate::settings::SETTINGS;
+use inference::robust::{quantile, rms, sorted};
+
+/// Drives with the model that they are compared with.
+#[derive(Debug, Clone)]
+pub struct Data<D: Observed> {
+    /// The model.
+    pub model: D::Model,
+    /// How far each of its constants may be from what is given.
+    pub spreads: Vec<Spread>,
+    /// The drives.
+    pub drives: Vec<D>,
+}
+
+/// What rows of each kind scatter by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Sigma of a row's error.
+    pub sigma: [f64; 3],
+    /// Independent rows for each row, at most 1: errors that follow one another say less (effective number of samples).
+    pub power: [f64; 3],
+}
+
+impl Noise {
+    /// The same with every row for itself.
+    #[must_use]
+    pub fn of_single_rows(self) -> Self {
+        Self { power: [1.0; 3], ..self }
+    }
+
+    /// The same where rows say so many times as much.
+    pub(crate) fn times(self, by: f64) -> Self {
+        Self { power: self.power.map(|p| p * by), ..self }
+    }
+
+    /// The less noisy of two, kind by kind.
+    pub(crate) fn least(self, other: Self) -> Self {
+        let of = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|kind| a[kind].min(b[kind]));
+        Self { sigma: of(self.sigma, other.sigma), power: of(self.power, other.power) }
+    }
+}
+
+/// What is known of the constants before the drives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prior {
+    /// Most probable deviations.
+    pub mean: DVector<f64>,
+    /// Covariance about them.
+    pub covariance: DMatrix<f64>,
+}
+
+impl<D: Observed> Data<D> {
+    pub(crate) fn errors(&self, thetas: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |(drive, theta): (&D, &Vec<f64>)| drive.errors(&self.model, theta);
+        self.drives.par_iter().zip(thetas).map(of).collect()
+    }
+
+    /// Of errors of rows in motion: sigmas by their upper quantile, and how many are independent.
+    pub(crate) fn noise(&self, errors: &[Vec<f64>]) -> Noise {
+        let sigma = self.sigmas(errors);
+        let power = Kind::ALL.map(|kind| {
+            let most = 2.0 * SETTINGS.errors.quantile_sigmas * sigma[kind as usize];
+            let (mut square, mut product) = (0.0, 0.0);
+            for (drive, errors) in self.drives.iter().zip(errors) {
+                let of_kind = drive.rows().iter().zip(errors).filter(|(r, _)| r.kind == kind);
+                let held: Vec<Option<f64>> =
+                    of_kind.map(|(r, e)| (r.is_moving && *e != 0.0).then(|| e.clamp(-most, most))).collect();
+                for (a, b) in held.iter().zip(held.iter().skip(drive.apart(kind))) {
+                    if let (Some(a), Some(b)) = (a, b) {
+                        product += a * b;
+                        square += 0.5 * (a * a + b * b);
+                    }
+                }
+            }
+            // Of a process of first order with this correlation.
+            let correlation = (product / square.max(f64::MIN_POSITIVE)).clamp(0.0, SETTINGS.errors.correlated);
+            (1.0 - correlation) / (1.0 + correlation)
+        });
+        Noise { sigma, power }
+    }
+
+    fn sigmas(&self, errors: &[Vec<f64>]) -> [f64; 3] {
+        let rules = SETTINGS.errors;
+        Kind::ALL.map(|kind| {
+            let of = |(drive, e): (&D, &Vec<f64>)| {
+                let rows = drive.rows().iter().zip(e).filter(|(r, e)| r.kind == kind && r.is_moving && **e != 0.0);
+                rows.map(|(_, e)| e.abs()).collect::<Vec<f64>>()
+            };
+            let sizes = sorted(self.drives.iter().zip(errors).flat_map(of));
+            let limit = quantile(&sizes, rules.quantile).unwrap_or(0.0) / rules.quantile_sigmas;
+            let cut = 2.0 * rules.quantile_sigmas * limit;
+            rms(sizes.iter().map(|e| e.min(cut))).unwrap_or(0.0).max(D::FLOOR[kind as usize])
+        })
+    }
+
+    /// Root mean square error of the rows in motion over the size of what they measure.
+    pub fn share(&self, theta: &[f64]) -> f64 {
+        let errors = self.errors(&vec![theta.to_vec(); self.drives.len()]);
+        let (mut ways, mut sizes) = (Vec::new(), Vec::new());
+        for (drive, errors) in self.drives.iter().zip(&errors) {
+            let kind = drive.judged_by();
+            let moving = drive.rows().iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
+            ways.extend(moving.map(|(_, e)| *e));
+            sizes.extend(drive.sizes());
+        }
+        rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
+    }
+
+    /// One sigma by which drives differ.
+    pub fn scatter(&self, factor: f64) -> DVector<f64> {
+        DVector::from_iterator(self.spreads.len(), self.spreads.iter().map(|c| factor * c.scatter))
+    }
+
+    /// Constants within what they can be.
+    pub(crate) fn within_bounds(&self, theta: &DVector<f64>) -> Vec<f64> {
+        self.spreads.iter().zip(theta.iter()).map(|(c, x)| x.clamp(c.bounds[0], c.bounds[1])).collect()
+    }
+
+    /// Constants of a drive that deviates from the robot's.
+    pub(crate) fn own_constants(&self, theta: &[f64], own: &DVector<f64>) -> Vec<f64> {
+        self.within_bounds(&(DVector::from_column_slice(theta) + own))
+    }
+
+    /// What the robot file knows.
+    pub(crate) fn prior(&self) -> Prior {
+        let n = self.spreads.len();
+        let variances = DVector::from_iterator(n, self.spreads.iter().map(|c| c.sigma.powi(2)));
+        Prior { mean: DVector::zeros(n), covariance: DMatrix::from_diagonal(&variances) }
+    }
+}
