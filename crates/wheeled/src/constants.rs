@@ -158,7 +158,10 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     let mass = [sigmas.mass, usual.mass, scatter.geometry];
     add(Q::Mass, ("mass", None, "kg"), (plant.mass, true, any), mass, &spec::BODY_MASS);
     let com = [sigmas.com, usual.com * robot.size(), scatter.geometry];
-    add(Q::ComX, ("centre of mass, forward", None, "m"), (plant.com[0], false, any), com, &spec::BODY_COM);
+    let form = form(robot);
+    let forward =
+        |[sigma, usual, scatter]: [f64; 3]| [sigma.hypot(form.skidding_middle * robot.size()), usual, scatter];
+    add(Q::ComX, ("centre of mass, forward", None, "m"), (plant.com[0], false, any), forward(com), &spec::BODY_COM);
     add(Q::ComY, ("centre of mass, left", None, "m"), (plant.com[1], false, any), com, &spec::BODY_COM);
     let inertia = [sigmas.yaw_inertia, usual.yaw_inertia, scatter.geometry];
     add(
@@ -169,7 +172,6 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         &spec::BODY_YAW_INERTIA,
     );
 
-    let form = if robot.skids() { SETTINGS.form } else { Form { skidding_place: 0.0, skidding_direction: 0.0 } };
     let wheels: Vec<_> = plant.wheels.iter().flatten().zip(&robot.wheels).enumerate().collect();
     for &(k, (wheel, name)) in &wheels {
         if wheel.motor.is_some() || robot.measured.contains(&k) {
@@ -251,7 +253,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     );
     // Of wheels that roll, grip and slip at the largest force are one stiffness.
     if robot.skids() {
-        let grip = [sigmas.grip, usual.grip, scatter.grip];
+        let grip = [sigmas.grip.hypot(form.skidding_grip), usual.grip, scatter.grip];
         add(
             Q::Grip,
             ("friction coefficient of the ground", None, "1"),
@@ -302,7 +304,8 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         add(Q::SlopeX, ("slope along x", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
         add(Q::SlopeY, ("slope along y", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
         let origin = [sigmas.pose_origin, usual.pose_origin, scatter.pose_origin];
-        add(Q::PoseX, ("tracked point, forward", None, "m"), (robot.point[0], false, any), origin, &odo::POSE_ORIGIN);
+        let ahead = (robot.point[0], false, any);
+        add(Q::PoseX, ("tracked point, forward", None, "m"), ahead, forward(origin), &odo::POSE_ORIGIN);
         add(Q::PoseY, ("tracked point, left", None, "m"), (robot.point[1], false, any), origin, &odo::POSE_ORIGIN);
         let direction = [sigmas.pose_direction, usual.pose_direction, scatter.direction];
         add(
@@ -322,6 +325,12 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         );
     }
     out
+}
+
+/// How far a robot seems to be another one because of its tyres.
+fn form(robot: &AnyWheels) -> Form {
+    let none = Form { skidding_place: 0.0, skidding_middle: 0.0, skidding_grip: 0.0, skidding_direction: 0.0 };
+    if robot.skids() { SETTINGS.form } else { none }
 }
 
 /// The causes that can show: of one part, and of all parts alike.
