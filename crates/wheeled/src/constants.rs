@@ -5,7 +5,7 @@ use catalogue::{CauseSpec, wheeled as spec};
 use hierarchical_fit::{Cause, Spread, Valued};
 
 use crate::robot::AnyWheels;
-use crate::settings::{Form, SETTINGS};
+use crate::settings::{SETTINGS, Skidding};
 
 /// What a constant is; numbers are places in the lists of wheels, motors and joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,8 +159,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     add(Q::Mass, ("mass", None, "kg"), (plant.mass, true, any), mass, &spec::BODY_MASS);
     let com = [sigmas.com, usual.com * robot.size(), scatter.geometry];
     let form = form(robot);
-    let forward =
-        |[sigma, usual, scatter]: [f64; 3]| [sigma.hypot(form.skidding_middle * robot.size()), usual, scatter];
+    let forward = |[sigma, usual, scatter]: [f64; 3]| [sigma.hypot(form.middle * robot.size()), usual, scatter];
     add(Q::ComX, ("centre of mass, forward", None, "m"), (plant.com[0], false, any), forward(com), &spec::BODY_COM);
     add(Q::ComY, ("centre of mass, left", None, "m"), (plant.com[1], false, any), com, &spec::BODY_COM);
     let inertia = [sigmas.yaw_inertia, usual.yaw_inertia, scatter.geometry];
@@ -185,7 +184,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
         if wheel.joint.is_none() {
-            let direction = [sigmas.direction.hypot(form.skidding_direction), usual.direction, scatter.direction];
+            let direction = [sigmas.direction.hypot(form.direction), usual.direction, scatter.direction];
             add(
                 Q::Direction(k),
                 ("direction", Some(name), "rad"),
@@ -195,7 +194,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
     }
-    let places = [sigmas.place.hypot(form.skidding_place), usual.place, scatter.geometry];
+    let places = [sigmas.place.hypot(form.place), usual.place, scatter.geometry];
     for (axis, quantity, name) in [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along it")] {
         if plant.wheels.iter().flatten().any(|w| w.place[axis] != 0.0) {
             add(quantity, (name, None, "1"), (1.0, true, any), places, &odo::WHEEL_DISTANCE);
@@ -253,7 +252,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     );
     // Of wheels that roll, grip and slip at the largest force are one stiffness.
     if robot.skids() {
-        let grip = [sigmas.grip.hypot(form.skidding_grip), usual.grip, scatter.grip];
+        let grip = [sigmas.grip.hypot(form.grip), usual.grip, scatter.grip];
         add(
             Q::Grip,
             ("friction coefficient of the ground", None, "1"),
@@ -328,9 +327,9 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
 }
 
 /// How far a robot seems to be another one because of its tyres.
-fn form(robot: &AnyWheels) -> Form {
-    let none = Form { skidding_place: 0.0, skidding_middle: 0.0, skidding_grip: 0.0, skidding_direction: 0.0 };
-    if robot.skids() { SETTINGS.form } else { none }
+fn form(robot: &AnyWheels) -> Skidding {
+    let none = Skidding { place: 0.0, middle: 0.0, grip: 0.0, direction: 0.0 };
+    if robot.skids() { SETTINGS.skidding } else { none }
 }
 
 /// The causes that can show: of one part, and of all parts alike.

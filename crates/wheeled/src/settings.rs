@@ -61,15 +61,15 @@
 
     /// By how much a robot seems to be another because its tyres have another law than the model: one sigma, beside what the owner
     /// states.
-    form: Form {
+    skidding: Skidding {
         /// Distances of wheels, where fixed ones stand behind each other, so that turning makes them skid.
-        skidding_place: f64 = 0.3, "share", "Mandow et al. 2007, IROS: on one ground tracks 1.2 to 2 times as wide as measured; as wide as that no cause is asked for";
+        place: f64 = 0.3, "share", "Mandow et al. 2007, IROS: on one ground tracks 1.2 to 2 times as wide as measured; as wide as that no cause is asked for";
         /// Place of the centre of mass, and of the tracked point, forward, over the longest distance of two contacts.
-        skidding_middle: f64 = 0.05, "1", "a look at seeds 3 and 4 of drawn robots: six wheels on brush tyres turn about a point up to 5 % off";
+        middle: f64 = 0.05, "1", "a look at seeds 3 and 4 of drawn robots: six wheels on brush tyres turn about a point up to 5 % off";
         /// Friction coefficient of the ground.
-        skidding_grip: f64 = 0.4, "share", "guess; it counts with the distances along the robot only";
+        grip: f64 = 0.4, "share", "guess; it counts with the distances along the robot only";
         /// Direction of a wheel of such a robot.
-        skidding_direction: f64 = 0.03, "rad", "guess; the same drives";
+        direction: f64 = 0.03, "rad", "guess; the same drives";
     }
 
     /// How far laws of tyres differ from that of the model: one sigma.
