@@ -176,3 +176,94 @@ pub(crate) fn damped(iterations: usize) -> Settings {
         ..Settings::gauss_newton()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observed::{Kind, Row};
+
+    /// What a scale `e^θ` shows of numbers beside what was shown of them.
+    #[derive(Clone)]
+    struct Scaled {
+        shown: Vec<f64>,
+        rows: Vec<Row>,
+    }
+
+    impl Scaled {
+        fn by(scale: f64) -> Self {
+            let row = |k: usize| Row { kind: Kind::Encoder, time: k as f64, is_moving: true, weight: 1.0 };
+            Self { shown: (1..=20).map(|k| scale * k as f64 / 10.0).collect(), rows: (0..20).map(row).collect() }
+        }
+    }
+
+    impl Observed for Scaled {
+        type Model = ();
+        const FLOOR: [f64; 3] = [1e-3; 3];
+        const NEAR: f64 = 0.04;
+
+        fn rows(&self) -> &[Row] {
+            &self.rows
+        }
+
+        fn errors(&self, (): &(), theta: &[f64]) -> Vec<f64> {
+            self.shown.iter().zip(1..).map(|(shown, k)| theta[0].exp() * f64::from(k) / 10.0 - shown).collect()
+        }
+
+        fn columns(&self, (): &(), theta: &[f64]) -> Vec<Vec<f64>> {
+            vec![(1..=20).map(|k| theta[0].exp() * f64::from(k) / 10.0).collect()]
+        }
+
+        fn sizes(&self) -> Vec<f64> {
+            self.shown.clone()
+        }
+
+        fn judged_by(&self) -> Kind {
+            Kind::Encoder
+        }
+
+        fn apart(&self, _: Kind) -> usize {
+            1
+        }
+    }
+
+    /// Drives whose scales are far from each other: the cost falls as the equations say where each is linearised about its own.
+    #[test]
+    fn equations_about_each_drives_own_constants_say_where_the_cost_falls() {
+        let spreads = vec![Spread { sigma: 1.0, usual: 1.0, scatter: 0.5, bounds: [-5.0, 5.0] }];
+        let data = Data { model: (), spreads, drives: vec![Scaled::by(0.6), Scaled::by(2.5), Scaled::by(3.0)] };
+        let prior = data.prior();
+        let driven = Driven {
+            data: &data,
+            prior: &prior,
+            information: DMatrix::identity(1, 1),
+            scatter: data.scatter(1.0),
+            noise: Noise { sigma: [0.1; 3], power: [1.0; 3] },
+        };
+        let slope = |own: &[DVector<f64>]| {
+            let mut at = driven.at(vec![0.2], own.to_vec());
+            let told = -driven.linearise(&mut at, 1).expect("equations").gradient[(0, 0)];
+            let cost = |theta: f64| {
+                // The most probable deviations, wherever the constants stand.
+                let mut at = driven.at(vec![theta], own.to_vec());
+                for _ in 0..20 {
+                    at.is_renewed = false;
+                    driven.renew(&mut at);
+                }
+                driven.cost(&at)
+            };
+            (told, (cost(0.2 + 1e-4) - cost(0.2 - 1e-4)) / 2e-4)
+        };
+        let nowhere = vec![DVector::zeros(1); 3];
+        let (told, is) = slope(&nowhere);
+        assert!((told - is).abs() > 0.5 * is.abs(), "{told} {is}: about the constants of all they are wrong");
+
+        let mut at = driven.at(vec![0.2], nowhere);
+        for _ in 0..20 {
+            at.is_renewed = false;
+            assert!(driven.renew(&mut at));
+        }
+        let (told, is) = slope(&at.own);
+        assert!((told - is).abs() < 1e-3 * is.abs(), "{told} {is}");
+        assert!(!driven.renew(&mut at), "there is nothing to renew");
+    }
+}

@@ -314,6 +314,27 @@ fn a_wheel_that_slips_comes_to_roll_and_never_swings_beyond() {
 }
 
 #[test]
+fn dry_friction_stops_a_wheel_and_never_turns_it_back() {
+    let mut slippery = omni();
+    slippery.ground.adhesion = 1e-6;
+    for motor in slippery.motors.iter_mut().flatten() {
+        (motor.inertia, motor.coulomb) = (2e-3, 0.5);
+    }
+    for wheel in slippery.wheels.iter_mut().flatten() {
+        wheel.inertia = 1e-3;
+    }
+    let plant = Plant::new(&slippery, STEP);
+    let mut s = State { wheel_speed: all([2.0, 2.0, 2.0, 2.0]), ..State::default() };
+    let mut before = 2.0;
+    for _ in 0..40 {
+        plant.step(&mut s, &[0.0; MOST], &[0.0; MOST]);
+        assert!(s.wheel_speed[0] >= 0.0 && s.wheel_speed[0] <= before, "{before} then {}", s.wheel_speed[0]);
+        before = s.wheel_speed[0];
+    }
+    assert!(before < 1e-3, "{before} rad/s");
+}
+
+#[test]
 fn tyres_lie_between_kienckes_law_and_the_brush_and_have_one_stiffness() {
     use super::tyre::{of_wheel, tyre};
     let ground = |brush_share: f64, lateral_stiffness: f64| Ground {
