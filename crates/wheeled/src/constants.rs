@@ -236,7 +236,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         let lateral = [law.lateral_stiffness, law.lateral_stiffness, law.lateral_scatter];
         add(
             Q::Lateral,
-            ("stiffness of tyres sideways over that ahead", None, "1"),
+            ("cornering stiffness of tyres over their longitudinal stiffness", None, "1"),
             (ground.lateral_stiffness, true, any),
             lateral,
             &spec::TYRE_STIFFNESS,
