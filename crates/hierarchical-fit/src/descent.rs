@@ -192,7 +192,7 @@ mod tests {
     impl Scaled {
         fn by(scale: f64) -> Self {
             let row = |k: usize| Row { kind: Kind::Encoder, time: k as f64, is_moving: true, weight: 1.0 };
-            Self { shown: (1..=20).map(|k| scale * k as f64 / 10.0).collect(), rows: (0..20).map(row).collect() }
+            Self { shown: (1..=20).map(|k| scale * f64::from(k) / 10.0).collect(), rows: (0..20).map(row).collect() }
         }
     }
 
