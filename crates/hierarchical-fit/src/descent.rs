@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::data::{Data, Noise, Prior};
 use crate::observed::{Observed, Spread};
-use crate::session::Session;
+use crate::session::{Session, joint};
 use crate::settings::SETTINGS;
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step};
 
@@ -105,6 +104,10 @@ impl<D: Observed> Driven<'_, D> {
         Point { is_renewed: true, ..self.with(theta, own, columns) }
     }
 
+    fn distance(&self, theta: &[f64]) -> DVector<f64> {
+        DVector::from_column_slice(theta) - &self.prior.mean
+    }
+
     /// With the columns of elsewhere: near by they hardly differ, and they take most of the time.
     fn with(&self, theta: Vec<f64>, own: Vec<DVector<f64>>, columns: Columns) -> Point {
         let of = |((drive, own), columns): ((&D, &DVector<f64>), &Vec<Vec<f64>>)| {
@@ -121,7 +124,7 @@ impl<D: Observed> Problem for Driven<'_, D> {
 
     fn cost(&self, at: &Point) -> f64 {
         let marginal = at.sessions.iter().map(|s| s.marginal(&self.scatter).map_or(f64::INFINITY, |m| m.cost));
-        let d = DVector::from_column_slice(&at.theta) - &self.prior.mean;
+        let d = self.distance(&at.theta);
         marginal.sum::<f64>() + 0.5 * d.dot(&(&self.information * &d))
     }
 
@@ -138,17 +141,8 @@ impl<D: Observed> Problem for Driven<'_, D> {
         if iteration.is_multiple_of(SETTINGS.fitting.renewed) {
             self.renew(at);
         }
-        let n = at.theta.len();
-        let mut curvature = self.information.clone();
-        let mut slope = &self.information * (DVector::from_column_slice(&at.theta) - &self.prior.mean);
-        for session in &at.sessions {
-            let marginal = session.marginal(&self.scatter)?;
-            curvature += marginal.curvature;
-            slope += marginal.slope;
-        }
-        let unit = |i: usize| self.data.spreads[i].usual;
-        let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
-        Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
+        let distance = self.distance(&at.theta);
+        joint(&at.sessions, &self.scatter, (&self.information, &distance), |i| self.data.spreads[i].usual)
     }
 
     fn renew(&self, at: &mut Point) -> bool {

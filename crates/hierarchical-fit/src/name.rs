@@ -110,8 +110,7 @@ pub fn named_as(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set
     let stands_in = |c: usize| chosen.iter().any(|w| w.class.contains(&c));
     let others = (0..causes.len())
         .filter(|c| !stands_in(*c))
-        // What was not named is less probable than what would be.
-        .map(|c| (c, logistic((score(&with(set, c)) - current + rules.odds).min(rules.named))))
+        .map(|c| (c, logistic(score(&with(set, c)) - current + rules.odds)))
         .collect();
     let placebo = chosen.first().and_then(|first| {
         let rest = less(set, first.cause);

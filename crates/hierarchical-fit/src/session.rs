@@ -4,6 +4,8 @@
 //! sessions then weigh by what they say of the robot, not by their length, and the interval of a constant is as wide as sessions
 //! scatter (Laird & Ware 1982, random effects).
 
+use faer::Mat;
+use inference::least_squares::Normal;
 use nalgebra::{DMatrix, DVector};
 
 /// Normal equations of a session: curvature, slope and cost of its own windows.
@@ -18,6 +20,26 @@ pub struct Session {
     /// Sum of squares of the slopes of stretches of it, nats² per unit²: about the curvature where its rows are independent and
     /// nothing but noise.
     pub scores: DMatrix<f64>,
+}
+
+/// Normal equations of the robot's constants, steps in these units of each: those of sessions whose deviations are eliminated, and of
+/// what is known, by its information and how far the constants are from what it says.
+pub fn joint(
+    sessions: &[Session],
+    scatter: &DVector<f64>,
+    (information, distance): (&DMatrix<f64>, &DVector<f64>),
+    unit: impl Fn(usize) -> f64,
+) -> Option<Normal> {
+    let n = distance.len();
+    let mut curvature = information.clone();
+    let mut slope = information * distance;
+    for session in sessions {
+        let marginal = session.marginal(scatter)?;
+        curvature += marginal.curvature;
+        slope += marginal.slope;
+    }
+    let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
+    Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
 }
 
 /// By how many times rows seem to say more than they do, at least 1: the mean over all directions of what the slopes of stretches

@@ -18,7 +18,8 @@ use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
 use catalogue::odometry::{CORNERING_SLIP, LOST_COUNTS, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use hierarchical_fit::{
-    Answer, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance, name_from, of_class,
+    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance, name_from,
+    of_class,
 };
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
@@ -56,7 +57,7 @@ impl Solved {
 pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, OdometryError> {
     case.robot.checked()?;
     if case.recordings.is_empty() {
-        return Err(OdometryError::Empty);
+        return Err(OdometryError::Case(CaseError::Empty));
     }
     progress("fitting the pose to the wheels' motion");
     let (case, clock) = clock::joined(case);
@@ -85,7 +86,7 @@ fn prior(robot: &WheeledRobot, constants: &[Constant], references: &[Drive]) -> 
 
 fn short(data: &Data<'_>) -> OdometryError {
     let windows = data.windows.iter().map(Vec::len).sum();
-    OdometryError::Short { windows, length: SETTINGS.windows.length, needed: SETTINGS.windows.least }
+    OdometryError::Case(CaseError::Short { windows, length: SETTINGS.windows.length, needed: SETTINGS.windows.least })
 }
 
 fn data<'a>(

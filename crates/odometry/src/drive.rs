@@ -5,6 +5,7 @@ use crate::error::OdometryError;
 use crate::settings::{DriveRules, SETTINGS};
 use crate::units;
 use crate::wheel::{Wheel, WheeledRobot};
+use hierarchical_fit::CaseError;
 
 const RULES: DriveRules = SETTINGS.drive;
 
@@ -58,7 +59,7 @@ pub(crate) fn enough_rows(name: &str, time: &[f64]) -> Result<(), OdometryError>
             RULES.apart
         )
     };
-    Err(OdometryError::Drive { drive: name.to_owned(), what })
+    Err(OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what }))
 }
 
 /// Radians in one unit of the column of a wheel.
@@ -145,7 +146,7 @@ impl Drive {
         steering: Option<Vec<f64>>,
         pose: Vec<[f64; 3]>,
     ) -> Result<Self, OdometryError> {
-        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
         let measured = robot.measured();
         if wheels.len() != measured.len() {
             let what =

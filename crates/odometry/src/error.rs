@@ -1,5 +1,7 @@
 //! Why wheel motion and pose cannot be compared.
 
+use hierarchical_fit::CaseError;
+
 /// Why wheel motion and pose cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -25,35 +27,7 @@ pub enum OdometryError {
         /// What is wrong, and what to do.
         what: String,
     },
-    /// The robot as a whole cannot be.
-    #[error("robot '{robot}': {what}")]
-    Robot {
-        /// Name of the robot.
-        robot: String,
-        /// What is wrong, and what to do.
-        what: String,
-    },
-    /// A drive cannot be compared.
-    #[error("recording '{drive}': {what}")]
-    Drive {
-        /// Name of the drive.
-        drive: String,
-        /// What is wrong, and what to do.
-        what: String,
-    },
-    /// There is nothing to diagnose.
-    #[error("the case has no recording; at least one is needed")]
-    Empty,
-    /// The drives do not determine a fit.
-    #[error(
-        "the drives hold {windows} windows of {length} s with motion, but at least {needed} are needed; record longer"
-    )]
-    Short {
-        /// Windows there are.
-        windows: usize,
-        /// Their length, s.
-        length: f64,
-        /// Windows needed.
-        needed: usize,
-    },
+    /// As of any robot.
+    #[error(transparent)]
+    Case(#[from] CaseError),
 }

@@ -3,14 +3,13 @@
 //! Errors `e` of a window, in sigmas, count by the pseudo-Huber loss `k² (√(1 + |e|²/k²) − 1)`. The constants of a session
 //! are those of the robot plus a deviation of its own, as of [`hierarchical_fit`].
 
-use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 
 use crate::constants::Quantity;
 use crate::motion::implied;
 use crate::settings::SETTINGS;
 use crate::windows::Data;
-use hierarchical_fit::{Evidence, Session};
+use hierarchical_fit::{Evidence, Session, joint};
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
 
 /// What is known of the constants before the drives.
@@ -83,17 +82,8 @@ impl Problem for Windowed<'_, '_> {
     }
 
     fn linearise(&self, at: &mut Point, _: usize) -> Option<Normal> {
-        let n = at.theta.len();
-        let mut curvature = self.information.clone();
-        let mut slope = &self.information * self.distance(&at.theta);
-        for session in &at.sessions {
-            let marginal = session.marginal(&self.scatter)?;
-            curvature += marginal.curvature;
-            slope += marginal.slope;
-        }
-        let unit = |i: usize| self.data.constants[i].usual;
-        let matrix = Mat::from_fn(n, n, |i, j| curvature[(i, j)] * unit(i) * unit(j));
-        Some(Normal::new(matrix, Mat::from_fn(n, 1, |i, _| -slope[i] * unit(i))))
+        let distance = self.distance(&at.theta);
+        joint(&at.sessions, &self.scatter, (&self.information, &distance), |i| self.data.constants[i].usual)
     }
 
     fn moved(&self, _: &Point, step: &Step<'_>) -> Option<Point> {

@@ -1,5 +1,6 @@
 //! Units that the file does not state, and counters that wrap around: guessed from what wheels and pose say together.
 
+use hierarchical_fit::CaseError;
 use std::f64::consts::TAU;
 
 use crate::drive::{Drive, WheelData};
@@ -45,7 +46,7 @@ pub(crate) fn unwrapped(column: &[f64], data: WheelData, wheel: &Wheel, told: &m
 pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) -> Result<(), OdometryError> {
     if !(0..drive.pose.len()).any(|k| drive.is_seen(k)) {
         let what = "neither a pose nor a gyro is ever seen; name columns of one of them that hold values".to_owned();
-        return Err(OdometryError::Drive { drive: drive.name.clone(), what });
+        return Err(OdometryError::Case(CaseError::Drive { drive: drive.name.clone(), what }));
     }
     steering(drive);
     if drive.heading_only {
@@ -208,7 +209,7 @@ fn length(drive: &mut Drive, robot: &WheeledRobot) -> Result<(), OdometryError> 
         "the pose moves by {reach:.0} where the wheels roll {rolled:.2} m; state its unit in the mapping, or correct \
          the radius or counts_per_turn"
     );
-    Err(OdometryError::Drive { drive: drive.name.clone(), what })
+    Err(OdometryError::Case(CaseError::Drive { drive: drive.name.clone(), what }))
 }
 
 #[cfg(test)]

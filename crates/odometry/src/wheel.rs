@@ -3,6 +3,7 @@
 use crate::error::OdometryError;
 use crate::kinematics::Kinematics;
 use crate::settings::SETTINGS;
+use hierarchical_fit::CaseError;
 
 /// A wheel on the ground.
 #[derive(Debug, Clone, PartialEq)]
@@ -182,7 +183,7 @@ impl WheeledRobot {
             wheel: wheel.name.clone(),
             what,
         };
-        let whole = |what: String| OdometryError::Robot { robot: self.name.clone(), what };
+        let whole = |what: String| OdometryError::Case(CaseError::Robot { robot: self.name.clone(), what });
         if self.measured().is_empty() {
             return Err(whole(
                 "no wheel's turning is recorded; give one [[wheel]] per wheel with an encoder".to_owned(),

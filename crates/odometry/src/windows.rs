@@ -7,6 +7,7 @@ use crate::heading::is_rolling;
 use crate::motion::{Laws, implied, relative};
 use crate::settings::{SETTINGS, Windows as Rules};
 use crate::wheel::WheeledRobot;
+use hierarchical_fit::CaseError;
 use inference::robust::{MAD_TO_SIGMA, quantile, sorted};
 
 const RULES: Rules = SETTINGS.windows;
@@ -111,7 +112,11 @@ impl<'a> Data<'a> {
         let windows: Vec<Vec<Window>> = drives.iter().map(|d| windows(d, RULES.length, RULES.length)).collect();
         let moving = windows.iter().flatten().filter(|w| w.is_moving()).count();
         if moving < RULES.least {
-            return Err(OdometryError::Short { windows: moving, length: RULES.length, needed: RULES.least });
+            return Err(OdometryError::Case(CaseError::Short {
+                windows: moving,
+                length: RULES.length,
+                needed: RULES.least,
+            }));
         }
         let mut sessions: Vec<String> = Vec::new();
         let mut session = Vec::new();

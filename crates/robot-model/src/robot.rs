@@ -242,6 +242,9 @@ const NEAREST_CASTER: f64 = 0.5;
 /// Share of the peak adhesion that remains in full sliding when nobody knows better: a plateau.
 pub const USUAL_SLIDING_SHARE: f64 = 1.0;
 
+/// Share of the brush model in the law of a tyre when nobody knows better (guess: in the middle).
+pub(crate) const USUAL_BRUSH_SHARE: f64 = 0.5;
+
 /// Slip speed at rest when nobody knows better, m/s.
 pub const USUAL_REST_SPEED: f64 = 0.3;
 

@@ -158,8 +158,8 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     let mass = [sigmas.mass, usual.mass, scatter.geometry];
     add(Q::Mass, ("mass", None, "kg"), (plant.mass, true, any), mass, &spec::BODY_MASS);
     let com = [sigmas.com, usual.com * robot.size(), scatter.geometry];
-    let form = form(robot);
-    let forward = |[sigma, usual, scatter]: [f64; 3]| [sigma.hypot(form.middle * robot.size()), usual, scatter];
+    let open = skidding(robot);
+    let forward = |[sigma, usual, scatter]: [f64; 3]| [sigma.hypot(open.middle * robot.size()), usual, scatter];
     add(Q::ComX, ("centre of mass, forward", None, "m"), (plant.com[0], false, any), forward(com), &spec::BODY_COM);
     add(Q::ComY, ("centre of mass, left", None, "m"), (plant.com[1], false, any), com, &spec::BODY_COM);
     let inertia = [sigmas.yaw_inertia, usual.yaw_inertia, scatter.geometry];
@@ -184,7 +184,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
         if wheel.joint.is_none() {
-            let direction = [sigmas.direction.hypot(form.direction), usual.direction, scatter.direction];
+            let direction = [sigmas.direction.hypot(open.direction), usual.direction, scatter.direction];
             add(
                 Q::Direction(k),
                 ("direction", Some(name), "rad"),
@@ -194,7 +194,7 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             );
         }
     }
-    let places = [sigmas.place.hypot(form.place), usual.place, scatter.geometry];
+    let places = [sigmas.place.hypot(open.place), usual.place, scatter.geometry];
     for (axis, quantity, name) in [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along it")] {
         if plant.wheels.iter().flatten().any(|w| w.place[axis] != 0.0) {
             add(quantity, (name, None, "1"), (1.0, true, any), places, &odo::WHEEL_DISTANCE);
@@ -222,8 +222,8 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         slip,
         &spec::TYRE_STIFFNESS,
     );
-    // Laws of tyres differ: what is known of theirs can be wrong of no robot.
-    let (law, of_law) = (SETTINGS.tyre, scatter.slip);
+    // Laws of tyres differ, and no robot is wrong for that: as causes they are as wide as what is known of them.
+    let law = SETTINGS.tyre;
     let brush = [law.brush_share, law.brush_share, law.brush_scatter];
     add(
         Q::Brush,
@@ -242,17 +242,17 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
             &spec::TYRE_STIFFNESS,
         );
     }
-    let rest = [law.rest_speed, law.rest_speed, of_law];
+    let rest = [law.rest_speed, law.rest_speed, scatter.slip];
     add(
         Q::Rest,
-        ("speed below which slip is taken as at this speed", None, "m/s"),
+        ("speed below which tyres slip as if at it", None, "m/s"),
         (ground.rest_speed, true, any),
         rest,
         &spec::TYRE_STIFFNESS,
     );
     // Of wheels that roll, grip and slip at the largest force are one stiffness.
     if robot.skids() {
-        let grip = [sigmas.grip.hypot(form.grip), usual.grip, scatter.grip];
+        let grip = [sigmas.grip.hypot(open.grip), usual.grip, scatter.grip];
         add(
             Q::Grip,
             ("friction coefficient of the ground", None, "1"),
@@ -326,8 +326,8 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     out
 }
 
-/// How far a robot seems to be another one because of its tyres.
-fn form(robot: &AnyWheels) -> Skidding {
+/// How far the constants of a robot are open because its wheels skid.
+fn skidding(robot: &AnyWheels) -> Skidding {
     let none = Skidding { place: 0.0, middle: 0.0, grip: 0.0, direction: 0.0 };
     if robot.skids() { SETTINGS.skidding } else { none }
 }

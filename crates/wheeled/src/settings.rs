@@ -78,7 +78,7 @@
         brush_share: f64 = 0.5, "1", "guess; both laws within one sigma";
         /// Stiffness sideways over that ahead.
         lateral_stiffness: f64 = 0.25, "share", "Pacejka 2012, Tire and Vehicle Dynamics: car tyres at 0.5 to 1.2";
-        /// Speed below which slip is taken as at this speed.
+        /// Speed below which tyres slip as if at it.
         rest_speed: f64 = 0.5, "share", "guess; a matter of the model, not of the tyre";
         /// The same share from drive to drive.
         brush_scatter: f64 = 0.05, "1", "guess; dust";

@@ -1,5 +1,6 @@
 //! The robot file of `kind = "odometry"`.
 
+use hierarchical_fit::CaseError;
 use serde::Deserialize;
 
 use crate::drive::WheelData;
@@ -190,7 +191,7 @@ impl RobotFile {
     /// # Errors
     /// Syntax, unknown keys, units and numbers that cannot be, with what to do.
     pub fn parse(file: &str, text: &str) -> Result<Self, OdometryError> {
-        let wrong = |what: String| OdometryError::Robot { robot: file.to_owned(), what };
+        let wrong = |what: String| OdometryError::Case(CaseError::Robot { robot: file.to_owned(), what });
         let mut read: File = toml::from_str(text).map_err(|e| wrong(e.message().to_owned()))?;
         if read.kind != "odometry" {
             return Err(wrong(format!("kind = \"{}\"; wheels and columns belong to kind = \"odometry\"", read.kind)));

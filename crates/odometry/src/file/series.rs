@@ -1,5 +1,6 @@
 //! Drives from signals at instants of their own, as the messages of a bag have them.
 
+use hierarchical_fit::CaseError;
 use std::collections::BTreeMap;
 
 use inference::interpolate;
@@ -49,7 +50,7 @@ impl RobotFile {
     /// # Errors
     /// Signals that are missing, never measured at one time, or of too few instants, and what [`Drive::new`] refuses.
     pub fn drive_of(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive, OdometryError> {
-        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
         let names = &self.columns;
         let needed = |column: &String| {
             let missing = || wrong(format!("'{column}' has no values; correct [columns] of the robot file"));
@@ -107,7 +108,7 @@ struct Body {
 
 impl RobotFile {
     fn body(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Body, OdometryError> {
-        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
         let names = &self.columns;
         let given = |column: &String| signals.get(column).filter(|series| !series.time.is_empty());
         let gyro = names.gyro.as_ref().and_then(given);

@@ -4,6 +4,7 @@ use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::file::robot::RobotFile;
 use crate::file::series::{Series, headings};
+use hierarchical_fit::CaseError;
 
 impl RobotFile {
     /// A drive from a table with a line of column names; its name is that of the file.
@@ -26,7 +27,7 @@ impl RobotFile {
     }
 
     fn read(&self, name: &str, table: &str, needs_pose: bool) -> Result<Drive, OdometryError> {
-        let wrong = |what: String| OdometryError::Drive { drive: name.to_owned(), what };
+        let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
         let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
         let names = &self.columns;

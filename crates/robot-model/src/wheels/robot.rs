@@ -290,7 +290,7 @@ impl<T: Scalar> Ground<T> {
             adhesion: real(0.7),
             slip_at_peak: real(0.15),
             sliding_share: real(crate::robot::USUAL_SLIDING_SHARE),
-            brush_share: real(0.5),
+            brush_share: real(crate::robot::USUAL_BRUSH_SHARE),
             lateral_stiffness: T::one(),
             rest_speed: real(crate::robot::USUAL_REST_SPEED),
             rolling: real(0.015),

@@ -26,7 +26,7 @@ impl Subject for AnyWheels {
     type Truth = WheeledTruth;
     type Row = score::Row;
     const PAGE: [&'static str; 2] = ["blind-wheeled.md", "Blind cases of robots of any wheels"];
-    const LAW: &'static str = "controlled robots on brush tyres";
+    const LAW: &'static str = "a plant of any wheels on brush tyres";
 
     fn plans(seed: u64, count: usize) -> Vec<WheeledPlan> {
         WheeledPlan::set(seed, count)
