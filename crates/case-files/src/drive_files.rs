@@ -126,7 +126,7 @@ fn drives<F: NamesColumns>(
     ignored: &mut Vec<String>,
 ) -> Result<Parts<F::Drive>> {
     let paths: [Vec<PathBuf>; 3] = match folder {
-        Some(folder) => folders(folder).map(|part| if part.is_dir() { vec![part] } else { Vec::new() }),
+        Some(folder) => folders(folder)?.map(|part| if part.is_dir() { vec![part] } else { Vec::new() }),
         None => paths.map(<[PathBuf]>::to_vec),
     };
     let columns = file.columns();

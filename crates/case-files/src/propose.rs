@@ -8,6 +8,7 @@ mod joints;
 mod robots;
 #[cfg(test)]
 mod tests;
+mod torques;
 
 pub use columns::columns;
 pub(crate) use draft::holds;

@@ -95,7 +95,7 @@ pub const STEERING_ZERO: CauseSpec = CauseSpec {
     name: "zero of the steering",
     robots: ROBOTS,
     meaning: "The steering angle has an offset: straight ahead is a curve.",
-    size: "offset of the steering angle",
+    size: "angle of the steered wheels where the recorded one is none",
     unit: "rad",
     recognised: "The heading drifts with the way in one direction",
     revealed_by: "straight drives",

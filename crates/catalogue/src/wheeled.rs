@@ -135,7 +135,7 @@ pub const GROUND_GRIP: CauseSpec = cause(
 pub const GROUND_SLOPE: CauseSpec = cause(
     ["ground_slope", "the ground is a slope"],
     "Gravity pulls the robot along the ground, the same way in the world wherever it heads.",
-    ["slope along x of the pose's frame", "rad"],
+    ["slope along x of the pose's frame, positive where the ground rises", "rad"],
     [
         "Driving one way takes more torque than the other way",
         "the same straight line both ways, in two directions",

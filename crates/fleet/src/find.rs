@@ -50,7 +50,7 @@ pub fn cases_below(folder: &Path, named: Option<&str>) -> Result<FolderContents>
     let known = named.map(mapping).transpose()?;
     let mut out = FolderContents::default();
     for case in cases {
-        let [reference, recordings, _] = folders(&case);
+        let [reference, recordings, _] = folders(&case)?;
         let below = relative(folder, &case);
         let own_name =
             || case.canonicalize().ok().and_then(|c| c.file_name().map(|n| n.to_string_lossy().into_owned()));

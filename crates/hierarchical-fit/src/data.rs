@@ -117,6 +117,13 @@ impl<D: Observed> Data<D> {
         DVector::from_iterator(self.spreads.len(), self.spreads.iter().map(|c| factor * c.scatter))
     }
 
+    /// One sigma by which constants move between the references and the recordings, beside what drives scatter by.
+    pub(crate) fn between_visits(&self) -> DVector<f64> {
+        let rules = SETTINGS.visits;
+        let of = |c: &Spread| (rules.moved * c.sigma).min(rules.most * c.usual);
+        DVector::from_iterator(self.spreads.len(), self.spreads.iter().map(of))
+    }
+
     /// Constants within what they can be.
     pub(crate) fn within_bounds(&self, theta: &DVector<f64>) -> Vec<f64> {
         self.spreads.iter().zip(theta.iter()).map(|(c, x)| x.clamp(c.bounds[0], c.bounds[1])).collect()

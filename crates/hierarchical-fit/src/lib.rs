@@ -26,6 +26,8 @@ mod look_alikes;
 mod name;
 mod observed;
 mod said;
+#[cfg(test)]
+mod scaled;
 mod session;
 mod settings;
 mod solve;

@@ -1,11 +1,14 @@
 //! What the drives of a fit say, whatever its model is.
 
+use inference::experiment::Standing;
 use inference::robust::NINETY;
+use verdict::FreeRun;
 
 use crate::found::{Answer, Estimate, NamedCause};
 use crate::is_widest;
 use crate::name::Weighed;
 use crate::observed::Observed;
+use crate::settings::SETTINGS;
 use crate::solve::Solved;
 use crate::telling::Found;
 use crate::weigh::Posterior;
@@ -55,6 +58,8 @@ pub struct Said {
     pub scatter: f64,
     /// Whether that is as much as was tried: what is named with all drives is then not trusted.
     pub is_scattered: bool,
+    /// Whether drives that were left out are forecast worse with the causes than as they were stated.
+    pub is_refuted: bool,
     /// Root mean square error of windows over that of a robot that keeps still: as given, re-tuned, with the named causes.
     pub shares: [f64; 3],
 }
@@ -87,6 +92,7 @@ impl<D: Observed> Solved<D> {
             scatter: fit.factor,
             // Deviations of single drives explain everything where they are as free as was tried.
             is_scattered: data.drives.len() > 1 && is_widest(fit.factor),
+            is_refuted: false,
             shares: [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|t| data.share(t.as_slice())),
             constants: all,
         }
@@ -122,6 +128,16 @@ impl Said {
         } else {
             Answer::Nothing
         };
+    }
+
+    /// Takes back what was named where drives that were left out are forecast worse with it than as they were stated. Re-tuned constants
+    /// that no owner would believe may forecast better and refute nothing.
+    pub fn doubt(&mut self, free_runs: &[FreeRun]) {
+        let refuted = |s: Standing| s.over_nominal > SETTINGS.naming.refuted;
+        if self.answer == Answer::Named && Standing::new(free_runs).is_some_and(refuted) {
+            self.is_refuted = true;
+            self.answer = Answer::Unknown;
+        }
     }
 
     /// The same for a verdict.
@@ -171,6 +187,7 @@ mod tests {
                 rival: None,
                 scatter: 1.0,
                 is_scattered,
+                is_refuted: false,
                 shares,
             };
             said.decide(rules, |e| e.name == "length");
@@ -183,5 +200,35 @@ mod tests {
         assert_eq!(decided([0.2, 0.12, 0.11], false, 1.5, true), Answer::Unknown);
         assert_eq!(decided([0.9, 0.3, 0.12], false, 1.5, true), Answer::Named);
         assert_eq!(decided([2.0, 1.9, 0.5], false, 1.5, true), Answer::Unknown);
+    }
+    #[test]
+    fn causes_with_which_left_out_drives_are_forecast_worse_are_taken_back() {
+        let free_run = |[nominal, retuned, corrected]: [f64; 3]| FreeRun {
+            recording: "a".to_owned(),
+            quantity: "position, m".to_owned(),
+            nominal,
+            retuned,
+            corrected,
+            placebo: None,
+        };
+        let answer = |errors: [f64; 3]| {
+            let mut said = Said {
+                answer: Answer::Named,
+                named: Vec::new(),
+                others: Vec::new(),
+                constants: Vec::new(),
+                retuned: Vec::new(),
+                rival: None,
+                scatter: 1.0,
+                is_scattered: false,
+                is_refuted: false,
+                shares: [1.0, 0.2, 0.1],
+            };
+            said.doubt(&[free_run(errors)]);
+            (said.answer, said.is_refuted)
+        };
+        assert_eq!(answer([2.0, 1.0, 1.3]), (Answer::Named, false));
+        assert_eq!(answer([1.0, 2.0, 1.2]), (Answer::Named, false));
+        assert_eq!(answer([1.0, 2.0, 1.3]), (Answer::Unknown, true));
     }
 }

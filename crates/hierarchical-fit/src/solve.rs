@@ -27,6 +27,8 @@ pub struct Solved<D: Observed> {
     pub retuned: Fit,
     /// What was named.
     pub named: Named,
+    /// Whether what was known comes from references.
+    pub has_references: bool,
 }
 
 /// Fits drives and names causes, after references in which the model was right; `None` where equations have no solution.
@@ -35,16 +37,17 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
     if let Some(right) = references {
         // What they may be told to lack is of no interest: constants and scatter are.
         let (of_right, retuned) = answered(right, &prior, &causes, prior.mean.as_slice().to_vec())?;
-        let (fit, named) = told(right, &prior, &causes, of_right, &retuned)?;
-        let scatter = right.scatter(fit.factor);
-        let between = DMatrix::from_diagonal(&scatter.component_mul(&scatter));
+        let (fit, named) = told((right, &prior, false), &causes, of_right, &retuned)?;
+        let variance = |sigma: DVector<f64>| DMatrix::from_diagonal(&sigma.component_mul(&sigma));
+        let between = variance(right.scatter(fit.factor)) + variance(right.between_visits());
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
     }
     let start = prior.mean.as_slice().to_vec();
     let (best, retuned) = answered(&data, &prior, &causes, start)?;
     let best = exchanged(&data, &prior, &causes, &retuned, best)?;
-    let (fit, named) = told(&data, &prior, &causes, best, &retuned)?;
-    Some(Solved { data, causes, prior, fit, retuned, named })
+    let has_references = references.is_some();
+    let (fit, named) = told((&data, &prior, has_references), &causes, best, &retuned)?;
+    Some(Solved { data, causes, prior, fit, retuned, named, has_references })
 }
 
 impl<D: Observed> Solved<D> {
@@ -74,8 +77,9 @@ impl<D: Observed> Solved<D> {
         let mut named = of_named(&fit)?;
         named.retuned = of_none(&retuned)?;
         drop_unmoved(causes, prior, &mut named);
+        let fit = if drop_unneeded((&data, prior, self.has_references), &mut named) { retuned.clone() } else { fit };
         let (causes, prior) = (causes.clone(), prior.clone());
-        Some(Self { data, causes, prior, fit, retuned, named })
+        Some(Self { data, causes, prior, fit, retuned, named, has_references: self.has_references })
     }
 }
 
@@ -102,8 +106,7 @@ fn answered<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], start:
 
 /// What is told of an answer.
 fn told<D: Observed>(
-    data: &Data<D>,
-    prior: &Prior,
+    (data, prior, has_references): (&Data<D>, &Prior, bool),
     causes: &[Cause],
     answer: Answered,
     retuned: &Fit,
@@ -121,6 +124,7 @@ fn told<D: Observed>(
     };
     within(data, &mut named);
     drop_unmoved(causes, prior, &mut named);
+    let fit = if drop_unneeded((data, prior, has_references), &mut named) { retuned.clone() } else { fit };
     Some((fit, named))
 }
 
@@ -153,6 +157,25 @@ fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
     chosen.retain(|w| is_moved(&causes[w.cause], prior, posterior));
 }
 
+/// Drops all causes where constants within what is known of them leave hardly more, and whether it did: evidence counts what the
+/// laws of tyres get wrong as noise of many rows, and pays for it with causes that no owner would believe.
+fn drop_unneeded<D: Observed>((data, prior, has_references): (&Data<D>, &Prior, bool), named: &mut Named) -> bool {
+    let rules = SETTINGS.naming;
+    if named.chosen.is_empty() {
+        return false;
+    }
+    let sigmas = |k: usize| (named.retuned.mean[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
+    let is_within = (0..prior.mean.len()).all(|k| sigmas(k) <= rules.within[usize::from(has_references)]);
+    let [with, without] = [&named.posterior, &named.retuned].map(|p| data.share(p.mean.as_slice()));
+    let is_unneeded = is_within && with > rules.hardly * without;
+    if is_unneeded {
+        named.others.extend(named.chosen.drain(..).map(|w| (w.cause, rules.doubted * w.probability)));
+        named.posterior = named.retuned.clone();
+        (named.placebo, named.rival) = (None, None);
+    }
+    is_unneeded
+}
+
 /// Keeps constants within what they can be.
 fn within<D: Observed>(data: &Data<D>, named: &mut Named) {
     let Named { posterior, retuned, placebo, .. } = named;
@@ -168,4 +191,62 @@ fn named_about<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], fit
 /// What the drives say together, by the equations of a fit.
 fn about<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> Option<Evidence> {
     Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::name::Weighed;
+    use crate::observed::Spread;
+    use crate::scaled::Scaled;
+
+    /// A cause that moves the scale to `named` beside a scale re-tuned to `retuned`, known to 0.1, of drives that show 0.3.
+    fn is_dropped(retuned: f64, named: f64, has_references: bool) -> bool {
+        let spreads = vec![Spread { sigma: 0.1, usual: 1.0, scatter: 0.0, bounds: [-5.0, 5.0] }];
+        let data = Data { model: (), spreads, drives: vec![Scaled::by(0.3_f64.exp())] };
+        let posterior = |mean: f64| Posterior {
+            mean: DVector::from_element(1, mean),
+            covariance: DMatrix::from_element(1, 1, 1e-4),
+        };
+        let mut found = Named {
+            chosen: vec![Weighed { cause: 0, probability: 0.9, class: vec![0] }],
+            others: Vec::new(),
+            posterior: posterior(named),
+            retuned: posterior(retuned),
+            placebo: Some((1, posterior(0.0))),
+            rival: Some(1),
+        };
+        let is_unneeded = drop_unneeded((&data, &data.prior(), has_references), &mut found);
+        let left_over = found.placebo.is_none() && found.rival.is_none();
+        assert_eq!(
+            (found.chosen.is_empty(), left_over, found.others.len()),
+            (is_unneeded, is_unneeded, usize::from(is_unneeded))
+        );
+        if is_unneeded {
+            assert!(found.others[0].1 < 0.3 && found.posterior.mean[0] == retuned);
+        }
+        is_unneeded
+    }
+
+    #[test]
+    fn a_cause_is_dropped_where_constants_within_what_is_known_leave_hardly_more() {
+        assert!(is_dropped(0.29, 0.31, false));
+        assert!(!is_dropped(0.2, 0.3, false), "it leaves nothing");
+        assert!(!is_dropped(0.36, 0.37, false), "3.6 sigmas are beyond what is known");
+        assert!(!is_dropped(0.29, 0.31, true), "since references 2.9 are");
+        assert!(is_dropped(0.24, 0.36, true));
+    }
+    #[test]
+    fn constants_may_have_moved_since_the_references_by_a_share_of_what_the_owner_knows() {
+        let data = |usual: f64| {
+            let spreads = vec![Spread { sigma: 0.1, usual, scatter: 1e-4, bounds: [-5.0, 5.0] }];
+            Data { model: (), spreads, drives: vec![Scaled::by(1.0), Scaled::by(1.0)] }
+        };
+        let known = |usual: f64| {
+            let solved = solve(data(usual), Some(&data(usual)), Vec::new()).expect("solved");
+            solved.prior.covariance[(0, 0)].sqrt()
+        };
+        approx::assert_relative_eq!(known(1.0), 0.06, max_relative = 0.01);
+        approx::assert_relative_eq!(known(0.2), 0.03, max_relative = 0.01);
+    }
 }

@@ -126,6 +126,8 @@ pub fn free_run(recording: String, quantity: String, errors: &Comparison<f64>) -
 /// recordings and quantities. Below 1 it forecasts better.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standing {
+    /// Over the error of the user's simulation as it is.
+    pub over_nominal: f64,
     /// Over the error of the user's simulation with re-tuned constants.
     pub over_retuned: f64,
     /// Over the error of the best wrong cause.
@@ -140,7 +142,8 @@ impl Standing {
             geometric_mean(rows.iter().filter_map(ratio))
         };
         let over_retuned = over(&|row| Some(row.retuned))?;
-        Some(Self { over_retuned, over_placebo: over(&|row| row.placebo) })
+        let over_nominal = over(&|row| Some(row.nominal))?;
+        Some(Self { over_nominal, over_retuned, over_placebo: over(&|row| row.placebo) })
     }
 
     /// Whether the best wrong cause forecasts the left-out data as well: then they do not tell the two apart.

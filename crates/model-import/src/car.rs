@@ -5,6 +5,7 @@ use serde::Serialize;
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
 use crate::layout::{Layout, Robot, mean};
+use crate::rounded::digits;
 use crate::settings::SETTINGS;
 use crate::source::Source;
 use crate::wheels::{Hangs, Wheel};
@@ -60,6 +61,9 @@ struct Columns {
 
 /// The robot file.
 pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result<Imported, ImportError> {
+    if robot.layout == Layout::SteeredAxles {
+        return Err(robot.of_many_axles(source, Kind::Car));
+    }
     if !matches!(robot.layout, Layout::Car | Layout::Tricycle) {
         return Err(source.whole(format!(
             "the model is {}, but a car has one steered and one fixed axle; leave out --kind car",
@@ -72,8 +76,8 @@ pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result
     let across = mean(robot.steered(false).map(|w| robot.place(w)[1]));
     let (rear, wheelbase) = (along(false), along(true) - along(false));
     let stated = |value: f64, sigma: f64, what: &str| Stated {
-        value: rounded(value),
-        sigma: rounded(sigma),
+        value: digits(value),
+        sigma: digits(sigma),
         source: format!("{form}: {what}"),
     };
 
@@ -170,9 +174,4 @@ fn range(source: &Source<'_>, robot: &Robot<'_>, wheel: &Wheel) -> Result<[f64; 
         )));
     }
     Ok([lower, upper])
-}
-
-/// Six digits, which are more than a model knows.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value) + 0.0
 }

@@ -7,7 +7,7 @@ use crate::error::ImportError;
 use crate::layout::{Layout, Robot};
 use crate::source::Source;
 use crate::wheels::wheels;
-use crate::{car, mjcf, odometry, sdf, torque, urdf};
+use crate::{any_wheels, car, mjcf, odometry, sdf, torque, urdf};
 
 /// Kinds of robot files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub enum Kind {
     Odometry,
     /// Throttle and steering in, motion out.
     Car,
+    /// Torques of motors that turn any wheels.
+    Wheeled,
 }
 
 impl Kind {
@@ -33,6 +35,7 @@ impl Kind {
             Self::CommandDriven => "command-driven",
             Self::Odometry => "odometry",
             Self::Car => "car",
+            Self::Wheeled => "wheeled",
         }
     }
 
@@ -42,6 +45,7 @@ impl Kind {
             Layout::SkidSteer => Self::TorqueDriven,
             Layout::Differential | Layout::Tricycle | Layout::Rollers(_) => Self::Odometry,
             Layout::Car => Self::Car,
+            Layout::SteeredAxles => Self::Wheeled,
         }
     }
 }
@@ -143,5 +147,6 @@ pub fn import(file: &str, text: &str, asked: &Asked) -> Result<Imported, ImportE
         Kind::CommandDriven => torque::file(&source, &robot, &name, kind, Causality::CommandDriven),
         Kind::Odometry => odometry::file(&source, &robot, &name),
         Kind::Car => car::file(&source, &robot, &name),
+        Kind::Wheeled => any_wheels::file(&source, &robot, &name),
     }
 }

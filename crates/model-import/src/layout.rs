@@ -1,9 +1,11 @@
 //! What robot the wheels of a model make.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
 use nalgebra::{Point3, Vector3};
 
 use crate::error::ImportError;
-use crate::import::Rollers;
+use crate::import::{Kind, Rollers};
 use crate::model::Model;
 use crate::settings::SETTINGS;
 use crate::source::Source;
@@ -20,6 +22,8 @@ pub(crate) enum Layout {
     Tricycle,
     /// A steered axle and a fixed one.
     Car,
+    /// Steered wheels that are no one axle, or no fixed one beside them.
+    SteeredAxles,
     /// Rollers let it move sideways.
     Rollers(Rollers),
 }
@@ -32,6 +36,7 @@ impl Layout {
             Self::SkidSteer => "a skid-steer robot",
             Self::Tricycle => "a tricycle",
             Self::Car => "a car",
+            Self::SteeredAxles => "a robot with steered wheels on several axles, or with steered wheels alone",
             Self::Rollers(Rollers::Omni) => "a robot with omni wheels",
             Self::Rollers(Rollers::Mecanum) => "a robot with mecanum wheels",
         }
@@ -78,7 +83,7 @@ impl<'a> Robot<'a> {
             ));
         }
 
-        let layout = layout(source, model, &wheels, &ground.without_radius, told, &mut notes)?;
+        let layout = layout(model, &wheels, told, &mut notes);
         let forward = forward(layout, &wheels);
         if forward.x < 1.0 - SETTINGS.layout.parallel {
             notes.push(
@@ -110,6 +115,54 @@ impl<'a> Robot<'a> {
     /// The same of any point.
     pub(crate) fn seen_from_origin(&self, point: &Point3<f64>) -> [f64; 2] {
         [self.forward, self.left()].map(|axis| point.coords.dot(&axis))
+    }
+
+    /// Where a wheel rolls to when its joint turns on, counter-clockwise from ahead, rad.
+    pub(crate) fn direction(&self, wheel: &Wheel) -> f64 {
+        let ahead = wheel.axle.cross(&Vector3::z());
+        ahead.dot(&self.left()).atan2(ahead.dot(&self.forward))
+    }
+
+    /// From a wheel's axle to that of its rollers, in (−π/2, π/2]; 0 without rollers.
+    pub(crate) fn roller(&self, wheel: &Wheel) -> f64 {
+        let Layout::Rollers(rollers) = self.layout else { return 0.0 };
+        if let Some(axle) = wheel.roller {
+            let along = axle.dot(&self.left()).atan2(axle.dot(&self.forward));
+            let turned = along - (self.direction(wheel) + FRAC_PI_2);
+            // An axle has no ends: half a turn changes nothing.
+            let within = turned - (turned / PI).round() * PI;
+            return if within <= -FRAC_PI_2 + f64::EPSILON { within + PI } else { within };
+        }
+        let [x, y] = self.place(wheel);
+        match rollers {
+            Rollers::Omni => FRAC_PI_2,
+            Rollers::Mecanum if x * y > 0.0 => FRAC_PI_4,
+            Rollers::Mecanum => -FRAC_PI_4,
+        }
+    }
+
+    /// Friction coefficient of its wheels at the peak, or what one of them states that none of rubber has; `None` where none states
+    /// any. A simulator has one coefficient where tyres have a peak and less beyond it, `sliding_share` of it: the middle of both.
+    pub(crate) fn adhesion(&self, sliding_share: f64) -> Option<Result<f64, f64>> {
+        let [low, high] = SETTINGS.fillers.friction;
+        let stated: Vec<f64> = self.wheels.iter().flat_map(|w| w.friction.iter().copied()).collect();
+        let real: Vec<f64> = stated.iter().copied().filter(|mu| (low..=high).contains(mu)).collect();
+        let peak = || mean(real.iter().copied()) / (0.5 * (1.0 + sliding_share));
+        stated.first().map(|first| if real.is_empty() { Err(*first) } else { Ok(peak()) })
+    }
+
+    /// Refuses steered wheels of several axles for a kind that knows one steering angle.
+    pub(crate) fn of_many_axles(&self, source: &Source<'_>, kind: Kind) -> ImportError {
+        let steered: Vec<&str> = self.steered(true).map(|w| w.name.as_str()).collect();
+        source.whole(format!(
+            "of its wheels {} are steered ({}) and {} fixed, which is not one axle of each, but robot files of kind {} know one \
+             steering angle; leave out --kind (or write --kind wheeled, with torques), or give a model with one steered and one fixed \
+             axle",
+            steered.len(),
+            steered.join(", "),
+            self.wheels.len() - steered.len(),
+            kind.name()
+        ))
     }
 
     /// Wheels that are steered, or not.
@@ -148,14 +201,7 @@ fn is_parallel(a: &Wheel, b: &Wheel) -> bool {
     a.axle.cross(&b.axle).norm() < SETTINGS.layout.parallel
 }
 
-fn layout(
-    source: &Source<'_>,
-    model: &Model,
-    wheels: &[Wheel],
-    without_radius: &[String],
-    told: Option<Rollers>,
-    notes: &mut Vec<String>,
-) -> Result<Layout, ImportError> {
+fn layout(model: &Model, wheels: &[Wheel], told: Option<Rollers>, notes: &mut Vec<String>) -> Layout {
     let steered: Vec<&Wheel> = wheels.iter().filter(|w| matches!(w.hangs, Hangs::Steered(_))).collect();
     let fixed: Vec<&Wheel> = wheels.iter().filter(|w| w.hangs == Hangs::Fixed).collect();
     let is_one_axle = |of: &[&Wheel]| {
@@ -164,21 +210,10 @@ fn layout(
     };
     if !steered.is_empty() {
         if fixed.is_empty() || !is_one_axle(&fixed) || !is_one_axle(&steered) {
-            return Err(source.whole(format!(
-                "of its wheels {} are steered ({}) and {} fixed, which is not one axle of each; robot files know one steering \
-                 angle: give a model with one steered and one fixed axle, or write the file by hand{}",
-                steered.len(),
-                steered.iter().map(|w| w.name.as_str()).collect::<Vec<_>>().join(", "),
-                fixed.len(),
-                if without_radius.is_empty() {
-                    String::new()
-                } else {
-                    format!("; {} may be wheels whose radius --wheel-radius would tell", without_radius.join(", "))
-                }
-            )));
+            return Layout::SteeredAxles;
         }
         if steered.len() > 1 {
-            return Ok(Layout::Car);
+            return Layout::Car;
         }
         let left = Vector3::z().cross(&forward_of(fixed[0]));
         let across = |w: &Wheel| w.centre.coords.dot(&left);
@@ -189,7 +224,7 @@ fn layout(
                 steered[0].name
             ));
         }
-        return Ok(Layout::Tricycle);
+        return Layout::Tricycle;
     }
 
     let parallel = wheels.iter().all(|w| is_parallel(w, &wheels[0]));
@@ -198,23 +233,23 @@ fn layout(
         of(&model.name) || wheels.iter().any(|w| of(&w.name))
     };
     if let Some(rollers) = told {
-        return Ok(Layout::Rollers(rollers));
+        return Layout::Rollers(rollers);
     }
     if wheels.iter().any(|w| w.roller.is_some()) {
-        return Ok(Layout::Rollers(if parallel { Rollers::Mecanum } else { Rollers::Omni }));
+        return Layout::Rollers(if parallel { Rollers::Mecanum } else { Rollers::Omni });
     }
     if !parallel {
         notes.push("axles point different ways, which needs rollers: omni wheels, rollers across the wheel".to_owned());
-        return Ok(Layout::Rollers(Rollers::Omni));
+        return Layout::Rollers(Rollers::Omni);
     }
     if wheels.len() == 4 && has("mecanum") {
         notes.push(
             "its name says mecanum: upper rollers are taken to form an X seen from above; correct roller_deg if not"
                 .to_owned(),
         );
-        return Ok(Layout::Rollers(Rollers::Mecanum));
+        return Layout::Rollers(Rollers::Mecanum);
     }
-    Ok(if is_one_axle(&fixed) { Layout::Differential } else { Layout::SkidSteer })
+    if is_one_axle(&fixed) { Layout::Differential } else { Layout::SkidSteer }
 }
 
 /// Where a wheel rolls to when it turns about its axle, within half a turn of x (or of y, of one that rolls along y).

@@ -5,9 +5,11 @@
 //! * `source`, `urdf`, `sdf`, `mjcf/*`: from text to links and joints.
 //! * `model`, `solid`: links and joints of any format; masses and their sums.
 //! * `wheels`, `layout`: which parts are wheels, and what robot they make.
-//! * `torque`, `odometry`, `car`: robot files of the three sorts.
+//! * `torque`, `odometry`, `car`, `any_wheels`: robot files of the four sorts.
+//! * `rounded`: numbers as a file writes them.
 //! * `settings`: every tuned number.
 
+mod any_wheels;
 mod car;
 mod error;
 mod import;
@@ -15,6 +17,7 @@ mod layout;
 mod mjcf;
 mod model;
 mod odometry;
+mod rounded;
 mod sdf;
 mod settings;
 mod solid;

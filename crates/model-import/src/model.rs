@@ -86,8 +86,10 @@ pub(crate) struct Joint {
     pub(crate) armature: Option<f64>,
     /// Largest torque, N m.
     pub(crate) effort: Option<f64>,
-    /// Whether it follows another joint.
-    pub(crate) follows: bool,
+    /// Whether the file has an actuator for it.
+    pub(crate) acts: bool,
+    /// Name of the joint that it follows.
+    pub(crate) follows: Option<String>,
 }
 
 impl Joint {
@@ -106,8 +108,14 @@ impl Joint {
             friction: None,
             armature: None,
             effort: None,
-            follows: false,
+            acts: false,
+            follows: None,
         }
+    }
+
+    /// Whether something turns it by itself.
+    pub(crate) fn is_driven(&self) -> bool {
+        self.follows.is_none() && (self.acts || self.effort.is_some_and(|effort| effort > 0.0))
     }
 
     /// Whether it turns without end.

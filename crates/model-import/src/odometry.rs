@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use crate::error::ImportError;
-use crate::import::{Imported, Kind, Number, Rollers};
+use crate::import::{Imported, Kind, Number};
 use crate::layout::{Layout, Robot, mean};
+use crate::rounded::{degrees, metres};
 use crate::settings::SETTINGS;
 use crate::source::Source;
 use crate::wheels::{Hangs, Wheel};
@@ -62,6 +63,9 @@ struct Columns {
 /// The robot file.
 pub(crate) fn file(source: &Source<'_>, robot: &Robot<'_>, name: &str) -> Result<Imported, ImportError> {
     let mut notes = robot.notes_without_casters();
+    if robot.layout == Layout::SteeredAxles {
+        return Err(robot.of_many_axles(source, Kind::Odometry));
+    }
     let steering = robot.wheels.iter().find_map(|w| match w.hangs {
         Hangs::Steered(joint) => Some(robot.model.joints[joint].name.clone()),
         _ => None,
@@ -126,19 +130,7 @@ fn wheels(robot: &Robot<'_>, notes: &mut Vec<String>) -> Vec<Row> {
     if robot.layout == Layout::Tricycle {
         notes.push("each wheel has a column; take out that of wheels whose turning is not recorded".to_owned());
     }
-    robot.wheels.iter().map(|wheel| row(robot, wheel, roller(robot, wheel))).collect()
-}
-
-/// Rounded to a ten-thousandth of a degree, without a minus before zero.
-fn degrees(angle: f64) -> f64 {
-    let fine = 1e4;
-    (angle.to_degrees() * fine).round() / fine + 0.0
-}
-
-/// Rounded to a micrometre.
-fn metres(length: f64) -> f64 {
-    let fine = 1e6;
-    (length * fine).round() / fine + 0.0
+    robot.wheels.iter().map(|wheel| row(robot, wheel, robot.roller(wheel))).collect()
 }
 
 fn row(robot: &Robot<'_>, wheel: &Wheel, roller: f64) -> Row {
@@ -146,7 +138,7 @@ fn row(robot: &Robot<'_>, wheel: &Wheel, roller: f64) -> Row {
     Row {
         name: wheel.name.clone(),
         place: [x, y],
-        direction_deg: degrees(direction(robot, wheel)),
+        direction_deg: degrees(robot.direction(wheel)),
         roller_deg: Some(degrees(roller)).filter(|r| *r != 0.0),
         radius: metres(wheel.radius),
         radius_sigma: Some(metres(SETTINGS.spreads.stated * wheel.radius)),
@@ -154,31 +146,6 @@ fn row(robot: &Robot<'_>, wheel: &Wheel, roller: f64) -> Row {
         steered: matches!(wheel.hangs, Hangs::Steered(_)).then_some(true),
         caster: None,
         source: format!("{}: joint {}", robot.model.form, robot.model.joints[wheel.joint].name),
-    }
-}
-
-/// Where it rolls to when its joint turns on, counter-clockwise from ahead, rad.
-fn direction(robot: &Robot<'_>, wheel: &Wheel) -> f64 {
-    let ahead = wheel.axle.cross(&nalgebra::Vector3::z());
-    ahead.dot(&robot.left()).atan2(ahead.dot(&robot.forward))
-}
-
-/// From the wheel's axle to that of its rollers, in (−π/2, π/2].
-fn roller(robot: &Robot<'_>, wheel: &Wheel) -> f64 {
-    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-    let Layout::Rollers(rollers) = robot.layout else { return 0.0 };
-    if let Some(axle) = wheel.roller {
-        let along = axle.dot(&robot.left()).atan2(axle.dot(&robot.forward));
-        let turned = along - (direction(robot, wheel) + FRAC_PI_2);
-        // An axle has no ends: half a turn changes nothing.
-        let within = turned - (turned / PI).round() * PI;
-        return if within <= -FRAC_PI_2 + f64::EPSILON { within + PI } else { within };
-    }
-    let [x, y] = robot.place(wheel);
-    match rollers {
-        Rollers::Omni => FRAC_PI_2,
-        Rollers::Mecanum if x * y > 0.0 => FRAC_PI_4,
-        Rollers::Mecanum => -FRAC_PI_4,
     }
 }
 
@@ -194,7 +161,7 @@ fn sides(robot: &Robot<'_>) -> Vec<Row> {
         Row {
             name: name.to_owned(),
             place: [metres(x), metres(place)],
-            direction_deg: degrees(direction(robot, sides[side][0])),
+            direction_deg: degrees(robot.direction(sides[side][0])),
             roller_deg: None,
             radius: metres(radius),
             radius_sigma: Some(metres(SETTINGS.spreads.stated * radius)),

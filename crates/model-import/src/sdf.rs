@@ -229,7 +229,7 @@ fn joint(source: &Source<'_>, node: Node<'_, '_>, parent: usize, below: usize) -
         friction: part("dynamics", "friction")?,
         // A negative effort is none, too.
         effort: limit("effort")?.filter(|e| *e > 0.0),
-        follows: axis.and_then(|a| child(a, "mimic")).is_some(),
+        follows: axis.and_then(|a| child(a, "mimic")).and_then(|m| m.attribute("joint")).map(str::to_owned),
         ..Joint::fixed(name, parent, below)
     })
 }

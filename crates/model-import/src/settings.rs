@@ -34,6 +34,10 @@
         no_effort: f64 = 1e4, "N m", "guess: a common filler";
         /// Share by which the wheels of a side may differ in inertia before the surplus is that of the motors.
         motor_surplus: f64 = 0.05, "1", "guess";
+        /// Mass of a wheel that states none, share of the robot's.
+        wheel_mass: f64 = 0.03, "1", "guess";
+        /// Trail of a caster that is drawn as a sphere.
+        sphere_trail: f64 = 0.02, "m", "guess: small, so that it turns at once";
     }
 
     /// How well numbers of models are known: one sigma, as a share where no unit is told.

@@ -6,7 +6,7 @@ use robot_file::RobotSpec;
 use crate::{Asked, ImportError, Imported, Kind, Rollers, import};
 
 /// A link with a cylinder that lies along y, and its continuous joint.
-fn wheel(name: &str, xyz: &str, more: &str) -> String {
+pub(crate) fn wheel(name: &str, xyz: &str, more: &str) -> String {
     format!(
         "<link name=\"{name}\"><collision><origin rpy=\"1.5707963267948966 0 0\"/><geometry><cylinder radius=\"0.05\" \
          length=\"0.02\"/></geometry></collision></link>\n<joint name=\"{name}_joint\" type=\"continuous\"><parent \
@@ -14,7 +14,7 @@ fn wheel(name: &str, xyz: &str, more: &str) -> String {
     )
 }
 
-fn urdf(inside: &str) -> String {
+pub(crate) fn urdf(inside: &str) -> String {
     format!("<robot name=\"mine\">\n<link name=\"base_link\"/>\n{inside}</robot>")
 }
 
@@ -22,18 +22,18 @@ fn read(text: &str) -> Imported {
     import("mine.urdf", text, &Asked::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-fn refused(text: &str, asked: &Asked) -> String {
+pub(crate) fn refused(text: &str, asked: &Asked) -> String {
     import("mine.urdf", text, asked).expect_err("refused").to_string()
 }
 
 /// A robot as a model of another simulator.
-fn exported(name: &str, robot: &robot_model::Robot<f64>, engine: Engine) -> String {
+pub(crate) fn exported(name: &str, robot: &robot_model::Robot<f64>, engine: Engine) -> String {
     let known = inference::KnownEffects::default();
     let model = Model { name, robot, effects: &[], known, before: None, causes: &[] };
     model.export(engine).expect("exported").text
 }
 
-fn of_kind(kind: Kind) -> Asked {
+pub(crate) fn of_kind(kind: Kind) -> Asked {
     Asked { kind: Some(kind), ..Asked::default() }
 }
 
@@ -172,7 +172,7 @@ fn a_wheel_that_is_mounted_backwards_counts_backwards() {
 }
 
 /// Front wheels that are steered, and rear ones that are not.
-fn car(limit: &str) -> String {
+pub(crate) fn car(limit: &str) -> String {
     let hinge = |side: &str, y: f64| {
         let kind = if limit.is_empty() { "continuous" } else { "revolute" };
         format!(

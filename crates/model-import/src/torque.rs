@@ -249,24 +249,23 @@ fn constants(
         );
     }
 
-    let (low, high) = (SETTINGS.fillers.friction[0], SETTINGS.fillers.friction[1]);
-    let frictions: Vec<f64> = all.iter().flat_map(|w| w.friction.iter().copied()).collect();
-    let real: Vec<f64> = frictions.iter().copied().filter(|mu| (low..=high).contains(mu)).collect();
-    if real.is_empty() && !frictions.is_empty() {
-        notes.push(format!("friction of {} is none of rubber: a usual one was taken", frictions[0]));
-    }
-    if !real.is_empty() {
-        // A simulator has one coefficient where tyres have a peak and less beyond it: the middle of both.
-        let peak = mean(real.iter().copied()) / (0.5 * (1.0 + usual.sliding_share));
-        say(
+    match robot.adhesion(usual.sliding_share) {
+        Some(Ok(peak)) => say(
             "adhesion",
             peak,
             SETTINGS.spreads.stated_friction,
             "friction of the wheels, as the middle of peak and sliding",
-        );
+        ),
+        Some(Err(filler)) => notes.push(not_of_rubber(filler)),
+        None => {}
     }
     drives(robot, sides, usual, &mut say);
     out
+}
+
+/// What to say of a friction coefficient that no tyre has.
+pub(crate) fn not_of_rubber(filler: f64) -> String {
+    format!("friction of {filler} is none of rubber: a usual one was taken")
 }
 
 /// Friction and limits of the drives.
@@ -301,7 +300,7 @@ fn drives(
             say(id, damping, SETTINGS.spreads.stated_friction, "damping of the joints of a side");
         }
     }
-    let torque = |j: &Joint| j.effort.filter(|e| !j.follows && (0.0..SETTINGS.fillers.no_effort).contains(e));
+    let torque = |j: &Joint| j.effort.filter(|e| j.follows.is_none() && (0.0..SETTINGS.fillers.no_effort).contains(e));
     if let [Some(left), Some(right)] = [0, 1].map(|side| sum(side, torque)) {
         say("torque_limit", left.min(right), SETTINGS.spreads.stated, "largest torque of the joints of a side");
     }

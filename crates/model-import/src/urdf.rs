@@ -170,7 +170,7 @@ fn joint(source: &Source<'_>, node: Node<'_, '_>, parent: usize, child_link: usi
         damping: number("damping")?,
         friction: number("friction")?,
         effort: of("effort")?,
-        follows: child(node, "mimic").is_some(),
+        follows: child(node, "mimic").and_then(|m| m.attribute("joint")).map(str::to_owned),
         ..Joint::fixed(name, parent, child_link)
     })
 }

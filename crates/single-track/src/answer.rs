@@ -2,7 +2,7 @@
 
 use crate::settings::SETTINGS;
 use hierarchical_fit::Answer;
-use hierarchical_fit::telling::{Found, free_runs};
+use hierarchical_fit::telling::Found;
 
 use crate::diagnose::Findings;
 use crate::forecast::{ByLength, LENGTHS};
@@ -13,11 +13,7 @@ use verdict::Diagnosis;
 /// The verdict of findings, with the forecasts of drives that were left out.
 pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
     let found = findings.said.found();
-    let of_drive = |(drive, errors): &(String, Vec<ByLength>)| {
-        let medians = |row: usize, k: usize| errors.get(row).and_then(|e| e[k].medians()).map(|m| m.map(Some));
-        free_runs(drive, "throttle and steering alone", LENGTHS, medians)
-    };
-    let mut out = found.verdict(table.by_drive.iter().flat_map(of_drive).collect());
+    let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &found, &out, has_references);
     out.sentences.extend(found.causes(&[ENCODER_SCALE.id], &out.free_runs));
@@ -58,6 +54,11 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
              of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best answer). \
              Diagnose drives of one day, floor and battery by themselves; candidates follow.",
             findings.said.scatter
+        )),
+        Answer::Unknown if findings.said.is_refuted => text.push(format!(
+            "Something is missing that these causes do not account for: with them drives that were left out of the fit are forecast worse \
+             than as stated (errors after a second are {given:.1} % of the motion, {tuned:.1} % re-tuned). Candidates \
+             follow."
         )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \

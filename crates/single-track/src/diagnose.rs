@@ -81,7 +81,9 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
     let (case, apart) = clock::joined(case);
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let solved = solve(&case.car, &case.references, &all)?;
-    Ok((findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress)))
+    let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
+    findings.said.doubt(&table.free_runs());
+    Ok((findings, table))
 }
 
 fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> Findings {

@@ -9,8 +9,9 @@ use crate::rows::Shown;
 use crate::settings::{Forecast, SETTINGS};
 use crate::traces::trace;
 use hierarchical_fit::Solved;
+use hierarchical_fit::telling::free_runs;
 use inference::robust::median;
-use verdict::Trace;
+use verdict::{FreeRun, Trace};
 
 const RULES: Forecast = SETTINGS.forecast;
 
@@ -27,6 +28,17 @@ pub struct Table {
     pub named: Vec<Vec<String>>,
     /// The drives beside the simulations that were fitted without them.
     pub traces: Vec<Trace>,
+}
+
+impl Table {
+    /// The same as rows of a verdict.
+    pub(crate) fn free_runs(&self) -> Vec<FreeRun> {
+        let of_drive = |(drive, errors): &(String, Vec<ByLength>)| {
+            let medians = |row: usize, k: usize| errors.get(row).and_then(|e| e[k].medians()).map(|m| m.map(Some));
+            free_runs(drive, "throttle and steering alone", LENGTHS, medians)
+        };
+        self.by_drive.iter().flat_map(of_drive).collect()
+    }
 }
 
 /// Names of the simulations beside the rivals.

@@ -64,7 +64,9 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Wheele
 /// As [`diagnose`].
 pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), WheeledError> {
     let solved = solved(case, progress)?;
-    Ok((findings(case, &solved), left_out_of(&solved, progress)))
+    let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
+    findings.said.doubt(&table.free_runs());
+    Ok((findings, table))
 }
 
 /// Drives of a case with the constants fitted to them, and what was named.

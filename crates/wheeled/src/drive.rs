@@ -6,9 +6,12 @@ use inference::robust::median;
 use odometry::file::Series;
 use odometry::held::Command;
 use odometry::rates::on_grid;
+use robot_model::wheels::MOST_CASTERS;
 
+use crate::casters;
 use crate::robot::AnyWheels;
 use crate::settings::{Grid, SETTINGS};
+use crate::units::mistaken;
 
 const RULES: Grid = SETTINGS.grid;
 /// Step of the grid, s.
@@ -44,6 +47,8 @@ pub struct Drive {
     pub(crate) gyro: Option<Command>,
     /// Pose at the beginning of each step; NaN where it was not seen. Empty of a drive without pose.
     pub(crate) pose: Vec<[f64; 3]>,
+    /// Angles of casters at the beginning of each step; empty of a robot without.
+    pub(crate) casters: Vec<[f64; MOST_CASTERS]>,
     /// When some channel was missing, s from the start.
     gaps: Vec<[f64; 2]>,
     pub(crate) steps: usize,
@@ -125,18 +130,24 @@ impl Drive {
             .iter()
             .enumerate()
             .map(|(k, t)| (t - start, [x, y, yaw].map(|s| s.value.get(k).copied().unwrap_or(f64::NAN))));
-        Ok(Self {
+        let mut drive = Self {
             name: name.to_owned(),
             torque: of.torque.iter().map(held).collect(),
             steering: of.steering.iter().map(|s| summed_angle(s, start, steps)).collect(),
             wheels: of.wheels.iter().map(|s| summed(s, of.is_speed)).collect(),
             gyro: (!of.gyro.time.is_empty()).then(|| summed(&of.gyro, true)),
             pose: if has_pose { on_grid(seen, steps, STEP, RULES.gap) } else { Vec::new() },
+            casters: Vec::new(),
             gaps,
             steps,
             start,
             told: Vec::new(),
-        })
+        };
+        if let Some(what) = mistaken(&drive, robot, of.is_speed) {
+            return Err(wrong(what));
+        }
+        drive.casters = casters::angles(&drive, robot);
+        Ok(drive)
     }
 
     /// From its first row to its last, s.

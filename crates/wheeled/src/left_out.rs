@@ -1,10 +1,11 @@
 //! Drives left out in turn, and forecast from torques and steering alone.
 
+use hierarchical_fit::telling::free_runs;
 use hierarchical_fit::{Ahead, Beside, Solved};
 use inference::robust::median;
 use odometry::rates::end;
 use rayon::prelude::*;
-use verdict::Trace;
+use verdict::{FreeRun, Trace};
 
 use crate::drive::{Drive, STEP};
 use crate::model::Model;
@@ -30,6 +31,17 @@ pub struct Table {
     pub named: Vec<Vec<String>>,
     /// The drives beside the simulations that were fitted without them.
     pub traces: Vec<Trace>,
+}
+
+impl Table {
+    /// The same as rows of a verdict.
+    pub(crate) fn free_runs(&self) -> Vec<FreeRun> {
+        let of_drive = |(drive, medians): &(String, Vec<Medians>)| {
+            let of = |row: usize, k: usize| medians.get(row).and_then(|m| m[k]).map(|m| m.map(Some));
+            free_runs(drive, "torques alone", LENGTHS, of)
+        };
+        self.by_drive.iter().flat_map(of_drive).collect()
+    }
 }
 
 /// Medians of position, m, and heading, rad, over each of [`LENGTHS`]; `None` where no drive is long enough.
@@ -134,7 +146,7 @@ pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: boo
     if starts.is_empty() {
         return None;
     }
-    let of = |theta: &[f64]| free_runs(&solved.data.model, theta, drive, (&starts, longest));
+    let of = |theta: &[f64]| runs_anew(&solved.data.model, theta, drive, (&starts, longest));
     let named = &solved.named;
     let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
     let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
@@ -143,7 +155,7 @@ pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: boo
 }
 
 /// The tracked pose at each step, from start to start and so many steps at most.
-fn free_runs(model: &Constants, theta: &[f64], drive: &Drive, (starts, longest): (&[usize], usize)) -> Vec<[f64; 3]> {
+fn runs_anew(model: &Constants, theta: &[f64], drive: &Drive, (starts, longest): (&[usize], usize)) -> Vec<[f64; 3]> {
     let at = Model::at(&model.robot, &model.all, theta);
     let mut out = vec![[f64::NAN; 3]; drive.steps];
     for (k, &start) in starts.iter().enumerate() {
@@ -168,7 +180,7 @@ pub(crate) fn predicted(model: &Constants, theta: &[f64], drive: &Drive) -> Vec<
     if starts.is_empty() {
         starts.push(0);
     }
-    let mut out = free_runs(model, theta, drive, (&starts, drive.steps));
+    let mut out = runs_anew(model, theta, drive, (&starts, drive.steps));
     out[..starts[0]].copy_from_slice(&drive.pose[..starts[0]]);
     out
 }

@@ -4,6 +4,8 @@
 //!
 //! * `robot`, `constants`: a robot as its owner states it, and the constants on which its motion and its reports depend.
 //! * `drive`: torques, steering, wheels, gyro and pose of a drive on one grid.
+//! * `units`: columns in another unit than the robot file says.
+//! * `casters`: where casters point at the start of a window.
 //! * `model`: the plant at values of the constants, and runs of it.
 //! * `rows`: windows of the motion against the model, several values of the constants side by side.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, forecasts of what is left out, and findings as a verdict in
@@ -12,6 +14,7 @@
 //! * `settings`: every tuned number.
 
 mod answer;
+mod casters;
 mod constants;
 mod diagnose;
 mod drive;
@@ -21,6 +24,7 @@ mod model;
 mod robot;
 mod rows;
 mod settings;
+mod units;
 
 pub use answer::diagnosis;
 pub use constants::{Constant, Quantity, constants};

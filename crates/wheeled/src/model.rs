@@ -134,6 +134,28 @@ impl<T: PerLane> Model<T> {
         s
     }
 
+    /// Velocity of the robot's origin in its axes, of the pose's rates in the world at this heading.
+    pub(crate) fn of_origin(&self, heading: f64, rates: [f64; 3]) -> [T; 2] {
+        let (sin, cos) = (real::<T>(heading) - self.direction).sin_cos();
+        let ([px, py], w) = (self.point, real::<T>(rates[2]));
+        let [vx, vy] = [real::<T>(rates[0]), real::<T>(rates[1])];
+        [vx * cos + vy * sin + w * py, vy * cos - vx * sin - w * px]
+    }
+
+    /// Turns casters to where what the drive did before leaves them.
+    fn turn_casters(s: &mut State<T>, drive: &Drive, at: usize) {
+        if let Some(angles) = drive.casters.get(at) {
+            s.caster = angles.map(real);
+        }
+    }
+
+    /// Moves the body as wheels and gyro show it at a step.
+    pub(crate) fn roll_by_wheels(&self, drive: &Drive, robot: &AnyWheels, at: usize, s: &mut State<T>) {
+        s.steering = self.settled(drive, at).steering;
+        let (speeds, gyro) = self.shown(drive, robot, at);
+        self.plant.roll_body(s, &speeds, gyro);
+    }
+
     /// The state at a step in which the pose was measured, with its rates in the world, m/s, rad/s.
     pub(crate) fn of_pose(
         &self,
@@ -149,10 +171,8 @@ impl<T: PerLane> Model<T> {
         s.yaw_rate = real(rates[2]);
         let [px, py] = self.point;
         s.position = [real::<T>(pose[0]) - cos * px + sin * py, real::<T>(pose[1]) - sin * px - cos * py];
-        let [vx, vy] = [real::<T>(rates[0]), real::<T>(rates[1])];
-        let of_point = [vx * cos + vy * sin, vy * cos - vx * sin];
-        let of_origin = [of_point[0] + s.yaw_rate * py, of_point[1] - s.yaw_rate * px];
-        self.plant.set_velocity(&mut s, of_origin);
+        self.plant.set_velocity(&mut s, self.of_origin(pose[2], rates));
+        Self::turn_casters(&mut s, drive, from);
         self.plant.roll_wheels(&mut s);
         if drive.is_whole(from.saturating_sub(1), from + 1) {
             self.plant.turn_wheels(&mut s, &self.shown(drive, robot, from).0);
@@ -167,6 +187,7 @@ impl<T: PerLane> Model<T> {
         let (speeds, gyro) = self.shown(drive, robot, from);
         self.plant.roll_body(&mut s, &speeds, gyro);
         self.plant.roll_wheels(&mut s);
+        Self::turn_casters(&mut s, drive, from);
 
         let mut ahead = s;
         self.run(s, drive, from, RULES.settling, |_, after| ahead = *after);
@@ -180,6 +201,7 @@ impl<T: PerLane> Model<T> {
         let ([x, y], [dx, dy]) = (origin(&s), origin(&missing));
         s.yaw_rate += missing.yaw_rate;
         self.plant.set_velocity(&mut s, [x + dx, y + dy]);
+        Self::turn_casters(&mut s, drive, from);
         self.plant.roll_wheels(&mut s);
         self.plant.turn_wheels(&mut s, &self.shown(drive, robot, from).0);
         s

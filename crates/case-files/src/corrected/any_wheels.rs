@@ -48,6 +48,8 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
         Q::Coulomb(k) => row(root, "motor", k, "coulomb", &to),
         Q::Viscous(k) => row(root, "motor", k, "viscous", &to),
         Q::Lag => (0..robot.motors.len()).for_each(|k| row(root, "motor", k, "lag", &to)),
+        Q::SteeringZero(k) => row(root, "joint", k, "zero_deg", &|_| found.to_degrees()),
+        Q::SteeringGain(k) => row(root, "joint", k, "angle_per_unit", &times),
         Q::Radius(k) => row(root, "wheel", k, "radius", &to),
         Q::Direction(k) => row(root, "wheel", k, "direction_deg", &|_| found.to_degrees()),
         Q::Across | Q::Along => {
@@ -72,14 +74,7 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
         Q::PoseX => inside(root, "point", "x", constant.given, found),
         Q::PoseY => inside(root, "point", "y", constant.given, found),
         Q::PoseDirection => inside(root, "point", "yaw_deg", constant.given.to_degrees(), found.to_degrees()),
-        Q::Delay
-        | Q::SteeringZero(_)
-        | Q::SteeringGain(_)
-        | Q::SlopeX
-        | Q::SlopeY
-        | Q::GyroScale
-        | Q::GyroBias
-        | Q::Clock => {}
+        Q::Delay | Q::SlopeX | Q::SlopeY | Q::GyroScale | Q::GyroBias | Q::Clock => {}
     }
 }
 
@@ -133,8 +128,6 @@ fn remedy(quantity: Quantity) -> Option<&'static str> {
     use Quantity as Q;
     match quantity {
         Q::Delay => Some("correct the time stamps of the torques by it"),
-        Q::SteeringZero(_) => Some("subtract it where the steering angle is recorded"),
-        Q::SteeringGain(_) => Some("multiply the recorded steering angle by it"),
         Q::SlopeX | Q::SlopeY => Some("it is of the ground, not of the robot: simulate on that slope"),
         Q::GyroScale => Some("divide the gyro's readings by it"),
         Q::GyroBias => Some("subtract it from the gyro's readings"),

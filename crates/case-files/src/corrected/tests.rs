@@ -295,8 +295,10 @@ fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
         ("distances along it", 1.02),
         ("tracked point, left", 0.01),
         ("steering zero of front", 0.05),
+        ("steering gain of front", 1.1),
+        ("bias of the gyro", 0.01),
     ];
-    let corrected = robot(Kind::Wheeled, text, Some(verdict(&tuning, &[("steering zero of front", 0.05)])));
+    let corrected = robot(Kind::Wheeled, text, Some(verdict(&tuning, &[("bias of the gyro", 0.01)])));
     let written = corrected.robot_file().expect("a file");
     let file = wheeled::file::RobotFile::parse("robot.toml", &written.text).expect("a robot");
     let plant = file.robot.plant;
@@ -306,7 +308,13 @@ fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
     assert_eq!((plant.motors[0].expect("a motor").coulomb, file.columns.torque[0].1), (1.1, 0.8));
     assert_eq!((plant.joints[0].expect("a joint").place[0], file.robot.point[1]), (0.816, 0.01));
     assert!(written.text.contains("re-tuned by lacuna from 60"), "{}", written.text);
-    assert!(written.not_held.iter().any(|s| s.contains("subtract it where the steering angle is recorded")));
+    approx::assert_relative_eq!(plant.joints[0].expect("a joint").offset, 0.05, max_relative = 1e-5);
+    approx::assert_relative_eq!(file.columns.joints[0].1, 1.1, max_relative = 1e-9);
+    assert!(
+        written.not_held.iter().any(|s| s.contains("subtract it from the gyro's readings")),
+        "{:?}",
+        written.not_held
+    );
     let refused = corrected.controllers().unwrap_err().to_string();
     assert!(refused.contains("driven by torques") && refused.contains("--to toml"), "{refused}");
 }

@@ -16,12 +16,12 @@ const MEASURED: [&str; 12] =
     ["truth", "vicon", "mocap", "optitrack", "qualisys", "vrpn", "gps", "visual", "vio", "lidar", "lio", "slam"];
 
 /// What is proposed for a robot file.
-struct Draft<'a> {
-    topics: Vec<&'a TopicContents>,
-    file: DocumentMut,
+pub(super) struct Draft<'a> {
+    pub(super) topics: Vec<&'a TopicContents>,
+    pub(super) file: DocumentMut,
     /// Topics that are used.
-    used: Vec<&'a TopicContents>,
-    inferred: Vec<String>,
+    pub(super) used: Vec<&'a TopicContents>,
+    pub(super) inferred: Vec<String>,
 }
 
 /// The file of a robot that names its columns itself, with columns that are fields of this bag; what it says else stays.
@@ -35,10 +35,7 @@ pub fn columns(robot: &str, kind: Kind, contents: &Contents) -> Result<Proposal>
     match kind {
         Kind::Odometry => draft.wheels()?,
         Kind::Car => draft.car()?,
-        Kind::Wheeled => bail!(
-            "columns of torques, joints and wheels are not proposed; `lacuna check` lists the topics and fields of a bag: name them as \
-             column of each motor, joint and wheel, `/topic.field`, in robot '{robot}'"
-        ),
+        Kind::Wheeled => draft.torques()?,
     }
     draft.pose(kind);
     draft.time();
@@ -49,25 +46,25 @@ pub fn columns(robot: &str, kind: Kind, contents: &Contents) -> Result<Proposal>
 }
 
 /// A field of a topic as a robot file names it.
-fn column(topic: &TopicContents, field: &str) -> String {
+pub(super) fn column(topic: &TopicContents, field: &str) -> String {
     format!("{}.{field}", topic.name)
 }
 
-fn has(topic: &TopicContents, path: &str) -> bool {
+pub(super) fn has(topic: &TopicContents, path: &str) -> bool {
     fields(topic).iter().any(|field| field.path == path)
 }
 
 /// Names of the items of a list of a topic.
-fn items<'a>(topic: &'a TopicContents, list: &str) -> &'a [String] {
+pub(super) fn items<'a>(topic: &'a TopicContents, list: &str) -> &'a [String] {
     fields(topic).iter().find(|field| field.path == list).map_or(&[], |field| &field.names)
 }
 
 impl<'a> Draft<'a> {
-    fn infer(&mut self, topic: &TopicContents, what: &str) {
+    pub(super) fn infer(&mut self, topic: &TopicContents, what: &str) {
         self.inferred.push(format!("{}: {what}", topic.name));
     }
 
-    fn columns(&mut self) -> &mut dyn TableLike {
+    pub(super) fn columns(&mut self) -> &mut dyn TableLike {
         let item = self.file.entry("columns").or_insert_with(toml_edit::table);
         if !item.is_table_like() {
             *item = toml_edit::table();
@@ -81,7 +78,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Topics of measured joints, those that are set aside.
-    fn joint_states(&self) -> Vec<&'a TopicContents> {
+    pub(super) fn joint_states(&self) -> Vec<&'a TopicContents> {
         let is_one = |topic: &&TopicContents| message(topic) == "JointState" && !is_wanted(topic);
         self.topics.iter().copied().filter(is_one).collect()
     }
@@ -105,7 +102,7 @@ impl<'a> Draft<'a> {
     }
 
     /// Takes out keys that mean something in a table only: units, which ROS fixes, and channels that the bag does not have.
-    fn leave_out(&mut self, keys: &[&str]) {
+    pub(super) fn leave_out(&mut self, keys: &[&str]) {
         for key in keys {
             self.columns().remove(key);
         }
@@ -231,13 +228,16 @@ impl<'a> Draft<'a> {
         }
         let is_enough = match kind {
             Kind::Odometry => self.gyro(),
-            Kind::Car | Kind::Wheeled => self.columns().contains_key("gyro") && self.columns().contains_key("encoder"),
+            Kind::Car => self.columns().contains_key("gyro") && self.columns().contains_key("encoder"),
+            Kind::Wheeled => self.columns().contains_key("wheels"),
         };
         if is_enough {
             self.leave_out(&["x", "y", "yaw"]);
-            self.inferred.push(
-                "no topic of a measured pose is in the bag: the gyro shows how the robot turns, and not how far it goes".to_owned(),
-            );
+            let shown = match kind {
+                Kind::Wheeled => "wheels, and a gyro if there is one, show how the robot moves, and not where it is",
+                _ => "the gyro shows how the robot turns, and not how far it goes",
+            };
+            self.inferred.push(format!("no topic of a measured pose is in the bag: {shown}"));
             return;
         }
         let odometry: Vec<&str> =
@@ -300,7 +300,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The yaw rate by an inertial unit, if there is one.
-    fn gyro(&mut self) -> bool {
+    pub(super) fn gyro(&mut self) -> bool {
         let is_one = |topic: &&TopicContents| message(topic) == "Imu" && has(topic, "angular_velocity.z");
         let Some(topic) = self.topics.iter().copied().find(is_one) else {
             self.leave_out(&["gyro"]);

@@ -45,7 +45,10 @@ const IDLE: [&str; 31] = [
 ];
 
 /// Words of what is measured of a wheel, which say nothing of which one it is.
-const COUNTED: [&str; 8] = ["tick", "ticks", "encoder", "encoders", "enc", "count", "counts", "position"];
+const COUNTED: [&str; 15] = [
+    "tick", "ticks", "encoder", "encoders", "enc", "count", "counts", "position", "speed", "velocity", "torque",
+    "torques", "effort", "current", "currents",
+];
 
 /// Letters of the longest of them.
 const LONGEST_WORD: usize = 10;

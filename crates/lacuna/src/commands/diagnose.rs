@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use ::report::diagnosis_text;
 use anyhow::{Context, Result, bail, ensure};
-use case_files::case_folder::{self, CaseFolder};
+use case_files::case_folder::{self, CaseFolder, unread_folders};
 use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
@@ -229,6 +229,12 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let known = args.effects.known()?;
     let progress = Progress::of(STAGES, verbose);
     progress.stage("reading the recordings");
+    for folder in args.input.case.iter().flat_map(|case| unread_folders(case)) {
+        warning(&format!(
+            "folder '{folder}/' of the case holds recordings and was not read: the parts of a case are reference/, recordings/, \
+             heldout/ and simulation/"
+        ));
+    }
     if let Some(case) = odometry::case(&args.input)? {
         ensure!(known.own().is_empty(), own_effects::refused(known, case.kind().name()));
         return verdict_of_columns(args, &case, progress);

@@ -300,3 +300,87 @@ fn what_a_bag_lacks_is_said_with_what_to_do() {
     with("/joint_states.position[wheel_left_joint]", "/joints.position[wheel_left_joint]")
         .failed(&["topic /joints: no message of it is there", "'/joints.position[wheel_left_joint]' has no values"]);
 }
+
+/// A robot file of a tricycle whose columns are those of a table.
+fn tricycle() -> String {
+    include_str!("../../../wheeled/robots/torque-tricycle.toml").to_owned()
+}
+
+/// A tricycle that drives straight on, its bag with these joints and efforts.
+fn tricycle_bag(effort: &str) -> Vec<u8> {
+    let topics = [
+        ("/joint_states", "sensor_msgs/msg/JointState"),
+        ("/imu", "sensor_msgs/msg/Imu"),
+        ("/mocap/base", "geometry_msgs/msg/PoseStamped"),
+    ];
+    let said = (0..600).flat_map(|k| -> [Said; 3] {
+        let t = 1e9 + 0.02 * f64::from(k);
+        let speed = 1.0 + 0.5 * (0.05 * f64::from(k)).sin();
+        let joints = format!(
+            r#"{{STAMP,"name":["front_steering_joint","front_wheel_joint","rear_left_wheel_joint"],"position":[0.1,{k},{k}],"velocity":[0.0,{speed},{speed}],"effort":{effort}}}"#
+        );
+        [
+            (0, t, joints),
+            (1, t, r#"{STAMP,"angular_velocity":{"x":0.0,"y":0.0,"z":0.02}}"#.to_owned()),
+            (2, t, pose_message([0.02 * f64::from(k), 0.0, 0.0])),
+        ]
+    });
+    bag_of(&topics, said.collect())
+}
+
+#[test]
+fn torques_and_joints_of_a_robot_of_any_wheels_are_proposed_by_their_names() {
+    let bench = Bench::empty();
+    bench.write("mine.toml", &tricycle());
+    bench.write_bytes("run.mcap", &tricycle_bag("[0.0,1.5,0.0]"));
+    let run = bench.run(&["check", "run.mcap", "--robot", "mine.toml", "--write-mapping", "new.toml"]);
+    assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
+    let new = bench.read("new.toml");
+    for part in [
+        "column = \"/joint_states.effort[front_wheel_joint]\"",
+        "column = \"/joint_states.position[front_steering_joint]\"",
+        "column = \"/joint_states.velocity[front_wheel_joint]\"",
+        // A wheel without a column gets one where the bag has it.
+        "column = \"/joint_states.velocity[rear_left_wheel_joint]\"",
+        "gyro = \"/imu.angular_velocity.z\"",
+        "yaw = \"/mocap/base.pose.orientation\"",
+        "wheels = \"speed\"",
+        "where it is a current, torque_per_unit is torque constant times gear",
+    ] {
+        assert!(new.contains(part), "no `{part}` in {new}");
+    }
+    let run = bench.run(&["check", "run.mcap", "--robot", "new.toml"]);
+    assert_eq!(run.code(), Some(0), "{}{}", run.out(), run.err());
+    assert!(run.out().contains("run: 12.0 s, with a pose"), "{}", run.out());
+}
+
+#[test]
+fn a_bag_without_torques_or_without_the_steering_says_which_joints_it_has() {
+    let bench = Bench::empty();
+    bench.write("mine.toml", &tricycle());
+    bench.write_bytes("run.mcap", &tricycle_bag("[]"));
+    bench.run(&["check", "run.mcap", "--robot", "mine.toml", "--write-mapping", "new.toml"]).failed(&[
+        "the torque or current of motor front",
+        "Joints with an effort are: none; with a position: front_steering_joint, front_wheel_joint",
+    ]);
+    let topics = [("/drive/current", "std_msgs/msg/Float64"), ("/drive", "ackermann_msgs/msg/AckermannDriveStamped")];
+    let said = (0..200).flat_map(|k| -> [Said; 2] {
+        let t = 1e9 + 0.02 * f64::from(k);
+        [
+            (0, t, r#"{"data":3.0}"#.to_owned()),
+            (1, t, r#"{STAMP,"drive":{"steering_angle":0.1,"speed":0.5}}"#.to_owned()),
+        ]
+    });
+    bench.write_bytes("bare.mcap", &bag_of(&topics, said.collect()));
+    bench.run(&["check", "bare.mcap", "--robot", "mine.toml", "--write-mapping", "new.toml"]);
+    let new = bench.read("new.toml");
+    for part in [
+        "column = \"/drive/current.data\"",
+        "column = \"/drive.drive.steering_angle\"",
+        "it is asked for and not measured",
+        "the turning of wheels is not compared",
+        "no topic of a measured pose",
+    ] {
+        assert!(new.contains(part), "no `{part}` in {new}");
+    }
+}

@@ -43,6 +43,7 @@ pub(crate) fn read(source: &Source<'_>, root: Node<'_, '_>) -> Result<Model, Imp
     let mut reader = Reader { reading, links: Vec::new(), joints: Vec::new(), pairs: pairs(root), from_geoms };
     reader.bodies(*robot)?;
     reader.motors(root)?;
+    reader.couplings(root);
     let mut model = Model::new(root.attribute("model").unwrap_or("robot"), "MJCF", reader.links, reader.joints);
     let others = bodies.iter().filter(moves).filter(|b| *b != robot).filter_map(|b| b.attribute("name"));
     model.notes.extend(others.map(|name| format!("body '{name}' stands in the same world and was not read")));
@@ -190,7 +191,21 @@ impl<'a, 'i: 'a> Reader<'_, 'a, 'i> {
             let force = self.reading.array::<2>(motor, "forcerange")?.map(|[_, most]| most);
             let most = [command, force].into_iter().flatten().map(|most| (most * gear).abs()).reduce(f64::min);
             self.joints[k].effort = most.filter(|m| m.is_finite() && *m > 0.0);
+            self.joints[k].acts = true;
         }
         Ok(())
+    }
+
+    /// Joints that are held equal: the one without an actuator follows the other.
+    fn couplings(&mut self, root: Node<'a, 'i>) {
+        let pairs = children(root, "equality").flat_map(|e| children(e, "joint"));
+        for pair in pairs {
+            let place =
+                |name: &str| pair.attribute(name).and_then(|joint| self.joints.iter().position(|j| j.name == joint));
+            let (Some(first), Some(second)) = (place("joint1"), place("joint2")) else { continue };
+            let leads = self.joints[first].acts && !self.joints[second].acts;
+            let (leader, follower) = if leads { (first, second) } else { (second, first) };
+            self.joints[follower].follows = Some(self.joints[leader].name.clone());
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use crate::chassis::{dragged, swung};
+use crate::chassis::dragged;
 use crate::contact::Plane;
 use crate::plant::FRICTION_REST;
 use crate::scalar::{Scalar, real, smooth_sign, smooth_sign_per};
@@ -46,7 +46,7 @@ pub struct Plant<T> {
     direction: [[T; 2]; MOST],
     roller: [[T; 2]; MOST],
     groups: [Group<T>; MOST],
-    casters: [[T; 2]; MOST_CASTERS],
+    pub(super) casters: [[T; 2]; MOST_CASTERS],
     plane: Plane<T>,
     /// What is kept of motors' torques and joints' angles in a step.
     keep_torque: [T; MOST],
@@ -350,12 +350,7 @@ impl<T: Scalar> Plant<T> {
         s.velocity = [before[0] + change[0], before[1] + change[1]];
         s.yaw_rate = w + change[2];
         let mean = half * (w + s.yaw_rate);
-        for k in 0..MOST_CASTERS {
-            let Some(caster) = self.robot.casters[k] else { continue };
-            let p = self.casters[k];
-            let v = [s.velocity[0] - s.yaw_rate * p[1], s.velocity[1] + s.yaw_rate * p[0]];
-            s.caster[k] = swung(s.caster[k], v, s.yaw_rate, caster.trail, h);
-        }
+        self.swing_casters(s, h);
 
         // Velocity of the origin in the middle of the step, in the axes of the middle.
         let com = self.robot.com;

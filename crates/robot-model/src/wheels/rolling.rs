@@ -1,5 +1,6 @@
 //! Motions in which wheels roll: wheels from the body, and the body from its wheels.
 
+use crate::chassis::swung;
 use crate::scalar::{Scalar, real};
 use crate::wheels::MOST;
 use crate::wheels::plant::{Plant, solve};
@@ -11,6 +12,23 @@ const SIDEWAYS: f64 = 0.1;
 const GYRO_LEVER: f64 = 10.0;
 
 impl<T: Scalar> Plant<T> {
+    /// Velocity of the body from that of the robot's origin; casters keep their angles.
+    pub fn move_body(&self, s: &mut State<T>, origin: [T; 2], yaw_rate: T) {
+        let com = self.robot.com;
+        s.yaw_rate = yaw_rate;
+        s.velocity = [origin[0] - yaw_rate * com[1], origin[1] + yaw_rate * com[0]];
+    }
+
+    /// Advances the angles of all casters by a time in which the body moves as it does.
+    #[inline(always)]
+    pub fn swing_casters(&self, s: &mut State<T>, seconds: T) {
+        for (k, p) in self.casters.iter().enumerate() {
+            let Some(caster) = self.robot.casters[k] else { continue };
+            let v = [s.velocity[0] - s.yaw_rate * p[1], s.velocity[1] + s.yaw_rate * p[0]];
+            s.caster[k] = swung(s.caster[k], v, s.yaw_rate, caster.trail, seconds);
+        }
+    }
+
     /// Sets the speed of every wheel to that at which it rolls under the body's motion, wheels of one motor at their mean.
     pub fn roll_wheels(&self, s: &mut State<T>) {
         let directions = self.directions(s);

@@ -35,13 +35,17 @@ pub struct Columns {
     pub(crate) second: f64,
     /// Columns of the motors' torques, with N m per unit of each.
     pub torque: Vec<(String, f64)>,
-    /// Columns of the angles of joints.
-    pub joints: Vec<String>,
+    /// Columns of the angles of joints, with rad per unit of each.
+    pub joints: Vec<(String, f64)>,
     /// Columns of the measured wheels.
     pub wheels: Vec<String>,
     pub(crate) is_speed: bool,
-    /// Radians per unit of angles and yaw.
+    /// rad/s, or rad, per unit of the wheels' columns.
+    pub(crate) turning: f64,
+    /// Radians per unit of yaw.
     pub(crate) angle: f64,
+    /// rad/s per unit of the yaw rate.
+    pub(crate) rate: f64,
     /// Column of the yaw rate, rad/s.
     pub gyro: Option<String>,
     /// Columns of x, y and yaw.
@@ -79,7 +83,7 @@ impl RobotFile {
     /// All columns but that of the time.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let names = &self.columns;
-        let inputs = names.torque.iter().map(|(c, _)| c).chain(&names.joints);
+        let inputs = names.torque.iter().chain(&names.joints).map(|(c, _)| c);
         inputs.chain(&names.wheels).chain(&names.gyro).chain(names.pose.iter().flatten()).map(String::as_str)
     }
 }
@@ -120,6 +124,10 @@ mod tests {
             refused("coulomb_sigma = 0.15", "coulomb_sigma = 0").contains("coulomb_sigma is 0; it has to be above 0")
         );
         assert!(refused("wheels = \"speed\"", "wheels = \"rpm\"").contains("write speed or angle"));
+        assert!(
+            refused("column = \"steer_rad\"", "column = \"steer_rad\"\nangle_per_unit = 0")
+                .contains("joint 'front': angle_per_unit is 0; give what one unit")
+        );
         assert!(refused("yaw = \"yaw_rad\"\n", "").contains("names a part of the pose"));
         assert!(refused("mass = {", "mas = {").contains("mas"));
         let more =

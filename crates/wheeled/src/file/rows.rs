@@ -116,6 +116,12 @@ struct JointRow {
     #[serde(default)]
     unsteered_axle_x: f64,
     column: String,
+    /// Angle per unit of the column, in the unit of angles: -1 where it counts to the right.
+    #[serde(default = "one")]
+    angle_per_unit: f64,
+    /// Angle where the column says none.
+    #[serde(default)]
+    zero_deg: f64,
     #[serde(default)]
     lag: f64,
     /// Read by people.
@@ -180,6 +186,8 @@ pub(super) struct ColumnNames {
     time_unit: Option<String>,
     wheels: Option<String>,
     angle_unit: Option<String>,
+    speed_unit: Option<String>,
+    gyro_unit: Option<String>,
     gyro: Option<String>,
     x: Option<String>,
     y: Option<String>,
@@ -227,14 +235,36 @@ pub(super) fn columns(read: &File, names: &ColumnNames) -> Result<Columns, Strin
         Some("deg") => 1.0_f64.to_radians(),
         Some(other) => return Err(format!("angle_unit = \"{other}\"; write rad or deg")),
     };
+    let turn = std::f64::consts::TAU;
+    let degree = 1.0_f64.to_radians();
+    let speed = match names.speed_unit.as_deref() {
+        None | Some("rad/s") => 1.0,
+        Some(_) if !is_speed => {
+            return Err(
+                "[columns] states a speed_unit, but wheels = \"angle\"; write wheels = \"speed\", or leave it out"
+                    .to_owned(),
+            );
+        }
+        Some("deg/s") => degree,
+        Some("turn/s") => turn,
+        Some("rpm") => turn / 60.0,
+        Some(other) => return Err(format!("speed_unit = \"{other}\"; write rad/s, deg/s, turn/s or rpm")),
+    };
+    let rate = match names.gyro_unit.as_deref() {
+        None | Some("rad/s") => 1.0,
+        Some("deg/s") => degree,
+        Some(other) => return Err(format!("gyro_unit = \"{other}\"; write rad/s or deg/s")),
+    };
     Ok(Columns {
         time: names.time.clone(),
         second: seconds_in(names.time_unit.as_deref())?,
         torque: read.motor.iter().map(|m| (m.column.clone(), m.torque_per_unit)).collect(),
-        joints: read.joint.iter().map(|j| j.column.clone()).collect(),
+        joints: read.joint.iter().map(|j| (j.column.clone(), j.angle_per_unit * angle)).collect(),
         wheels,
         is_speed,
+        turning: if is_speed { speed } else { angle },
         angle,
+        rate,
         gyro: names.gyro.clone(),
         pose,
     })
@@ -305,6 +335,15 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
             pivot_friction: row.pivot_friction,
         });
     }
+    let per_unit = read.motor.iter().map(|m| ("motor", &m.name, "torque_per_unit", m.torque_per_unit));
+    let per_unit = per_unit.chain(read.joint.iter().map(|j| ("joint", &j.name, "angle_per_unit", j.angle_per_unit)));
+    for (part, name, key, value) in per_unit {
+        if value == 0.0 || !value.is_finite() {
+            return Err(format!(
+                "{part} '{name}': {key} is {value}; give what one unit of its column means, or leave it out"
+            ));
+        }
+    }
     for (to, row) in plant.joints.iter_mut().zip(&read.joint) {
         if row.unsteered_axle_x == row.place[0] {
             return Err(format!(
@@ -313,7 +352,13 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
                 row.name
             ));
         }
-        *to = Some(Joint { place: row.place, about: row.unsteered_axle_x, offset: 0.0, gain: 1.0, lag: row.lag });
+        *to = Some(Joint {
+            place: row.place,
+            about: row.unsteered_axle_x,
+            offset: row.zero_deg.to_radians(),
+            gain: 1.0,
+            lag: row.lag,
+        });
     }
     let mut out = AnyWheels {
         name: read.name.clone(),

@@ -42,14 +42,14 @@ impl RobotFile {
         }
         let measured = Measured {
             torque: names.torque.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
-            steering: names.joints.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?,
+            steering: names.joints.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
             wheels: if is_held_out {
                 Vec::new()
             } else {
-                names.wheels.iter().map(|c| needed(c, names.angle)).collect::<Result<_, _>>()?
+                names.wheels.iter().map(|c| needed(c, names.turning)).collect::<Result<_, _>>()?
             },
             is_speed: names.is_speed,
-            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, 1.0)).unwrap_or_default(),
+            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, names.rate)).unwrap_or_default(),
             pose,
         };
         Drive::new(name, &self.robot, &measured, is_held_out)

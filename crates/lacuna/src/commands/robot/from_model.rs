@@ -24,6 +24,7 @@ pub(super) fn read(args: &Args, model: &Path) -> Result<Imported> {
             Kind::CommandDriven => model_import::Kind::CommandDriven,
             Kind::Odometry => model_import::Kind::Odometry,
             Kind::Car => model_import::Kind::Car,
+            Kind::Wheeled => model_import::Kind::Wheeled,
         }),
         rollers: args.rollers.map(|rollers| match rollers {
             Rollers::Omni => model_import::Rollers::Omni,

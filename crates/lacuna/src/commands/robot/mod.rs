@@ -14,6 +14,7 @@ const EXAMPLES: &str = "\
 Examples:
   lacuna robot model.urdf -o robot.toml                from URDF, SDF or MJCF
   lacuna robot model.urdf --kind odometry              wheel motion and a pose
+  lacuna robot model.urdf --kind wheeled               torques of any wheels
   lacuna robot model.xml --from-logs logs/ -o robot.toml
   lacuna robot --from-logs sim_1.csv sim_2.csv --mass 20 --wheel-radius 0.1 \\
       --track 0.4 --wheelbase 0.36 -o robot.toml
@@ -95,6 +96,8 @@ enum Kind {
     Odometry,
     /// Throttle and steering in, motion out.
     Car,
+    /// Torques of motors that turn any wheels.
+    Wheeled,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
