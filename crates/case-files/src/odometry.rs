@@ -84,6 +84,7 @@ impl OdometryCase {
     pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
         let findings = odometry::diagnose(&self.case, progress)?;
         let table = left_out(&self.case, progress)?;
+        let findings = findings.after(&table);
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
         out.predicted_paths = self.held_out.iter().map(|d| findings.predict(&self.case.robot, d)).collect();
         Ok(out)

@@ -147,8 +147,7 @@ pub fn diagnose_response(
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
     let off = [summary(&left_out.nominal[0])[0], off_error];
-    // References have measured radius and track; without any they are as sure as the robot file is.
-    let moved = if case.references.is_empty() { moved(case, nominal, &response.parameters) } else { Vec::new() };
+    let moved = moved(case, nominal, &response.parameters);
     out.ranked = name::ranked(&found, &response.parameters, &moved, (off, nominal[1]), &remains, &case.recordings);
     let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
     out.retuned = moved.iter().filter(|m| m.is_retuned()).map(|m| m.retuned.clone()).collect();

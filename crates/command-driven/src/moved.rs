@@ -31,20 +31,23 @@ fn log_density(x: f64, sigma: f64) -> f64 {
 
 /// Radius and track among the fitted constants, each with the probability that the file is wrong about it: an error of the
 /// file's sigma against a change of the robot or the ground, `p = N(δ; 0, σ² + s²) / (N(δ; 0, σ² + s²) + e^{-c} N(δ; 0, τ² + s²))`
-/// with a relative deviation δ known to s, the file's sigma σ, the usual change τ and the price c of a cause.
+/// with a relative deviation δ known to s, the file's sigma σ, the usual change τ and the price c of a cause. Since references, a
+/// constant may have moved by a share of that sigma.
 pub(crate) fn moved(case: &ResponseCase, nominal: [f64; 2], parameters: &[Parameter]) -> Vec<Moved> {
     let of = |(k, (element, name)): (usize, (Element, &str))| {
         let p = parameters.iter().find(|p| p.element == element)?;
         let delta = p.value / p.simulated.filter(|s| *s > 0.0).unwrap_or(1.0) - 1.0;
         let own = p.half_width.map_or(0.0, |half| half / NINETY);
-        let file = case.geometry_sigma[k];
+        let since = if case.references.is_empty() { 1.0 } else { ANSWER.between_visits };
+        let (file, before) =
+            (since * case.geometry_sigma[k], nominal[k] * p.simulated.filter(|s| *s > 0.0).unwrap_or(1.0));
         let odds = log_density(delta, file.hypot(own)) + ANSWER.cause - log_density(delta, ANSWER.change.hypot(own));
         let retuned = Retuned {
             constant: name.to_owned(),
             unit: "m".to_owned(),
-            from: nominal[k],
-            to: nominal[k] * (1.0 + delta),
-            half_width: nominal[k] * NINETY * own,
+            from: before,
+            to: before * (1.0 + delta),
+            half_width: before * NINETY * own,
             sigmas: delta / file,
         };
         Some(Moved { element, probability: inference::evidence::logistic(odds), retuned })

@@ -121,6 +121,8 @@
         cause: f64 = 3.0, "nats", "guess: one in twenty, as for an element";
         /// Radius and track change by about so much where tyres or ground are others, one sigma.
         change: f64 = 0.3, "1", "guess: tyres by a tenth, effective tracks by a half";
+        /// Radius and track move between references and recordings by this share of the robot file's sigma.
+        between_visits: f64 = 0.6, "1", "equal to that of torque-driven robots";
         /// A dead time or lag below this is no finding.
         least_delay: f64 = 0.03, "s",
             "rows of 0.05 s tell no better than to half of that when a wheel changed; chosen after a look at 60 drawn cases";

@@ -130,11 +130,11 @@ impl Said {
         };
     }
 
-    /// Takes back what was named where drives that were left out are forecast worse with it than as they were stated. Re-tuned constants
-    /// that no owner would believe may forecast better and refute nothing.
-    pub fn doubt(&mut self, free_runs: &[FreeRun]) {
+    /// Takes back what was named where it leaves more than this share of the motion, and drives that were left out are forecast worse with
+    /// it than as they were stated. Re-tuned constants that no owner would believe may forecast better and refute nothing.
+    pub fn doubt(&mut self, free_runs: &[FreeRun], share: f64) {
         let refuted = |s: Standing| s.over_nominal > SETTINGS.naming.refuted;
-        if self.answer == Answer::Named && Standing::new(free_runs).is_some_and(refuted) {
+        if self.answer == Answer::Named && self.shares[2] > share && Standing::new(free_runs).is_some_and(refuted) {
             self.is_refuted = true;
             self.answer = Answer::Unknown;
         }
@@ -211,7 +211,7 @@ mod tests {
             corrected,
             placebo: None,
         };
-        let answer = |errors: [f64; 3]| {
+        let answer = |errors: [f64; 3], left: f64| {
             let mut said = Said {
                 answer: Answer::Named,
                 named: Vec::new(),
@@ -222,13 +222,14 @@ mod tests {
                 scatter: 1.0,
                 is_scattered: false,
                 is_refuted: false,
-                shares: [1.0, 0.2, 0.1],
+                shares: [1.0, 0.2, left],
             };
-            said.doubt(&[free_run(errors)]);
+            said.doubt(&[free_run(errors)], 0.05);
             (said.answer, said.is_refuted)
         };
-        assert_eq!(answer([2.0, 1.0, 1.3]), (Answer::Named, false));
-        assert_eq!(answer([1.0, 2.0, 1.2]), (Answer::Named, false));
-        assert_eq!(answer([1.0, 2.0, 1.3]), (Answer::Unknown, true));
+        assert_eq!(answer([2.0, 1.0, 1.3], 0.1), (Answer::Named, false));
+        assert_eq!(answer([1.0, 2.0, 1.2], 0.1), (Answer::Named, false));
+        assert_eq!(answer([1.0, 2.0, 1.3], 0.1), (Answer::Unknown, true));
+        assert_eq!(answer([1.0, 2.0, 1.3], 0.04), (Answer::Named, false), "it leaves hardly anything");
     }
 }

@@ -6,6 +6,7 @@ use crate::case::Case;
 use crate::cause::causes;
 use crate::clock;
 use crate::constants::{ClockZero, Constant, Measured, Quantity, constants};
+use crate::doubt::without_what_little_shows;
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
@@ -16,7 +17,7 @@ use crate::settings::SETTINGS;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
-use catalogue::odometry::{CORNERING_SLIP, LOST_COUNTS, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
+use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::{
     Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance, name_from,
     of_class,
@@ -26,16 +27,25 @@ use inference::robust::{NINETY, rms};
 use verdict::Trace;
 
 /// Drives with the constants fitted to them, and what was named.
+#[derive(Clone)]
 pub(crate) struct Solved {
     pub(crate) constants: Vec<Constant>,
     pub(crate) causes: Vec<Cause>,
     pub(crate) prior: Prior,
     pub(crate) fit: Fit,
     pub(crate) named: Named,
+    /// The answer without causes that little shows, where there are some.
+    pub(crate) plainer: Option<Named>,
     pub(crate) lost: Vec<Lost>,
 }
 
 impl Solved {
+    /// The same with the plainer answer, if there is one.
+    pub(crate) fn plainer(&self) -> Option<Self> {
+        let named = self.plainer.clone()?;
+        Some(Self { named, plainer: None, ..self.clone() })
+    }
+
     /// The laws as stated or as the references have them, re-tuned, and with the named causes.
     pub(crate) fn laws(&self, robot: &WheeledRobot) -> [Laws; 3] {
         let of = |theta: &DVector<f64>| laws(robot, &self.constants, theta.as_slice());
@@ -65,7 +75,8 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Odomet
     let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
     let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
     progress("naming what would make them agree");
-    Ok(findings(&case, &data, &solved))
+    let plainer = solved.plainer().map(|plainer| Box::new(findings(&case, &data, &plainer)));
+    Ok(Findings { plainer, ..findings(&case, &data, &solved) })
 }
 
 /// What is known before the recordings: of the robot file, or of the references.
@@ -158,32 +169,13 @@ pub(crate) fn solve(
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
     }
+    let mut plainer = without_what_little_shows(&data, (&prior, &fit), &causes, &named);
+    // By turning alone nothing confirms such laws: a gyro that is off is forecast as well.
     if drives.iter().all(|drive| drive.heading_only) {
-        doubt_what_little_shows(&data, &causes, &mut named);
+        named = plainer.take().unwrap_or(named);
     }
     drop(data);
-    Ok(Solved { constants, causes, prior, fit, named, lost })
-}
-
-/// Takes back causes that grow with rate, speed or acceleration where they leave nearly as much as re-tuning does: by the
-/// turning alone they stand for each other, and for what a gyro gets wrong.
-fn doubt_what_little_shows(data: &Data<'_>, causes: &[Cause], named: &mut Named) {
-    let rules = SETTINGS.heading;
-    let left = |posterior: &Posterior| share(data, &posterior.mean).0;
-    if left(&named.posterior) < rules.leaves * left(&named.retuned) {
-        return;
-    }
-    let grows = |cause: usize| {
-        [&SLIP_WITH_TURNING, &SLIP_WITH_SPEED, &CORNERING_SLIP].into_iter().any(|spec| *spec == *causes[cause].spec)
-    };
-    let (doubted, rest): (Vec<_>, Vec<_>) = std::mem::take(&mut named.chosen).into_iter().partition(|w| grows(w.cause));
-    named.others.extend(doubted.iter().map(|w| (w.cause, w.probability.min(rules.listed))));
-    named.others.sort_by(|a, b| b.1.total_cmp(&a.1));
-    named.chosen = rest;
-    if named.chosen.is_empty() {
-        named.posterior = named.retuned.clone();
-        named.rival = None;
-    }
+    Ok(Solved { constants, causes, prior, fit, named, plainer, lost })
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -239,7 +231,7 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
 }
 
 /// Root mean square error of the windows over the root mean square of their way and turning.
-fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
+pub(crate) fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
     let errors = data.errors(theta.as_slice());
     let used = |drive: usize| {
         let all = data.windows[drive].iter().zip(&errors[drive]).zip(&data.dropped[drive]);
@@ -252,7 +244,7 @@ fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
 }
 
 fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
-    let Solved { constants, causes, prior, fit, named, lost } = solved;
+    let Solved { constants, causes, prior, fit, named, lost, .. } = solved;
     let estimates = |posterior: &Posterior| -> Vec<Estimate> {
         (0..constants.len()).map(|k| estimate(&case.robot, &constants[k], prior, posterior, k)).collect()
     };
@@ -309,6 +301,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         told,
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
         laws: solved.laws(&case.robot),
+        plainer: None,
     }
 }
 

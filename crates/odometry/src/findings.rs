@@ -2,6 +2,7 @@
 
 use crate::constants::Measured;
 use crate::drive::Drive;
+use crate::left_out::Table;
 use crate::motion::Laws;
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
@@ -39,9 +40,20 @@ pub struct Findings {
     pub traces: Vec<Trace>,
     /// As stated, re-tuned, with the named causes.
     pub(crate) laws: [Laws; 3],
+    /// The same without causes that little shows, where there are some.
+    pub(crate) plainer: Option<Box<Self>>,
 }
 
 impl Findings {
+    /// What stands once sessions were left out: causes that explain little, only where those are forecast better with them.
+    #[must_use]
+    pub fn after(self, table: &Table) -> Self {
+        match self.plainer {
+            Some(plainer) if table.is_plainer => *plainer,
+            _ => self,
+        }
+    }
+
     /// The pose of a drive from its counts alone. It begins in the first row of each stretch in which the pose was seen, and anew
     /// in the last one where rows follow in which it was not; at the origin where it was never seen.
     pub fn predict(&self, robot: &WheeledRobot, drive: &Drive) -> PredictedPath {

@@ -2,13 +2,15 @@
 
 use crate::case::Case;
 use crate::clock;
-use crate::diagnose::{Start, solve};
+use crate::diagnose::{Solved, Start, solve};
 use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::forecast::{Errors, forecast};
 use crate::motion::Laws;
 use crate::rivals::{RIVALS, Rival};
+use crate::wheel::WheeledRobot;
 use crate::windows::laws;
+use inference::robust::geometric_mean;
 use verdict::Trace;
 
 /// Errors of forecasts of left-out sessions, by calibration.
@@ -24,10 +26,14 @@ pub struct Table {
     pub named: Vec<Vec<String>>,
     /// Drives that were left out beside the simulations fitted without them.
     pub traces: Vec<Trace>,
+    /// Whether causes that explain little were left out of the answer: with them nothing is forecast better.
+    pub(crate) is_plainer: bool,
 }
 
 /// Names of the simulations beside the rivals.
 const OURS: [&str; 4] = ["as stated", "re-tuned", "corrected", "placebo"];
+/// Row of the answer.
+const CORRECTED: usize = 2;
 
 /// Leaves out each session of the recordings in turn, or each drive where there is one session, fits and names anew without
 /// it, and forecasts it.
@@ -46,34 +52,60 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
     keys.dedup();
     keys.sort();
     keys.dedup();
-    let mut out = Table { sessions: keys.len(), ..Table::default() };
     if keys.len() < 2 {
-        return Ok(out);
+        return Ok(Table { sessions: keys.len(), is_plainer: true, ..Table::default() });
     }
 
-    let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
-    names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
-    let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let of_all = solve(&case.robot, &case.references, &all, &Start { clock, fit: None })?;
     let start = Start { clock, fit: Some(of_all.fit.theta) };
-    for left in &keys {
+    let mut folds = Vec::with_capacity(keys.len());
+    for left in keys {
         progress(&format!("forecasting {left}"));
-        let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == *left);
+        let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
         let solved = solve(&case.robot, &case.references, &rest, &start)?;
+        folds.push(Fold { left, of_fold, rest, solved });
+    }
+    let table = of_folds(&case.robot, &folds);
+    if of_all.plainer.is_none() {
+        return Ok(table);
+    }
+    for fold in &mut folds {
+        fold.solved = fold.solved.plainer().unwrap_or_else(|| fold.solved.clone());
+    }
+    let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
+    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < 1.0);
+    Ok(if is_better { table } else { plainer })
+}
+
+/// A session that is left out, and the fit of the others.
+struct Fold<'a> {
+    left: String,
+    of_fold: Vec<&'a Drive>,
+    rest: Vec<&'a Drive>,
+    solved: Solved,
+}
+
+/// Forecasts of what folds leave out.
+fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
+    let mut out = Table { sessions: folds.len(), ..Table::default() };
+    let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
+    names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
+    let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
+    for Fold { left, of_fold, rest, solved } in folds {
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let placebo = solved.named.placebo.as_ref();
-        let placebo = placebo.map(|(_, p)| laws(&case.robot, &solved.constants, p.mean.as_slice()));
-        let mut models: Vec<Option<Laws>> = solved.laws(&case.robot).into_iter().map(Some).chain([placebo]).collect();
+        let placebo = placebo.map(|(_, p)| laws(robot, &solved.constants, p.mean.as_slice()));
+        let mut models: Vec<Option<Laws>> = solved.laws(robot).into_iter().map(Some).chain([placebo]).collect();
         let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
-        let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
+        let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(robot, &placed) };
         models.extend(RIVALS.iter().map(|(_, rival)| calibrated(rival)));
         let errors: Vec<[Errors; 3]> = models
             .iter()
             .map(|model| {
                 let mut sum: [Errors; 3] = Default::default();
                 for (drive, laws) in of_fold.iter().filter_map(|d| Some((d, model.as_ref()?))) {
-                    sum.iter_mut().zip(forecast(&case.robot, drive, laws)).for_each(|(s, e)| s.extend(e));
+                    sum.iter_mut().zip(forecast(robot, drive, laws)).for_each(|(s, e)| s.extend(e));
                 }
                 sum
             })
@@ -83,8 +115,21 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         }
         out.by_session.push((left.clone(), errors));
         out.named.push(labels);
-        out.traces.extend(of_fold.iter().map(|drive| solved.trace(&case.robot, drive, true)));
+        out.traces.extend(of_fold.iter().map(|drive| solved.trace(robot, drive, true)));
     }
     out.rows = names.into_iter().zip(sums).collect();
-    Ok(out)
+    out
+}
+
+impl Table {
+    /// Errors of the corrected forecasts over those of another table, the geometric mean of all sessions, lengths and quantities.
+    fn over(&self, other: &Self) -> Option<f64> {
+        let medians = |(_, rows): &(String, Vec<[Errors; 3]>)| -> Vec<f64> {
+            let of_length = |errors: &Errors| errors.medians().into_iter().flatten().flatten().collect::<Vec<f64>>();
+            rows.get(CORRECTED).iter().flat_map(|row| row.iter().flat_map(of_length)).collect()
+        };
+        let pairs = self.by_session.iter().zip(&other.by_session);
+        let ratios = pairs.flat_map(|(own, other)| medians(own).into_iter().zip(medians(other)).map(|(a, b)| a / b));
+        geometric_mean(ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0))
+    }
 }

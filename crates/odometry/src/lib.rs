@@ -14,6 +14,7 @@
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `findings`: what the drives of a case say, as plain data.
+//! * `doubt`: causes that evidence names and that explain little.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
@@ -25,6 +26,7 @@ mod cause;
 mod clock;
 mod constants;
 mod diagnose;
+mod doubt;
 mod drive;
 mod dropout;
 mod error;

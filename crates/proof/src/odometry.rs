@@ -81,7 +81,7 @@ fn examine(data: &Path, kind: &'static str, robot: &str) -> Result<Examined> {
     let case: Case = read.with_context(|| format!("'{robot}' is no built-in robot of kind odometry"))?.case;
     let findings = diagnose(&case, &|_| {})?;
     let table = left_out(&case, &|_| {})?;
-    Ok(Examined { kind, drives: case.recordings.len(), findings, table })
+    Ok(Examined { kind, drives: case.recordings.len(), findings: findings.after(&table), table })
 }
 
 /// Median position error 30 s ahead of the best classical calibration over that of the corrected simulation.

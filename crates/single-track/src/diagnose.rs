@@ -82,7 +82,7 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let solved = solve(&case.car, &case.references, &all)?;
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
-    findings.said.doubt(&table.free_runs());
+    findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
     Ok((findings, table))
 }
 

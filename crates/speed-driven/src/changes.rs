@@ -21,12 +21,16 @@ const PIECES: Pieces = CHANGES.pieces;
 ///
 /// One ground changes the loads of all speeds by about one factor: a class that was driven on other ground alone is no usual
 /// load.
-fn usual_of(run: &SpeedRun, readings: &[Option<Reading>], level: &[f64], usual: &Usual) -> ByClass {
+fn usual_of(run: &SpeedRun, (readings, level): (&[Option<Reading>], &[f64]), usual: &Usual, weight: f64) -> ByClass {
     let Some(any) = usual.any() else { return usual.load };
     let known = usual.load.map(|own| own.unwrap_or(any));
     let class_of = |i: usize| class(run.forward(i).abs());
+    // What no ground resists is pushing against something, however long it lasts.
+    let may_roll = |i: usize, reading: Reading| {
+        reading.is_exact() && reading.value() - known[class_of(i)] <= CHANGES.jumps.blocked * weight
+    };
     let exact: Vec<usize> =
-        (0..level.len()).filter(|&i| readings[i].is_some_and(Reading::is_exact) && level[i] > 0.0).collect();
+        (0..level.len()).filter(|&i| level[i] > 0.0 && readings[i].is_some_and(|r| may_roll(i, r))).collect();
     let over = |i: &usize| level[*i] / known[class_of(*i)];
     let enough =
         |ratios: Vec<f64>| if ratios.len() as f64 * run.period() >= PIECES.known { median(ratios) } else { None };
@@ -72,7 +76,7 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
     };
     let rest = slope.as_ref().map_or_else(|| readings.clone(), level_ground);
     let level = levels(&rest, any, period);
-    let usual = usual_of(run, &rest, &level, usual);
+    let usual = usual_of(run, (&rest, &level), usual, weight);
     let mut found = slopes.found;
     // The pull that was taken away errs by the angle, and by the losses of a drive train that grow with what it carries.
     let pull_sigma = |i: usize| {
@@ -339,6 +343,18 @@ mod tests {
         // Without turning rates it may be a steep slope as well.
         let without = found(&legs, false);
         assert_eq!(without.iter().map(|c| c.causes.clone()).collect::<Vec<_>>(), [vec![GRADE, STANDING]]);
+    }
+
+    #[test]
+    fn a_robot_that_pushes_longer_than_it_drives_stands_too() {
+        // All that is driven straight beside it takes less than the currents show.
+        let pushing = Leg { straight: STRAIGHT + 0.5 * WEIGHT, ..Leg::straight(20.0) };
+        let legs = [Leg::turn(10.0), pushing, Leg::turn(10.0), Leg { straight: 0.2 * STRAIGHT, ..Leg::straight(8.0) }];
+        let mut runs = [drive(&legs, true)];
+        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
+        assert_eq!(standing.len(), 1, "{:?}", changes.found);
+        let [from, until] = standing[0].interval;
+        assert!((9.0..12.0).contains(&from) && near([until, until], 30.0), "{standing:?}");
     }
 
     #[test]

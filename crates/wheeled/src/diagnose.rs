@@ -65,7 +65,7 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Wheele
 pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), WheeledError> {
     let solved = solved(case, progress)?;
     let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
-    findings.said.doubt(&table.free_runs());
+    findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
     Ok((findings, table))
 }
 
