@@ -7,6 +7,7 @@ use anyhow::{Result, bail, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::inputs::{self, Loaded};
 use case_files::own_effects;
+use case_files::parts::folders;
 use case_files::which_mapping;
 use inference::KnownEffects;
 use pyo3::prelude::*;
@@ -166,7 +167,7 @@ pub(crate) fn folder(
     name: Option<&str>,
     options: ReadOptions,
 ) -> Result<Opened> {
-    let parts: Vec<PathBuf> = case_folder::folders(case).into_iter().filter(|part| part.is_dir()).collect();
+    let parts: Vec<PathBuf> = folders(case)?.into_iter().filter(|part| part.is_dir()).collect();
     let mapping = which_mapping::named_or_built_in(name, &parts)?;
     let robot = match robot {
         Some(RobotGiven::Named(robot)) => Some(robot.as_str()),

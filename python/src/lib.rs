@@ -8,12 +8,12 @@ mod check;
 mod diagnose;
 mod diagnosis;
 mod error;
+mod from_json;
 mod identifier;
 mod identify;
 mod layer;
 mod samples;
 mod simulate;
-mod from_json;
 mod trace;
 mod work;
 

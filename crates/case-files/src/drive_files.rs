@@ -8,10 +8,11 @@ use recordings::{group_bags, is_bag};
 use verdict::Diagnosis;
 
 use crate::bag_signals::{self, Found, Wanted};
-use crate::case_folder::{folders, robot_of};
+use crate::case_folder::robot_of;
 use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
 use crate::envelope::SourceFile;
 use crate::inputs::{list, run_names};
+use crate::parts::folders;
 use crate::which_mapping;
 
 /// A robot file that names the columns of its drives.

@@ -20,6 +20,7 @@ pub mod kind;
 pub mod long;
 pub mod odometry;
 pub mod own_effects;
+pub mod parts;
 pub mod predictions;
 pub mod propose;
 #[cfg(feature = "page")]

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use anyhow::{Result, bail};
 use recordings::{Fingerprint, Read, Signal};
 
-use crate::case_folder::{CaseFolder, FOLDERS};
+use crate::case_folder::CaseFolder;
+use crate::parts::FOLDERS;
 
 /// Samples of a sensor that tell a drive, at least: half a second of a simulation's log (guess).
 const LEAST: usize = 50;

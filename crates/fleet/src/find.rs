@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
-use case_files::case_folder::{folders, robot_of};
+use case_files::case_folder::robot_of;
 use case_files::inputs::{endings, list, mapping};
+use case_files::parts::folders;
 use case_files::which_mapping::SELF_DESCRIBING;
 use recordings::Mapping;
 

@@ -34,7 +34,7 @@ pub(crate) fn without_what_little_shows(
         return None;
     }
 
-    out.others = named.others.clone();
+    out.others.clone_from(&named.others);
     out.others.extend(doubted.iter().map(|w| (w.cause, w.probability.min(rules.listed))));
     out.others.sort_by(|a, b| b.1.total_cmp(&a.1));
     if out.chosen.is_empty() {

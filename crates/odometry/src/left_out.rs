@@ -64,7 +64,7 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         progress(&format!("forecasting {left}"));
         let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
         let solved = solve(&case.robot, &case.references, &rest, &start)?;
-        folds.push(Fold { left, of_fold, rest, solved });
+        folds.push(Fold { left, drives: of_fold, rest, solved });
     }
     let table = of_folds(&case.robot, &folds);
     if of_all.plainer.is_none() {
@@ -81,7 +81,7 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
 /// A session that is left out, and the fit of the others.
 struct Fold<'a> {
     left: String,
-    of_fold: Vec<&'a Drive>,
+    drives: Vec<&'a Drive>,
     rest: Vec<&'a Drive>,
     solved: Solved,
 }
@@ -92,7 +92,7 @@ fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
     let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
     names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
     let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
-    for Fold { left, of_fold, rest, solved } in folds {
+    for Fold { left, drives, rest, solved } in folds {
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let placebo = solved.named.placebo.as_ref();
         let placebo = placebo.map(|(_, p)| laws(robot, &solved.constants, p.mean.as_slice()));
@@ -104,7 +104,7 @@ fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
             .iter()
             .map(|model| {
                 let mut sum: [Errors; 3] = Default::default();
-                for (drive, laws) in of_fold.iter().filter_map(|d| Some((d, model.as_ref()?))) {
+                for (drive, laws) in drives.iter().filter_map(|d| Some((d, model.as_ref()?))) {
                     sum.iter_mut().zip(forecast(robot, drive, laws)).for_each(|(s, e)| s.extend(e));
                 }
                 sum
@@ -115,7 +115,7 @@ fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
         }
         out.by_session.push((left.clone(), errors));
         out.named.push(labels);
-        out.traces.extend(of_fold.iter().map(|drive| solved.trace(robot, drive, true)));
+        out.traces.extend(drives.iter().map(|drive| solved.trace(robot, drive, true)));
     }
     out.rows = names.into_iter().zip(sums).collect();
     out

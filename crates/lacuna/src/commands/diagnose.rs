@@ -6,10 +6,11 @@ use std::path::PathBuf;
 
 use ::report::diagnosis_text;
 use anyhow::{Context, Result, bail, ensure};
-use case_files::case_folder::{self, CaseFolder, unread_folders};
+use case_files::case_folder::{self, CaseFolder};
 use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Envelope;
 use case_files::long::Budget;
+use case_files::parts::{simulation_of, unread_folders};
 use case_files::report_page::{page, page_of_columns};
 use case_files::visits::GivenVisit;
 use case_files::{kind, own_effects, predictions, which_mapping};
@@ -345,7 +346,7 @@ pub(crate) fn located(args: &Input, known: KnownEffects) -> Result<Located> {
 pub(crate) fn read(args: &Input, known: KnownEffects) -> Result<(CaseFolder, String)> {
     let (options, budget) = (args.reading.options(), args.budget.map(Budget::of_minutes).unwrap_or_default());
     let Located { robot, paths: [reference, recordings, heldout], mapping } = located(args, known)?;
-    let in_folder = args.case.as_deref().map(case_folder::simulation_of).unwrap_or_default();
+    let in_folder = args.case.as_deref().map(simulation_of).unwrap_or_default();
     let simulation = [args.simulation.clone(), in_folder].concat();
     let case = CaseFolder::within(budget, robot, [&reference, &recordings, &heldout], &mapping, &options)?
         .with_simulation(&simulation, &mapping, &options)?
