@@ -53,6 +53,9 @@ pub trait Observed: Clone + Send + Sync {
     /// Remaining error over the motion, beyond which fits begin from where every cause is free, too.
     const NEAR: f64;
 
+    /// Error with causes over that of constants re-tuned within what is known, from which on the causes are not needed.
+    const HARDLY: f64;
+
     /// Its rows.
     fn rows(&self) -> &[Row];
 

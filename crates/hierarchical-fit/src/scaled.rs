@@ -22,6 +22,7 @@ impl Observed for Scaled {
     type Model = ();
     const FLOOR: [f64; 3] = [1e-3; 3];
     const NEAR: f64 = 0.04;
+    const HARDLY: f64 = 0.7;
 
     fn rows(&self) -> &[Row] {
         &self.rows

@@ -68,8 +68,6 @@
         /// Sigmas of what is known within which all constants may be re-tuned for an answer without a cause: known by the robot file, and
         /// by references.
         within: [f64; 2] = [3.5, 2.5], "1", "of thirty normal constants the farthest lies beyond 3.5 in one robot of seventy; since the references 2.5 are 1.5 of the owner's";
-        /// Error with causes over that of constants re-tuned so, from which on the causes are not needed.
-        hardly: f64 = 0.7, "1", "a look at 24 robots of MuJoCo, whose tyres follow another law: a cause that is there leaves 0.6 and less";
         /// Share of the probability that a cause keeps which is not needed.
         doubted: f64 = 0.3, "1", "guess";
         /// Error of forecasts of left-out drives with the causes over that of the robot as stated, from which on they are refuted.

@@ -157,17 +157,21 @@ fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
     chosen.retain(|w| is_moved(&causes[w.cause], prior, posterior));
 }
 
-/// Drops all causes where constants within what is known of them leave hardly more, and whether it did: evidence counts what the
-/// laws of tyres get wrong as noise of many rows, and pays for it with causes that no owner would believe.
+/// Drops all causes that ask some constant for far more sigmas than re-tuning asks any, where constants within what is known of them
+/// leave hardly more, and whether it did: evidence counts what the laws of tyres get wrong as noise of many rows, and pays for it with
+/// causes that no owner would believe.
 fn drop_unneeded<D: Observed>((data, prior, has_references): (&Data<D>, &Prior, bool), named: &mut Named) -> bool {
     let rules = SETTINGS.naming;
     if named.chosen.is_empty() {
         return false;
     }
-    let sigmas = |k: usize| (named.retuned.mean[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
-    let is_within = (0..prior.mean.len()).all(|k| sigmas(k) <= rules.within[usize::from(has_references)]);
+    let [asked, asked_without] = [&named.posterior, &named.retuned].map(|posterior| {
+        let sigmas = |k: usize| (posterior.mean[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
+        (0..prior.mean.len()).map(sigmas).fold(0.0, f64::max)
+    });
+    let is_within = asked_without <= rules.within[usize::from(has_references)] && asked > rules.nearer * asked_without;
     let [with, without] = [&named.posterior, &named.retuned].map(|p| data.share(p.mean.as_slice()));
-    let is_unneeded = is_within && with > rules.hardly * without;
+    let is_unneeded = is_within && with > D::HARDLY * without;
     if is_unneeded {
         named.others.extend(named.chosen.drain(..).map(|w| (w.cause, rules.doubted * w.probability)));
         named.posterior = named.retuned.clone();
@@ -200,28 +204,27 @@ mod tests {
     use crate::observed::Spread;
     use crate::scaled::Scaled;
 
-    /// A cause that moves the scale to `named` beside a scale re-tuned to `retuned`, known to 0.1, of drives that show 0.3.
-    fn is_dropped(retuned: f64, named: f64, has_references: bool) -> bool {
-        let spreads = vec![Spread { sigma: 0.1, usual: 1.0, scatter: 0.0, bounds: [-5.0, 5.0] }];
+    /// A cause that moves the scale to `named` and another constant by so many sigmas, beside a scale re-tuned to `retuned`, known to
+    /// 0.1, of drives that show 0.3.
+    fn is_dropped(retuned: f64, (named, sigmas): (f64, f64), has_references: bool) -> bool {
+        let spreads = vec![Spread { sigma: 0.1, usual: 1.0, scatter: 0.0, bounds: [-5.0, 5.0] }; 2];
         let data = Data { model: (), spreads, drives: vec![Scaled::by(0.3_f64.exp())] };
-        let posterior = |mean: f64| Posterior {
-            mean: DVector::from_element(1, mean),
-            covariance: DMatrix::from_element(1, 1, 1e-4),
+        let posterior = |mean: [f64; 2]| Posterior {
+            mean: DVector::from_column_slice(&mean),
+            covariance: DMatrix::identity(2, 2) * 1e-4,
         };
         let mut found = Named {
             chosen: vec![Weighed { cause: 0, probability: 0.9, class: vec![0] }],
             others: Vec::new(),
-            posterior: posterior(named),
-            retuned: posterior(retuned),
-            placebo: Some((1, posterior(0.0))),
+            posterior: posterior([named, 0.1 * sigmas]),
+            retuned: posterior([retuned, 0.0]),
+            placebo: Some((1, posterior([0.0; 2]))),
             rival: Some(1),
         };
         let is_unneeded = drop_unneeded((&data, &data.prior(), has_references), &mut found);
         let left_over = found.placebo.is_none() && found.rival.is_none();
-        assert_eq!(
-            (found.chosen.is_empty(), left_over, found.others.len()),
-            (is_unneeded, is_unneeded, usize::from(is_unneeded))
-        );
+        let all = (found.chosen.is_empty(), left_over, found.others.len());
+        assert_eq!(all, (is_unneeded, is_unneeded, usize::from(is_unneeded)));
         if is_unneeded {
             assert!(found.others[0].1 < 0.3 && found.posterior.mean[0] == retuned);
         }
@@ -229,13 +232,15 @@ mod tests {
     }
 
     #[test]
-    fn a_cause_is_dropped_where_constants_within_what_is_known_leave_hardly_more() {
-        assert!(is_dropped(0.29, 0.31, false));
-        assert!(!is_dropped(0.2, 0.3, false), "it leaves nothing");
-        assert!(!is_dropped(0.36, 0.37, false), "3.6 sigmas are beyond what is known");
-        assert!(!is_dropped(0.29, 0.31, true), "since references 2.9 are");
-        assert!(is_dropped(0.24, 0.36, true));
+    fn a_cause_beyond_belief_is_dropped_where_constants_within_what_is_known_leave_hardly_more() {
+        assert!(is_dropped(0.29, (0.31, 15.0), false));
+        assert!(!is_dropped(0.29, (0.31, 5.0), false), "it asks for little more than re-tuning does");
+        assert!(!is_dropped(0.2, (0.3, 15.0), false), "it leaves nothing");
+        assert!(!is_dropped(0.36, (0.37, 15.0), false), "3.6 sigmas are beyond what is known");
+        assert!(!is_dropped(0.29, (0.31, 15.0), true), "since references 2.9 are");
+        assert!(is_dropped(0.24, (0.36, 15.0), true));
     }
+
     #[test]
     fn constants_may_have_moved_since_the_references_by_a_share_of_what_the_owner_knows() {
         let data = |usual: f64| {

@@ -17,6 +17,7 @@ impl Observed for Shown<'_> {
 
     const FLOOR: [f64; 3] = SETTINGS.windows.floor;
     const NEAR: f64 = SETTINGS.windows.near;
+    const HARDLY: f64 = SETTINGS.unexplained.hardly;
 
     fn rows(&self) -> &[Row] {
         &self.rows

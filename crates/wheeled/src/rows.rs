@@ -173,6 +173,7 @@ impl Observed for Shown<'_> {
 
     const FLOOR: [f64; 3] = RULES.floor;
     const NEAR: f64 = RULES.near;
+    const HARDLY: f64 = SETTINGS.unexplained.hardly;
 
     fn rows(&self) -> &[Row] {
         &self.rows
