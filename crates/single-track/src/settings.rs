@@ -299,7 +299,7 @@
         /// Remaining error of windows over their way, beyond which what is left asks for a cause.
         share: f64 = 0.15, "1", "guess; a car that is off by a metre in seven";
         /// Error with causes over that of constants re-tuned within what is known, from which on the causes are not needed.
-        hardly: f64 = 1.0, "1", "causes that leave no less; of drawn cars 0.7 took back three true causes in 36";
+        hardly: f64 = 1.0, "1", "causes that leave no less; 0.7 took back what was hidden in 4 of 36 drawn cars";
         /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
         most: f64 = 0.45, "1", "guess; wrong signs and units leave half of the motion and more";
         /// Share of the re-tuned error that has to be left then.
