@@ -7,9 +7,7 @@ mod tests;
 
 use nalgebra::Vector3;
 use robot_model::robot::USUAL_SLIDING_SHARE;
-use robot_model::wheels::{
-    Caster, Coupling, Ground, Joint, MOST, MOST_CASTERS, Motor, Robot as Plant, Wheel as PlantWheel,
-};
+use robot_model::wheels::{Caster, Ground, MOST, MOST_CASTERS, Robot as Plant, Wheel as PlantWheel};
 
 use crate::error::ImportError;
 use crate::import::{Imported, Kind, Number};
@@ -221,9 +219,15 @@ fn checked(source: &Source<'_>, of: &File) -> Result<(), ImportError> {
             )));
         }
     }
-    let place = |name: &Option<String>, names: &[&str]| name.as_ref().and_then(|n| names.iter().position(|m| m == n));
-    let motors: Vec<&str> = of.motor.iter().map(|m| m.name.as_str()).collect();
-    let joints: Vec<&str> = of.joint.iter().map(|j| j.name.as_str()).collect();
+    // Wheels that hang on one steering joint turn with it as a whole, which no robot file of this kind says.
+    let shared = of.joint.iter().enumerate().find(|(k, row)| of.joint[..*k].iter().any(|other| other.name == row.name));
+    if let Some((_, row)) = shared {
+        return Err(source.whole(format!(
+            "steering joint '{}' carries several wheels, an axle that turns as a whole; robots of kind wheeled have a steering joint for \
+             each wheel: draw one for each",
+            row.name
+        )));
+    }
     let mut plant = Plant {
         mass: of.mass.value,
         yaw_inertia: of.yaw_inertia.value,
@@ -234,33 +238,15 @@ fn checked(source: &Source<'_>, of: &File) -> Result<(), ImportError> {
         joints: [None; MOST],
         ground: Ground::usual(),
     };
+    // Motors and joints are named after what is there; what may be wrong are numbers of links, and where the robot stands.
     for (to, w) in plant.wheels.iter_mut().zip(&of.wheel) {
-        *to = Some(PlantWheel {
-            place: w.place,
-            direction: w.direction_deg.to_radians(),
-            roller: w.roller_deg.map(f64::to_radians),
-            radius: w.radius,
-            inertia: w.inertia,
-            motor: place(&w.motor, &motors),
-            joint: place(&w.steered_by, &joints),
-        });
+        let roller = w.roller_deg.map(f64::to_radians);
+        let (place, direction) = (w.place, w.direction_deg.to_radians());
+        let (radius, inertia) = (w.radius, w.inertia);
+        *to = Some(PlantWheel { place, direction, roller, radius, inertia, motor: None, joint: None });
     }
     for (to, c) in plant.casters.iter_mut().zip(&of.caster) {
         *to = Some(Caster { pivot: c.place, trail: c.trail, rolling: c.rolling_resistance, pivot_friction: 0.0 });
-    }
-    for (to, m) in plant.motors.iter_mut().zip(&of.motor) {
-        let (coulomb, viscous) = (m.coulomb.unwrap_or(0.0), m.viscous.unwrap_or(0.0));
-        *to = Some(Motor {
-            coupling: Coupling::Rigid,
-            inertia: m.inertia.unwrap_or(0.0),
-            gain: 1.0,
-            lag: 0.0,
-            coulomb,
-            viscous,
-        });
-    }
-    for (to, j) in plant.joints.iter_mut().zip(&of.joint) {
-        *to = Some(Joint { place: j.place, about: j.unsteered_axle_x, offset: 0.0, gain: 1.0, lag: 0.0 });
     }
     let cannot_be = |e: robot_model::ModelError| source.whole(format!("no robot of kind wheeled can be so: {e}"));
     plant.checked().map(|_| ()).map_err(cannot_be)

@@ -64,14 +64,19 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         progress(&format!("forecasting {left}"));
         let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
         let solved = solve(&case.robot, &case.references, &rest, &start)?;
-        folds.push(Fold { left, drives: of_fold, rest, solved });
+        let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
+        let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
+        let rivals = RIVALS.iter().map(|(_, rival)| calibrated(rival)).collect();
+        folds.push(Fold { left, drives: of_fold, rivals, solved });
     }
     let table = of_folds(&case.robot, &folds);
     if of_all.plainer.is_none() {
         return Ok(table);
     }
     for fold in &mut folds {
-        fold.solved = fold.solved.plainer().unwrap_or_else(|| fold.solved.clone());
+        if let Some(plainer) = fold.solved.plainer() {
+            fold.solved = plainer;
+        }
     }
     let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
     let is_better = table.over(&plainer).is_some_and(|ratio| ratio < 1.0);
@@ -82,8 +87,9 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
 struct Fold<'a> {
     left: String,
     drives: Vec<&'a Drive>,
-    rest: Vec<&'a Drive>,
     solved: Solved,
+    /// Classical calibrations on the others.
+    rivals: Vec<Option<Laws>>,
 }
 
 /// Forecasts of what folds leave out.
@@ -92,14 +98,12 @@ fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
     let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
     names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
     let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
-    for Fold { left, drives, rest, solved } in folds {
+    for Fold { left, drives, solved, rivals } in folds {
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let placebo = solved.named.placebo.as_ref();
         let placebo = placebo.map(|(_, p)| laws(robot, &solved.constants, p.mean.as_slice()));
         let mut models: Vec<Option<Laws>> = solved.laws(robot).into_iter().map(Some).chain([placebo]).collect();
-        let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
-        let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(robot, &placed) };
-        models.extend(RIVALS.iter().map(|(_, rival)| calibrated(rival)));
+        models.extend(rivals.iter().cloned());
         let errors: Vec<[Errors; 3]> = models
             .iter()
             .map(|model| {

@@ -112,6 +112,16 @@ fn casters_hang_at_their_pivots_and_spheres_get_a_trail() {
 }
 
 #[test]
+fn an_axle_that_turns_as_a_whole_is_refused() {
+    let wagon = driven_car().replace("<parent link=\"right_hinge\"/>", "<parent link=\"left_hinge\"/>").replace(
+        "<child link=\"right_front\"/><origin xyz=\"0 0 0\"/>",
+        "<child link=\"right_front\"/><origin xyz=\"0 -0.2 0\"/>",
+    );
+    let refusal = refused(&wagon, &of_kind(Kind::Wheeled));
+    assert!(refusal.contains("steering joint 'left_steering' carries several wheels"), "{refusal}");
+}
+
+#[test]
 fn wheels_that_are_all_steered_are_of_this_kind_and_of_no_other() {
     let hinged = |side: &str, x: f64, y: f64| {
         format!(
