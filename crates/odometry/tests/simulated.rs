@@ -3,7 +3,7 @@
 mod drawn;
 
 use drawn::{Drawn, Hidden, Kind, drawn};
-use odometry::{Answer, Findings, diagnose};
+use odometry::{Answer, Case, Findings, diagnose, left_out};
 
 const KINDS: [Kind; 4] = [Kind::Differential, Kind::Tricycle, Kind::Omni3, Kind::Mecanum4];
 
@@ -214,4 +214,41 @@ fn fault_free_robots_are_not_alarmed_and_intervals_hold_the_truth() {
     assert!(alarms.len() * 100 <= cases * 5, "{} of {cases}: {alarms:#?}", alarms.len());
     let share = inside as f64 / constants as f64;
     assert!((0.87..=0.93).contains(&share), "{share} of {constants} intervals hold the truth");
+}
+
+/// A differential drive that turns the less, the faster it turns (share per rad/s, up to 1 rad/s), and swings by another share as time
+/// goes by, which no cause does.
+fn behind_in_fast_turns(per_rate: f64, swing: f64) -> Case {
+    let mut case = drawn(Kind::Differential, Hidden::Nothing, 4, 60.0, 21).case;
+    for drive in &mut case.recordings {
+        let before = drive.pose.clone();
+        let mut added = 0.0_f64;
+        for row in 1..before.len() {
+            let [a, b] = [before[row - 1], before[row]];
+            let (turned, dt) = (b[2] - a[2], drive.time[row] - drive.time[row - 1]);
+            let (sin, cos) = added.sin_cos();
+            let (x, y) = (b[0] - a[0], b[1] - a[1]);
+            added -= turned * (per_rate * (turned / dt).abs().min(1.0) + swing * (0.3 * drive.time[row]).sin());
+            let from = drive.pose[row - 1];
+            drive.pose[row] = [from[0] + cos * x - sin * y, from[1] + sin * x + cos * y, b[2] + added];
+        }
+    }
+    case
+}
+
+#[test]
+fn a_little_slip_stands_only_where_drives_that_are_left_out_confirm_it() {
+    let named = |findings: &Findings| findings.named.iter().map(|c| c.spec.id).collect::<Vec<_>>();
+    let after = |case: &Case| {
+        let findings = diagnose(case, &|_| {}).expect("findings");
+        let table = left_out(case, &|_| {}).expect("forecasts");
+        (named(&findings), named(&findings.after(&table)))
+    };
+    let slip = vec!["slip_with_turning"];
+    let mut case = behind_in_fast_turns(0.08, 0.05);
+    assert_eq!(after(&case), (slip.clone(), slip.clone()));
+    // One drive confirms nothing.
+    case.recordings.truncate(1);
+    assert_eq!(after(&case), (slip.clone(), vec![]));
+    assert_eq!(after(&behind_in_fast_turns(0.06, 0.04)), (slip, vec![]), "with it nothing is forecast better");
 }
