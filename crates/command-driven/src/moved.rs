@@ -58,13 +58,19 @@ pub(crate) fn moved(case: &ResponseCase, nominal: [f64; 2], parameters: &[Parame
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::robot;
+    use crate::run::ResponseRun;
+    use crate::testing::{Truth, robot};
 
     fn probability(value: f64) -> f64 {
+        of_track(value, (1.0, Vec::new())).probability
+    }
+
+    /// The track found at so many times its stated length, where the simulation, or references, have it at another factor.
+    fn of_track(value: f64, (simulated, references): (f64, Vec<ResponseRun>)) -> Moved {
         let case = ResponseCase {
             robot: robot(),
             geometry_sigma: [0.01, 0.02],
-            references: vec![],
+            references,
             recordings: vec![],
             held_out: vec![],
         };
@@ -74,12 +80,21 @@ mod tests {
             unit: "-".into(),
             value,
             half_width: Some(0.002),
-            simulated: Some(1.0),
+            simulated: Some(simulated),
             at_bound: false,
         };
-        let all = moved(&case, [0.1, 0.5], &[parameter]);
+        let mut all = moved(&case, [0.1, 0.5], &[parameter]);
         assert!(all.len() == 1 && (all[0].retuned.to - 0.5 * value).abs() < 1e-12, "{:?}", all[0].retuned);
-        all[0].probability
+        all.remove(0)
+    }
+
+    #[test]
+    fn since_references_a_constant_moves_by_a_share_of_the_files_sigma() {
+        let reference = Truth::perfect().run("reference", 4, 7);
+        let found = of_track(1.53, (1.5, vec![reference]));
+        assert!((found.retuned.from - 0.75).abs() < 1e-12 && found.is_retuned(), "{:?}", found.retuned);
+        // 2 % of 1.5, in sigmas of 0.6 times 2 %.
+        assert!((found.retuned.sigmas - 1.0 / 0.6).abs() < 1e-9, "{:?}", found.retuned);
     }
 
     #[test]

@@ -86,7 +86,8 @@
         leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";
         /// Sigmas of what is known by which one that may stand for another must move a constant.
         moved_as_stand_in: f64 = 1.0, "1", "guess";
-        /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas.
+        /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas; causes that move one by so many
+        /// times more sigmas than re-tuning are dropped where they are not needed.
         nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
     }
 

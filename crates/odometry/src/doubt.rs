@@ -18,7 +18,7 @@ pub(crate) fn without_what_little_shows(
     causes: &[Cause],
     named: &Named,
 ) -> Option<Named> {
-    let rules = SETTINGS.heading;
+    let rules = SETTINGS.doubt;
     let grows = |cause: usize| {
         [&SLIP_WITH_TURNING, &SLIP_WITH_SPEED, &CORNERING_SLIP].into_iter().any(|spec| *spec == *causes[cause].spec)
     };

@@ -59,13 +59,17 @@
         /// nor where a tyre touches the ground.
         error: f64 = 0.01, "1", "data sheets of usual MEMS gyros, with their non-linearity; real wheels and a real gyro of one \
             robot disagree by 1 to 2 per cent once constants are set";
+        /// Turning of a wheel in a window from which it is in motion.
+        rolled: f64 = 0.4, "rad", "equal to 0.02 m of a wheel of 5 cm: windows in motion by a pose";
+    }
+
+    /// Causes that evidence names and that explain little.
+    doubt: Doubt {
         /// Error with causes that grow with rate, speed or acceleration, over that without them, beyond which they are not named: such laws
         /// stand for each other and a little for everything.
         leaves: f64 = 0.8, "1", "guess; a fifth";
         /// Probability at which such a cause is then listed at most.
         listed: f64 = 0.3, "1", "guess";
-        /// Turning of a wheel in a window from which it is in motion.
-        rolled: f64 = 0.4, "rad", "equal to 0.02 m of a wheel of 5 cm: windows in motion by a pose";
     }
 
     /// Windows over which the pose and the wheels' motion are compared.

@@ -56,6 +56,7 @@ mod tests {
 
     use crate::drive::{Drive, Measured};
     use crate::file::{BUILT_IN, RobotFile};
+    use crate::model::Model;
 
     #[test]
     fn a_caster_turns_around_where_the_robot_turns_back_and_not_at_once() {
@@ -77,5 +78,10 @@ mod tests {
         assert!(at(1.9).abs() < 0.05, "{}", at(1.9));
         assert!(at(2.15).abs() < 1.0, "still turning: {}", at(2.15));
         assert!((at(3.9).abs() - PI).abs() < 0.1, "{}", at(3.9));
+
+        // Windows begin there.
+        let (model, step) = (Model::<f64>::at(&robot, &[], &[]), 107);
+        let begun = model.of_pose(&drive, &robot, step, (drive.pose[step], [-0.48, -0.15, 0.0]));
+        assert_eq!(begun.caster[0], drive.casters[step][0]);
     }
 }

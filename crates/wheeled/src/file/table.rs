@@ -122,6 +122,18 @@ mod tests {
         assert!(refused(&rows(200).replace("0.06,1.0", "0.02,1.0")).contains("time does not rise in row 4"));
         assert!(refused(&rows(20)).contains("20 rows, but at least 50 are needed"));
         assert!(refused(&rows(200).replace("0.06,1.0", "0.06,NaN")).contains("is no number; cut the drive there"));
+        // Speeds have a unit of their own: that of angles is none of theirs.
+        let turned = |of: &str| {
+            let text = text.replace("wheels = \"speed\"", &format!("wheels = \"speed\"\n{of}"));
+            let drive = RobotFile::parse("robot.toml", &text).expect("a robot").drive("a", &rows(200), false);
+            drive.expect("a drive").wheels[0].sum(2.0)
+        };
+        let plain = turned("");
+        for (unit, factor) in [("rad/s", 1.0), ("turn/s", std::f64::consts::TAU), ("rpm", std::f64::consts::TAU / 60.0)]
+        {
+            approx::assert_relative_eq!(turned(&format!("speed_unit = \"{unit}\"")), factor * plain, epsilon = 1e-9);
+        }
+        approx::assert_relative_eq!(turned("angle_unit = \"deg\""), plain, epsilon = 1e-9);
         // A pose that is to be predicted, and wheels, may be missing.
         let row = |k: u32| format!("{:.2},1.0,0.1\n", 0.02 * f64::from(k));
         let held_out = "time_s,torque_front,steer_rad\n".to_owned() + &(0..200).map(row).collect::<String>();
