@@ -6,7 +6,7 @@ use ::odometry::file::Signals;
 use anyhow::Result;
 use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
-use verdict::Diagnosis;
+use verdict::{Diagnosis, SimulatedPath};
 
 use crate::columns::Kind;
 use crate::drive_files::{self, NamesColumns, Origin};
@@ -73,6 +73,10 @@ impl NamesColumns for RobotFile {
     fn described(drive: &Drive) -> String {
         let pose = if drive.has_pose() { "with a pose" } else { "without a pose" };
         format!("{:.1} s, {pose}", drive.duration())
+    }
+
+    fn simulated(&self, drive: &Drive) -> SimulatedPath {
+        single_track::simulate(&self.car, drive)
     }
 }
 

@@ -9,6 +9,7 @@ use verdict::Diagnosis;
 use crate::car::{self, CarCase};
 use crate::columns::{ColumnsEnvelope, Kind};
 use crate::drive_files;
+pub use crate::drive_files::SimulatedDrives;
 use crate::inputs;
 use crate::odometry::{self, OdometryCase};
 use crate::wheeled::{self, WheeledCase};
@@ -131,6 +132,20 @@ pub fn kind_of(robot: &str) -> Result<Option<Kind>> {
         Some(Kind::Odometry) => drive_files::robot::<::odometry::file::RobotFile>(robot)?.map(|_| Kind::Odometry),
         None => None,
     })
+}
+
+/// Drives of a robot that names its columns itself, a file or built in, as it does them, as stated, on their inputs alone; `None` of
+/// other robots.
+///
+/// # Errors
+/// A robot file or recordings that cannot be read, or hold what no such robot can have.
+pub fn simulated(robot: &str, drives: &[PathBuf]) -> Result<Option<SimulatedDrives>> {
+    match Kind::of_robot(robot)? {
+        Some(Kind::Odometry) => drive_files::simulated::<::odometry::file::RobotFile>(robot, drives),
+        Some(Kind::Car) => drive_files::simulated::<single_track::file::RobotFile>(robot, drives),
+        Some(Kind::Wheeled) => drive_files::simulated::<::wheeled::file::RobotFile>(robot, drives),
+        None => Ok(None),
+    }
 }
 
 /// The same of a robot that has to name its columns itself.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use odometry::file::Signals;
 use recordings::{group_bags, is_bag};
-use verdict::Diagnosis;
+use verdict::{Diagnosis, SimulatedPath};
 
 use crate::bag_signals::{self, Found, Wanted};
 use crate::case_folder::robot_of;
@@ -39,6 +39,8 @@ pub(crate) trait NamesColumns: Sized {
     fn told(drive: &mut Self::Drive) -> &mut Vec<String>;
     /// How long a drive is and what was measured, in words.
     fn described(drive: &Self::Drive) -> String;
+    /// A drive as the robot does it, as stated, on the inputs alone.
+    fn simulated(&self, drive: &Self::Drive) -> SimulatedPath;
 
     /// What is wanted of a bag; `robot` as it is called, `columns` those of this file.
     fn wanted<'a>(&'a self, robot: &'a str, columns: &'a [&'a str]) -> Wanted<'a> {
@@ -114,6 +116,37 @@ pub(crate) fn read<F: NamesColumns>(
         );
     }
     Ok(Some((file, drives, Origin { robot: name, text, files, ignored })))
+}
+
+/// Drives of a robot that is called so, as it does them on their inputs alone, with what was read for them; `None` where it is of
+/// another kind.
+///
+/// # Errors
+/// A robot file or recordings that cannot be read, or hold what no such robot can have.
+pub(crate) fn simulated<F: NamesColumns>(name: &str, paths: &[PathBuf]) -> Result<Option<SimulatedDrives>> {
+    let Some((file, _)) = robot::<F>(name)? else { return Ok(None) };
+    let mut ignored = Vec::new();
+    let ([_, _, drives], [_, _, sources]) = drives((name, &file), None, [&[], &[], paths], &mut ignored)?;
+    ensure!(!drives.is_empty(), "there is no drive in what was given; name CSV files or bags, or a folder of them");
+    let told = drives.into_iter().map(|mut drive| {
+        let path = file.simulated(&drive);
+        (path, std::mem::take(F::told(&mut drive)))
+    });
+    let (paths, told): (Vec<_>, Vec<_>) = told.unzip();
+    Ok(Some(SimulatedDrives { paths, sources, told: told.concat(), ignored }))
+}
+
+/// Drives as a robot does them on their inputs alone.
+#[derive(Debug)]
+pub struct SimulatedDrives {
+    /// The drives.
+    pub paths: Vec<SimulatedPath>,
+    /// Files that they were read from.
+    pub sources: Vec<SourceFile>,
+    /// What was done to them, in sentences.
+    pub told: Vec<String>,
+    /// Other things in the folders, which were not read.
+    pub ignored: Vec<String>,
 }
 
 /// Drives and files: of the references, of the recordings, and of what is to be predicted.

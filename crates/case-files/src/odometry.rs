@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use odometry::file::{RobotFile, Signals};
 use odometry::{Case, Drive, diagnosis, left_out};
-use verdict::Diagnosis;
+use verdict::{Diagnosis, SimulatedPath};
 
 use crate::columns::Kind;
 use crate::drive_files::{self, NamesColumns, Origin};
@@ -73,6 +73,10 @@ impl NamesColumns for RobotFile {
         let seen = drive.pose.iter().filter(|pose| pose[2].is_finite()).count();
         let seconds = drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first);
         format!("{} rows in {seconds:.1} s, {measured} in {seen} of them", drive.time.len())
+    }
+
+    fn simulated(&self, drive: &Drive) -> SimulatedPath {
+        odometry::simulate(&self.robot, drive)
     }
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use verdict::{Diagnosis, Prediction};
+use verdict::{Diagnosis, Prediction, SimulatedPath};
 
 /// Writes `DIR/<drive>.csv` (corrected) and `DIR/<drive>.nominal.csv` (calibrated, without the effect).
 ///
@@ -35,7 +35,17 @@ pub fn write_paths(dir: &Path, diagnosis: &Diagnosis) -> Result<()> {
     Ok(())
 }
 
-fn csv_of_path(time: &[f64], poses: &[[f64; 3]]) -> String {
+/// Writes `DIR/<drive>.csv` of a robot that is compared by its pose.
+///
+/// # Errors
+/// When the folder or the file cannot be written.
+pub fn write_path(dir: &Path, path: &SimulatedPath) -> Result<()> {
+    fs::create_dir_all(dir).with_context(|| format!("cannot create '{}'", dir.display()))?;
+    save(&dir.join(format!("{}.csv", file_stem(&path.name))), &csv_of_path(&path.time, &path.pose))
+}
+
+/// `time_s,x_m,y_m,yaw_rad`; cells of rows without a pose are empty.
+pub fn csv_of_path(time: &[f64], poses: &[[f64; 3]]) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("time_s,x_m,y_m,yaw_rad\n");
     for (t, [x, y, yaw]) in time.iter().zip(poses) {

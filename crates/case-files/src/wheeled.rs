@@ -6,7 +6,7 @@ use ::odometry::file::Signals;
 use ::wheeled::file::RobotFile;
 use ::wheeled::{Case, Drive, diagnosis, examine};
 use anyhow::Result;
-use verdict::Diagnosis;
+use verdict::{Diagnosis, SimulatedPath};
 
 use crate::columns::Kind;
 use crate::drive_files::{self, NamesColumns, Origin};
@@ -70,6 +70,10 @@ impl NamesColumns for RobotFile {
     fn described(drive: &Drive) -> String {
         let pose = if drive.has_pose() { "with a pose" } else { "without a pose" };
         format!("{:.1} s, {pose}", drive.duration())
+    }
+
+    fn simulated(&self, drive: &Drive) -> SimulatedPath {
+        ::wheeled::simulate(&self.robot, drive)
     }
 }
 

@@ -16,6 +16,7 @@
 //! * `findings`: what the drives of a case say, as plain data.
 //! * `doubt`: causes that evidence names and that explain little.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `simulate`: a robot as stated on the counts of a drive.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
@@ -42,6 +43,7 @@ mod motion;
 pub mod rates;
 mod rivals;
 mod settings;
+mod simulate;
 mod traces;
 mod units;
 mod wheel;
@@ -57,6 +59,7 @@ pub use findings::Findings;
 pub use forecast::{Errors, LENGTHS};
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{Table, left_out};
+pub use simulate::simulate;
 pub use wheel::{Sigmas, Wheel, WheeledRobot};
 
 /// Every tuned number of this crate, for the page of settings.

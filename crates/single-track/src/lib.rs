@@ -11,6 +11,7 @@
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `simulate`: a car as stated on the inputs of a drive.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
 
@@ -31,6 +32,7 @@ mod model;
 mod rivals;
 mod rows;
 mod settings;
+mod simulate;
 mod solve;
 mod traces;
 mod units;
@@ -46,6 +48,7 @@ pub use forecast::{ByLength, Errors, LENGTHS};
 pub use hierarchical_fit::CaseError as CarError;
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
+pub use simulate::simulate;
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

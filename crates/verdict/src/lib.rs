@@ -55,7 +55,7 @@ pub use loads::{
     Standstill, Turning, TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
-pub use prediction::{PredictedPath, Prediction};
+pub use prediction::{ErrorAhead, PredictedPath, Prediction, SimulatedPath};
 pub use rehearsal::{
     Answers, FoundFrom, LookAlike, NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect,
     RehearsedSize, SensorNoise,

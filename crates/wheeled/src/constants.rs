@@ -300,8 +300,9 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     }
     if has_pose {
         let slope = [sigmas.slope, usual.slope, scatter.slope];
-        add(Q::SlopeX, ("slope along x", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
-        add(Q::SlopeY, ("slope along y", None, "rad"), (0.0, false, any), slope, &spec::GROUND_SLOPE);
+        let [x, y] = ground.slope.map(|pull| -pull / ground.gravity);
+        add(Q::SlopeX, ("slope along x", None, "rad"), (x, false, any), slope, &spec::GROUND_SLOPE);
+        add(Q::SlopeY, ("slope along y", None, "rad"), (y, false, any), slope, &spec::GROUND_SLOPE);
         let origin = [sigmas.pose_origin, usual.pose_origin, scatter.pose_origin];
         let ahead = (robot.point[0], false, any);
         add(Q::PoseX, ("tracked point, forward", None, "m"), ahead, forward(origin), &odo::POSE_ORIGIN);

@@ -48,9 +48,9 @@ impl Table {
 pub type Medians = [Option<[f64; 2]>; 3];
 
 /// Errors of forecasts over each length, one of each beginning.
-type Errors = Vec<[[f64; 2]; 3]>;
+pub(crate) type Errors = Vec<[[f64; 2]; 3]>;
 
-fn medians(errors: &[[[f64; 2]; 3]]) -> Medians {
+pub(crate) fn medians(errors: &[[[f64; 2]; 3]]) -> Medians {
     [0, 1, 2].map(|k| {
         let of = |axis: usize| median(errors.iter().map(|e| e[k][axis]));
         Some([of(0)?, of(1)?])
@@ -99,7 +99,7 @@ pub(crate) fn left_out_of(all: &Solved<Shown<'_>>, progress: &dyn Fn(&str)) -> T
 const AHEAD: Ahead =
     Ahead { step: STEP, lengths: LENGTHS, every: RULES.every, past: RULES.past, way: RULES.way, turn: RULES.turn };
 
-fn forecasts(model: &Constants, theta: &[f64], drive: &Drive) -> Errors {
+pub(crate) fn forecasts(model: &Constants, theta: &[f64], drive: &Drive) -> Errors {
     let at = Model::at(&model.robot, &model.all, theta);
     let steps = AHEAD.longest();
     let of = |from: usize| {

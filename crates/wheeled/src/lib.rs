@@ -10,6 +10,7 @@
 //! * `rows`: windows of the motion against the model, several values of the constants side by side.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, forecasts of what is left out, and findings as a verdict in
 //!   sentences.
+//! * `simulate`: a robot as stated on the inputs of a drive.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `settings`: every tuned number.
 
@@ -24,6 +25,7 @@ mod model;
 mod robot;
 mod rows;
 mod settings;
+mod simulate;
 mod units;
 
 pub use answer::diagnosis;
@@ -34,6 +36,7 @@ pub use hierarchical_fit::CaseError as WheeledError;
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};
 pub use left_out::{LENGTHS, Medians, Table};
 pub use robot::{AnyWheels, Sigmas};
+pub use simulate::simulate;
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

@@ -74,7 +74,8 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
         Q::PoseX => inside(root, "point", "x", constant.given, found),
         Q::PoseY => inside(root, "point", "y", constant.given, found),
         Q::PoseDirection => inside(root, "point", "yaw_deg", constant.given.to_degrees(), found.to_degrees()),
-        Q::Delay | Q::SlopeX | Q::SlopeY | Q::GyroScale | Q::GyroBias | Q::Clock => {}
+        Q::SlopeX | Q::SlopeY => slope(root, usize::from(constant.quantity == Q::SlopeY), found.to_degrees()),
+        Q::Delay | Q::GyroScale | Q::GyroBias | Q::Clock => {}
     }
 }
 
@@ -113,6 +114,23 @@ fn element(row: &mut dyn TableLike, key: &str, at: usize, by: &dyn Fn(f64) -> f6
     }
 }
 
+/// The ground's slope along one axis, in degrees: of these drives, not of the robot.
+fn slope(root: &mut dyn TableLike, axis: usize, found: f64) {
+    let found = rounded(found);
+    let Some(ground) = root.entry("ground").or_insert_with(toml_edit::table).as_table_like_mut() else { return };
+    let read = |value: &toml_edit::Value| value.as_float().or_else(|| value.as_integer().map(|n| n as f64));
+    let stated = ground.get("slope_deg").and_then(Item::as_array).map(|list| list.iter().filter_map(read).collect());
+    let mut values: Vec<f64> = stated.filter(|list: &Vec<f64>| list.len() == 2).unwrap_or_else(|| vec![0.0; 2]);
+    if values[axis] != found {
+        values[axis] = found;
+        set(ground, "slope_deg", Array::from_iter(values));
+        let of_ground = "slope_deg is that of the ground of these drives; elsewhere set it to [0, 0]";
+        if !ground.get("source").and_then(Item::as_str).is_some_and(|source| source.contains(of_ground)) {
+            set_source(ground, of_ground);
+        }
+    }
+}
+
 /// A number of a table that may not be there.
 fn inside(root: &mut dyn TableLike, table: &str, key: &str, given: f64, found: f64) {
     if rounded(given) == rounded(found) {
@@ -128,7 +146,6 @@ fn remedy(quantity: Quantity) -> Option<&'static str> {
     use Quantity as Q;
     match quantity {
         Q::Delay => Some("correct the time stamps of the torques by it"),
-        Q::SlopeX | Q::SlopeY => Some("it is of the ground, not of the robot: simulate on that slope"),
         Q::GyroScale => Some("divide the gyro's readings by it"),
         Q::GyroBias => Some("subtract it from the gyro's readings"),
         Q::Clock => Some("correct the time stamps by it"),

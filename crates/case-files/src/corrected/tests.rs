@@ -318,3 +318,34 @@ fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
     let refused = corrected.controllers().unwrap_err().to_string();
     assert!(refused.contains("driven by torques") && refused.contains("--to toml"), "{refused}");
 }
+
+#[test]
+fn a_corrected_robot_of_any_wheels_reads_back_in_every_constant_that_its_file_can_hold() {
+    use wheeled::Quantity as Q;
+    for (name, text) in wheeled::file::BUILT_IN {
+        let all = |text: &str| {
+            let file = wheeled::file::RobotFile::parse("robot.toml", text).unwrap_or_else(|e| panic!("{name}: {e}"));
+            wheeled::constants(&file.robot, true, true)
+        };
+        let stated = all(text);
+        let off: Vec<(&str, f64)> = stated.iter().map(|c| (c.name.as_str(), 1.01 * c.given + 0.002)).collect();
+        let written = robot(Kind::Wheeled, text, Some(verdict(&off, &[]))).robot_file().expect("a file");
+        let corrected = all(&written.text);
+        assert_eq!(corrected.len(), stated.len(), "{name}");
+        for (constant, (_, wanted)) in corrected.iter().zip(&off) {
+            match constant.quantity {
+                // Factors are in the numbers that they scale, and what is of sensors and clocks has no key.
+                Q::Gain(_)
+                | Q::SteeringGain(_)
+                | Q::Across
+                | Q::Along
+                | Q::Delay
+                | Q::GyroScale
+                | Q::GyroBias
+                | Q::Clock => {}
+                _ => approx::assert_relative_eq!(constant.given, *wanted, max_relative = 1e-6, epsilon = 1e-9),
+            }
+        }
+        assert_eq!(written.text.matches("is that of the ground of these drives").count(), 1, "{}", written.text);
+    }
+}

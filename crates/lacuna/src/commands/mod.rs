@@ -27,6 +27,7 @@ pub(crate) mod merge;
 pub(crate) mod next;
 mod odometry;
 mod overview;
+pub(crate) mod paths;
 pub(crate) mod predict;
 pub(crate) mod rehearse;
 pub(crate) mod report;

@@ -14,7 +14,7 @@ use clap::Args as ClapArgs;
 use recordings::Read;
 use serde_json::{Value, json};
 
-use super::{Outcome, OwnEffects, Reader, Usage, sources};
+use super::{Outcome, OwnEffects, Reader, Usage, paths, sources};
 use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -29,6 +29,8 @@ velocity, gyro, wheels), at most every --restart seconds. Errors are given where
 the drive also holds what was to be predicted. Command-driven robots are
 forecast from their commands in windows of 2 s. Of speed-driven robots no drive
 is forecast freely: `lacuna simulate` gives the torque that their speeds take.
+Robots whose files name their columns (kinds odometry, car and wheeled) are
+forecast from their inputs alone, and the pose is what is compared and written.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -38,23 +40,23 @@ Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 pub(crate) struct Args {
     /// Robot files, or names of built-in robots.
     #[arg(required = true, num_args = 1..)]
-    robot: Vec<String>,
+    pub(crate) robot: Vec<String>,
     /// Files or folders of drives.
     #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
-    drives: Vec<PathBuf>,
+    pub(crate) drives: Vec<PathBuf>,
     #[command(flatten)]
-    reader: Reader,
+    pub(crate) reader: Reader,
     #[command(flatten)]
-    effects: OwnEffects,
-    /// Least time between two restarts from the recorded state, s.
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, value_parser = seconds)]
-    restart: f64,
+    pub(crate) effects: OwnEffects,
+    /// Least time between two restarts from the recorded state, s [default: 2].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) restart: Option<f64>,
     /// Write the predicted responses as CSV into this folder; of several robots, into a folder for each.
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Write the errors as JSON to a file; `-` is standard output, instead of the text.
     #[arg(long, value_name = "FILE|-")]
-    json: Option<String>,
+    pub(crate) json: Option<String>,
 }
 
 /// A time between a hundredth of a second and an hour.
@@ -73,8 +75,17 @@ struct Errors {
     of: Vec<Rms>,
 }
 
+impl Args {
+    fn restart(&self) -> f64 {
+        self.restart.unwrap_or(2.0)
+    }
+}
+
 /// Predicts drives.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    if paths::predicted(args)? {
+        return Ok(Outcome::Done);
+    }
     let known = args.effects.known()?;
     let robots: Vec<RobotSpec> =
         args.robot.iter().map(|name| case_folder::robot_with(known, name)).collect::<Result<_>>()?;
@@ -124,7 +135,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 fn forecast(args: &Args, kind: &dyn Kind, robots: &[RobotSpec], read: &Read) -> Result<Vec<Rms>> {
     let mut out = Vec::new();
     for (robot, name) in robots.iter().zip(&args.robot) {
-        let forecast = kind.forecast(robot, &read.recording, args.restart)?;
+        let forecast = kind.forecast(robot, &read.recording, args.restart())?;
         for sentence in forecast.prediction.iter().flat_map(|p| own_effects::beyond_seen_in_forecast(robot, p)) {
             warning(&sentence);
         }
@@ -138,7 +149,7 @@ fn forecast(args: &Args, kind: &dyn Kind, robots: &[RobotSpec], read: &Read) -> 
 }
 
 /// The folder of a robot's predictions: the name of its file.
-fn stem(robot: &str) -> Result<&str> {
+pub(crate) fn stem(robot: &str) -> Result<&str> {
     match Path::new(robot).file_stem().and_then(|s| s.to_str()) {
         Some(stem) => Ok(stem),
         None => bail!("'{robot}' has no name that a folder could have; rename it"),
@@ -173,7 +184,7 @@ fn as_json(args: &Args, reads: &[Read], errors: &[Errors]) -> Value {
     json!({
         "format": 1,
         "program": Program::default(),
-        "restart_s": args.restart,
+        "restart_s": args.restart(),
         "drives": errors.iter().zip(reads).map(one).collect::<Vec<_>>(),
     })
 }

@@ -11,7 +11,7 @@ use clap::Args as ClapArgs;
 use recordings::write_csv;
 use serde_json::json;
 
-use super::{Outcome, OwnEffects, Reader, only, sources};
+use super::{Outcome, OwnEffects, Reader, only, paths, sources};
 use crate::console::{emit, emit_json, warning};
 
 const EXAMPLES: &str = "\
@@ -36,24 +36,27 @@ Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// Robot file, or name of a built-in robot.
-    robot: String,
+    pub(crate) robot: String,
     /// Recording with the inputs; of a run in several files, any one, or all.
     #[arg(required = true, num_args = 1..)]
-    recording: Vec<PathBuf>,
+    pub(crate) recording: Vec<PathBuf>,
     #[command(flatten)]
-    reader: Reader,
+    pub(crate) reader: Reader,
     #[command(flatten)]
-    effects: OwnEffects,
+    pub(crate) effects: OwnEffects,
     /// Write the simulated drive as CSV to a file; `-` is standard output.
     #[arg(short, long, value_name = "FILE|-", default_value = "-")]
-    out: String,
+    pub(crate) out: String,
     /// Write it as JSON to a file instead; `-` is standard output.
     #[arg(long, value_name = "FILE|-", conflicts_with = "out")]
-    json: Option<String>,
+    pub(crate) json: Option<String>,
 }
 
 /// Simulates a drive.
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
+    if paths::written(args)? {
+        return Ok(Outcome::Done);
+    }
     let robot = case_folder::robot_with(args.effects.known()?, &args.robot)?;
     own_effects::ensure_torque_driven(&robot)?;
     for sentence in own_effects::unused(&robot) {

@@ -220,6 +220,46 @@ fn a_verdict_becomes_a_robot_file_and_parameters_of_a_controller() {
 }
 
 #[test]
+fn a_corrected_robot_file_predicts_what_its_verdict_predicted() {
+    let bench = bench();
+    bench.write("case/heldout/new.csv", &counts_of(1.1, true));
+    bench.write("new/new.csv", &drive(1.1));
+    let run = bench.run(&["diagnose", "case", "--json", "out.json", "--predictions", "poses"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert_eq!(bench.run(&["export", "out.json", "--to", "toml", "-o", "corrected.toml"]).code(), Some(0));
+
+    // Numbers of a file have nine digits, and the verdict's frame of the pose is one of two.
+    let run = bench.run(&["simulate", "corrected.toml", "case/heldout/new.csv", "-o", "simulated.csv"]);
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    let (own, of_verdict) = (end(&bench.read("simulated.csv")), end(&bench.read("poses/new.csv")));
+    assert!((own[2] - of_verdict[2]).abs() < 1e-3, "{own:?} beside {of_verdict:?}");
+    assert!((own[0] - of_verdict[0]).hypot(own[1] - of_verdict[1]) < 0.02, "{own:?} beside {of_verdict:?}");
+
+    let run = bench.run(&[
+        "predict",
+        "case/robot.toml",
+        "corrected.toml",
+        "--drives",
+        "new",
+        "--json",
+        "errors.json",
+        "--out",
+        "paths",
+    ]);
+    assert_eq!((run.code(), run.err()), (Some(0), String::new()));
+    assert!(run.out().contains("position after 30 s, m"), "{}", run.out());
+    let json: Value = serde_json::from_str(&bench.read("errors.json")).unwrap();
+    let error = |robot: usize| json["drives"][0]["of"][robot]["medians"][2]["heading_rad"].as_f64().unwrap();
+    assert!(error(1) < 0.1 * error(0), "{} beside {}", error(1), error(0));
+    assert_eq!(end(&bench.read("paths/corrected/new.csv")).map(f64::is_finite), [true; 3]);
+
+    bench.run(&["predict", "corrected.toml", "husky-a200", "--drives", "new"]).failed(&["compare robots of one kind"]);
+    bench.run(&["predict", "corrected.toml", "--drives", "new", "--restart", "3"]).failed(&["leave out --restart"]);
+    bench.run(&["simulate", "corrected.toml", "case/recordings"]).failed(&["one recording at a time, not 3: run_0"]);
+    bench.run(&["simulate", "corrected.toml", "new/new.csv", "--mapping", "lacuna"]).failed(&["leave out --mapping"]);
+}
+
+#[test]
 fn what_cannot_be_exported_is_one_clear_sentence() {
     let bench = bench();
     bench.write("cart.toml", ROBOT);

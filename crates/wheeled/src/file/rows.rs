@@ -139,6 +139,8 @@ struct GroundRow {
     rest_speed: Option<f64>,
     rolling_resistance: Option<f64>,
     roller_drag: Option<f64>,
+    #[serde(default)]
+    slope_deg: [f64; 2],
     /// Read by people.
     #[serde(rename = "source")]
     _source: Option<String>,
@@ -299,7 +301,7 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
         casters: [None; MOST_CASTERS],
         motors: [None; MOST],
         joints: [None; MOST],
-        ground: ground(&read.ground),
+        ground: ground(&read.ground)?,
     };
     for (to, row) in plant.wheels.iter_mut().zip(&read.wheel) {
         let of = format!("wheel '{}'", row.name);
@@ -374,9 +376,14 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
     Ok(out)
 }
 
-fn ground(row: &GroundRow) -> Ground<f64> {
+fn ground(row: &GroundRow) -> Result<Ground<f64>, String> {
     let usual = Ground::usual();
-    Ground {
+    if let Some(slope) = row.slope_deg.iter().find(|slope| !(-45.0..=45.0).contains(*slope)) {
+        return Err(format!(
+            "[ground] slope_deg holds {slope}; give how far the ground rises along x and along y of the pose, in degrees, at most 45"
+        ));
+    }
+    Ok(Ground {
         adhesion: row.adhesion.unwrap_or(usual.adhesion),
         slip_at_peak: row.slip_at_peak.unwrap_or(usual.slip_at_peak),
         brush_share: row.brush_share.unwrap_or(usual.brush_share),
@@ -384,6 +391,7 @@ fn ground(row: &GroundRow) -> Ground<f64> {
         rest_speed: row.rest_speed.unwrap_or(usual.rest_speed),
         rolling: row.rolling_resistance.unwrap_or(usual.rolling),
         roller_drag: row.roller_drag.unwrap_or(usual.roller_drag),
+        slope: row.slope_deg.map(|slope| -slope.to_radians() * usual.gravity),
         ..usual
-    }
+    })
 }
