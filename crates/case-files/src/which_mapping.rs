@@ -107,13 +107,17 @@ fn built_in_for_bags() -> impl Iterator<Item = (&'static str, Mapping)> {
     all.filter(|(_, mapping)| mapping.files.iter().any(|entry| entry.topic.is_some()))
 }
 
+/// The mapping file of a case folder, if it has one.
+pub fn own(folder: Option<&Path>) -> Option<PathBuf> {
+    folder.map(|folder| folder.join("mapping.toml")).filter(|file| file.is_file())
+}
+
 /// The same for a case folder: what it holds as `mapping.toml` goes before what is built in.
 ///
 /// # Errors
 /// As [`named_or_built_in`].
 pub fn of_case(name: Option<&str>, folder: Option<&Path>, paths: &[PathBuf]) -> Result<Mapping> {
-    let own = folder.map(|folder| folder.join("mapping.toml")).filter(|file| file.is_file());
-    match (name, own) {
+    match (name, own(folder)) {
         (None, Some(own)) => case_folder::mapping(&own.to_string_lossy()),
         _ => named_or_built_in(name, paths),
     }

@@ -343,6 +343,12 @@ mod tests {
         // Without turning rates it may be a steep slope as well.
         let without = found(&legs, false);
         assert_eq!(without.iter().map(|c| c.causes.clone()).collect::<Vec<_>>(), [vec![GRADE, STANDING]]);
+        // Not where it would climb 53 degrees.
+        let harder = Leg { straight: STRAIGHT + 0.8 * WEIGHT, ..Leg::straight(20.0) };
+        let legs = [Leg::straight(30.0), harder, Leg::straight(30.0)];
+        let mut runs = [drive(&legs, false)];
+        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
+        assert_eq!((changes.found, standing.len()), (Vec::new(), 1));
     }
 
     #[test]

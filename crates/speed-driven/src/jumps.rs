@@ -78,7 +78,8 @@ pub(super) fn jumps(
             let below = load < JUMPS.below_friction * from || nothing >= JUMPS.below_seconds && load < from / UNNAMED;
             let blocked = !bound && load - from > JUMPS.blocked * weight;
             let (causes, reason) = if blocked {
-                let slope = if after_slope { None } else { Some(GRADE) };
+                let climbs = load - from <= JUMPS.climbed * weight;
+                let slope = if after_slope || !climbs { None } else { Some(GRADE) };
                 (slope.into_iter().chain([STANDING]).collect(), "no ground resists rolling that much by itself")
             } else if after_slope {
                 (vec![ROLLING], "the gyro shows no slope that would explain it")

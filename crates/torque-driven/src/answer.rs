@@ -260,14 +260,6 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
-        if verdict == Verdict::Unknown && !p.has_references {
-            limits.push(
-                "without references it is not known how much a tuned simulation of this robot leaves: a robot whose tyres or \
-                 drives follow other laws than the model's looks the same as a cause that is not in the catalogue; a \
-                 fault-free drive tells them apart"
-                    .to_owned(),
-            );
-        }
         if winner.is_some() && !worthwhile {
             limits.push(
                 "the correction does not improve the forecasts of recordings left out of the fit: \

@@ -35,11 +35,16 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
             "Nothing is missing: the simulation explains these recordings once its constants are re-tuned.".to_owned(),
         ),
         Verdict::Unknown => {
-            out.push(
+            out.push(if calibrated {
                 "The simulation lacks something that is not in the catalogue: no effect of the \
                  catalogue explains these recordings."
-                    .to_owned(),
-            );
+                    .to_owned()
+            } else {
+                "No effect of the catalogue explains these recordings: either the simulation lacks something that is not in it, \
+                 or tyres or drives of this robot follow other laws than the model's in fault-free drives too. Without \
+                 references these cannot be told apart; give a fault-free drive with --reference."
+                    .to_owned()
+            });
             let nearest = causes.first().filter(|_| judged.winner().is_some());
             out.extend(nearest.map(|c| format!("The nearest effect is {} ({}).", c.name, quantity(c))));
             let what = nearest.map_or("The re-tuned simulation", |_| "With it the simulation");

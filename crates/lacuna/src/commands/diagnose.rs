@@ -271,9 +271,9 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         emit_json(target, &serde_json::to_value(&envelope)?)?;
     }
     if args.json.as_deref() != Some("-") {
-        // Tables say themselves which column is which signal.
-        let found =
-            (args.input.mapping.is_none() && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
+        // Tables say themselves which column is which signal, and a case folder may hold a mapping of its own.
+        let is_named = args.input.mapping.is_some() || which_mapping::own(args.input.case.as_deref()).is_some();
+        let found = (!is_named && mapping != which_mapping::SELF_DESCRIBING).then_some(mapping.as_str());
         emit(&diagnosis_text::render(diagnosis, lost, &case.not_used(), found))?;
     }
     Ok(outcome(diagnosis.verdict, args.fail_on, &case.lost_of_recordings()))

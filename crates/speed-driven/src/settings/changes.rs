@@ -96,6 +96,8 @@ const fn degrees(x: f64) -> f64 {
     jumps: Jumps {
         /// Share of its weight from which on no ground resists a robot by itself: it pushes against something, or its wheels spin.
         blocked: f64 = 0.4, "1", "loose sand resists rolling by 0.2 to 0.3; tyres grip by 0.5 to 0.9";
+        /// Share of its weight from which on no slope pulls back a robot that drives up it: its wheels slip before.
+        climbed: f64 = 0.6, "1", "37 degrees; rubber on dry ground grips by 0.5 to 0.9";
         /// A change shorter than this is not reported: straight driving.
         least: f64 = 1.5, "s", "guess";
         /// No friction falls to this share of the usual load: the robot runs downhill.
