@@ -39,6 +39,8 @@
         moving: f64 = 0.1, "m/s", "equal to that of cars";
         /// Factor within which a ratio is that of two units.
         near: f64 = 1.25, "1", "guess; radii and scales of gyros are off by less, and the least factor of units is 6";
+        /// Steepest ground of a robot file.
+        steepest: f64 = 45.0, "°", "guess; nothing drives on more: such a number is no angle in degrees";
     }
 
     /// Windows over which motion and model are compared.

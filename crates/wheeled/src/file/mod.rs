@@ -128,6 +128,10 @@ mod tests {
             refused("column = \"steer_rad\"", "column = \"steer_rad\"\nangle_per_unit = 0")
                 .contains("joint 'front': angle_per_unit is 0; give what one unit")
         );
+        assert!(
+            refused("[columns]", "[ground]\nslope_deg = [0, 60]\n[columns]")
+                .contains("slope_deg holds 60; give how far")
+        );
         assert!(refused("yaw = \"yaw_rad\"\n", "").contains("names a part of the pose"));
         assert!(refused("mass = {", "mas = {").contains("mas"));
         let more =

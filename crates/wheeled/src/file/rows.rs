@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use crate::file::Columns;
 use crate::robot::AnyWheels;
+use crate::settings::SETTINGS;
 use known::{sigmas, usual_sigmas};
 
 #[derive(Deserialize)]
@@ -378,9 +379,11 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
 
 fn ground(row: &GroundRow) -> Result<Ground<f64>, String> {
     let usual = Ground::usual();
-    if let Some(slope) = row.slope_deg.iter().find(|slope| !(-45.0..=45.0).contains(*slope)) {
+    let steepest = SETTINGS.units.steepest;
+    if let Some(slope) = row.slope_deg.iter().find(|slope| !(-steepest..=steepest).contains(*slope)) {
         return Err(format!(
-            "[ground] slope_deg holds {slope}; give how far the ground rises along x and along y of the pose, in degrees, at most 45"
+            "[ground] slope_deg holds {slope}; give how far the ground rises along x and along y of the pose, in degrees, at most \
+             {steepest}"
         ));
     }
     Ok(Ground {
