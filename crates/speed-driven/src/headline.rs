@@ -100,7 +100,8 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
     let rest = match (of_loads, warmth) {
         (Verdict::Withheld, _) => "No load of a whole recording can be compared: too little steady driving.".to_owned(),
         (_, Some(warmth)) => warmth,
-        _ => "Apart from what changes inside recordings the simulation explains the loads; nothing else needs to be added to it.".to_owned(),
+        _ => "Apart from what changes inside recordings the simulation explains the loads; nothing else needs to be added \
+              to it.".to_owned(),
     };
     if let Some(longest) = loads.grounds.first() {
         let how_many = match loads.grounds.len() {

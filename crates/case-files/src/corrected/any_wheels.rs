@@ -74,7 +74,8 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
         Q::PoseX => inside(root, "point", "x", constant.given, found),
         Q::PoseY => inside(root, "point", "y", constant.given, found),
         Q::PoseDirection => inside(root, "point", "yaw_deg", constant.given.to_degrees(), found.to_degrees()),
-        Q::SlopeX | Q::SlopeY => slope(root, usize::from(constant.quantity == Q::SlopeY), found.to_degrees()),
+        Q::SlopeX => slope(root, 0, constant.given.to_degrees(), found.to_degrees()),
+        Q::SlopeY => slope(root, 1, constant.given.to_degrees(), found.to_degrees()),
         Q::Delay | Q::GyroScale | Q::GyroBias | Q::Clock => {}
     }
 }
@@ -115,20 +116,16 @@ fn element(row: &mut dyn TableLike, key: &str, at: usize, by: &dyn Fn(f64) -> f6
 }
 
 /// The ground's slope along one axis, in degrees: of these drives, not of the robot.
-fn slope(root: &mut dyn TableLike, axis: usize, found: f64) {
-    let found = rounded(found);
-    let Some(ground) = root.entry("ground").or_insert_with(toml_edit::table).as_table_like_mut() else { return };
-    let read = |value: &toml_edit::Value| value.as_float().or_else(|| value.as_integer().map(|n| n as f64));
-    let stated = ground.get("slope_deg").and_then(Item::as_array).map(|list| list.iter().filter_map(read).collect());
-    let mut values: Vec<f64> = stated.filter(|list: &Vec<f64>| list.len() == 2).unwrap_or_else(|| vec![0.0; 2]);
-    if values[axis] != found {
-        values[axis] = found;
-        set(ground, "slope_deg", Array::from_iter(values));
-        let of_ground = "slope_deg is that of the ground of these drives; elsewhere set it to [0, 0]";
-        if !ground.get("source").and_then(Item::as_str).is_some_and(|source| source.contains(of_ground)) {
-            set_source(ground, of_ground);
-        }
+fn slope(root: &mut dyn TableLike, axis: usize, given: f64, found: f64) {
+    if rounded(given) == rounded(found) {
+        return;
     }
+    let Some(ground) = root.entry("ground").or_insert_with(toml_edit::table).as_table_like_mut() else { return };
+    if !ground.contains_key("slope_deg") {
+        set(ground, "slope_deg", Array::from_iter([0.0; 2]));
+        set_source(ground, "slope_deg is that of the ground of these drives; elsewhere set it to [0, 0]");
+    }
+    element(ground, "slope_deg", axis, &|_| found);
 }
 
 /// A number of a table that may not be there.

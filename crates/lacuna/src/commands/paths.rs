@@ -74,8 +74,7 @@ fn by_drive(of: &[SimulatedDrives]) -> impl Iterator<Item = Vec<&SimulatedPath>>
 }
 
 fn as_text(robots: &[String], of: &[SimulatedDrives]) -> String {
-    let lengths =
-        of[0].paths.iter().flat_map(|path| path.ahead.iter().map(|e| e.after)).take(of[0].paths[0].ahead.len());
+    let lengths = of[0].paths[0].ahead.iter().map(|e| e.after);
     let quantity = |after: f64| [format!(">position after {after} s, m"), format!(">heading after {after} s, rad")];
     let header: Vec<String> =
         ["drive".to_owned(), "robot".to_owned()].into_iter().chain(lengths.flat_map(quantity)).collect();
