@@ -263,7 +263,8 @@ impl<T: Scalar> Robot<T> {
                 r.sliding_share = (r.sliding_share + d).max(T::zero()).min(real(MOST_SHARE));
             })
             .between_visits(FORM),
-        row!("rest_speed", "m/s", Bounds::Positive, Usual::Value(USUAL_REST_SPEED), "ground", |r| r.rest_speed),
+        row!("rest_speed", "m/s", Bounds::Positive, Usual::Value(USUAL_REST_SPEED), "ground", |r| r.rest_speed)
+            .factor(17, 1.0, DISCREPANCY, |r, d| r.rest_speed *= d.exp()),
         row!("lateral_factor", "-", Bounds::Positive, Usual::Value(1.0), "ground", |r| r.lateral_factor)
             .factor(9, 0.15, GUESS, |r, d| r.lateral_factor *= d.exp())
             .between_visits(FORM),

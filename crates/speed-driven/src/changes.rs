@@ -17,7 +17,8 @@ use verdict::{Changes, Hidden, LoadChange, Standstill};
 const PIECES: Pieces = CHANGES.pieces;
 
 /// The load of the run's usual ground at each speed class: what is like the references where there is enough of it, else most
-/// of what a cold drive train can make of theirs, else most of the run, which is then compared with itself.
+/// of what a cold drive train can make of theirs, else a little of what is like the references, else most of the run, which is then
+/// compared with itself.
 ///
 /// One ground changes the loads of all speeds by about one factor: a class that was driven on other ground alone is no usual
 /// load.
@@ -32,14 +33,19 @@ fn usual_of(run: &SpeedRun, (readings, level): (&[Option<Reading>], &[f64]), usu
     let exact: Vec<usize> =
         (0..level.len()).filter(|&i| level[i] > 0.0 && readings[i].is_some_and(|r| may_roll(i, r))).collect();
     let over = |i: &usize| level[*i] / known[class_of(*i)];
-    let enough =
-        |ratios: Vec<f64>| if ratios.len() as f64 * run.period() >= PIECES.known { median(ratios) } else { None };
+    let lasting = |ratios: Vec<f64>, least: f64| {
+        if ratios.len() as f64 * run.period() >= least { median(ratios) } else { None }
+    };
+    let enough = |ratios: Vec<f64>| lasting(ratios, PIECES.known);
     let within = |of: f64, factor: f64| move |ratio: &f64| *ratio < of * factor && *ratio > of / factor;
 
     let all = || exact.iter().map(over);
-    let like = enough(all().filter(within(1.0, usual.unequal)).collect());
+    let known_ground = || all().filter(within(1.0, usual.unequal)).collect();
+    let like = enough(known_ground());
     let plausible = || enough(all().filter(within(1.0, NAMING.priors.unnamed_straight)).collect());
-    let factor = like.or_else(plausible).or_else(|| enough(all().collect())).unwrap_or(1.0);
+    // A little of the known ground says more than much of what no drive train makes of it.
+    let little = || lasting(known_ground(), PIECES.little);
+    let factor = like.or_else(plausible).or_else(little).or_else(|| enough(all().collect())).unwrap_or(1.0);
     std::array::from_fn(|c| {
         let of_class = exact.iter().filter(|i| class_of(**i) == c).map(over);
         let own = enough(of_class.filter(within(factor, usual.unequal)).collect());

@@ -39,6 +39,18 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
             }
         }
     }
+    if let Some(slope) = &loads.slope {
+        let sigma = slope.half.to_radians() / NINETY;
+        let grade = catalogue::find(&GRADE).map_or("", |entry| entry.label());
+        let cause = Cause {
+            magnitude: Some(slope.slope.to_radians()),
+            sigma: Some(sigma),
+            unit: "rad".into(),
+            ..Cause::plain(&GRADE, grade, ANSWER.changed)
+        };
+        insert(out, vec![cause]);
+        out.indistinguishable.rotate_right(1);
+    }
     if let Some(cause) = standing(&loads.standstills) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);

@@ -6,8 +6,8 @@ use crate::straight::is_straight;
 
 const JUMPS: Jumps = CHANGES.jumps;
 
-/// Direction of travel at the rows, rad from where the robot looked at first; `None` without a yaw rate.
-pub(crate) fn directions(run: &SpeedRun) -> Option<Vec<f64>> {
+/// Where the robot looks at the rows, rad from where it looked at first; `None` without a yaw rate.
+pub(crate) fn headings(run: &SpeedRun) -> Option<Vec<f64>> {
     let yaw = run.yaw_rate.as_ref()?;
     let mut heading = vec![0.0; yaw.len()];
     for i in 1..yaw.len() {
@@ -15,6 +15,12 @@ pub(crate) fn directions(run: &SpeedRun) -> Option<Vec<f64>> {
         let turned = rate * (run.time[i] - run.time[i - 1]);
         heading[i] = heading[i - 1] + if turned.is_finite() { turned } else { 0.0 };
     }
+    Some(heading)
+}
+
+/// Direction of travel at the rows, rad from where the robot looked at first; `None` without a yaw rate.
+pub(crate) fn directions(run: &SpeedRun) -> Option<Vec<f64>> {
+    let heading = headings(run)?;
     let backward = |i: usize| if run.forward(i) < 0.0 { std::f64::consts::PI } else { 0.0 };
     Some((0..heading.len()).map(|i| heading[i] + backward(i)).collect())
 }

@@ -6,11 +6,12 @@
 use catalogue::revealed_by;
 use catalogue::speed_driven::SOFT_GROUND;
 use inference::words::quantity;
-use verdict::{Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Verdict};
+use verdict::{Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Verdict};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{longest, strongest};
 use crate::groups::{Disagreement, disagreements};
+use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
 use crate::words::{any_of, change, compared, group, how_it_stands, other_ground, recordings, turning_change};
 
@@ -22,7 +23,8 @@ const NINETY_PER_CENT: &str = " (90 %)";
 /// The first sentences; `of_loads` is the verdict of the loads alone, `theirs` what they are compared with.
 pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
     let standing = standing(&loads.standstills);
-    let leads = standing.is_empty();
+    let slope: Vec<String> = loads.slope.iter().map(|s| under_all(s, theirs)).collect();
+    let leads = standing.is_empty() && slope.is_empty();
     let rest = match of_loads {
         Verdict::Explained => located(disagreeing(loads, theirs, named(d)), loads),
         Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
@@ -31,7 +33,18 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
             if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
         }
     };
-    [standing, rest].concat()
+    [standing, slope, rest].concat()
+}
+
+/// One slope under all driving.
+fn under_all(s: &GroundSlope, theirs: &str) -> String {
+    let [least, most] = s.ratios;
+    format!(
+        "Sloping ground under all driving: the straight load goes with the direction of travel, from {least:.2} to {most:.2} times \
+         {theirs}, as on a slope of {:.1} ± {:.1}° (90 %; {} stretches of straight driving). What this slope pulls is taken off all \
+         loads below.",
+        s.slope, s.half, s.stretches
+    )
 }
 
 /// What is said of the loads, and in what stretches it is so, where other ground covers most of the driving.
@@ -95,6 +108,9 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
                     .to_owned()
             }
         },
+        _ if loads.standstills.is_empty() => {
+            "Apart from that slope the simulation explains the loads; nothing else needs to be added to it.".to_owned()
+        }
         _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
     };
     let rest = match (of_loads, warmth) {
@@ -151,7 +167,7 @@ fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
         out.push(format!("In all, {all} loads differ from {theirs}; the others are listed below."));
     }
     for r in strongest {
-        out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d) });
+        out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d, loads) });
     }
     out
 }
@@ -188,9 +204,10 @@ fn slips(r: &Ratio) -> String {
 }
 
 /// The class of effects that fit a difference of the loads, and what tells them apart.
-fn fits(d: &Diagnosis) -> Vec<String> {
+fn fits(d: &Diagnosis, loads: &Loads) -> Vec<String> {
+    let is_told = |class: &[String]| loads.slope.is_some() && class == [GRADE];
     let of_catalogue = |class: &&Vec<String>| {
-        class.iter().any(|id| *id == SOFT_GROUND.id || inference::words::revealed_by(id).is_some())
+        !is_told(class) && class.iter().any(|id| *id == SOFT_GROUND.id || inference::words::revealed_by(id).is_some())
     };
     let Some(class) = d.indistinguishable.iter().find(of_catalogue) else {
         return vec!["No effect of the catalogue makes such a difference of the loads.".to_owned()];

@@ -29,6 +29,7 @@ pub(super) fn jumps(
     let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
 
     let mut out = Vec::new();
+    let mut may_be_offset = true;
     for piece in pieces(&run.time, seen.iter().copied().filter(changed), CHANGES.pieces.apart) {
         // A piece has one direction.
         for piece in piece.chunk_by(|&a, &b| (level[a] > base(a)) == (level[b] > base(b))) {
@@ -88,6 +89,10 @@ pub(super) fn jumps(
             } else {
                 (vec![GRADE, ROLLING], "a straight drive one way cannot tell them apart")
             };
+            // An offset of the sensors that their dead band hides at rest makes as much of another way of driving: both sides, both
+            // ways.
+            let hidden = 4.0 * run.dead_band;
+            may_be_offset &= is_other_way(run, piece, before, after) && (load - from).abs() < hidden;
             out.push(LoadChange {
                 recording: run.name.clone(),
                 interval: [run.time[first], run.time[last]],
@@ -104,10 +109,21 @@ pub(super) fn jumps(
             });
         }
     }
+    if may_be_offset {
+        out.clear();
+    }
     if !after_slope {
         decide_by_heading(run, &mut out);
     }
     out
+}
+
+/// Whether a piece is driven the other way than the straight driving before and after it.
+fn is_other_way(run: &SpeedRun, piece: &[usize], before: Option<usize>, after: Option<usize>) -> bool {
+    let way = run.forward(piece[0]).signum();
+    let is_one_way = piece.iter().all(|&i| run.forward(i) * way > 0.0);
+    let mut beside = [before, after].into_iter().flatten().peekable();
+    is_one_way && beside.peek().is_some() && beside.all(|i| run.forward(i) * way < 0.0)
 }
 
 /// A slope depends on the heading, the ground does not: changes driven both ways tell them apart.

@@ -16,7 +16,8 @@
 //! * `guesses`: what a mapping may have wrong.
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
-//! * `mounting`: how the inertial unit leans in the body.
+//! * `mounting`: how the inertial unit leans in the body; `zero`: what current sensors read when nothing flows.
+//! * `plane`: one slope under all driving, by loads and directions of travel.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `grounds`, `groups`, `ground`: several grounds in one recording or in several, soft ground as one cause.
@@ -48,6 +49,7 @@ mod mounting;
 mod name;
 mod next;
 mod pieces;
+mod plane;
 mod run;
 mod scrub;
 mod sentences;
@@ -63,6 +65,7 @@ mod tests;
 mod traces;
 mod turning;
 mod words;
+mod zero;
 
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
@@ -131,6 +134,7 @@ pub fn diagnose_steady(
     progress("measuring steady loads");
     // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
     let mut marked = case.clone();
+    let zero = zero::remove(&mut marked.references, &mut marked.recordings);
     let of_file = standstill::track_of_file(&robot);
     let standing_references = standstill::mark(&mut marked.references, of_file);
     let (reference_loads, mut withheld) = all_loads(&marked.references);
@@ -153,8 +157,9 @@ pub fn diagnose_steady(
     attitude::set_level(&marked.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
-    let (changes, pushing) =
-        changes::mark(&mut marked.recordings, &usual, robot.mass * robot.gravity * robot.wheel_radius);
+    let weight = robot.mass * robot.gravity * robot.wheel_radius;
+    let slope = plane::take_off(&mut marked.recordings, &usual, weight);
+    let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
@@ -169,7 +174,7 @@ pub fn diagnose_steady(
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
 
     progress("looking into the recordings");
-    let mut loads = Loads { standstills, changes, ..within(&marked, &robot, &refs, reference_loads.clone()) };
+    let mut loads = Loads { standstills, changes, slope, ..within(&marked, &robot, &refs, reference_loads.clone()) };
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
@@ -223,7 +228,7 @@ pub fn diagnose_steady(
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
-    out.limits.extend(standing_references.iter().map(words::standing_reference));
+    out.limits.extend(standing_references.iter().map(words::standing_reference).chain(zero.map(zero::told)));
     out.limits.extend(leans.into_iter().filter_map(|(lean, of)| mounting::told(lean, of)));
     if of_loads == Verdict::Explained {
         let wrong = placebo.map(Named::name);
@@ -232,11 +237,14 @@ pub fn diagnose_steady(
 
     if options.next.is_some() {
         progress("looking for the drive that tells the rivals apart");
-        let speeds = case.recordings.iter().flat_map(|r| r.speed.iter().flatten());
-        let fastest = speeds.fold(0.0_f64, |most, v| most.max(v.abs()));
-        out.next = Some(advise_steady(fastest, &robot, &case.sigma, &calibrated, naming.as_ref()));
+        out.next = Some(advise_steady(fastest(&case.recordings), &robot, &case.sigma, &calibrated, naming.as_ref()));
     }
     Ok(out)
+}
+
+/// The largest speed of a side, m/s.
+fn fastest(runs: &[SpeedRun]) -> f64 {
+    runs.iter().flat_map(|run| run.speed.iter().flatten()).fold(0.0, |most, v| most.max(v.abs()))
 }
 
 fn all_loads(runs: &[SpeedRun]) -> (Vec<Load>, Vec<Withheld>) {
@@ -299,6 +307,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         references,
         withheld: Vec::new(),
         changes: Changes::default(),
+        slope: None,
         turning_changes: Vec::new(),
         grounds: Vec::new(),
         on_grounds: false,

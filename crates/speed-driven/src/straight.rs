@@ -43,7 +43,9 @@ pub(crate) fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
     let of_row = |i: usize| {
         let torque = [run.torque[0][i], run.torque[1][i]];
         if !run.magnitude_only {
-            return Reading::Exact((torque[0] + torque[1]) * run.speed[0][i].signum());
+            let sum = (torque[0] + torque[1]) * run.speed[0][i].signum();
+            let unread = (0..2).filter(|&j| !run.reads(i, j)).count() as f64;
+            return if unread > 0.0 { Reading::AtMost(sum + unread * run.dead_band) } else { Reading::Exact(sum) };
         }
         // What does not read adds at most the dead band.
         let sum = (0..2).map(|j| if run.reads(i, j) { torque[j].abs() } else { run.dead_band }).sum();
@@ -91,5 +93,5 @@ fn unwinding<'a>(run: &SpeedRun, stretch: &'a [usize]) -> &'a [usize] {
 
 /// Both sides in the dead band.
 pub(crate) fn reads_nothing(run: &SpeedRun, i: usize) -> bool {
-    run.magnitude_only && !run.reads(i, 0) && !run.reads(i, 1)
+    !run.reads(i, 0) && !run.reads(i, 1)
 }

@@ -48,6 +48,19 @@ const WIDER: [(usize, f64); 4] = [
     (constant("motor_inertia"), CALIBRATING.wider_motor_inertia),
 ];
 
+/// What the robot file says of the constants before anything is driven.
+///
+/// On drives of the robot itself the rest speed stays: with it the slip at the peak of adhesion is another number for the same
+/// motion, and effects are then told of tyres that are as they were.
+pub(crate) fn of_file(is_driven: bool) -> Mat<f64> {
+    let mut information = Mat::identity(NUISANCES, NUISANCES);
+    if is_driven {
+        let place = const { constant("rest_speed") };
+        information[(place, place)] = CALIBRATING.held;
+    }
+    information
+}
+
 /// Expected misfit of a segment from those of the references driven alike.
 #[derive(Clone, Default)]
 pub(crate) struct Regimes {
@@ -135,7 +148,7 @@ pub(crate) fn calibrate_on(
             constants_are_loose: false,
             variance: Channels::all(0.0),
             regime: Vec::new(),
-            information: Mat::identity(NUISANCES, NUISANCES),
+            information: of_file(driver == Driver::Robot),
             centre: [0.0; NUISANCES],
             spread: 0.0,
             visits: if driver == Driver::Robot { visits_of_references(cuts) } else { Vec::new() },
@@ -251,6 +264,18 @@ impl Calibration {
         self
     }
 
+    /// Raises the variances of the accelerations to what the best fit without any effect leaves of them, never below the usual,
+    /// before any hypothesis is weighed.
+    ///
+    /// A body that rocks on soft tyres shakes its accelerometer, and a level that is assumed too low makes every segment an outlier,
+    /// wheels and gyro with it.
+    pub(crate) fn learn_shaking(&mut self, problem: &Problem<'_>, nothing: &Fitted) {
+        let left = channel_variance(problem, &nothing.response);
+        for c in [Channel::ForwardAcceleration, Channel::LateralAcceleration] {
+            self.variance[c] = left[c].max(self.variance[c]);
+        }
+    }
+
     /// Raises the variance of each channel to what the best hypothesis leaves of it, never below the usual; whether any
     /// changed so much that the hypotheses must be weighed again.
     pub(crate) fn learn_noise(&mut self, problem: &Problem<'_>, best: &Fitted) -> bool {
@@ -351,5 +376,43 @@ pub(crate) fn problem<'a>(
         known: options.known,
         without: options.without,
         drives: Drives::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use testing::robot;
+
+    #[test]
+    fn a_shaken_accelerometer_is_noise_before_anything_is_weighed_and_wheels_are_not() {
+        let robot = robot();
+        let mut run = driven(&robot, &[], 12.0);
+        // The body rocks: what no rigid robot shows.
+        for (row, reading) in run.accel[1].iter_mut().enumerate() {
+            *reading = reading.map(|a| a + 2.0 * (0.9 * row as f64).sin());
+        }
+        run.angle[0].iter_mut().enumerate().for_each(|(row, angle)| *angle = angle.map(|a| a + 0.01 * row as f64));
+        let cuts = [cut(&run, &cutting())];
+        let p = problem(&robot, &cuts);
+        let mut calibration = Calibration::by_file();
+        let before = calibration.variance;
+        calibration.learn_shaking(&p, &p.begin(&Hypothesis::default(), p.origin(), None));
+
+        assert!(calibration.variance[Channel::LateralAcceleration] > 4.0 * before[Channel::LateralAcceleration]);
+        let others = Channel::ALL.into_iter().filter(|c| *c != Channel::LateralAcceleration);
+        for channel in others {
+            assert_eq!(calibration.variance[channel], before[channel], "{channel:?}");
+        }
+    }
+
+    #[test]
+    fn drives_of_the_robot_hold_the_rest_speed_and_logs_of_a_simulator_do_not() {
+        let rest = constant("rest_speed");
+        let [robot, simulator] = [true, false].map(of_file);
+        assert_eq!([robot[(rest, rest)], simulator[(rest, rest)]], [CALIBRATING.held, 1.0]);
+        assert!((0..NUISANCES).filter(|k| *k != rest).all(|k| robot[(k, k)] == 1.0));
     }
 }

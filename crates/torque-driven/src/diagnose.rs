@@ -8,10 +8,11 @@ use crate::decide::{decide, evidence};
 use crate::decision::Decision;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::judged::Judged;
+use crate::nothing::{retune, without_effect};
 use crate::own_effects::Runaway;
 use crate::redundancy::{Redundant, check};
 use crate::run::Run;
-use crate::search::{retune, search};
+use crate::search::search;
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulator::{Simulator, check_inputs};
@@ -115,6 +116,11 @@ impl Calibrated {
             self.calibration.clone()
         };
         let mut calibration = taught.for_visits(&visits);
+        if self.references.is_empty() {
+            let problem = problem(&robot, case, &recordings, &calibration, largest, options);
+            let origin = problem.begin(&Hypothesis::default(), problem.origin(), None);
+            calibration.learn_shaking(&problem, &without_effect(&problem, &origin));
+        }
         let weigh = |calibration: &Calibration, known: &[Trial]| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let found = search(&problem, known, progress);

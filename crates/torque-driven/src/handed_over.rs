@@ -5,10 +5,13 @@
 //! effect and a part in the constant: both directions of descent are the same.
 
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::settings::fit::{self, Fit};
 use crate::settings::search::{HandedOver, SETTINGS};
 use crate::stand_in::StandIn;
+use crate::trial::Trial;
 
 const HANDED_OVER: HandedOver = SETTINGS.handed_over;
+const FIT: Fit = fit::SETTINGS.fit;
 
 /// Hypotheses with one effect more than `h`, which was fitted, and the point from which each is to be fitted: the constant
 /// that moved is where the robot file has it, and the effect that is added is what it moved by.
@@ -38,6 +41,30 @@ pub(crate) fn starts(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> 
         out.push((longer, point));
     }
     out
+}
+
+/// Where a fit of `member` begins that holds some of the effects of `whole`, whose values are `effects`: at the constants of the
+/// whole, each effect that it lacks put into the constant that may stand for it.
+///
+/// A constant and the effect that it stands for may have moved against each other on the way; together they are the one or the other.
+pub(crate) fn taken_back(problem: &Problem<'_>, whole: &Trial, member: &Hypothesis, effects: Vec<f64>) -> Point {
+    let mut point = Point { effects, ..whole.fitted.point.clone() };
+    if !problem.constants_are_loose {
+        return point;
+    }
+    let mut rest = whole.fitted.point.effects.as_slice();
+    for variant in whole.hypothesis.variants() {
+        let (own, others) = rest.split_at(variant.count());
+        rest = others;
+        let is_kept = member.variants().any(|kept| kept.label() == variant.label());
+        let constant = StandIn::of(variant, problem.robot).filter(|_| !is_kept);
+        let move_of = |constant: StandIn| Some((constant.place, constant.moved(*own.first()?)?));
+        if let Some((place, moved)) = constant.and_then(move_of) {
+            let sigmas = point.theta[place] + moved / problem.sigma[place];
+            point.theta[place] = sigmas.clamp(-FIT.farthest, FIT.farthest);
+        }
+    }
+    point
 }
 
 #[cfg(test)]
@@ -84,5 +111,31 @@ mod tests {
         assert_eq!(pairs.iter().flat_map(|(h, _)| h.ids()).collect::<Vec<_>>(), ["grade", "viscous_friction"]);
         assert_eq!(pairs[0].1.effects, [0.01, 0.02, added]);
         assert!(with("viscous_friction", vec![0.05]).is_empty());
+    }
+    #[test]
+    fn an_effect_that_is_left_out_goes_into_its_constant_where_constants_are_loose() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let held = problem(&robot, &cuts);
+        let loose = Problem { constants_are_loose: true, ..problem(&robot, &cuts) };
+        let of = |id: &str| held.variants().into_iter().find(|v| v.spec().id == id).expect("in the catalogue");
+        let at = constant("lateral_factor");
+
+        // The constant went up, and the effect down by as much.
+        let parts = ["quadratic_drag", "turning_resistance"].map(|id| (of(id), Vec::new())).to_vec();
+        let whole = Hypothesis { parts, acting: None };
+        let mut point = Point { effects: vec![3.0, -0.25], ..loose.origin() };
+        point.theta[at] = 0.3 / loose.sigma[at];
+        let whole = Trial { fitted: loose.begin(&whole, point, None), hypothesis: whole };
+        let drag = Hypothesis::single(of("quadratic_drag"), Vec::new());
+        let start = |problem: &Problem<'_>| taken_back(problem, &whole, &drag, vec![3.0]);
+
+        let kept = start(&loose);
+        assert_eq!(kept.effects, [3.0]);
+        approx::assert_relative_eq!(kept.theta[at], (0.3 + 0.75_f64.ln()) / loose.sigma[at], epsilon = 1e-12);
+        // The motion is the same, and the constant is nearer to the robot file.
+        let taken = loose.begin(&drag, kept, None);
+        assert!(taken.cost < whole.fitted.cost, "{} {}", taken.cost, whole.fitted.cost);
+        assert_eq!(start(&held).theta, whole.fitted.point.theta);
     }
 }

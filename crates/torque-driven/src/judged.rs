@@ -10,7 +10,9 @@ use crate::simulator::Simulator;
 use crate::visit::Visit;
 use crate::windows::Cut;
 use inference::Options;
+use inference::hypothesis::Variant;
 use inference::robust::NINETY;
+use std::cmp::Reverse;
 
 /// All that an answer is made of.
 pub(crate) struct Judged<'a> {
@@ -37,19 +39,46 @@ impl Judged<'_> {
     }
 
     /// The decision in which no effect stands whose 90 % interval holds no effect at all: what it gains is that of constants that
-    /// may have moved, so that its probability is that of "nothing is missing".
+    /// may have moved, so that its probability is that of the hypothesis without it; alone, of "nothing is missing".
     pub(crate) fn without_sizes_of_zero(&self) -> Decision {
         let mut out = self.decision.clone();
-        let is_zero = |s: &Scored| {
-            let is_single = s.trial.hypothesis.parts.len() == 1;
-            let cause = (is_single && s.probability >= SETTINGS.answer.listed).then(|| self.cause(s, 0, s.probability));
-            cause.is_some_and(|c| c.magnitude.zip(c.sigma).is_some_and(|(size, sigma)| size.abs() < NINETY * sigma))
-        };
-        let (zero, mut scored): (Vec<Scored>, Vec<Scored>) = out.scored.into_iter().partition(is_zero);
-        out.none += zero.iter().map(|s| s.probability).sum::<f64>();
-        scored.extend(zero.into_iter().map(|s| Scored { probability: 0.0, ..s }));
-        out.scored = scored;
+        let labels = |s: &Scored| s.trial.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
+        let mut longest_first: Vec<usize> = (0..out.scored.len()).collect();
+        longest_first.sort_by_key(|&i| Reverse(out.scored[i].trial.hypothesis.parts.len()));
+        let mut fell = vec![false; out.scored.len()];
+        for i in longest_first {
+            let s = &out.scored[i];
+            if s.probability < SETTINGS.answer.listed {
+                continue;
+            }
+            let all = labels(s);
+            let stands = |part: &usize| !self.may_be_zero(&out.scored[i], *part);
+            let rest: Vec<String> = (0..all.len()).filter(stands).map(|part| all[part].clone()).collect();
+            if rest.len() == all.len() {
+                continue;
+            }
+
+            let heir = out.scored.iter().position(|other| labels(other) == rest);
+            let probability = out.scored[i].probability;
+            match heir {
+                Some(heir) => out.scored[heir].probability += probability,
+                None if rest.is_empty() => out.none += probability,
+                // Nobody fitted the rest alone.
+                None => continue,
+            }
+            out.scored[i].probability = 0.0;
+            fell[i] = true;
+        }
+        if fell.contains(&true) {
+            out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+        }
         out
+    }
+
+    /// Whether the 90 % interval of an effect holds no effect at all.
+    fn may_be_zero(&self, scored: &Scored, part: usize) -> bool {
+        let cause = self.cause(scored, part, scored.probability);
+        cause.magnitude.zip(cause.sigma).is_some_and(|(size, sigma)| size.abs() < NINETY * sigma)
     }
 }
 
@@ -94,5 +123,47 @@ mod tests {
         approx::assert_relative_eq!(told.none, 0.6, epsilon = 1e-12);
         assert_eq!(told.scored.iter().map(|s| s.probability).collect::<Vec<_>>(), [0.4, 0.0]);
         assert_eq!(told.scored[0].trial.fitted.point.effects, [1.0], "what stands comes first");
+    }
+
+    #[test]
+    fn a_second_effect_whose_interval_holds_zero_gives_its_probability_to_the_first_alone() {
+        let robot = robot();
+        let of = |id: &str| {
+            let forms = inference::hypothesis::variants(true).into_iter();
+            { forms }.find(|v| v.spec().id == id && v.place == Place::Whole).expect("in the catalogue")
+        };
+        let (viscous, pull) = (of("viscous_friction"), of("constant_pull"));
+        let doses = [viscous.dose(&[1.0], None)];
+        let cuts = [cut(&driven(&robot, &doses, 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let scored = |parts: &[Variant], effects: &[f64], probability: f64| {
+            let parts = parts.iter().map(|v| (*v, Vec::new())).collect();
+            let h = Hypothesis { parts, acting: None };
+            let fitted = p.begin(&h, Point { effects: effects.to_vec(), ..p.origin() }, None);
+            Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score: 10.0, probability }
+        };
+        let (calibration, case) = (calibration(&p), Case::new(robot));
+        let told = |second: f64| {
+            let both = scored(&[viscous, pull], &[1.0, second], 0.6);
+            let decision =
+                Decision { scored: vec![both, scored(&[viscous], &[1.0], 0.3)], none: 0.1, ..Decision::default() };
+            Judged {
+                case: &case,
+                options: &Options::default(),
+                problem: &p,
+                references: &[],
+                visits: &[],
+                calibration: &calibration,
+                sensors: &Redundant::default(),
+                simulator: None,
+                decision: &decision,
+            }
+            .without_sizes_of_zero()
+        };
+        let none = told(1e-6);
+        assert_eq!(none.scored[0].trial.hypothesis.ids(), ["viscous_friction"]);
+        approx::assert_relative_eq!(none.scored[0].probability, 0.9, epsilon = 1e-12);
+        approx::assert_relative_eq!(none.none, 0.1, epsilon = 1e-12);
+        assert_eq!(told(50.0).scored[0].probability, 0.6, "a pull that is there");
     }
 }

@@ -14,8 +14,9 @@
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
 //! * `hypothesis`: effects that are missing together.
-//! * `search`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run; `disc`,
-//!   `onset`: place and time; `handed_over`: effects that hide in a constant.
+//! * `search`, `several`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
+//!   pairs and threes; `nothing`: re-tuned constants alone; `disc`, `onset`: place and time; `handed_over`: effects that hide
+//!   in a constant.
 //! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
@@ -56,12 +57,14 @@ mod motion;
 mod next;
 mod noise_free;
 mod normal;
+mod nothing;
 mod null_scores;
 mod onset;
 pub mod output_error;
 mod own_effects;
 mod predict;
 mod redundancy;
+mod refits;
 mod retuned;
 mod rms;
 mod run;
@@ -69,6 +72,7 @@ mod run_numbers;
 mod screen;
 mod search;
 mod settings;
+mod several;
 mod simulate;
 mod simulator;
 mod smooth;

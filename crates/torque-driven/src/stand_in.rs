@@ -55,7 +55,7 @@ impl StandIn {
     }
 
     /// How far it would have moved; `None` where it cannot move so far.
-    fn moved(self, size: f64) -> Option<f64> {
+    pub(crate) fn moved(self, size: f64) -> Option<f64> {
         match self.relation {
             Relation::Offset => Some(size),
             Relation::Added(to) => (to + size > 0.0).then(|| (1.0 + size / to).ln()),

@@ -51,8 +51,8 @@ pub use law::{
     UnnamedCause, one_of, sentence_case,
 };
 pub use loads::{
-    Changes, ClockError, Forecast, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio, RecordingGroup,
-    Standstill, Turning, TurningChange, Way, Withheld,
+    Changes, ClockError, Forecast, GroundSlope, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio,
+    RecordingGroup, Standstill, Turning, TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use prediction::{ErrorAhead, PredictedPath, Prediction, SimulatedPath};

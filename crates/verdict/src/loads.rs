@@ -17,6 +17,9 @@ pub struct Loads {
     pub withheld: Vec<Withheld>,
     /// When inside a recording the straight load changes.
     pub changes: Changes,
+    /// One slope under all driving, by loads and directions of travel; its pull is taken off all other loads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope: Option<GroundSlope>,
     /// When inside a recording turning begins or ceases to cost another torque.
     pub turning_changes: Vec<TurningChange>,
     /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
@@ -292,6 +295,19 @@ pub struct Turning {
     pub interval: [f64; 2],
     /// Which way.
     pub way: Way,
+}
+
+/// A slope under all driving.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct GroundSlope {
+    /// Its angle, degrees.
+    pub slope: f64,
+    /// Half its 90 % interval, degrees.
+    pub half: f64,
+    /// Least and largest straight load, over that which it is compared with.
+    pub ratios: [f64; 2],
+    /// Stretches of straight driving that it rests on.
+    pub stretches: usize,
 }
 
 /// A stretch in which the wheels were commanded to turn and the body did not.

@@ -57,6 +57,27 @@ fn dry_friction_takes_the_same_torque_at_every_speed() {
 }
 
 #[test]
+fn a_weak_motor_of_one_side_needs_so_much_more_for_the_same_torque_and_spares_the_other_side() {
+    let (w, kappa) = (6.0, -0.2);
+    for side in [0, 1] {
+        let weak = on(&effects::torque_constant_side::Law, &[kappa], Some(side));
+        let (bare, with) = (needed(&[], w), needed(&[weak], w));
+        near(with[side], bare[side] / (1.0 + kappa), 1e-9);
+        near(with[1 - side], bare[1 - side], 1e-9);
+        // Torque-driven: the step of a motor that gives so much less.
+        let r = flat();
+        let turning = State { wheel_speed: [w; 2], passive: [w; 2], ..State::default() };
+        let after = |active: &[Active<f64>], torque: f64| {
+            let mut s = turning;
+            Plant::new(&r, active, H).step_under(&mut s, [torque; 2]);
+            s.wheel_speed
+        };
+        near(after(&[weak], 5.0)[side], after(&[], 5.0 * (1.0 + kappa))[side], 1e-12);
+        near(after(&[weak], 5.0)[1 - side], after(&[], 5.0)[1 - side], 1e-12);
+    }
+}
+
+#[test]
 fn gears_pass_their_efficiency_when_driving_and_hold_back_when_driven() {
     let beta = 0.2;
     let gears = on(&effects::load_dependent_friction::Law, &[beta], None);

@@ -16,6 +16,8 @@ const fn degrees(x: f64) -> f64 {
         driving: f64 = 0.05, "m/s", "guess";
         /// The load of a level stretch is known after so much of it.
         known: f64 = 10.0, "s", "guess";
+        /// So much of it must be there where most of a recording is ground that no drive train explains.
+        little: f64 = 5.0, "s", "guess";
         /// Loads within this factor of the references' are the usual ground's; loads at several speeds are one ground's.
         alike: f64 = 1.25, "1", "guess, as for turning";
     }
@@ -68,6 +70,42 @@ const fn degrees(x: f64) -> f64 {
         gap: f64 = 2.0, "s", "guess";
         /// Clocks are aligned to about this: taken off and added where a slope begins and ends.
         clock: f64 = 0.35, "s", "guess";
+    }
+
+    /// One slope under all driving, by loads and directions of travel.
+    plane: Plane {
+        /// Straight driving that counts as a stretch.
+        stretch: f64 = 1.5, "s", "guess, as for changes";
+        /// Rows of one stretch are at most this far apart.
+        gap: f64 = 0.5, "s", "guess";
+        /// Stretches of all recordings below which nothing is looked for.
+        least_stretches: usize = 5, "1", "guess: one more than a recording's numbers";
+        /// Scatter of a stretch's load, as a share of the usual.
+        scatter: f64 = 0.12, "1", "guess: as of the straight load along one floor, less what a mean over a stretch takes away";
+        /// Miss beyond which a stretch counts no more, in its sigmas.
+        far_off: f64 = 4.0, "1", "guess";
+        /// Levels of a drive train that are tried to each side of the usual.
+        levels: i32 = 6, "1", "numerical";
+        /// How far out, in the factor within which loads of one ground differ.
+        widest: f64 = 2.0, "1", "guess";
+        /// Directions uphill that are tried.
+        directions: usize = 48, "1", "numerical: 7.5 degrees";
+        /// Slopes that are tried, apart and at most.
+        step: f64 = 0.2, "°", "numerical";
+        /// Steepest slope that is tried.
+        steepest: f64 = 20.0, "°", "guess: few robots drive steeper";
+        /// Least slope that is told.
+        least: f64 = 1.0, "°", "guess: a pavement's";
+        /// Ratios of two grounds that are tried, to each side of 1.
+        ratios: usize = 16, "1", "numerical";
+        /// Largest of them.
+        most_ratio: f64 = 4.0, "1", "guess: soft ground against firm";
+        /// Pulls of a rope that are tried to each way, up to that of the steepest slope.
+        ropes: usize = 20, "1", "numerical";
+        /// Price of a number that is chosen: a slope, a direction, a ratio.
+        per_number: f64 = 2.5, "nats", "guess: half the logarithm of some hundred choices";
+        /// How much better the slope must explain the loads than either rival.
+        least_gain: f64 = 6.0, "nats", "guess: odds of 400";
     }
 
     /// The piecewise constant course of a load.

@@ -95,6 +95,22 @@
         hold_of_means: f64 = 1.5, "s", "chosen after a look at the open Husky runs";
     }
 
+    /// What current sensors read when the robot stands.
+    zero: Zero {
+        /// Speed of a side below which it stands.
+        still: f64 = 0.01, "m/s", "guess: noise of measured wheel speeds";
+        /// For how long it must have stood: by then what was commanded has decayed.
+        settled: f64 = 1.0, "s", "guess";
+        /// Rows of one stretch are at most this far apart.
+        gap: f64 = 0.5, "s", "guess";
+        /// How long a stretch must be.
+        least: f64 = 0.5, "s", "guess";
+        /// Stretches agree within this share of what the larger side reads.
+        agree: f64 = 0.25, "1", "guess: a drive that holds the robot winds up anew each time";
+        /// Half of what one way of driving takes more than the other over an offset that makes it, from and until.
+        seen: [f64; 2] = [0.5, 1.5], "1", "guess";
+    }
+
     /// A slow speed controller that lets go after a turn, seen by currents without sign.
     unwinding: Unwinding {
         /// For how long it may last after the drive became straight.

@@ -3,10 +3,9 @@
 
 use std::sync::Arc;
 
-use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::calibrate::kernel_mean;
+use crate::calibrate::{kernel_mean, of_file};
 use crate::channel::{Channel, Channels};
 use crate::fit::{Columns, Hypothesis, Point, Problem};
 use crate::settings::locate::{FaultFreeDriving, SETTINGS};
@@ -113,7 +112,7 @@ fn left_out(references: &Problem<'_>) -> Response {
             let others = Problem {
                 cuts: &cuts,
                 regime: keep().map(|r| references.regime[r].clone()).collect(),
-                information: Mat::identity(NUISANCES, NUISANCES),
+                information: of_file(true),
                 centre: [0.0; NUISANCES],
                 ..references.clone()
             };

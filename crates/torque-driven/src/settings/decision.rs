@@ -28,6 +28,10 @@
              of the catalogue: 0.4 at most";
         /// Width of the penalty about the smallest size of interest, in the logarithm of the size.
         size_width: f64 = 0.35, "1", "guess";
+        /// Share of the smallest size of interest below which an effect is not told.
+        least_alone: f64 = 0.4, "1", "guess: a robot drawn in MuJoCo was told that wheels spin free by 0.15 of that size";
+        /// The same of effects beside others.
+        least_beside: f64 = 1.0, "1", "definition: less matters to nobody; a second effect takes up what the first one's law misses";
         /// Without references: sizes below so many times the error of the plant's form are not told from it.
         form_errors: f64 = 3.7, "1", "a prototype without references, chosen on the development cases";
         /// Without references, or where constants may have moved since: an effect that is a constant of the robot under another

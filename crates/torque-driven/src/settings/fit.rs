@@ -87,6 +87,8 @@ use crate::channel::ByQuantity;
         coulomb_correlation: f64 = 0.8, "1", "guess: one owner, one gearbox type, one measurement";
         /// References below which no channel is trusted beyond what a tuned simulation of a robot usually leaves.
         enough_references: usize = 2, "1", "formula: one drive cannot be left out to see what a fit to the others leaves of it";
+        /// Information about a constant that stays where the robot file has it, in one over its sigma squared.
+        held: f64 = 1e4, "1", "numerical: a hundredth of its sigma";
         /// Without references, and with too few: what a tuned simulation of a robot leaves in each channel.
         usual_residual: ByQuantity = ByQuantity {
             wheel_speed: 0.12,

@@ -86,6 +86,12 @@
         last_steps: usize = 6, "1", "guess";
         /// Without references: single effects whose tuning "nothing" is started from.
         starts: usize = 3, "1", "guess";
+        /// Without references: tyres from which it starts too, as slip at the peak of adhesion and rest speed: stiff tyres, and
+        /// contacts of simulators, whose slip speed goes with the force at any speed of the wheel.
+        tyres: [[f64; 2]; 3] = [[0.03, 0.3], [0.03, 3.0], [0.01, 3.0]], "1, m/s",
+            "11 four-wheelers drawn in MuJoCo without references: each was the best start of some";
+        /// Cost of the robot file's constants over that of re-tuned ones from which fits start from both.
+        far: f64 = 2.0, "1", "guess";
     }
 
     /// Without references, or where constants may have moved since: effects that hide in a constant.

@@ -7,14 +7,13 @@ use super::arbitrary::{Acts, wide};
 use super::operator::Operator;
 use super::refit::{Refitted, hypothesis, numbers};
 use super::series;
-use crate::calibrate::problem;
+use crate::calibrate::{of_file, problem};
 use crate::candidate::{Ground, reduced};
 use crate::decide::fault_free_cost;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem, difference};
 use crate::judged::Judged;
 use crate::settings::fit;
 use crate::settings::law::{Gates, SETTINGS};
-use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
 const GATES: Gates = SETTINGS.gates;
@@ -123,7 +122,7 @@ impl<'a> References<'a> {
         let of_cuts =
             problem(p.robot, judged.case, judged.references, judged.calibration, p.largest_torque, judged.options);
         // What the references taught must not count twice: only the robot file is known before.
-        let problem = Problem { information: Mat::identity(NUISANCES, NUISANCES), centre: [0.0; NUISANCES], ..of_cuts };
+        let problem = Problem { information: of_file(true), centre: [0.0; NUISANCES], ..of_cuts };
         let point = Point { theta: judged.calibration.theta, ..problem.origin() };
         let none = Hypothesis::default();
         let begun = problem.begin(&none, point, None);

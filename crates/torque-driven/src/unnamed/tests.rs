@@ -9,7 +9,7 @@ use super::rank::Ranking;
 use super::refit::{Starts, hypothesis, numbers};
 use crate::channel::Channel;
 use crate::fit::{Fitted, Hypothesis, Point, Problem, difference};
-use crate::search::retune;
+use crate::nothing::retune;
 use crate::settings::law::SETTINGS;
 use crate::simulate::Response;
 use crate::testing::{cutting, driven, problem};

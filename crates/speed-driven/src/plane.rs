@@ -1,0 +1,308 @@
+//! One slope under all driving: the straight load goes with the direction of travel.
+//!
+//! On a plane that falls by `θ` a robot that travels at the angle `δ` from uphill needs `S + m g r sin θ cos δ`: more one way, less the
+//! other, below any friction where it is steep. Ground that resists more does so in every direction.
+
+use inference::robust::{NINETY, median};
+use verdict::GroundSlope;
+
+use crate::heading::{apart, directions, headings};
+use crate::pieces::{Usual, class, pieces};
+use crate::run::SpeedRun;
+use crate::settings::{CHANGES, changes::Jumps, changes::Plane};
+use crate::straight::{Reading, readings};
+
+const PLANE: Plane = CHANGES.plane;
+const JUMPS: Jumps = CHANGES.jumps;
+
+/// A stretch of straight driving: where it goes, rad; its load over that of the references at its speed, and whether that is only a
+/// bound.
+struct Stretch {
+    direction: f64,
+    load: f64,
+    usual: f64,
+    is_bound: bool,
+    /// 1 forward, −1 backward.
+    way: f64,
+}
+
+/// The slope under all driving, and where uphill is in each recording.
+struct Found {
+    told: GroundSlope,
+    /// Direction uphill, rad from where the robot looked at first; `None` of a recording that says nothing.
+    uphill: Vec<Option<f64>>,
+}
+
+fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
+    let (Some(direction), Some(any)) = (directions(run), usual.any()) else { return Vec::new() };
+    let readings = readings(run);
+    let rows = (0..run.time.len()).filter(|&i| readings[i].is_some() && !run.standing[i]);
+    let of = |rows: Vec<usize>| {
+        if (rows.len() as f64) * run.period() < PLANE.stretch {
+            return None;
+        }
+        let seen = || rows.iter().filter_map(|&i| readings[i]);
+        let is_bound = 2 * seen().filter(|r| r.is_exact()).count() < rows.len();
+        let load = median(seen().filter(|r| r.is_exact() != is_bound).map(Reading::value))?;
+        let middle = rows[rows.len() / 2];
+        let usual = usual.load[class(run.forward(middle).abs())].unwrap_or(any);
+        Some(Stretch { direction: direction[middle], load, usual, is_bound, way: run.forward(middle).signum() })
+    };
+    pieces(&run.time, rows, PLANE.gap).into_iter().filter_map(of).collect()
+}
+
+/// How badly a stretch fits a load of level ground (over the usual) and a pull along its direction, N m, of which the drive train
+/// loses an unknown share, N m; in nats, saturated.
+fn misfit(s: &Stretch, is_unsigned: bool, level: f64, [pull, lost]: [f64; 2]) -> f64 {
+    let sum = level * s.usual + pull;
+    let expected = if is_unsigned { sum.abs() } else { sum };
+    let sigma = (PLANE.scatter * s.usual).hypot(lost);
+    let off = if s.is_bound { (expected - s.load).max(0.0) } else { s.load - expected };
+    0.5 * (off / sigma).powi(2).min(PLANE.far_off * PLANE.far_off)
+}
+
+/// Levels of a drive train that are tried, over the usual, and what each costs.
+fn levels(spread: f64) -> impl Iterator<Item = (f64, f64)> {
+    let steps = PLANE.levels;
+    (-steps..=steps).map(move |k| {
+        let z = PLANE.widest * f64::from(k) / f64::from(steps);
+        ((z * spread).exp(), 0.5 * z * z)
+    })
+}
+
+/// The best fit of a recording on a slope whose pull is `pull`, N m: its cost, nats, and where uphill is.
+fn on_slope(stretches: &[Stretch], is_unsigned: bool, spread: f64, pull: f64) -> (f64, f64) {
+    let turn = std::f64::consts::TAU / PLANE.directions as f64;
+    let mut best = (f64::MAX, 0.0);
+    for uphill in (0..PLANE.directions).map(|k| turn * k as f64) {
+        for (level, price) in levels(spread) {
+            let along = |s: &Stretch| pull * (s.direction - uphill).cos();
+            let of =
+                |s: &Stretch| misfit(s, is_unsigned, level, [1.0, CHANGES.slopes.losses].map(|share| share * along(s)));
+            let cost = price + stretches.iter().map(of).sum::<f64>();
+            if cost < best.0 {
+                best = (cost, uphill);
+            }
+        }
+    }
+    best
+}
+
+/// The best fit of recordings on one level ground that resists `ratio` times as much, where something holds the robot back by `pull`,
+/// N m, whichever way it looks, nats.
+fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, (ratio, pull): (f64, f64)) -> f64 {
+    let of_run = |stretches: &Vec<Stretch>| {
+        let of_level = |(level, price): (f64, f64)| {
+            price + stretches.iter().map(|s| misfit(s, is_unsigned, ratio * level, [pull * s.way, 0.0])).sum::<f64>()
+        };
+        levels(spread).map(of_level).fold(f64::MAX, f64::min)
+    };
+    all.iter().map(of_run).sum()
+}
+
+/// The best fit of recordings on level ground of which parts resist `ratio` times as much, nats.
+fn on_two_grounds(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, ratio: f64) -> f64 {
+    let of_run = |stretches: &Vec<Stretch>| {
+        let of_level = |(level, price): (f64, f64)| {
+            let of = |s: &Stretch| {
+                let [one, other] = [1.0, ratio].map(|r| misfit(s, is_unsigned, r * level, [0.0; 2]));
+                one.min(other) + std::f64::consts::LN_2
+            };
+            price + stretches.iter().map(of).sum::<f64>()
+        };
+        levels(spread).map(of_level).fold(f64::MAX, f64::min)
+    };
+    all.iter().map(of_run).sum()
+}
+
+/// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
+/// `m g r`, N m.
+fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
+    // An accelerometer shows slopes by itself.
+    let is_levelled = |run: &SpeedRun| run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+    if runs.iter().any(is_levelled) {
+        return None;
+    }
+    let is_unsigned = runs.iter().any(|run| run.magnitude_only);
+    let all: Vec<Vec<Stretch>> = runs.iter().map(|run| stretches(run, usual)).collect();
+    let several_ways = |stretches: &&Vec<Stretch>| {
+        let apart = |a: &Stretch, b: &Stretch| apart(a.direction, b.direction) > JUMPS.other_heading;
+        stretches.iter().any(|a| stretches.iter().any(|b| apart(a, b)))
+    };
+    let turned = all.iter().filter(several_ways).count();
+    let number: usize = all.iter().map(Vec::len).sum();
+    if turned == 0 || number < PLANE.least_stretches {
+        return None;
+    }
+
+    // Likeliest slope, by the cost of all recordings.
+    let spread = usual.unequal.ln();
+    let pull = |degrees: f64| weight * degrees.to_radians().sin();
+    let cost = |degrees: f64| -> f64 { all.iter().map(|s| on_slope(s, is_unsigned, spread, pull(degrees)).0).sum() };
+    let steps = (PLANE.steepest / PLANE.step).round() as usize;
+    let costs: Vec<f64> = (0..=steps).map(|k| cost(PLANE.step * k as f64)).collect();
+    let best = (0..=steps).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
+    let slope = PLANE.step * best as f64;
+
+    // Level ground, firm or soft, with a rope or without, and ground that changes are the rivals: each pays for what it chooses.
+    let ratios = || {
+        (1..=PLANE.ratios).flat_map(|k| {
+            let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
+            [ratio, 1.0 / ratio]
+        })
+    };
+    let least = |costs: &mut dyn Iterator<Item = f64>| costs.fold(f64::MAX, f64::min);
+    let two = least(&mut ratios().map(|ratio| on_two_grounds(&all, is_unsigned, spread, ratio))) + PLANE.per_number;
+    let ropes =
+        || (0..=PLANE.ropes).map(|k| pull(PLANE.steepest * k as f64 / PLANE.ropes as f64)).flat_map(|p| [p, -p]);
+    let one =
+        least(&mut std::iter::once(1.0).chain(ratios()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
+            |(ratio, rope)| {
+                let chosen = f64::from(u8::from(ratio != 1.0)) + f64::from(u8::from(rope != 0.0));
+                on_level_ground(&all, is_unsigned, spread, (ratio, rope)) + PLANE.per_number * chosen
+            },
+        ));
+    let rival = one.min(two);
+    let own = costs[best] + PLANE.per_number * (1.0 + turned as f64);
+    if slope < PLANE.least || best == steps || own + PLANE.least_gain > rival {
+        return None;
+    }
+
+    // Where the cost has risen by half a sigma squared, to both sides.
+    let rise = 0.5 * NINETY * NINETY;
+    let reaches = |k: &usize| costs[*k] > costs[best] + rise;
+    let below = (0..best).rev().find(reaches).unwrap_or(0);
+    let above = (best..=steps).find(reaches).unwrap_or(steps);
+    let half = 0.5 * PLANE.step * (above - below) as f64;
+    let over = || all.iter().flatten().map(|s| s.load / s.usual);
+    let uphill = all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
+    let told = GroundSlope {
+        slope,
+        half: half.max(PLANE.step),
+        ratios: [over().fold(f64::MAX, f64::min), over().fold(0.0, f64::max)],
+        stretches: number,
+    };
+    Some(Found { told, uphill })
+}
+
+/// Finds one slope under all driving and takes what it pulls off the torques, so that all that follows is of level ground.
+pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Option<GroundSlope> {
+    let found = find(runs, usual, weight)?;
+    level(runs, &found, weight);
+    Some(found.told)
+}
+
+/// Takes what the slope pulls off the torques. Rows at which a side shows nothing because
+/// the slope drives it say nothing and are left out.
+fn level(runs: &mut [SpeedRun], found: &Found, weight: f64) {
+    let pull = weight * found.told.slope.to_radians().sin();
+    for (run, uphill) in runs.iter_mut().zip(&found.uphill) {
+        let (Some(heading), Some(uphill)) = (headings(run), uphill) else { continue };
+        for (i, heading) in heading.iter().enumerate() {
+            let own = 0.5 * pull * (heading - uphill).cos();
+            let way = run.forward(i).signum();
+            let drives = own * way < 0.0;
+            if drives && (0..2).any(|j| !run.reads(i, j)) {
+                run.standing[i] = true;
+                continue;
+            }
+            for j in 0..2 {
+                let torque = run.torque[j][i];
+                if !run.magnitude_only {
+                    run.torque[j][i] = torque - own;
+                } else if run.reads(i, j) {
+                    // Of a side without a sign: what it reads may be what it holds back.
+                    let along = own * way;
+                    let plain = torque.abs() - along;
+                    let held = -torque.abs() - along;
+                    run.torque[j][i] = if drives && held > 0.0 { held } else { plain.max(0.0) };
+                }
+            }
+        }
+        // What is left of turning rates about the other axes is the slope's.
+        run.body_rates = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, STRAIGHT, WEIGHT, case, drive, rounds};
+    use crate::{diagnose_steady, settings::CHANGES};
+    use inference::Options;
+    use verdict::Verdict;
+
+    const USUAL: Usual = Usual { load: [Some(STRAIGHT), None, None], unequal: CHANGES.pieces.alike };
+    /// Seconds of a turn, and by how much it turns, rad.
+    const TURN: f64 = 8.0;
+    const TURNED: f64 = TURN * 0.16 / 0.77;
+    /// A straight leg and those of the turn after it.
+    const LEGS: usize = 1 + TURN as usize;
+
+    /// Straight stretches with turns between them on a plane that rises by `slope` degrees towards `uphill`.
+    fn on_plane(slope: f64, uphill: f64) -> Vec<Leg> {
+        let along = |turned: f64| slope * (TURNED * turned - uphill).cos();
+        let parts = TURN as u32;
+        let turn = move |k: u32| {
+            (0..parts).map(move |part| {
+                let turned = f64::from(k) + (f64::from(part) + 0.5) / f64::from(parts);
+                Leg::turn(1.0).slope(along(turned))
+            })
+        };
+        let pair = |k: u32| std::iter::once(Leg::straight(10.0).slope(along(f64::from(k)))).chain(turn(k));
+        (0..5).flat_map(pair).collect()
+    }
+
+    fn found(runs: &[SpeedRun]) -> Option<GroundSlope> {
+        find(runs, &USUAL, WEIGHT).map(|found| found.told)
+    }
+
+    #[test]
+    fn a_plane_is_found_by_loads_in_several_directions_and_its_pull_leaves() {
+        for slope in [2.0, 4.0] {
+            let mut runs = [drive(&on_plane(slope, 0.4), false), drive(&on_plane(slope, 2.0), false)];
+            let all = find(&runs, &USUAL, WEIGHT).expect("a slope");
+            assert!((all.told.slope - slope).abs() < all.told.half.max(0.5), "{:?}", all.told);
+            assert!(all.told.ratios[0] < 0.8 && all.told.ratios[1] > 1.2 && all.told.stretches >= 8, "{:?}", all.told);
+            level(&mut runs, &all, WEIGHT);
+            assert_eq!(found(&runs), None, "its pull was taken off");
+        }
+    }
+
+    #[test]
+    fn level_ground_soft_ground_a_patch_and_a_rope_are_no_slope() {
+        let flat = on_plane(0.0, 0.0);
+        assert_eq!(found(&[drive(&flat, false), drive(&flat, false)]), None);
+        let load = |factor: f64, from: usize, until: usize| {
+            let own = |(k, leg): (usize, &Leg)| {
+                if (from..until).contains(&(k / LEGS)) { factor * leg.straight } else { leg.straight }
+            };
+            let legs: Vec<Leg> = flat.iter().enumerate().map(|leg| Leg { straight: own(leg), ..*leg.1 }).collect();
+            drive(&legs, false)
+        };
+        assert_eq!(found(&[load(2.2, 0, 5), load(2.2, 0, 5)]), None, "soft everywhere");
+        assert_eq!(found(&[load(2.2, 2, 5), load(2.2, 0, 2)]), None, "soft in a part");
+        // A rope holds back whichever way the robot looks: forward takes more, backward less.
+        let rope = |k: usize, leg: &Leg| match k % (2 * LEGS) {
+            0 => leg.slope(3.0),
+            LEGS => Leg { speed: [-0.24; 2], ..leg.slope(3.0) },
+            _ => *leg,
+        };
+        let legs: Vec<Leg> = flat.iter().enumerate().map(|(k, leg)| rope(k, leg)).collect();
+        assert_eq!(found(&[drive(&legs, false), drive(&legs, false)]), None);
+    }
+
+    #[test]
+    fn a_verdict_leads_with_the_slope_and_finds_nothing_else() {
+        let runs = [0.4, 2.0].map(|uphill| drive(&on_plane(4.0, uphill), false));
+        let runs: Vec<SpeedRun> =
+            runs.into_iter().enumerate().map(|(k, run)| SpeedRun { name: k.to_string(), ..run }).collect();
+        let d = diagnose_steady(&case(vec![drive(&rounds(3), false)], runs), &Options::default(), &|_| {});
+        let d = d.expect("a diagnosis");
+        assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Explained, "grade"), "{:?}", d.sentences);
+        assert!(d.sentences[0].starts_with("Sloping ground under all driving"), "{:?}", d.sentences);
+        assert!(d.sentences[1].starts_with("Apart from that slope the simulation explains"), "{:?}", d.sentences);
+        let angle = d.ranked[0].magnitude.expect("an angle").to_degrees();
+        assert!((angle - 4.0).abs() < 1.0, "{angle}");
+    }
+}

@@ -1,0 +1,188 @@
+//! Refits that a search is made of.
+
+use robot_model::EffectSpec;
+
+use crate::candidate::Candidate;
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::settings::search::{Finalists, Pairs, SETTINGS};
+use crate::trial::{Trial, include};
+use crate::{disc, handed_over, onset};
+
+const FINALISTS: Finalists = SETTINGS.finalists;
+const PAIRS: Pairs = SETTINGS.pairs;
+
+/// Places that are left to common and to rare effects.
+pub(crate) struct Places(pub(crate) [usize; 2]);
+
+impl Places {
+    /// Takes a place for `spec`, if one is left.
+    pub(crate) fn take(&mut self, spec: &EffectSpec) -> bool {
+        let left = &mut self.0[usize::from(spec.rarity > 0.0)];
+        let free = *left > 0;
+        *left -= usize::from(free);
+        free
+    }
+}
+
+/// Distinct ids in the order of evidence, with the best candidate of each.
+pub(crate) fn by_id(candidates: &[Candidate]) -> Vec<&Candidate> {
+    let mut out: Vec<&Candidate> = Vec::new();
+    for c in candidates {
+        if !out.iter().any(|o| o.variant.spec().id == c.variant.spec().id) {
+            out.push(c);
+        }
+    }
+    out
+}
+
+pub(crate) fn begin(problem: &Problem<'_>, h: &Hypothesis, point: &Point, effects: &[f64], base: &Fitted) -> Fitted {
+    let point = Point { effects: effects.to_vec(), ..point.clone() };
+    problem.begin(h, point, Some(base.columns.clone()))
+}
+
+/// A first refit, with the columns of θ that are there: they are renewed where it may win.
+fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Trial {
+    let fitted = problem.refine(&h, start, steps, renew);
+    let mut trial = Trial { hypothesis: h, fitted };
+    onset::scan(problem, &mut trial);
+    trial
+}
+
+/// From which constants the refits of a search start.
+#[derive(Clone, Copy)]
+pub(crate) struct Starts<'a> {
+    /// A fit where the robot file or the references have them.
+    pub(crate) origin: &'a Fitted,
+    /// Whether that is so far from the recordings that a fit may not arrive.
+    pub(crate) is_far: bool,
+}
+
+impl Starts<'_> {
+    /// A first refit from the origin and, where that is far, from the constants of what was fitted before; the better.
+    pub(crate) fn refit(self, problem: &Problem<'_>, h: &Hypothesis, effects: &[f64], before: &Fitted) -> Trial {
+        let first = refit_from(problem, h, effects, self.origin);
+        if self.is_far { better(first, refit_from(problem, h, effects, before)) } else { first }
+    }
+}
+
+/// A first refit from the constants of another fit.
+pub(crate) fn refit_from(problem: &Problem<'_>, h: &Hypothesis, effects: &[f64], base: &Fitted) -> Trial {
+    refit(problem, h.clone(), begin(problem, h, &base.point, effects, base), FINALISTS.steps, None)
+}
+
+/// The trial that fits better.
+pub(crate) fn better(first: Trial, second: Trial) -> Trial {
+    if second.fitted.cost < first.fitted.cost { second } else { first }
+}
+
+/// Refits a trial that may win: more steps, and its place looked for by exact free runs.
+pub(crate) fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Trial {
+    let mut trial = trial.clone();
+    disc::scan(problem, &mut trial);
+    let mut trial = refit(problem, trial.hypothesis, trial.fitted, steps, Some(0));
+    disc::scan(problem, &mut trial);
+    trial
+}
+
+/// Adds effects that may hide in a constant which was re-tuned far beside `h`, each in the better of both fits.
+pub(crate) fn include_handed_over(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted, trials: &mut Vec<Trial>) {
+    for (hypothesis, point) in handed_over::starts(problem, h, fitted) {
+        let start = problem.begin(&hypothesis, point, Some(fitted.columns.clone()));
+        let trial = refit(problem, hypothesis, start, FINALISTS.more_steps, Some(2));
+        include(trials, trial);
+    }
+}
+
+/// Fits what a hypothesis holds with one effect less again, from its tuning: a fit that had not converged would invent a
+/// gain for the effect that is added.
+pub(crate) fn converge_members(problem: &Problem<'_>, whole: &Trial, members: &mut [Trial]) {
+    for member in members.iter_mut().filter(|t| t.hypothesis.parts.len() + 1 == whole.hypothesis.parts.len()) {
+        let Some(effects) = whole.hypothesis.values_of(&member.hypothesis, &whole.fitted.point.effects) else {
+            continue;
+        };
+        if member.fitted.cost - whole.fitted.cost > PAIRS.least_second {
+            let point = handed_over::taken_back(problem, whole, &member.hypothesis, effects);
+            let start = problem.begin(&member.hypothesis, point, Some(whole.fitted.columns.clone()));
+            let again = problem.refine(&member.hypothesis, start, FINALISTS.more_steps, Some(2));
+            if again.cost < member.fitted.cost {
+                member.fitted = again;
+            }
+        }
+    }
+    best_first(members);
+}
+
+/// Fits hypotheses that hold all of `part`, and more, again from its tuning where they fit no better than it alone: these
+/// cannot have converged.
+pub(crate) fn converge_wholes(problem: &Problem<'_>, part: &Trial, wholes: &mut Vec<Trial>) {
+    for whole in wholes.iter_mut().filter(|whole| whole.fitted.cost > part.fitted.cost) {
+        let effects = &whole.fitted.point.effects;
+        if whole.hypothesis.values_of(&part.hypothesis, effects).is_none() {
+            continue;
+        }
+        let start = begin(problem, &whole.hypothesis, &part.fitted.point, effects, &part.fitted);
+        let again = problem.refine(&whole.hypothesis, start, FINALISTS.more_steps, Some(2));
+        if again.cost < whole.fitted.cost {
+            whole.fitted = again;
+        }
+    }
+    if problem.constants_are_loose {
+        include_handed_over(problem, &part.hypothesis, &part.fitted, wholes);
+    }
+    best_first(wholes);
+}
+
+pub(crate) fn best_first(trials: &mut [Trial]) {
+    trials.sort_by(|a, b| a.fitted.cost.total_cmp(&b.fitted.cost));
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::tunable::tunables;
+    use testing::robot;
+
+    use super::*;
+    use crate::nothing::retune;
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use inference::hypothesis::{Dose, Place, Variant};
+
+    #[test]
+    fn two_effects_that_fit_worse_than_one_of_them_are_fitted_again_and_a_loose_constant_becomes_its_effect() {
+        let robot = robot();
+        let blank = problem(&robot, &[]);
+        let of = |id: &str| -> Variant {
+            let is_whole = |v: &Variant| v.spec().id == id && v.place == Place::Whole;
+            blank.variants().into_iter().find(is_whole).expect("in the catalogue")
+        };
+        let (drag, viscous) = (of("quadratic_drag"), of("viscous_friction"));
+        let size = |v: &Variant| v.free(&blank.sizes())[0].usual;
+        let doses: Vec<Dose> = vec![drag.dose(&[size(&drag)], None), viscous.dose(&[size(&viscous)], None)];
+        let cuts = [16.0, 20.0].map(|seconds| cut(&driven(&robot, &doses, seconds), &cutting()));
+        let loose = Problem { constants_are_loose: true, ..problem(&robot, &cuts) };
+
+        // One effect, beside which the constant of the other has moved.
+        let single = Hypothesis::single(drag, Vec::new());
+        let start = loose.begin(&single, Point { effects: vec![size(&drag)], ..loose.origin() }, None);
+        let single = Trial { fitted: retune(&loose, &single, start), hypothesis: single };
+        let viscous_at = tunables::<f64>().iter().position(|t| t.id == "viscous").expect("tunable");
+        assert!(single.fitted.point.theta[viscous_at] > 1.6, "{:?}", single.fitted.point.theta);
+
+        // Both, as a fit that went astray left them.
+        let both = Hypothesis { parts: vec![(drag, Vec::new()), (viscous, Vec::new())], acting: None };
+        let astray = loose.begin(&both, Point { effects: vec![0.0, 0.0], ..loose.origin() }, None);
+        assert!(astray.cost > single.fitted.cost);
+        let mut wholes = vec![Trial { hypothesis: both, fitted: astray }];
+        converge_wholes(&loose, &single, &mut wholes);
+        assert!(wholes[0].fitted.cost <= single.fitted.cost, "{} {}", wholes[0].fitted.cost, single.fitted.cost);
+
+        // The same pair is found where nobody tried it, and not where constants are known.
+        let mut none = Vec::new();
+        converge_wholes(&loose, &single, &mut none);
+        let found: Vec<_> = none.iter().map(|t| t.hypothesis.ids()).collect();
+        assert!(found.contains(&vec!["quadratic_drag", "viscous_friction"]), "{found:?}");
+        let mut none = Vec::new();
+        converge_wholes(&problem(&robot, &cuts), &single, &mut none);
+        assert!(none.is_empty());
+    }
+}
