@@ -10,6 +10,7 @@ use mdbook_driver::MDBook;
 use mdbook_driver::book::BookItem;
 use mdbook_driver::config::Config;
 
+mod constants;
 mod effects;
 mod inward;
 mod settings;
@@ -56,7 +57,7 @@ enum Command {
 /// Arguments of `cargo xtask book`.
 #[derive(Debug, ClapArgs)]
 struct Args {
-    /// Write the pages that are made from the program (docs/effects.md, docs/settings.md) first.
+    /// Write the pages that are made from the program (docs/effects.md, docs/settings.md, docs/constants.md) first.
     #[arg(long)]
     docs: bool,
     /// Folder of the book.
@@ -74,6 +75,7 @@ fn run(args: &Args) -> Result<bool> {
     if args.docs {
         output::write(&output::docs(""), "effects.md", &effects::page())?;
         output::write(&output::docs(""), "settings.md", &settings::page())?;
+        output::write(&output::docs(""), "constants.md", &constants::page())?;
     }
     let out = output::beside(&args.out.to_string_lossy());
     build(&output::beside(""), &out)?;

@@ -37,6 +37,11 @@ pub fn variant(v: &Variant) -> String {
     }
 }
 
+/// Names one after the other; with semicolons where a name has a comma of its own.
+pub fn listed(names: &[String]) -> String {
+    names.join(if names.iter().any(|name| name.contains(',')) { "; " } else { ", " })
+}
+
 /// Names of the effects of one hypothesis.
 pub fn variants<'a>(all: impl IntoIterator<Item = &'a Variant>) -> String {
     all.into_iter().map(variant).collect::<Vec<_>>().join(" with ")
@@ -83,6 +88,16 @@ mod tests {
     use super::{probability, quantity};
     use robot_model::effect::LOST_SHARE;
     use verdict::{Cause, Estimate};
+
+    #[test]
+    fn names_with_commas_are_kept_apart() {
+        let names = |all: &[&str]| super::listed(&all.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>());
+        assert_eq!(names(&["grip of the ground", "extra mass"]), "grip of the ground, extra mass");
+        assert_eq!(
+            names(&["grip of the ground, from an instant on", "extra mass"]),
+            "grip of the ground, from an instant on; extra mass"
+        );
+    }
 
     #[test]
     fn nothing_is_quite_certain() {

@@ -1,7 +1,7 @@
 //! Sentences for people.
 
 use catalogue::answer::{NONE, UNKNOWN};
-use inference::words::{probability, quantity};
+use inference::words::{listed, probability, quantity};
 
 use crate::judged::Judged;
 use crate::locate;
@@ -92,7 +92,7 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
         let names: Vec<String> = class.iter().map(name).collect();
         out.push(format!(
             "These recordings cannot tell apart: {}. `lacuna next` suggests the drive that would.",
-            names.join(", ")
+            listed(&names)
         ));
     }
     let unknown = d.ranked.iter().find(|c| c.effect == UNKNOWN.id).map_or(0.0, |c| c.probability);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use catalogue::for_people;
+use inference::words::listed;
 use verdict::{Cause, Diagnosis};
 
 use crate::page::Page;
@@ -42,7 +43,7 @@ fn apart(d: &Diagnosis) -> Option<String> {
         let name = |id: &String| {
             d.ranked.iter().find(|c| c.effect == *id).map_or_else(|| for_people(id), |c| for_people(&c.name))
         };
-        class.iter().map(name).collect::<Vec<_>>().join(", ")
+        listed(&class.iter().map(name).collect::<Vec<_>>())
     };
     let classes: Vec<String> = d.indistinguishable.iter().filter(|c| c.len() > 1).map(names).collect();
     (!classes.is_empty()).then(|| format!("These recordings cannot tell apart: {}.", classes.join("; nor: ")))
