@@ -229,6 +229,14 @@ mod tests {
     }
 
     #[test]
+    fn a_little_of_the_known_ground_says_more_than_much_that_no_drive_train_explains() {
+        let soft = Leg { straight: 2.2 * STRAIGHT, ..Leg::straight(40.0) };
+        let all = found(&[Leg::straight(8.0), soft], false);
+        assert_eq!(all.len(), 1, "{all:?}");
+        assert!(all[0].slope > 0.0 && all[0].interval[0] > 7.0, "{all:?}");
+    }
+
+    #[test]
     fn what_begins_in_a_turn_is_bracketed() {
         let all =
             found(&[Leg::straight(30.0), Leg::turn(10.0), Leg::straight(15.0).slope(4.0), Leg::straight(20.0)], false);

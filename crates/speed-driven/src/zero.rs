@@ -101,8 +101,8 @@ pub(crate) fn remove(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -
 /// What is told of it.
 pub(crate) fn told(zero: [f64; 2]) -> String {
     format!(
-        "the currents read as {:.2} N m on the left and {:.2} N m on the right while the robot stands, whichever way it looks: this \
-         offset of the sensors was taken off all readings",
+        "while the robot stands its current or torque sensors read as {:.2} N m on the left and {:.2} N m on the right, whichever way \
+         it looks: this offset was taken off all readings",
         zero[0], zero[1]
     )
 }
@@ -173,6 +173,21 @@ mod tests {
             }
         }
         assert_eq!(remove(&mut [], std::slice::from_mut(&mut held)), None);
+    }
+
+    #[test]
+    fn an_offset_that_a_dead_band_hides_at_rest_is_no_other_ground_and_what_is_more_than_that_is() {
+        let hidden = |offset: f64, slope: f64, dead_band: f64| {
+            let mut run = run(offset, slope);
+            run.dead_band = dead_band;
+            for side in &mut run.torque {
+                side.iter_mut().filter(|t| t.abs() < dead_band).for_each(|t| *t = 0.0);
+            }
+            assert_eq!(remove(&mut [], std::slice::from_mut(&mut run)), None);
+            changes(&run, &USUAL, WEIGHT).found.len()
+        };
+        assert_eq!(hidden(-1.2, 0.0, 1.5), 0);
+        assert_eq!(hidden(0.0, -4.0, 1.5), 1, "no offset within the dead band pulls that much");
     }
 
     #[test]
