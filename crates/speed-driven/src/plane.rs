@@ -15,8 +15,7 @@ use crate::straight::{Reading, readings};
 const PLANE: Plane = CHANGES.plane;
 const JUMPS: Jumps = CHANGES.jumps;
 
-/// A stretch of straight driving: where it goes, rad; its load over that of the references at its speed, and whether that is only a
-/// bound.
+/// A stretch of straight driving: where it goes, rad; its load and the references' at its speed, N m; whether that is only a bound.
 struct Stretch {
     direction: f64,
     load: f64,
@@ -163,7 +162,8 @@ fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
             },
         ));
     let rival = one.min(two);
-    let own = costs[best] + PLANE.per_number * (1.0 + turned as f64);
+    let chosen = 1 + all.iter().filter(|stretches| !stretches.is_empty()).count();
+    let own = costs[best] + PLANE.per_number * chosen as f64;
     if slope < PLANE.least || best == steps || own + PLANE.least_gain > rival {
         return None;
     }
@@ -174,6 +174,10 @@ fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
     let below = (0..best).rev().find(reaches).unwrap_or(0);
     let above = (best..=steps).find(reaches).unwrap_or(steps);
     let half = 0.5 * PLANE.step * (above - below) as f64;
+    // Loads that any slope explains tell none.
+    if half >= slope {
+        return None;
+    }
     let over = || all.iter().flatten().map(|s| s.load / s.usual);
     let uphill = all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
     let told = GroundSlope {
@@ -188,34 +192,34 @@ fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
 /// Finds one slope under all driving and takes what it pulls off the torques, so that all that follows is of level ground.
 pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Option<GroundSlope> {
     let found = find(runs, usual, weight)?;
-    level(runs, &found, weight);
+    level(runs, &found, usual, weight);
     Some(found.told)
 }
 
 /// Takes what the slope pulls off the torques. Rows at which a side shows nothing because
 /// the slope drives it say nothing and are left out.
-fn level(runs: &mut [SpeedRun], found: &Found, weight: f64) {
+fn level(runs: &mut [SpeedRun], found: &Found, usual: &Usual, weight: f64) {
     let pull = weight * found.told.slope.to_radians().sin();
     for (run, uphill) in runs.iter_mut().zip(&found.uphill) {
         let (Some(heading), Some(uphill)) = (headings(run), uphill) else { continue };
         for (i, heading) in heading.iter().enumerate() {
             let own = 0.5 * pull * (heading - uphill).cos();
-            let way = run.forward(i).signum();
-            let drives = own * way < 0.0;
-            if drives && (0..2).any(|j| !run.reads(i, j)) {
+            // Along the turning of each side: sides that turn against each other are driven one by one.
+            let along = [0, 1].map(|j| own * run.speed[j][i].signum());
+            if (0..2).any(|j| along[j] < 0.0 && !run.reads(i, j)) {
                 run.standing[i] = true;
                 continue;
             }
+            let expected = usual.load[class(run.forward(i).abs())].or(usual.any()).unwrap_or(0.0);
             for j in 0..2 {
                 let torque = run.torque[j][i];
                 if !run.magnitude_only {
                     run.torque[j][i] = torque - own;
                 } else if run.reads(i, j) {
-                    // Of a side without a sign: what it reads may be what it holds back.
-                    let along = own * way;
-                    let plain = torque.abs() - along;
-                    let held = -torque.abs() - along;
-                    run.torque[j][i] = if drives && held > 0.0 { held } else { plain.max(0.0) };
+                    // Without a sign a side that is driven beyond what it resists reads what it holds back.
+                    let holds_back = 0.5 * expected + along[j] < 0.0;
+                    let shown = if holds_back { -torque.abs() } else { torque.abs() };
+                    run.torque[j][i] = (shown - along[j]).max(0.0);
                 }
             }
         }
@@ -259,13 +263,16 @@ mod tests {
 
     #[test]
     fn a_plane_is_found_by_loads_in_several_directions_and_its_pull_leaves() {
-        for slope in [2.0, 4.0] {
+        for slope in [2.0, 3.0, 4.0] {
             let mut runs = [drive(&on_plane(slope, 0.4), false), drive(&on_plane(slope, 2.0), false)];
             let all = find(&runs, &USUAL, WEIGHT).expect("a slope");
             assert!((all.told.slope - slope).abs() < all.told.half.max(0.5), "{:?}", all.told);
             assert!(all.told.ratios[0] < 0.8 && all.told.ratios[1] > 1.2 && all.told.stretches >= 8, "{:?}", all.told);
-            level(&mut runs, &all, WEIGHT);
+            level(&mut runs, &all, &USUAL, WEIGHT);
             assert_eq!(found(&runs), None, "its pull was taken off");
+            let loads = runs.iter().flat_map(readings).flatten().filter(|r| r.is_exact()).map(Reading::value);
+            let off = loads.map(|load| (load / STRAIGHT - 1.0).abs()).fold(0.0, f64::max);
+            assert!(off < 0.4, "{slope} degrees: a load is {off} off");
         }
     }
 

@@ -84,6 +84,9 @@ pub(crate) fn remove(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -
     let zero = at_rest(references, recordings)?;
     let all = || references.iter().chain(&*recordings);
     let is_unsigned = all().any(|run| run.magnitude_only);
+    if is_unsigned && !all().all(|run| run.magnitude_only) {
+        return None;
+    }
     let sign = if is_unsigned { sign(all(), zero)? } else { [1.0; 2] };
     for run in references.iter_mut().chain(recordings) {
         for j in 0..2 {
@@ -101,8 +104,8 @@ pub(crate) fn remove(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -
 /// What is told of it.
 pub(crate) fn told(zero: [f64; 2]) -> String {
     format!(
-        "while the robot stands its current or torque sensors read as {:.2} N m on the left and {:.2} N m on the right, whichever way \
-         it looks: this offset was taken off all readings",
+        "before the robot drives its current or torque sensors read as {:.2} N m on the left and {:.2} N m on the right in all \
+         recordings: this offset was taken off all readings",
         zero[0], zero[1]
     )
 }

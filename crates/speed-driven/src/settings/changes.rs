@@ -90,7 +90,7 @@ const fn degrees(x: f64) -> f64 {
         widest: f64 = 2.0, "1", "guess";
         /// Directions uphill that are tried.
         directions: usize = 48, "1", "numerical: 7.5 degrees";
-        /// Slopes that are tried, apart and at most.
+        /// Distance of the slopes that are tried.
         step: f64 = 0.2, "°", "numerical";
         /// Steepest slope that is tried.
         steepest: f64 = 20.0, "°", "guess: few robots drive steeper";
