@@ -114,6 +114,35 @@ fn on_two_grounds(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, ratio: f
     all.iter().map(of_run).sum()
 }
 
+/// What a slope pulls, N m; `weight` is `m g r`, N m.
+fn pull_of(weight: f64, degrees: f64) -> f64 {
+    weight * degrees.to_radians().sin()
+}
+
+/// Cost of what rivals a slope, nats: level ground, firm or soft, with a rope or without, and ground that changes. Each pays for what
+/// it chooses.
+fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> f64 {
+    let ratios = || {
+        (1..=PLANE.ratios).flat_map(|k| {
+            let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
+            [ratio, 1.0 / ratio]
+        })
+    };
+    let least = |costs: &mut dyn Iterator<Item = f64>| costs.fold(f64::MAX, f64::min);
+    let two = least(&mut ratios().map(|ratio| on_two_grounds(all, is_unsigned, spread, ratio))) + PLANE.per_number;
+    let ropes = || {
+        (0..=PLANE.ropes).map(|k| pull_of(weight, PLANE.steepest * k as f64 / PLANE.ropes as f64)).flat_map(|p| [p, -p])
+    };
+    let one =
+        least(&mut std::iter::once(1.0).chain(ratios()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
+            |(ratio, rope)| {
+                let chosen = f64::from(u8::from(ratio != 1.0)) + f64::from(u8::from(rope != 0.0));
+                on_level_ground(all, is_unsigned, spread, (ratio, rope)) + PLANE.per_number * chosen
+            },
+        ));
+    one.min(two)
+}
+
 /// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
 /// `m g r`, N m.
 fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
@@ -136,35 +165,16 @@ fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
 
     // Likeliest slope, by the cost of all recordings.
     let spread = usual.unequal.ln();
-    let pull = |degrees: f64| weight * degrees.to_radians().sin();
+    let pull = |degrees: f64| pull_of(weight, degrees);
     let cost = |degrees: f64| -> f64 { all.iter().map(|s| on_slope(s, is_unsigned, spread, pull(degrees)).0).sum() };
     let steps = (PLANE.steepest / PLANE.step).round() as usize;
     let costs: Vec<f64> = (0..=steps).map(|k| cost(PLANE.step * k as f64)).collect();
     let best = (0..=steps).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
     let slope = PLANE.step * best as f64;
 
-    // Level ground, firm or soft, with a rope or without, and ground that changes are the rivals: each pays for what it chooses.
-    let ratios = || {
-        (1..=PLANE.ratios).flat_map(|k| {
-            let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
-            [ratio, 1.0 / ratio]
-        })
-    };
-    let least = |costs: &mut dyn Iterator<Item = f64>| costs.fold(f64::MAX, f64::min);
-    let two = least(&mut ratios().map(|ratio| on_two_grounds(&all, is_unsigned, spread, ratio))) + PLANE.per_number;
-    let ropes =
-        || (0..=PLANE.ropes).map(|k| pull(PLANE.steepest * k as f64 / PLANE.ropes as f64)).flat_map(|p| [p, -p]);
-    let one =
-        least(&mut std::iter::once(1.0).chain(ratios()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
-            |(ratio, rope)| {
-                let chosen = f64::from(u8::from(ratio != 1.0)) + f64::from(u8::from(rope != 0.0));
-                on_level_ground(&all, is_unsigned, spread, (ratio, rope)) + PLANE.per_number * chosen
-            },
-        ));
-    let rival = one.min(two);
     let chosen = 1 + all.iter().filter(|stretches| !stretches.is_empty()).count();
     let own = costs[best] + PLANE.per_number * chosen as f64;
-    if slope < PLANE.least || best == steps || own + PLANE.least_gain > rival {
+    if slope < PLANE.least || best == steps || own + PLANE.least_gain > rivals(&all, is_unsigned, spread, weight) {
         return None;
     }
 
@@ -199,7 +209,7 @@ pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Opt
 /// Takes what the slope pulls off the torques. Rows at which a side shows nothing because
 /// the slope drives it say nothing and are left out.
 fn level(runs: &mut [SpeedRun], found: &Found, usual: &Usual, weight: f64) {
-    let pull = weight * found.told.slope.to_radians().sin();
+    let pull = pull_of(weight, found.told.slope);
     for (run, uphill) in runs.iter_mut().zip(&found.uphill) {
         let (Some(heading), Some(uphill)) = (headings(run), uphill) else { continue };
         for (i, heading) in heading.iter().enumerate() {

@@ -92,34 +92,43 @@ mod tests {
     use inference::hypothesis::Place;
     use testing::robot;
 
-    #[test]
-    fn an_effect_whose_interval_holds_zero_gives_its_probability_to_nothing() {
-        let robot = robot();
+    /// An effect everywhere.
+    fn of(id: &str) -> Variant {
         let forms = inference::hypothesis::variants(true).into_iter();
-        let form = { forms }.find(|v| v.spec().id == "viscous_friction" && v.place == Place::Whole);
-        let form = form.expect("in the catalogue");
-        let cuts = [cut(&driven(&robot, &[form.dose(&[1.0], None)], 12.0), &cutting())];
-        let p = problem(&robot, &cuts);
-        let scored = |size: f64| {
-            let h = Hypothesis::single(form, Vec::new());
-            let fitted = p.begin(&h, Point { effects: vec![size], ..p.origin() }, None);
-            Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score: 10.0, probability: 0.4 }
-        };
-        let calibration = calibration(&p);
-        let case = Case::new(robot);
-        let decision = Decision { scored: vec![scored(1e-6), scored(1.0)], none: 0.2, ..Decision::default() };
-        let told = Judged {
-            case: &case,
+        { forms }.find(|v| v.spec().id == id && v.place == Place::Whole).expect("in the catalogue")
+    }
+
+    /// A hypothesis of such effects that are so large.
+    fn scored(p: &Problem<'_>, effects: &[(Variant, f64)], probability: f64) -> Scored {
+        let parts = effects.iter().map(|(v, _)| (*v, Vec::new())).collect();
+        let hypothesis = Hypothesis { parts, acting: None };
+        let effects = effects.iter().map(|(_, size)| *size).collect();
+        let fitted = p.begin(&hypothesis, Point { effects, ..p.origin() }, None);
+        Scored { trial: Trial { hypothesis, fitted }, visits: None, score: 10.0, probability }
+    }
+
+    fn told(p: &Problem<'_>, scored: Vec<Scored>, none: f64) -> Decision {
+        let decision = Decision { scored, none, ..Decision::default() };
+        Judged {
+            case: &Case::new(*p.robot),
             options: &Options::default(),
-            problem: &p,
+            problem: p,
             references: &[],
             visits: &[],
-            calibration: &calibration,
+            calibration: &calibration(p),
             sensors: &Redundant::default(),
             simulator: None,
             decision: &decision,
         }
-        .without_sizes_of_zero();
+        .without_sizes_of_zero()
+    }
+
+    #[test]
+    fn an_effect_whose_interval_holds_zero_gives_its_probability_to_nothing() {
+        let (robot, viscous) = (robot(), of("viscous_friction"));
+        let cuts = [cut(&driven(&robot, &[viscous.dose(&[1.0], None)], 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let told = told(&p, [1e-6, 1.0].map(|size| scored(&p, &[(viscous, size)], 0.4)).to_vec(), 0.2);
         approx::assert_relative_eq!(told.none, 0.6, epsilon = 1e-12);
         assert_eq!(told.scored.iter().map(|s| s.probability).collect::<Vec<_>>(), [0.4, 0.0]);
         assert_eq!(told.scored[0].trial.fitted.point.effects, [1.0], "what stands comes first");
@@ -127,43 +136,17 @@ mod tests {
 
     #[test]
     fn a_second_effect_whose_interval_holds_zero_gives_its_probability_to_the_first_alone() {
-        let robot = robot();
-        let of = |id: &str| {
-            let forms = inference::hypothesis::variants(true).into_iter();
-            { forms }.find(|v| v.spec().id == id && v.place == Place::Whole).expect("in the catalogue")
-        };
-        let (viscous, pull) = (of("viscous_friction"), of("constant_pull"));
-        let doses = [viscous.dose(&[1.0], None)];
-        let cuts = [cut(&driven(&robot, &doses, 12.0), &cutting())];
+        let (robot, viscous, pull) = (robot(), of("viscous_friction"), of("constant_pull"));
+        let cuts = [cut(&driven(&robot, &[viscous.dose(&[1.0], None)], 12.0), &cutting())];
         let p = problem(&robot, &cuts);
-        let scored = |parts: &[Variant], effects: &[f64], probability: f64| {
-            let parts = parts.iter().map(|v| (*v, Vec::new())).collect();
-            let h = Hypothesis { parts, acting: None };
-            let fitted = p.begin(&h, Point { effects: effects.to_vec(), ..p.origin() }, None);
-            Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score: 10.0, probability }
+        let beside = |second: f64| {
+            let both = scored(&p, &[(viscous, 1.0), (pull, second)], 0.6);
+            told(&p, vec![both, scored(&p, &[(viscous, 1.0)], 0.3)], 0.1)
         };
-        let (calibration, case) = (calibration(&p), Case::new(robot));
-        let told = |second: f64| {
-            let both = scored(&[viscous, pull], &[1.0, second], 0.6);
-            let decision =
-                Decision { scored: vec![both, scored(&[viscous], &[1.0], 0.3)], none: 0.1, ..Decision::default() };
-            Judged {
-                case: &case,
-                options: &Options::default(),
-                problem: &p,
-                references: &[],
-                visits: &[],
-                calibration: &calibration,
-                sensors: &Redundant::default(),
-                simulator: None,
-                decision: &decision,
-            }
-            .without_sizes_of_zero()
-        };
-        let none = told(1e-6);
+        let none = beside(1e-6);
         assert_eq!(none.scored[0].trial.hypothesis.ids(), ["viscous_friction"]);
         approx::assert_relative_eq!(none.scored[0].probability, 0.9, epsilon = 1e-12);
         approx::assert_relative_eq!(none.none, 0.1, epsilon = 1e-12);
-        assert_eq!(told(50.0).scored[0].probability, 0.6, "a pull that is there");
+        assert_eq!(beside(50.0).scored[0].probability, 0.6, "a pull that is there");
     }
 }
