@@ -39,6 +39,8 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
             }
         }
     }
+    // What no law of the catalogue explains stays unexplained beside what was measured by itself.
+    let is_unknown = out.verdict == Verdict::Unknown;
     if let Some(slope) = &loads.slope {
         let sigma = slope.half.to_radians() / NINETY;
         let grade = catalogue::find(&GRADE).map_or("", |entry| entry.label());
@@ -54,6 +56,9 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     if let Some(cause) = standing(&loads.standstills) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
+    }
+    if is_unknown {
+        out.verdict = Verdict::Unknown;
     }
 }
 
@@ -220,7 +225,9 @@ fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<
 /// Ranks a class of causes of something that was measured. "Nothing is missing" is then at most as probable as the absence of
 /// all of them.
 fn insert(out: &mut Diagnosis, class: Vec<Cause>) {
-    out.indistinguishable.push(class.iter().map(|c| c.effect.clone()).collect());
+    let ids: Vec<String> = class.iter().map(|c| c.effect.clone()).collect();
+    out.indistinguishable.retain(|known| *known != ids);
+    out.indistinguishable.push(ids);
     let left = 1.0 - class.iter().map(|c| c.probability).sum::<f64>().min(1.0);
     for none in out.ranked.iter_mut().filter(|c| c.effect == NONE.id) {
         none.probability = none.probability.min(left);

@@ -42,7 +42,7 @@ fn under_all(s: &GroundSlope, theirs: &str) -> String {
     format!(
         "Sloping ground under all driving: the straight load goes with the direction of travel, from {least:.2} to {most:.2} times \
          {theirs}, as on a slope of {:.1} ± {:.1}° (90 %; {} stretches of straight driving). What this slope pulls is taken off all \
-         loads below.",
+         loads below of recordings with a yaw rate.",
         s.slope, s.half, s.stretches
     )
 }
@@ -108,9 +108,9 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
                     .to_owned()
             }
         },
-        _ if loads.standstills.is_empty() => {
+        _ if loads.standstills.is_empty() => warmth.clone().unwrap_or_else(|| {
             "Apart from that slope the simulation explains the loads; nothing else needs to be added to it.".to_owned()
-        }
+        }),
         _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
     };
     let rest = match (of_loads, warmth) {

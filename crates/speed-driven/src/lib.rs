@@ -68,7 +68,7 @@ mod words;
 mod zero;
 
 use robot_model::Robot;
-use robot_model::tunable::{COUNT as NUISANCES, tunables};
+use robot_model::tunable::{COUNT as NUISANCES, place_of, tunables};
 use verdict::{Changes, ClockError, Diagnosis, Forecast, FreeRun, Load, Loads, Quantity, Verdict, Withheld};
 
 use crate::next::advise_steady;
@@ -158,7 +158,8 @@ pub fn diagnose_steady(
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
     let weight = robot.mass * robot.gravity * robot.wheel_radius;
-    let slope = plane::take_off(&mut marked.recordings, &usual, weight);
+    let scale_sigma = case.torque_sigma.hypot(place_of("mass").map_or(0.0, |place| case.sigma[place]));
+    let slope = plane::take_off(&mut marked.recordings, &usual, (weight, scale_sigma));
     let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);

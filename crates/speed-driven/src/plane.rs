@@ -144,8 +144,8 @@ fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> 
 }
 
 /// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
-/// `m g r`, N m.
-fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
+/// `m g r`, N m, and by which share torques may be off against it.
+fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> Option<Found> {
     // An accelerometer shows slopes by itself.
     let is_levelled = |run: &SpeedRun| run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
     if runs.iter().any(is_levelled) {
@@ -192,17 +192,18 @@ fn find(runs: &[SpeedRun], usual: &Usual, weight: f64) -> Option<Found> {
     let uphill = all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
     let told = GroundSlope {
         slope,
-        half: half.max(PLANE.step),
+        half: half.max(PLANE.step).hypot(NINETY * scale_sigma * slope),
         ratios: [over().fold(f64::MAX, f64::min), over().fold(0.0, f64::max)],
         stretches: number,
     };
     Some(Found { told, uphill })
 }
 
-/// Finds one slope under all driving and takes what it pulls off the torques, so that all that follows is of level ground.
-pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> Option<GroundSlope> {
+/// Finds one slope under all driving and takes what it pulls off the torques, so that all that follows is of level ground; `weight`
+/// with its relative error.
+pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: (f64, f64)) -> Option<GroundSlope> {
     let found = find(runs, usual, weight)?;
-    level(runs, &found, usual, weight);
+    level(runs, &found, usual, weight.0);
     Some(found.told)
 }
 
@@ -268,14 +269,16 @@ mod tests {
     }
 
     fn found(runs: &[SpeedRun]) -> Option<GroundSlope> {
-        find(runs, &USUAL, WEIGHT).map(|found| found.told)
+        find(runs, &USUAL, (WEIGHT, 0.0)).map(|found| found.told)
     }
 
     #[test]
     fn a_plane_is_found_by_loads_in_several_directions_and_its_pull_leaves() {
         for slope in [2.0, 3.0, 4.0] {
             let mut runs = [drive(&on_plane(slope, 0.4), false), drive(&on_plane(slope, 2.0), false)];
-            let all = find(&runs, &USUAL, WEIGHT).expect("a slope");
+            let all = find(&runs, &USUAL, (WEIGHT, 0.0)).expect("a slope");
+            let unsure = find(&runs, &USUAL, (WEIGHT, 0.1)).expect("a slope").told;
+            assert!(unsure.half > all.told.half && unsure.half > NINETY * 0.1 * unsure.slope, "{unsure:?}");
             assert!((all.told.slope - slope).abs() < all.told.half.max(0.5), "{:?}", all.told);
             assert!(all.told.ratios[0] < 0.8 && all.told.ratios[1] > 1.2 && all.told.stretches >= 8, "{:?}", all.told);
             level(&mut runs, &all, &USUAL, WEIGHT);

@@ -24,6 +24,8 @@ pub struct SpeedRun {
     pub torque: [Vec<f64>; 2],
     /// A torque up to this one is in the dead band: only a bound is known, N m.
     pub dead_band: f64,
+    /// What a side in its dead band has at most, N m: the dead band, and more where an offset was taken off the readings.
+    pub hidden: f64,
     /// Speeds are set-points, not measured.
     pub set_points: bool,
     /// Torques carry no sign.
@@ -84,9 +86,11 @@ impl SpeedRun {
         let origin = origin(recording);
         let time: Vec<f64> = common.iter().map(|t| (*t - origin) as f64 * 1e-9).collect();
         let attributes = load_left.attributes();
+        let dead_band = attributes.dead_band.map_or(0.0, |d| (d + ROWS.dead_band_slack) * factor);
         let mut run = Self {
             torque: [take(load_left, factor), take(load_right, factor)],
-            dead_band: attributes.dead_band.map_or(0.0, |d| (d + ROWS.dead_band_slack) * factor),
+            dead_band,
+            hidden: dead_band,
             set_points: kind == 1 || left.attributes().set_point,
             magnitude_only: attributes.magnitude_only,
             yaw_rate: None,

@@ -45,10 +45,10 @@ pub(crate) fn readings(run: &SpeedRun) -> Vec<Option<Reading>> {
         if !run.magnitude_only {
             let sum = (torque[0] + torque[1]) * run.speed[0][i].signum();
             let unread = (0..2).filter(|&j| !run.reads(i, j)).count() as f64;
-            return if unread > 0.0 { Reading::AtMost(sum + unread * run.dead_band) } else { Reading::Exact(sum) };
+            return if unread > 0.0 { Reading::AtMost(sum + unread * run.hidden) } else { Reading::Exact(sum) };
         }
-        // What does not read adds at most the dead band.
-        let sum = (0..2).map(|j| if run.reads(i, j) { torque[j].abs() } else { run.dead_band }).sum();
+        // What does not read adds at most what is hidden.
+        let sum = (0..2).map(|j| if run.reads(i, j) { torque[j].abs() } else { run.hidden }).sum();
         if run.reads(i, 0) && run.reads(i, 1) { Reading::Exact(sum) } else { Reading::AtMost(sum) }
     };
     let mut out: Vec<Option<Reading>> =

@@ -91,6 +91,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         speed: [0, 1].map(|j| rows.iter().map(|leg| leg.speed[j]).collect()),
         torque: [torque(0), torque(1)],
         dead_band: DEAD_BAND,
+        hidden: DEAD_BAND,
         set_points: true,
         magnitude_only: true,
         alignment: Some(Alignment { lag: vec![0.0; time.len()], left_out: Vec::new() }),

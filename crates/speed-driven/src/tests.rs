@@ -1,6 +1,6 @@
 //! Whole diagnoses: what leads the answer, and that nothing below contradicts it.
 
-use verdict::{Diagnosis, Quantity, Ratio, Verdict};
+use verdict::{Diagnosis, GroundSlope, Loads, Quantity, Ratio, Verdict};
 
 use inference::Options;
 use inference::robust::NINETY;
@@ -80,6 +80,20 @@ fn without_references_a_track_is_as_unsure_as_the_file_says_of_radius_and_track(
     };
     let (sure, unsure) = (width(1e-6), width(0.03));
     assert!((unsure * unsure - sure * sure - 0.03 * 0.03).abs() < 1e-5, "{sure} {unsure}");
+}
+
+#[test]
+fn a_slope_beside_loads_that_nothing_explains_leaves_these_unknown_and_is_one_class() {
+    let mut d = diagnosis(&[&rounds(3)]);
+    let slope = GroundSlope { slope: 3.0, half: 0.5, ratios: [0.5, 1.5], stretches: 8 };
+    let loads = Loads { slope: Some(slope), ..d.steady.take().expect("loads") };
+    d.indistinguishable = vec![vec!["grade".to_owned()]];
+    for before in [Verdict::Unknown, Verdict::Explained] {
+        d.verdict = before;
+        crate::found::add(&mut d, None, &loads);
+        assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (before, "grade"));
+        assert_eq!(d.indistinguishable, [["grade"]]);
+    }
 }
 
 #[test]

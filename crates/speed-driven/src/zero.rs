@@ -15,20 +15,24 @@ use crate::straight::is_straight;
 const ZERO: Zero = MEASURING.zero;
 const JUMPS: Jumps = CHANGES.jumps;
 
-/// A stretch in which the robot stands: where it looks, rad, and what each side reads, N m.
+/// A stretch in which the robot stands: whether it has not driven yet, where it looks, rad, and what each side reads, N m.
 struct Rest {
+    is_first: bool,
     heading: f64,
     torque: [f64; 2],
 }
 
 /// Stretches of a recording in which the drive is at rest.
 fn rests(run: &SpeedRun) -> Vec<Rest> {
-    let Some(heading) = headings(run) else { return Vec::new() };
-    let is_still =
-        |i: &usize| (0..2).all(|j| run.speed[j][*i].abs() < ZERO.still) && run.held(*i, ZERO.still, ZERO.settled);
+    // Without a yaw rate it may have turned: references alone confirm what is read then.
+    let heading = headings(run);
+    let is_slow = |i: usize| (0..2).all(|j| run.speed[j][i].abs() < ZERO.still);
+    let is_still = |i: &usize| is_slow(*i) && run.held(*i, ZERO.still, ZERO.settled);
+    let moves_from = (0..run.time.len()).find(|&i| !is_slow(i)).unwrap_or(run.time.len());
     let of = |rows: Vec<usize>| {
         let side = |j: usize| median(rows.iter().map(|&i| run.torque[j][i])).unwrap_or(0.0);
-        Rest { heading: heading[rows[0]], torque: [side(0), side(1)] }
+        let heading = heading.as_ref().map_or(0.0, |heading| heading[rows[0]]);
+        Rest { is_first: rows[0] < moves_from, heading, torque: [side(0), side(1)] }
     };
     let stretches = pieces(&run.time, (0..run.time.len()).filter(is_still), ZERO.gap);
     stretches.into_iter().filter(|rows| rows.len() as f64 * run.period() >= ZERO.least).map(of).collect()
@@ -40,8 +44,11 @@ fn at_rest(references: &[SpeedRun], recordings: &[SpeedRun]) -> Option<[f64; 2]>
     let [of_references, of_recordings] =
         [references, recordings].map(|runs| runs.iter().map(rests).collect::<Vec<_>>());
     let all = || of_references.iter().chain(&of_recordings);
-    let firsts = |runs: &[Vec<Rest>]| runs.iter().filter_map(|rests| rests.first()).count();
-    let before = || all().filter_map(|rests| rests.first());
+    fn first(rests: &Vec<Rest>) -> Option<&Rest> {
+        rests.first().filter(|rest| rest.is_first)
+    }
+    let firsts = |runs: &[Vec<Rest>]| runs.iter().filter_map(first).count();
+    let before = || all().filter_map(first);
 
     let zero = [0, 1].map(|j| median(before().map(|r| r.torque[j])).unwrap_or(0.0));
     let largest = zero[0].abs().max(zero[1].abs());
@@ -49,7 +56,9 @@ fn at_rest(references: &[SpeedRun], recordings: &[SpeedRun]) -> Option<[f64; 2]>
     let looks_elsewhere =
         |rests: &Vec<Rest>| rests.iter().any(|r| agrees(r) && apart(r.heading, rests[0].heading) > JUMPS.other_heading);
     let is_confirmed = firsts(&of_references) > 0 && firsts(&of_recordings) > 0 || all().any(looks_elsewhere);
-    (largest > 0.0 && before().all(agrees) && is_confirmed).then_some(zero)
+    let driven = references.iter().chain(recordings).flat_map(|run| run.torque.iter().flatten());
+    let usual = median(driven.map(|torque| torque.abs()).filter(|torque| *torque > 0.0)).unwrap_or(0.0);
+    (largest > ZERO.matters * usual && before().all(agrees) && is_confirmed).then_some(zero)
 }
 
 /// What driving forward takes more of than driving backward, halved, per side, N m: medians of straight driving. `None` where a
@@ -89,6 +98,9 @@ pub(crate) fn remove(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -
     }
     let sign = if is_unsigned { sign(all(), zero)? } else { [1.0; 2] };
     for run in references.iter_mut().chain(recordings) {
+        if run.dead_band > 0.0 {
+            run.hidden = run.dead_band + zero[0].abs().max(zero[1].abs());
+        }
         for j in 0..2 {
             for (torque, speed) in run.torque[j].iter_mut().zip(&run.speed[j]).filter(|(t, _)| t.abs() > run.dead_band)
             {
@@ -217,5 +229,24 @@ mod tests {
         assert_eq!(remove(&mut [], &mut [once()]), None);
         assert!(remove(&mut [once()], &mut [once()]).is_some());
         assert_eq!(remove(&mut [until_the_turn(run(0.6, 0.0))], &mut [once()]), None, "they read otherwise");
+
+        // Without a yaw rate references confirm it all the same, and what a side in its dead band may have grows by it.
+        let unseen = || SpeedRun { yaw_rate: None, dead_band: 0.1, hidden: 0.1, ..once() };
+        let mut recordings = [unseen()];
+        assert!(remove(&mut [unseen()], &mut recordings).is_some());
+        assert!((recordings[0].hidden - 1.3).abs() < 1e-9, "{}", recordings[0].hidden);
+        // After driving sides may be wound up against each other.
+        let driven = || {
+            let mut run = once();
+            let rows = run.time.partition_point(|t| *t < 2.0);
+            run.speed.iter_mut().for_each(|side| side[..rows].fill(0.2));
+            run
+        };
+        assert_eq!(remove(&mut [driven()], &mut [driven()]), None);
+        assert_eq!(
+            remove(&mut [until_the_turn(run(0.01, 0.0))], &mut [until_the_turn(run(0.01, 0.0))]),
+            None,
+            "too small"
+        );
     }
 }

@@ -142,20 +142,21 @@ fn dispersion(best: f64, fault_free: f64) -> f64 {
 pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64], null_score: f64) -> Decision {
     let base: &Fitted = &found.retuned;
     let fault_free = fault_free_cost(problem, scatter);
-    let best = found.singles.iter().chain(&found.several).map(|t| t.fitted.cost).fold(base.cost, f64::min);
+    let sizes = problem.sizes();
+    // What is not told explains nothing: it counts neither as a hypothesis nor for what the best of them leaves.
+    let weighed = || {
+        let fits = found.singles.iter().chain(&found.several);
+        fits.filter(|t| all_matter(&t.hypothesis, &t.fitted.point.effects, &sizes))
+    };
+    let best = weighed().map(|t| t.fitted.cost).fold(base.cost, f64::min);
     let dispersion = dispersion(best, fault_free);
-    let mut scored: Vec<Scored> = found
-        .singles
-        .iter()
-        .chain(&found.several)
-        .filter(|t| all_matter(&t.hypothesis, &t.fitted.point.effects, &problem.sizes()))
+    let mut scored: Vec<Scored> = weighed()
         .map(|t| {
             let visits = visits::supporting(problem, base, t);
             let once = if visits.is_some_and(|n| n < SETTINGS.visits.needed) { PRICES.one_visit } else { 0.0 };
             let effects = &t.fitted.point.effects;
-            let form =
-                if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &problem.sizes()) };
-            let price = penalty(&t.hypothesis, effects, &problem.sizes()) + once + form;
+            let form = if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &sizes) };
+            let price = penalty(&t.hypothesis, effects, &sizes) + once + form;
             let score = (base.cost - t.fitted.cost) / dispersion - price + relief_counts(problem, found, t);
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })

@@ -141,7 +141,8 @@ impl Calibrated {
         }
         // Without references, and with one, the noise is what the best hypothesis leaves, and hypotheses are weighed by the noise.
         let is_noise_learnt = self.references.len() < CALIBRATING.enough_references;
-        // A law is compared with what a tuned simulation usually leaves: noise that is learnt holds what the law is to explain.
+        // A law is compared with what a tuned simulation usually leaves of wheels and gyro: noise of theirs that is learnt holds what the
+        // law is to explain. How much the body shakes its accelerometer no law explains.
         let usual = self.references.is_empty().then(|| (calibration.clone(), found.retuned.clone(), decision.clone()));
         for _ in 1..if is_noise_learnt { CALIBRATING.most_searches } else { 1 } {
             let before = problem(&robot, case, &recordings, &calibration, largest, options);

@@ -3,8 +3,9 @@
 use crate::calibrate::Calibration;
 use crate::case::Case;
 use crate::decision::{Decision, Scored};
-use crate::fit::Problem;
+use crate::fit::{Hypothesis, Problem};
 use crate::redundancy::Redundant;
+use crate::refits;
 use crate::settings::decision::SETTINGS;
 use crate::simulator::Simulator;
 use crate::visit::Visit;
@@ -13,6 +14,7 @@ use inference::Options;
 use inference::hypothesis::Variant;
 use inference::robust::NINETY;
 use std::cmp::Reverse;
+use std::collections::BTreeSet;
 
 /// All that an answer is made of.
 pub(crate) struct Judged<'a> {
@@ -42,34 +44,33 @@ impl Judged<'_> {
     /// may have moved, so that its probability is that of the hypothesis without it; alone, of "nothing is missing".
     pub(crate) fn without_sizes_of_zero(&self) -> Decision {
         let mut out = self.decision.clone();
-        let labels = |s: &Scored| s.trial.hypothesis.variants().map(Variant::label).collect::<Vec<_>>();
         let mut longest_first: Vec<usize> = (0..out.scored.len()).collect();
         longest_first.sort_by_key(|&i| Reverse(out.scored[i].trial.hypothesis.parts.len()));
-        let mut fell = vec![false; out.scored.len()];
+        let mut has_fallen = false;
         for i in longest_first {
-            let s = &out.scored[i];
+            let s = out.scored[i].clone();
             if s.probability < SETTINGS.answer.listed {
                 continue;
             }
-            let all = labels(s);
-            let stands = |part: &usize| !self.may_be_zero(&out.scored[i], *part);
-            let rest: Vec<String> = (0..all.len()).filter(stands).map(|part| all[part].clone()).collect();
-            if rest.len() == all.len() {
+            let parts = s.trial.hypothesis.parts.iter().enumerate();
+            let stands = parts.filter(|(part, _)| !self.may_be_zero(&s, *part)).map(|(_, part)| part.clone());
+            let rest = Hypothesis { parts: stands.collect(), ..s.trial.hypothesis.clone() };
+            if rest.parts.len() == s.trial.hypothesis.parts.len() {
                 continue;
             }
 
-            let heir = out.scored.iter().position(|other| labels(other) == rest);
-            let probability = out.scored[i].probability;
-            match heir {
-                Some(heir) => out.scored[heir].probability += probability,
-                None if rest.is_empty() => out.none += probability,
-                // Nobody fitted the rest alone.
-                None => continue,
-            }
+            has_fallen = true;
             out.scored[i].probability = 0.0;
-            fell[i] = true;
+            match out.scored.iter().position(|other| labels(&other.trial.hypothesis) == labels(&rest)) {
+                _ if rest.parts.is_empty() => out.none += s.probability,
+                Some(heir) => out.scored[heir].probability += s.probability,
+                None => {
+                    let heir = refits::keeping(self.problem, &s.trial, rest);
+                    out.scored.extend(heir.map(|trial| Scored { trial, ..s }));
+                }
+            }
         }
-        if fell.contains(&true) {
+        if has_fallen {
             out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         }
         out
@@ -82,20 +83,25 @@ impl Judged<'_> {
     }
 }
 
+/// The effects of a hypothesis, whichever was found first.
+fn labels(h: &Hypothesis) -> BTreeSet<String> {
+    h.variants().map(Variant::label).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::{Hypothesis, Point};
+    use crate::fit::Point;
     use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
     use inference::hypothesis::Place;
     use testing::robot;
 
-    /// An effect everywhere.
+    /// An effect in all places.
     fn of(id: &str) -> Variant {
         let forms = inference::hypothesis::variants(true).into_iter();
-        { forms }.find(|v| v.spec().id == id && v.place == Place::Whole).expect("in the catalogue")
+        { forms }.find(|v| v.spec().id == id && v.place != Place::Disc).expect("in the catalogue")
     }
 
     /// A hypothesis of such effects that are so large.
@@ -148,5 +154,24 @@ mod tests {
         approx::assert_relative_eq!(none.scored[0].probability, 0.9, epsilon = 1e-12);
         approx::assert_relative_eq!(none.none, 0.1, epsilon = 1e-12);
         assert_eq!(beside(50.0).scored[0].probability, 0.6, "a pull that is there");
+    }
+
+    #[test]
+    fn the_heir_of_two_effects_is_found_in_any_order_and_fitted_where_nobody_has() {
+        let (robot, viscous) = (robot(), of("viscous_friction"));
+        let (pull, radius) = (of("constant_pull"), of("wheel_radius_mismatch"));
+        let cuts = [cut(&driven(&robot, &[viscous.dose(&[1.0], None), pull.dose(&[50.0], None)], 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let three = |probability| scored(&p, &[(viscous, 1.0), (pull, 50.0), (radius, 1e-6)], probability);
+        let turned = scored(&p, &[(pull, 50.0), (viscous, 1.0)], 0.3);
+        let told_of = |scored| {
+            let told = told(&p, scored, 0.0);
+            { told.scored }.into_iter().map(|s| (s.trial.hypothesis.ids(), s.probability)).collect::<Vec<_>>()
+        };
+        let heirs = told_of(vec![three(0.7), turned]);
+        assert_eq!(heirs[0].0, ["constant_pull", "viscous_friction"]);
+        approx::assert_relative_eq!(heirs[0].1, 1.0, epsilon = 1e-12);
+        let fitted = told_of(vec![three(1.0)]);
+        assert_eq!(fitted[0], (vec!["viscous_friction", "constant_pull"], 1.0));
     }
 }

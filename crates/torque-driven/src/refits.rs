@@ -112,6 +112,15 @@ pub(crate) fn converge_members(problem: &Problem<'_>, whole: &Trial, members: &m
     best_first(members);
 }
 
+/// Fits the hypothesis that keeps some of a trial's effects, from where that trial has them; `None` where it lacks one of them.
+pub(crate) fn keeping(problem: &Problem<'_>, whole: &Trial, kept: Hypothesis) -> Option<Trial> {
+    let effects = whole.hypothesis.values_of(&kept, &whole.fitted.point.effects)?;
+    let point = handed_over::taken_back(problem, whole, &kept, effects);
+    let start = problem.begin(&kept, point, Some(whole.fitted.columns.clone()));
+    let fitted = problem.refine(&kept, start, FINALISTS.more_steps, Some(2));
+    Some(Trial { hypothesis: kept, fitted })
+}
+
 /// Fits hypotheses that hold all of `part`, and more, again from its tuning where they fit no better than it alone: these
 /// cannot have converged.
 pub(crate) fn converge_wholes(problem: &Problem<'_>, part: &Trial, wholes: &mut Vec<Trial>) {

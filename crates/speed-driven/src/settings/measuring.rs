@@ -107,6 +107,8 @@
         least: f64 = 0.5, "s", "guess";
         /// Stretches agree within this share of what the larger side reads.
         agree: f64 = 0.25, "1", "guess: a drive that holds the robot winds up anew each time";
+        /// What is read at rest is an offset from this share of the median of all readings on.
+        matters: f64 = 0.02, "1", "guess: less changes no load by as much as it varies";
         /// Half of what one way of driving takes more than the other over an offset that makes it, from and until.
         seen: [f64; 2] = [0.5, 1.5], "1", "guess";
     }
