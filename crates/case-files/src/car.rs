@@ -85,8 +85,8 @@ impl CarCase {
     ///
     /// # Errors
     /// Drives that do not determine an answer.
-    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-        let (findings, table) = examine(&self.case, progress)?;
+    pub fn diagnose(&self, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        let (findings, table) = examine(&self.case, next, progress)?;
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
         out.predicted_paths = self.held_out.iter().map(|d| findings.predict(d)).collect();
         Ok(out)

@@ -95,15 +95,15 @@ impl ColumnsCase {
         }
     }
 
-    /// Diagnoses the case.
+    /// Diagnoses the case, with advice on a next drive of so many seconds.
     ///
     /// # Errors
     /// Drives that do not determine an answer.
-    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+    pub fn diagnose(&self, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
         match self {
-            Self::Odometry(case) => case.diagnose(progress),
-            Self::Car(case) => case.diagnose(progress),
-            Self::Wheeled(case) => case.diagnose(progress),
+            Self::Odometry(case) => case.diagnose(next, progress),
+            Self::Car(case) => case.diagnose(next, progress),
+            Self::Wheeled(case) => case.diagnose(next, progress),
         }
     }
 

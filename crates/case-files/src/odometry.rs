@@ -85,8 +85,8 @@ impl OdometryCase {
     ///
     /// # Errors
     /// Drives that do not determine an answer.
-    pub fn diagnose(&self, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
-        let findings = odometry::diagnose(&self.case, progress)?;
+    pub fn diagnose(&self, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
+        let findings = odometry::examine(&self.case, next, progress)?;
         let table = left_out(&self.case, progress)?;
         let findings = findings.after(&table);
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());

@@ -57,7 +57,7 @@ impl Columns {
             names.join(", ")
         );
         let measured = Measured::of_duration(case.duration());
-        let diagnosis = case.diagnose(&|_| {})?;
+        let diagnosis = case.diagnose(None, &|_| {})?;
         Ok((measured, case.robot_name().to_owned(), case.envelope(diagnosis)))
     }
 }

@@ -9,6 +9,7 @@
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
 //! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
 //! * `ahead`: forecasts of a pose: where they begin, and how far off they are. `error`: why a case cannot be compared.
 //! * `beside`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
@@ -23,7 +24,9 @@ mod error;
 mod fit;
 mod found;
 mod look_alikes;
+pub mod menu;
 mod name;
+pub mod next_drive;
 mod observed;
 mod said;
 #[cfg(test)]

@@ -150,7 +150,7 @@ pub fn stand_ins(
 /// Evidence of a set of causes, nats; `None` where a constant that cannot be negative would be so by more than its sigma: about
 /// such a fit its other numbers mean nothing, whatever they gain. Of such constants the prior is the positive half of the Gaussian,
 /// which multiplies the evidence by `2 Φ(mean/σ)` of the posterior.
-fn score(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> Option<f64> {
+pub(crate) fn score(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> Option<f64> {
     let covariance = covariance(known, causes, set);
     let gaussian = evidence.of(&covariance)?;
     let halves: Vec<usize> = set.iter().filter_map(|&c| causes[c].at_least_zero).collect();
@@ -169,11 +169,11 @@ fn score(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usi
     Some(gaussian + of_halves)
 }
 
-fn with(set: &[usize], cause: usize) -> Vec<usize> {
+pub(crate) fn with(set: &[usize], cause: usize) -> Vec<usize> {
     set.iter().copied().chain([cause]).collect()
 }
 
-fn less(set: &[usize], cause: usize) -> Vec<usize> {
+pub(crate) fn less(set: &[usize], cause: usize) -> Vec<usize> {
     set.iter().copied().filter(|c| *c != cause).collect()
 }
 

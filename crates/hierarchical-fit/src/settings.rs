@@ -99,6 +99,32 @@
         most: f64 = 0.15, "1", "guess; what moves farther is asked a cause for";
     }
 
+    /// Answers that a next drive is to tell apart.
+    next_drive: NextDrive {
+        /// Answers less probable than this are none.
+        least: f64 = 0.01, "1", "equal to that of speed-driven robots";
+        /// Answers at most.
+        most: usize = 6, "1", "equal to that of speed-driven robots";
+    }
+
+    /// Drives to choose from.
+    menu: Menu {
+        /// Quantile of speeds, turning and bends that were driven which is asked for at most.
+        quantile: f64 = 0.95, "1", "guess; what is beyond may be noise";
+        /// Share of the fastest speed, or turning, from which on a robot drives, or turns.
+        moving: f64 = 0.15, "1", "guess";
+        /// A robot that was never faster hardly moved.
+        least_speed: f64 = 0.01, "m/s", "guess";
+        /// Share of the time from which on a robot turns on the spot, or drives backward.
+        spun: f64 = 0.02, "1", "guess";
+        /// Slow, medium and fast, as shares of the fastest.
+        speeds: [f64; 3] = [0.35, 0.6, 1.0], "1", "equal to those of speed-driven robots";
+        /// Bends, as a share of the tightest.
+        tight: f64 = 0.7, "1", "guess";
+        /// Rounds of drives that repeat two levels.
+        repeats: usize = 3, "1", "guess";
+    }
+
     /// Drives beside their simulations, on pages and in pictures.
     traces: Traces {
         /// Distance of the rows that are shown.

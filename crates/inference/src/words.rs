@@ -78,6 +78,12 @@ pub fn probability(p: f64) -> String {
     }
 }
 
+/// A number with two digits that count.
+pub fn two_digits(x: f64) -> String {
+    let decimals = (1 - x.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{x:.decimals$}")
+}
+
 /// The drive that reveals an effect best.
 pub fn revealed_by(id: &str) -> Option<&'static str> {
     robot_model::effects::catalogue::<f64>().iter().map(|e| e.spec()).find(|c| c.id == id).map(|c| c.revealed_by)

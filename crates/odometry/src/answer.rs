@@ -25,6 +25,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     };
     let mut out = found.verdict(table.by_session.iter().flat_map(of_session).collect());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
+    out.next.clone_from(&findings.next);
     out.sentences = sentences(findings, &found, &out, has_references);
     out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));

@@ -13,6 +13,7 @@ use crate::error::OdometryError;
 use crate::findings::Findings;
 use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
+use crate::next_drive::{self, Found};
 use crate::settings::SETTINGS;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
@@ -65,6 +66,14 @@ impl Solved {
 /// # Errors
 /// When the robot cannot be, or there are too few drives.
 pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, OdometryError> {
+    examine(case, None, progress)
+}
+
+/// The same with advice on a next drive of so many seconds.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<Findings, OdometryError> {
     case.robot.checked()?;
     if case.recordings.is_empty() {
         return Err(OdometryError::Case(CaseError::Empty));
@@ -75,8 +84,16 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Odomet
     let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
     let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
     progress("naming what would make them agree");
-    let plainer = solved.plainer().map(|plainer| Box::new(findings(&case, &data, &plainer)));
-    Ok(Findings { plainer, ..findings(&case, &data, &solved) })
+    let of = |solved: &Solved| {
+        let next = next.map(|length| {
+            progress("looking for the drive that tells the rivals apart");
+            let Solved { causes, prior, fit, named, .. } = solved;
+            next_drive::advise(&case, &Found { data: &data, causes, prior, fit, chosen: &named.chosen }, length)
+        });
+        Findings { next, ..findings(&case, &data, solved) }
+    };
+    let plainer = solved.plainer().map(|plainer| Box::new(of(&plainer)));
+    Ok(Findings { plainer, ..of(&solved) })
 }
 
 /// What is known before the recordings: of the robot file, or of the references.
@@ -302,6 +319,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
         laws: solved.laws(&case.robot),
         plainer: None,
+        next: None,
     }
 }
 

@@ -138,7 +138,7 @@ impl Drive {
         Ok(out)
     }
 
-    fn of_columns(
+    pub(crate) fn of_columns(
         name: &str,
         robot: &WheeledRobot,
         time: Vec<f64>,

@@ -7,7 +7,7 @@ use crate::motion::Laws;
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
 use hierarchical_fit::{Answer, Estimate, NamedCause};
-use verdict::{PredictedPath, Trace};
+use verdict::{Advice, PredictedPath, Trace};
 
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
@@ -38,6 +38,8 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// Advice on the next drive, where it was asked for.
+    pub next: Option<Advice>,
     /// As stated, re-tuned, with the named causes.
     pub(crate) laws: [Laws; 3],
     /// The same without causes that little shows, where there are some.

@@ -112,6 +112,34 @@ impl<'a> Kinematics<'a> {
         (inverse * right).into()
     }
 
+    /// Turns of the measured wheels, rad, in a motion of the body, m and rad: its way along what each of them rules, over what a turn
+    /// adds to that.
+    pub(crate) fn turns(&self, motion: [f64; 3], steering: f64) -> Vec<f64> {
+        let mut out = vec![0.0; self.fixed.right.len()];
+        for rule in self.rules(steering, |_| true) {
+            if let Some((wheel, metres)) = rule.turn {
+                let along: f64 = rule.row.iter().zip(motion).map(|(row, way)| row * way).sum();
+                out[wheel] = if metres == 0.0 { 0.0 } else { along / metres };
+            }
+        }
+        out
+    }
+
+    /// The recorded steering angle, rad, at which the steered wheel rolls where the body moves so, within a right angle; as it was where
+    /// that wheel stands.
+    pub(crate) fn steering(&self, [ahead, left, turning]: [f64; 3], before: f64) -> f64 {
+        let Some(wheel) = self.robot.wheels.iter().find(|wheel| wheel.steered) else { return before };
+        let [x, y] = [wheel.place[0] * self.geometry.along, wheel.place[1] * self.geometry.across];
+        let along = [ahead - turning * y, left + turning * x];
+        if along[0].hypot(along[1]) < f64::EPSILON {
+            return before;
+        }
+        // A wheel rolls backward as well as forward.
+        let twice = 2.0 * (along[1].atan2(along[0]) - wheel.direction);
+        let angle = 0.5 * twice.sin().atan2(twice.cos());
+        (angle - self.geometry.steering_offset) / self.geometry.steering_gain
+    }
+
     fn rules(&self, steering: f64, of: impl Fn(&Wheel) -> bool) -> Vec<Rule> {
         let mut out = Vec::new();
         self.each_rule(steering, of, |rule| out.push(rule));
@@ -255,6 +283,23 @@ mod tests {
         let of = motion(&WheeledRobot::omni_3(0.051, 0.195), &q, 0.0);
         let turned = -(w[0] + w[1] + w[2]) / (3.0 * 0.195);
         assert_near(of, [(w[1] - w[0]) / 3.0_f64.sqrt(), (2.0 * w[2] - w[0] - w[1]) / 3.0, turned]);
+    }
+
+    #[test]
+    fn turns_of_a_motion_make_that_motion() {
+        for (robot, wanted) in [
+            (WheeledRobot::differential(0.042, 0.2), [0.3, 0.0, -0.8]),
+            (WheeledRobot::omni_3(0.051, 0.195), [0.3, -0.2, 0.5]),
+            (WheeledRobot::mecanum_4(0.03, 0.2, 0.22), [-0.3, 0.1, 0.5]),
+            (WheeledRobot::tricycle(0.0325, 0.15), [-0.3, 0.0, 0.5]),
+        ] {
+            let geometry = Geometry::given(&robot);
+            let kinematics = Kinematics::new(&robot, &geometry);
+            let steering = if robot.is_steered() { kinematics.steering(wanted, 0.0) } else { 0.0 };
+            assert!(steering.abs() < std::f64::consts::FRAC_PI_2);
+            assert_near(kinematics.motion(&kinematics.turns(wanted, steering), steering), wanted);
+            assert_eq!(kinematics.steering([0.0; 3], 0.3), 0.3, "as it was");
+        }
     }
 
     /// The open data number the wheels front left, front right, rear left, rear right, the right ones turned about.

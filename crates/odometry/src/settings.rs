@@ -4,6 +4,12 @@
     /// Tuned numbers of the comparison of wheel motion with a measured pose.
     pub(crate) struct Settings;
 
+    /// Drives that would tell the remaining answers apart.
+    next_drive: NextDrive {
+        /// Distance of their rows.
+        period: f64 = 0.05, "s", "guess; usual rows of counts";
+    }
+
     /// Wheels and what they determine.
     wheels: Wheels {
         /// Wheels at most.

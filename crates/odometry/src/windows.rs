@@ -109,8 +109,8 @@ impl<'a> Data<'a> {
         constants: &'a [Constant],
         drives: Vec<&'a Drive>,
     ) -> Result<Self, OdometryError> {
-        let windows: Vec<Vec<Window>> = drives.iter().map(|d| windows(d, RULES.length, RULES.length)).collect();
-        let moving = windows.iter().flatten().filter(|w| w.is_moving()).count();
+        let out = Self::of(robot, constants, drives);
+        let moving = out.windows.iter().flatten().filter(|w| w.is_moving()).count();
         if moving < RULES.least {
             return Err(OdometryError::Case(CaseError::Short {
                 windows: moving,
@@ -118,6 +118,12 @@ impl<'a> Data<'a> {
                 needed: RULES.least,
             }));
         }
+        Ok(out)
+    }
+
+    /// The same of any number of windows.
+    pub(crate) fn of(robot: &'a WheeledRobot, constants: &'a [Constant], drives: Vec<&'a Drive>) -> Self {
+        let windows: Vec<Vec<Window>> = drives.iter().map(|d| windows(d, RULES.length, RULES.length)).collect();
         let mut sessions: Vec<String> = Vec::new();
         let mut session = Vec::new();
         for drive in &drives {
@@ -135,7 +141,7 @@ impl<'a> Data<'a> {
         } else {
             RULES.floor
         };
-        Ok(Self { robot, drives, constants, windows, session, sessions, dropped, floor })
+        Self { robot, drives, constants, windows, session, sessions, dropped, floor }
     }
 
     /// The same drives in windows of another length, of which none is left out.

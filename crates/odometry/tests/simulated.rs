@@ -24,6 +24,20 @@ fn expected(hidden: Hidden) -> &'static str {
     }
 }
 
+#[test]
+fn what_only_turns_show_gets_a_turning_drive_advised() {
+    for kind in KINDS {
+        let case = drawn(kind, Hidden::Distance, 3, 60.0, 7);
+        let next = odometry::examine(&case.case, Some(12.0), &|_| {}).expect("an answer").next.expect("advice");
+        let total: f64 = next.rivals.iter().map(|r| r.probability).sum();
+        assert!((total - 1.0).abs() < 1e-9, "{:?}", next.rivals);
+        let narrows = |m: &verdict::Manoeuvre| m.narrows.expect("a size");
+        let straight = next.manoeuvres.iter().find(|m| m.name == "straight at three speeds").expect("on the menu");
+        let turning = next.manoeuvres.iter().map(narrows).fold(1.0, f64::min);
+        assert!(narrows(straight) > turning, "{kind:?}: {turning} and {}", narrows(straight));
+    }
+}
+
 fn found(case: &Drawn) -> Findings {
     diagnose(&case.case, &|_| {}).expect("an answer")
 }

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let mut case = read.with_context(|| format!("'{robot}' is no robot file of kind car"))?.case;
     let all = case.recordings.len();
     case.recordings.retain(single_track::Drive::has_pose);
-    let (findings, table) = examine(&case, &|_| {})?;
+    let (findings, table) = examine(&case, None, &|_| {})?;
 
     let note = format!(
         "{} of {all} drives have a pose; each is left out in turn, with naming and fit anew. Medians over forecasts that begin \

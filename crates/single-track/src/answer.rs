@@ -14,6 +14,7 @@ use verdict::Diagnosis;
 pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
     let found = findings.said.found();
     let mut out = found.verdict(table.free_runs());
+    out.next.clone_from(&findings.next);
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &found, &out, has_references);
     out.sentences.extend(found.causes(&[ENCODER_SCALE.id], &out.free_runs));

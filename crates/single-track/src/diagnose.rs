@@ -10,12 +10,13 @@ use crate::clock::{self, Apart};
 use crate::drive::Drive;
 use crate::left_out::{Table, left_out_of};
 use crate::model::{Laws, STEP};
+use crate::next_drive;
 use crate::rows::Shown;
 use crate::settings::SETTINGS;
 use crate::solve::solve;
 use crate::traces::{predicted, trace};
 use catalogue::car::CAR_CLOCK_DELAY;
-use verdict::{PredictedPath, Trace};
+use verdict::{Advice, PredictedPath, Trace};
 
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
@@ -32,6 +33,8 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings with a pose beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// Advice on the next drive, where it was asked for.
+    pub next: Option<Advice>,
     /// Usual offset, s, and rate of the car's clock, where they were measured before the fit.
     pub(crate) clock: Option<[f64; 2]>,
     /// Re-tuned, with the named causes.
@@ -69,11 +72,12 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, CarErr
     Ok(findings(&case, &solved, apart.as_ref()))
 }
 
-/// The same with the forecasts of drives that are left out in turn, from one fit.
+/// The same with the forecasts of drives that are left out in turn, from one fit, and with advice on a next drive of so many
+/// seconds.
 ///
 /// # Errors
 /// As [`diagnose`].
-pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), CarError> {
+pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<(Findings, Table), CarError> {
     if case.recordings.is_empty() {
         return Err(CarError::Empty);
     }
@@ -83,6 +87,10 @@ pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table)
     let solved = solve(&case.car, &case.references, &all)?;
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
+    findings.next = next.map(|length| {
+        progress("looking for the drive that tells the rivals apart");
+        next_drive::advise(&solved, case.car.encoder_window, length)
+    });
     Ok((findings, table))
 }
 
@@ -112,6 +120,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         ],
         told,
         traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
+        next: None,
         clock: apart.map(|apart| apart.usual),
         laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.model, p.mean.as_slice())),
     }

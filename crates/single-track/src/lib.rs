@@ -29,6 +29,7 @@ mod forecast;
 mod laws;
 mod left_out;
 mod model;
+mod next_drive;
 mod rivals;
 mod rows;
 mod settings;

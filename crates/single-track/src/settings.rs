@@ -4,6 +4,16 @@
     /// Tuned numbers of the comparison of cars with the single-track model.
     pub(crate) struct Settings;
 
+    /// Drives that would tell the remaining answers apart.
+    next_drive: NextDrive {
+        /// Time in which the car comes to the speed that it should have.
+        follows: f64 = 0.3, "s", "guess; a driver";
+        /// Speed below which bends are asked for as at this one.
+        stands: f64 = 0.1, "m/s", "guess";
+        /// Throttle with which a car drives.
+        usual_throttle: f64 = 0.2, "1", "guess";
+    }
+
     /// Clocks of car and pose that are farther apart than a fit finds. Grids and limits are those of wheel counts.
     clock: Clock {
         /// Delay up to which a fit finds it by itself.

@@ -83,7 +83,20 @@ fn nothing_is_named_of_a_car_as_stated() {
 
 #[test]
 fn left_out_drives_are_forecast_better_with_the_cause_than_as_stated() {
-    let (_, table) = examine(&case(Hidden { centre: 0.05, ..Hidden::default() }, 5), &|_| {}).expect("a table");
+    let (findings, table) =
+        examine(&case(Hidden { centre: 0.05, ..Hidden::default() }, 5), Some(12.0), &|_| {}).expect("a table");
+    // What is found is among what may still be true, and the car is asked for no spins.
+    let next = findings.next.as_ref().expect("advice");
+    assert!(
+        next.rivals.iter().any(|r| r.effects.iter().any(|e| e.starts_with("steering_centre"))),
+        "{:?}",
+        next.rivals
+    );
+    assert!(
+        next.manoeuvres.len() > 5 && next.manoeuvres.iter().all(|m| !m.name.contains("spin")),
+        "{:?}",
+        next.manoeuvres
+    );
     let error = |row: usize| table.rows[row].1[LENGTHS.len() - 1].medians().expect("forecasts")[0];
     assert_eq!(table.drives, 3);
     assert!(error(CORRECTED) < 0.5 * error(0), "{} beside {}", error(CORRECTED), error(0));

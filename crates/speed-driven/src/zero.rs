@@ -38,17 +38,19 @@ fn rests(run: &SpeedRun) -> Vec<Rest> {
     stretches.into_iter().filter(|rows| rows.len() as f64 * run.period() >= ZERO.least).map(of).collect()
 }
 
+/// The stretch before the robot drives.
+fn first(rests: &[Rest]) -> Option<&Rest> {
+    rests.first().filter(|rest| rest.is_first)
+}
+
 /// What both sides read before they drive, N m, if all recordings agree, and some stretch in which the robot looks another way or
 /// the references do, too. After a turn sides may be wound up against each other: such stretches say nothing.
 fn at_rest(references: &[SpeedRun], recordings: &[SpeedRun]) -> Option<[f64; 2]> {
     let [of_references, of_recordings] =
         [references, recordings].map(|runs| runs.iter().map(rests).collect::<Vec<_>>());
     let all = || of_references.iter().chain(&of_recordings);
-    fn first(rests: &Vec<Rest>) -> Option<&Rest> {
-        rests.first().filter(|rest| rest.is_first)
-    }
-    let firsts = |runs: &[Vec<Rest>]| runs.iter().filter_map(first).count();
-    let before = || all().filter_map(first);
+    let firsts = |runs: &[Vec<Rest>]| runs.iter().filter_map(|rests| first(rests)).count();
+    let before = || all().filter_map(|rests| first(rests));
 
     let zero = [0, 1].map(|j| median(before().map(|r| r.torque[j])).unwrap_or(0.0));
     let largest = zero[0].abs().max(zero[1].abs());

@@ -53,6 +53,14 @@ pub struct Manoeuvre {
     pub profile: Vec<[f64; 3]>,
     /// When the drives are given no torque, s.
     pub torque_free: Vec<[f64; 2]>,
+    /// Where the speed points in the robot's axes, rad: 0 forward, π/2 to the left.
+    #[serde(default, skip_serializing_if = "is_forward")]
+    pub direction: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the form that serde asks for")]
+fn is_forward(direction: &f64) -> bool {
+    *direction == 0.0
 }
 
 impl Manoeuvre {
@@ -69,6 +77,7 @@ impl Manoeuvre {
             start,
             profile: course.points,
             torque_free: course.torque_free,
+            direction: 0.0,
         }
     }
 
@@ -84,6 +93,12 @@ impl Manoeuvre {
     /// Wanted speed m/s and yaw rate rad/s at a time.
     pub fn wanted(&self, t: f64) -> [f64; 2] {
         self.course().at(t)
+    }
+
+    /// Wanted speed forward and to the left, m/s, and yaw rate, rad/s, at a time.
+    pub fn wanted_twist(&self, t: f64) -> [f64; 3] {
+        let [speed, turning] = self.wanted(t);
+        [speed * self.direction.cos(), speed * self.direction.sin(), turning]
     }
 
     /// Whether the drives are given no torque at a time.

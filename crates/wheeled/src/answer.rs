@@ -14,6 +14,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     let found = findings.said.found();
     let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
+    out.next.clone_from(&findings.next);
     out.sentences = found.undecided().into_iter().collect();
     out.sentences.push(headline(findings, &found, has_references));
     if findings.said.answer == Answer::Retune {

@@ -4,11 +4,12 @@ use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
 use hierarchical_fit::{Said, Solved, Unexplained};
-use verdict::{PredictedPath, Trace};
+use verdict::{Advice, PredictedPath, Trace};
 
 use crate::constants::{Has, causes};
 use crate::drive::{Drive, STEP};
 use crate::left_out::{Table, left_out_of, predicted, trace};
+use crate::next_drive;
 use crate::robot::AnyWheels;
 use crate::rows::{Constants, Shown, data};
 use crate::settings::SETTINGS;
@@ -35,6 +36,8 @@ pub struct Findings {
     pub told: Vec<String>,
     /// The recordings with a pose beside the simulations that were fitted to them.
     pub traces: Vec<Trace>,
+    /// Advice on the next drive, where it was asked for.
+    pub next: Option<Advice>,
     /// The robot with its constants re-tuned, and with the named causes.
     model: Constants,
     thetas: [Vec<f64>; 2],
@@ -58,14 +61,19 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Wheele
     Ok(findings(case, &solved(case, progress)?))
 }
 
-/// The same with the forecasts of drives that are left out in turn, from one fit.
+/// The same with the forecasts of drives that are left out in turn, from one fit, and with advice on a next drive of so many
+/// seconds.
 ///
 /// # Errors
 /// As [`diagnose`].
-pub fn examine(case: &Case, progress: &dyn Fn(&str)) -> Result<(Findings, Table), WheeledError> {
+pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<(Findings, Table), WheeledError> {
     let solved = solved(case, progress)?;
     let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
+    findings.next = next.map(|length| {
+        progress("looking for the drive that tells the rivals apart");
+        next_drive::advise(&solved, length)
+    });
     Ok((findings, table))
 }
 
@@ -105,6 +113,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
         ],
         told,
         traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
+        next: None,
         model: data.model.clone(),
         thetas: [&named.retuned, &named.posterior].map(|p| p.mean.as_slice().to_vec()),
     }

@@ -22,6 +22,7 @@ mod drive;
 pub mod file;
 mod left_out;
 mod model;
+mod next_drive;
 mod robot;
 mod rows;
 mod settings;

@@ -27,6 +27,16 @@
         warm: f64 = 0.3, "s", "guess; several lags of usual current loops";
     }
 
+    /// Drives that would tell the remaining answers apart.
+    next_drive: NextDrive {
+        /// Distance of the instants at which the drives that were made show how fast the robot goes.
+        looked: f64 = 0.2, "s", "guess";
+        /// Time in which a motor comes to the speed that it should have.
+        follows: f64 = 0.15, "s", "guess; usual speed controllers";
+        /// Speed below which a steered wheel keeps its direction.
+        stands: f64 = 0.01, "m/s", "guess";
+    }
+
     /// Telling columns in other units than the robot file says.
     units: Units {
         /// Stretches over which gyro and wheels are compared with the pose.

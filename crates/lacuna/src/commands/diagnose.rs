@@ -281,10 +281,10 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 
 /// Diagnoses a case whose robot file names its columns.
 fn verdict_of_columns(args: &Args, case: &ColumnsCase, progress: Progress) -> Result<Outcome> {
-    let diagnosis = case.diagnose(&|what| progress.stage(what))?;
+    let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);
+    let diagnosis = case.diagnose(next, &|what| progress.stage(what))?;
     drop(progress);
 
-    odometry::warn_of_unused(case.kind().name(), &[(args.next, "--next")]);
     let envelope = case.envelope(diagnosis);
     match &args.predictions {
         Some(_) if envelope.diagnosis.predicted_paths.is_empty() => warning(NOTHING_HELD_OUT),

@@ -5,18 +5,18 @@ use pages::text_table::number;
 use recordings::suggest::nearest;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use case_files::envelope::Program;
+use case_files::own_effects;
 use clap::Args as ClapArgs;
 use inference::Options;
 use robot_file::Causality;
 use robot_model::Robot;
 use serde_json::json;
-use verdict::Advice;
-use verdict::{Manoeuvre, wheel_speeds};
+use verdict::{Advice, Diagnosis, Manoeuvre, wheel_speeds};
 
 use super::diagnose::{self, Input, NEXT_LENGTH};
-use super::{Outcome, OwnEffects, Usage, listed};
+use super::{Outcome, OwnEffects, Usage, listed, odometry};
 use crate::console::{Progress, emit, emit_json, heading};
 
 const EXAMPLES: &str = "\
@@ -27,7 +27,7 @@ Examples:
 
 The case is diagnosed first, as by `lacuna diagnose`. The profile has time,
 wanted speed and yaw rate, wheel speeds, and whether the drives get no torque
-(coasting). Record it, add it to the recordings, and diagnose again.
+(coasting); of robots whose files name their columns the body's speeds alone. Record it, add it to the recordings, and diagnose again.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -72,19 +72,34 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let known = args.effects.known()?;
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
+    if let Some(case) = odometry::case(&args.input)? {
+        ensure!(known.own().is_empty(), own_effects::refused(known, case.kind().name()));
+        let diagnosis = case.diagnose(Some(args.seconds), &|what| progress.stage(what))?;
+        drop(progress);
+        return write(args, (case.robot_name(), &[]), &diagnosis, twists);
+    }
     let (case, _) = diagnose::read(&args.input, known)?;
     let options = Options { next: Some(args.seconds), same_robot: args.input.same_robot, known, ..Options::default() };
     let diagnosis = case.diagnose(&options, &|what| progress.stage(what))?;
     drop(progress);
+    let by_wheels = |wanted: &Manoeuvre| profile(wanted, &case.robot.robot, case.robot.causality);
+    write(args, (&case.robot.name, &case.lost()), &diagnosis, by_wheels)
+}
+
+/// Writes the advice of a diagnosis, of a robot and with what was lost of its input.
+fn write(
+    args: &Args,
+    (robot, lost): (&str, &[String]),
+    diagnosis: &Diagnosis,
+    profile: impl Fn(&Manoeuvre) -> String,
+) -> Result<Outcome> {
     let Some(advice) = &diagnosis.next else {
         bail!("this diagnosis came without advice");
     };
     let wanted = chosen(advice, args.manoeuvre.as_deref())?;
-    let lost = case.lost();
     if let Some(file) = &args.profile {
         let Some(wanted) = wanted else { bail!("there is no drive to write: {}", withheld(advice)) };
-        std::fs::write(file, profile(wanted, &case.robot.robot, case.robot.causality))
-            .with_context(|| format!("cannot write '{}'", file.display()))?;
+        std::fs::write(file, profile(wanted)).with_context(|| format!("cannot write '{}'", file.display()))?;
     }
     if let Some(file) = &args.picture {
         let Some(wanted) = wanted else { bail!("there is no drive to draw: {}", withheld(advice)) };
@@ -92,13 +107,13 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         std::fs::write(file, svg).with_context(|| format!("cannot write '{}'", file.display()))?;
     }
     if let Some(target) = &args.json {
-        let whole = json!({ "format": 1, "program": Program::default(), "robot": case.robot.name, "lost": lost, "next": advice });
+        let whole = json!({ "format": 1, "program": Program::default(), "robot": robot, "lost": lost, "next": advice });
         emit_json(target, &whole)?;
     }
     if args.json.as_deref() != Some("-") {
-        emit(&text(advice, wanted, diagnosis.sentences.first(), &lost))?;
+        emit(&text(advice, wanted, diagnosis.sentences.first(), lost))?;
     }
-    Ok(Outcome::of(&lost))
+    Ok(Outcome::of(lost))
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -135,6 +150,17 @@ fn profile(m: &Manoeuvre, robot: &Robot<f64>, causality: Causality) -> String {
         let [left, right] = wheel_speeds(wanted, robot.wheel_radius, lever);
         let free = u8::from(m.is_torque_free(t));
         out += &format!("{t:.2},{:.4},{:.4},{left:.4},{right:.4},{free}\n", wanted[0], wanted[1]);
+    }
+    out
+}
+
+/// The same of a robot that names its columns, whose wheels stand as they please: what its body is to do.
+fn twists(m: &Manoeuvre) -> String {
+    let mut out = "t_s,v_ahead_m_s,v_left_m_s,omega_rad_s\n".to_owned();
+    for k in 0..=(m.length() * RATE).round() as usize {
+        let t = k as f64 / RATE;
+        let [ahead, left, turning] = m.wanted_twist(t);
+        out += &format!("{t:.2},{ahead:.4},{left:.4},{turning:.4}\n");
     }
     out
 }

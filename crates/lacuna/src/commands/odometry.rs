@@ -5,7 +5,6 @@ use anyhow::{Result, bail};
 use case_files::columns_case::ColumnsCase;
 
 use super::diagnose::Input;
-use crate::console::warning;
 
 /// The case that the arguments name, if its robot is of one of these kinds.
 pub(crate) fn case(input: &Input) -> Result<Option<ColumnsCase>> {
@@ -29,11 +28,4 @@ pub(crate) fn case(input: &Input) -> Result<Option<ColumnsCase>> {
         );
     }
     Ok(Some(case))
-}
-
-/// Says what was asked for that such a diagnosis does not write yet.
-pub(crate) fn warn_of_unused(kind: &str, asked: &[(bool, &str)]) {
-    for (_, option) in asked.iter().filter(|(is, _)| *is) {
-        warning(&format!("a diagnosis of kind {kind} does not write what {option} asks for; use --json"));
-    }
 }
