@@ -38,7 +38,7 @@ pub const COUNTS_CLOCK_OFFSET: CauseSpec = CauseSpec {
     name: "counts and pose are recorded apart in time",
     robots: ROBOTS,
     meaning: "The counts of a row belong to another instant than its pose.",
-    size: "by how much the counts are behind",
+    size: "by how much the pose comes later than the counts of its row; of robots under torque, by how much their channels come later than the pose",
     unit: "s",
     recognised: "Errors at starts, stops and at the beginning of turns that cancel afterwards",
     revealed_by: "starts, stops and reversals of turning",

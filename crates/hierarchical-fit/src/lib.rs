@@ -47,7 +47,7 @@ pub use fit::Fit;
 pub use found::{Answer, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};
-pub use said::{Said, Unexplained, Valued};
+pub use said::{Said, Unexplained, Valued, beyond_references, is_beyond_references};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, solve};
 pub use weigh::{Evidence, Posterior};

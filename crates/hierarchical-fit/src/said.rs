@@ -62,6 +62,8 @@ pub struct Said {
     pub is_refuted: bool,
     /// Root mean square error of windows over that of a robot that keeps still: as given, re-tuned, with the named causes.
     pub shares: [f64; 3],
+    /// The same that the best answer leaves of the references; `None` without any.
+    pub left_of_references: Option<f64>,
 }
 
 impl<D: Observed> Solved<D> {
@@ -94,6 +96,7 @@ impl<D: Observed> Solved<D> {
             is_scattered: data.drives.len() > 1 && is_widest(fit.factor),
             is_refuted: false,
             shares: [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|t| data.share(t.as_slice())),
+            left_of_references: self.left_of_references,
             constants: all,
         }
     }
@@ -118,7 +121,9 @@ impl Said {
     /// Decides the answer. `is_stated`: whether a constant that moved is told as re-tuned.
     pub fn decide(&mut self, rules: Unexplained, is_stated: impl Fn(&Estimate) -> bool) {
         let [_, retuned, left] = self.shares;
-        let is_left = left > rules.most || (left > rules.share && left > rules.of_retuned * retuned);
+        let is_left = left > rules.most
+            || (left > rules.share && left > rules.of_retuned * retuned)
+            || is_beyond_references(left, self.left_of_references);
         self.answer = if is_left || (self.is_scattered && !self.named.is_empty()) {
             Answer::Unknown
         } else if !self.named.is_empty() {
@@ -152,6 +157,23 @@ impl Said {
             shares: self.shares,
         }
     }
+}
+
+/// Whether so many times as much is left of the recordings, as a share of their motion, as of the references that something is missing
+/// which the answer does not hold.
+pub fn is_beyond_references(left: f64, of_references: Option<f64>) -> bool {
+    let rules = SETTINGS.beside_references;
+    of_references.is_some_and(|usual| left > rules.least && left > rules.times * usual)
+}
+
+/// The sentence about it, where it is so.
+pub fn beyond_references(left: f64, of_references: Option<f64>) -> Option<String> {
+    let usual = of_references.filter(|_| is_beyond_references(left, of_references))?;
+    Some(format!(
+        " The same model leaves {:.1} % of the motion of the references, so that {:.0} times as much is no noise.",
+        100.0 * usual,
+        left / usual.max(f64::MIN_POSITIVE)
+    ))
 }
 
 #[cfg(test)]
@@ -189,6 +211,7 @@ mod tests {
                 is_scattered,
                 is_refuted: false,
                 shares,
+                left_of_references: None,
             };
             said.decide(rules, |e| e.name == "length");
             said.answer
@@ -223,6 +246,7 @@ mod tests {
                 is_scattered: false,
                 is_refuted: false,
                 shares: [1.0, 0.2, left],
+                left_of_references: None,
             };
             said.doubt(&[free_run(errors)], 0.05);
             (said.answer, said.is_refuted)

@@ -91,6 +91,14 @@
         nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
     }
 
+    /// What is left of recordings beside what is left of references.
+    beside_references: BesideReferences {
+        /// So many times as much, as a share of the motion, is something that the answer does not hold.
+        times: f64 = 4.0, "1", "guess; other speeds and turns double it";
+        /// Below this share nothing is asked for.
+        least: f64 = 0.02, "share", "guess";
+    }
+
     /// References and recordings of different days.
     visits: Visits {
         /// Distance of a constant in the recordings from that in the references, in sigmas with which the owner knows it.

@@ -27,17 +27,19 @@ pub struct Solved<D: Observed> {
     pub retuned: Fit,
     /// What was named.
     pub named: Named,
-    /// Whether what was known comes from references.
-    pub has_references: bool,
+    /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
+    pub left_of_references: Option<f64>,
 }
 
 /// Fits drives and names causes, after references in which the model was right; `None` where equations have no solution.
 pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: Vec<Cause>) -> Option<Solved<D>> {
     let mut prior = data.prior();
+    let mut left_of_references = None;
     if let Some(right) = references {
         // What they may be told to lack is of no interest: constants and scatter are.
         let (of_right, retuned) = answered(right, &prior, &causes, prior.mean.as_slice().to_vec())?;
         let (fit, named) = told((right, &prior, false), &causes, of_right, &retuned)?;
+        left_of_references = Some(right.share(named.posterior.mean.as_slice()));
         let variance = |sigma: DVector<f64>| DMatrix::from_diagonal(&sigma.component_mul(&sigma));
         let between = variance(right.scatter(fit.factor)) + variance(right.between_visits());
         prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
@@ -45,9 +47,8 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
     let start = prior.mean.as_slice().to_vec();
     let (best, retuned) = answered(&data, &prior, &causes, start)?;
     let best = exchanged(&data, &prior, &causes, &retuned, best)?;
-    let has_references = references.is_some();
-    let (fit, named) = told((&data, &prior, has_references), &causes, best, &retuned)?;
-    Some(Solved { data, causes, prior, fit, retuned, named, has_references })
+    let (fit, named) = told((&data, &prior, references.is_some()), &causes, best, &retuned)?;
+    Some(Solved { data, causes, prior, fit, retuned, named, left_of_references })
 }
 
 impl<D: Observed> Solved<D> {
@@ -77,9 +78,11 @@ impl<D: Observed> Solved<D> {
         let mut named = of_named(&fit)?;
         named.retuned = of_none(&retuned)?;
         drop_unmoved(causes, prior, &mut named);
-        let fit = if drop_unneeded((&data, prior, self.has_references), &mut named) { retuned.clone() } else { fit };
+        let left_of_references = self.left_of_references;
+        let fit =
+            if drop_unneeded((&data, prior, left_of_references.is_some()), &mut named) { retuned.clone() } else { fit };
         let (causes, prior) = (causes.clone(), prior.clone());
-        Some(Self { data, causes, prior, fit, retuned, named, has_references: self.has_references })
+        Some(Self { data, causes, prior, fit, retuned, named, left_of_references })
     }
 }
 

@@ -5,8 +5,8 @@ use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::settings::SETTINGS;
 use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
-use hierarchical_fit::Answer;
-use hierarchical_fit::telling::{Found, free_runs};
+use hierarchical_fit::telling::Found;
+use hierarchical_fit::{Answer, beyond_references};
 use verdict::Diagnosis;
 
 /// The verdict of findings, with the forecasts of sessions that were left out.
@@ -20,10 +20,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         rival: findings.rival.as_deref(),
         shares: findings.shares,
     };
-    let of_session = |(session, errors): &(String, Vec<[crate::Errors; 3]>)| {
-        free_runs(session, "counts alone", LENGTHS, |row, k| errors.get(row).and_then(|e| e[k].medians()))
-    };
-    let mut out = found.verdict(table.by_session.iter().flat_map(of_session).collect());
+    let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.next.clone_from(&findings.next);
     out.sentences = sentences(findings, &found, &out, has_references);
@@ -64,7 +61,8 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         }
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer.{}",
+             {best:.1} % remain with the best answer.{}{}",
+            beyond_references(findings.shares[2], findings.left_of_references).unwrap_or_default(),
             if findings.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {

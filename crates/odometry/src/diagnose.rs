@@ -20,8 +20,8 @@ use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
 use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::{
-    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance, name_from,
-    of_class,
+    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance,
+    is_beyond_references, name_from, of_class,
 };
 use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
@@ -38,6 +38,8 @@ pub(crate) struct Solved {
     /// The answer without causes that little shows, where there are some.
     pub(crate) plainer: Option<Named>,
     pub(crate) lost: Vec<Lost>,
+    /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
+    pub(crate) left_of_references: Option<f64>,
 }
 
 impl Solved {
@@ -96,20 +98,25 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     Ok(Findings { plainer, ..of(&solved) })
 }
 
-/// What is known before the recordings: of the robot file, or of the references.
-fn prior(robot: &WheeledRobot, constants: &[Constant], references: &[Drive]) -> Result<Prior, OdometryError> {
+/// What is known before the recordings: of the robot file, or of the references, with the error that is left of these.
+fn prior(
+    robot: &WheeledRobot,
+    constants: &[Constant],
+    references: &[Drive],
+) -> Result<(Prior, Option<f64>), OdometryError> {
     let n = constants.len();
     let known = DMatrix::from_diagonal(&DVector::from_iterator(n, constants.iter().map(|c| c.sigma.powi(2))));
     let of_file = Prior { mean: DVector::zeros(n), covariance: known };
     if references.is_empty() {
-        return Ok(of_file);
+        return Ok((of_file, None));
     }
     let data = Data::new(robot, constants, references.iter().collect())?;
     let causes = causes(robot, constants);
     let (fit, named) = weigh(&data, &of_file, &causes, vec![0.0; n]).ok_or(short(&data))?;
     let deviation = scatter(&data, fit.factors);
     let between = DMatrix::from_diagonal(&deviation.component_mul(&deviation));
-    Ok(Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between })
+    let left = share(&data, &named.posterior.mean).1;
+    Ok((Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between }, Some(left)))
 }
 
 fn short(data: &Data<'_>) -> OdometryError {
@@ -152,7 +159,7 @@ pub(crate) fn solve(
             }
         }
     }
-    let prior = prior(robot, &constants, references)?;
+    let (prior, left_of_references) = prior(robot, &constants, references)?;
     let seen = |quantity: Quantity| match (quantity, start.clock) {
         (Quantity::ClockOffset, Some([offset, _])) => Some(offset),
         (Quantity::ClockRate(_), Some([_, rate])) => Some(rate),
@@ -192,7 +199,7 @@ pub(crate) fn solve(
         named = plainer.take().unwrap_or(named);
     }
     drop(data);
-    Ok(Solved { constants, causes, prior, fit, named, plainer, lost })
+    Ok(Solved { constants, causes, prior, fit, named, plainer, lost, left_of_references })
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -288,7 +295,8 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     let rules = SETTINGS.unexplained;
     let floor = data.pose_noise().max(SETTINGS.windows.floor);
     let is_much = best.1 > rules.most || best.0 > rules.of_retuned * tuned.0;
-    let is_left = best.1 > rules.share && is_much && best.0 > rules.noise * floor;
+    let is_left = (best.1 > rules.share && is_much || is_beyond_references(best.1, solved.left_of_references))
+        && best.0 > rules.noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
     let answer = if is_left {
         Answer::Unknown
@@ -313,6 +321,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         noise: fit.scale,
         scatter: fit.factors[0],
         shares: [given.1, tuned.1, best.1],
+        left_of_references: solved.left_of_references,
         measured: Measured::by(case.recordings.iter()),
         counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
         told,

@@ -4,9 +4,11 @@ use crate::constants::Measured;
 use crate::drive::Drive;
 use crate::left_out::Table;
 use crate::motion::Laws;
+use crate::settings::SETTINGS;
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
-use hierarchical_fit::{Answer, Estimate, NamedCause};
+use hierarchical_fit::{Answer, Estimate, NamedCause, is_beyond_references};
+use inference::experiment::Standing;
 use verdict::{Advice, PredictedPath, Trace};
 
 /// What the drives of a case say.
@@ -30,6 +32,8 @@ pub struct Findings {
     pub scatter: f64,
     /// Root mean square error of windows over their way: as given, re-tuned, with the named causes.
     pub shares: [f64; 3],
+    /// The same that the best answer leaves of the references; `None` without any.
+    pub left_of_references: Option<f64>,
     /// Sessions, drives, windows.
     pub counts: [usize; 3],
     /// What the drives measure of the body's motion.
@@ -47,13 +51,42 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// What stands once sessions were left out: causes that explain little, only where those are forecast better with them.
+    /// What stands once sessions were left out: causes that explain little, only where those are forecast better with them; none with
+    /// which they are forecast worse than as stated and which leave most of the error.
     #[must_use]
     pub fn after(self, table: &Table) -> Self {
-        match self.plainer {
+        let mut out = match self.plainer {
             Some(plainer) if table.is_plainer => *plainer,
             _ => self,
+        };
+        let rules = SETTINGS.doubt;
+        let [_, tuned, best] = out.shares;
+        let leaves_most = best > rules.leaves_most * tuned;
+        let is_refuted = Standing::new(&table.free_runs()).is_some_and(|s| s.over_nominal > rules.refuted);
+        if out.answer == Answer::Named && leaves_most && is_refuted {
+            out.take_back();
         }
+        out
+    }
+
+    /// Takes back what was named: it is listed, and what is left is as re-tuning leaves it.
+    fn take_back(&mut self) {
+        let listed = SETTINGS.doubt.listed;
+        self.others.extend(self.named.drain(..).map(|cause| (cause.label, cause.probability.min(listed))));
+        self.others.sort_by(|a, b| b.1.total_cmp(&a.1));
+        self.constants.clone_from(&self.retuned);
+        self.laws[2] = self.laws[1].clone();
+        self.shares[2] = self.shares[1];
+        self.rival = None;
+        let is_left = self.shares[2] > SETTINGS.unexplained.share
+            || is_beyond_references(self.shares[2], self.left_of_references);
+        self.answer = if is_left {
+            Answer::Unknown
+        } else if self.retuned.iter().any(Estimate::is_moved) {
+            Answer::Retune
+        } else {
+            Answer::Nothing
+        };
     }
 
     /// The pose of a drive from its counts alone. It begins in the first row of each stretch in which the pose was seen, and anew

@@ -5,13 +5,14 @@ use crate::clock;
 use crate::diagnose::{Solved, Start, solve};
 use crate::drive::Drive;
 use crate::error::OdometryError;
-use crate::forecast::{Errors, forecast};
+use crate::forecast::{Errors, LENGTHS, forecast};
 use crate::motion::Laws;
 use crate::rivals::{RIVALS, Rival};
 use crate::wheel::WheeledRobot;
 use crate::windows::laws;
+use hierarchical_fit::telling::free_runs;
 use inference::robust::geometric_mean;
-use verdict::Trace;
+use verdict::{FreeRun, Trace};
 
 /// Errors of forecasts of left-out sessions, by calibration.
 #[derive(Debug, Clone, Default)]
@@ -126,6 +127,14 @@ fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
 }
 
 impl Table {
+    /// Errors of what was left out, as a verdict has them.
+    pub(crate) fn free_runs(&self) -> Vec<FreeRun> {
+        let of_session = |(session, errors): &(String, Vec<[Errors; 3]>)| {
+            free_runs(session, "counts alone", LENGTHS, |row, k| errors.get(row).and_then(|e| e[k].medians()))
+        };
+        self.by_session.iter().flat_map(of_session).collect()
+    }
+
     /// Errors of the corrected forecasts over those of another table, the geometric mean of all sessions, lengths and quantities.
     fn over(&self, other: &Self) -> Option<f64> {
         let medians = |(_, rows): &(String, Vec<[Errors; 3]>)| -> Vec<f64> {

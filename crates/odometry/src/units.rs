@@ -200,13 +200,13 @@ fn length(drive: &mut Drive, robot: &WheeledRobot) -> Result<(), OdometryError> 
         }
         drive.told.push(format!(
             "recording '{}': the pose moves by {reach:.0} where the wheels roll {rolled:.2} m: it is taken to be in \
-             millimetres; state the unit in the mapping",
+             millimetres; state it in the robot file, under [columns]: length_unit = \"mm\"",
             drive.name
         ));
         return Ok(());
     }
     let what = format!(
-        "the pose moves by {reach:.0} where the wheels roll {rolled:.2} m; state its unit in the mapping, or correct \
+        "the pose moves by {reach:.0} where the wheels roll {rolled:.2} m; state its unit in the robot file, under [columns]: length_unit, or correct \
          the radius or counts_per_turn"
     );
     Err(OdometryError::Case(CaseError::Drive { drive: drive.name.clone(), what }))

@@ -1,8 +1,8 @@
 //! Findings as a verdict in sentences.
 
 use crate::settings::SETTINGS;
-use hierarchical_fit::Answer;
 use hierarchical_fit::telling::Found;
+use hierarchical_fit::{Answer, beyond_references};
 
 use crate::diagnose::Findings;
 use crate::forecast::{ByLength, LENGTHS};
@@ -63,7 +63,8 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer.{}",
+             {best:.1} % remain with the best answer.{}{}",
+            beyond_references(findings.said.shares[2], findings.said.left_of_references).unwrap_or_default(),
             if findings.said.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
@@ -101,7 +102,13 @@ fn limits(findings: &Findings, table: &Table, has_references: bool) -> Vec<Strin
         ),
     ];
     out.extend(findings.told.iter().cloned());
-    let unstated: Vec<&str> = findings.unstated.clone();
+    let [unstated, hardly_seen] = &findings.unweighed;
+    if !hardly_seen.is_empty() {
+        out.push(format!(
+            "{}: stated, and no better known by drives: if it is wrong, another cause is told for it",
+            hardly_seen.join(", ")
+        ));
+    }
     if !unstated.is_empty() {
         out.push(format!(
             "nothing is stated of {}; these were fitted, and nothing can be wrong with them: state them in the robot file with \

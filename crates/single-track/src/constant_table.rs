@@ -16,7 +16,8 @@ pub fn constants(car: &Car) -> Vec<Constant> {
     let mut out = Vec::new();
     let mut add = |quantity, name, unit, is_factor: bool, stated: Stated, usual, scatter, cause| {
         let sigma = if is_factor { stated.share() } else { stated.sigma };
-        out.push(Constant { quantity, name, unit, given: stated.value, is_factor, sigma, usual, scatter, cause });
+        let Stated { value: given, is_stated, .. } = stated;
+        out.push(Constant { quantity, name, unit, given, is_stated, is_factor, sigma, usual, scatter, cause });
     };
     let none = |sigma: f64| Stated::usual(0.0, sigma);
     let usually = |[value, share]: [f64; 2]| Stated::usual(value, value * share);

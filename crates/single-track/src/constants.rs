@@ -56,6 +56,8 @@ pub struct Constant {
     pub unit: &'static str,
     /// Its value as stated, or as usual.
     pub given: f64,
+    /// Whether the owner states it.
+    pub is_stated: bool,
     /// Whether the deviation is the logarithm of a factor.
     pub is_factor: bool,
     /// One sigma of what is known of the deviation.

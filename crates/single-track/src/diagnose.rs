@@ -23,8 +23,9 @@ use verdict::{Advice, PredictedPath, Trace};
 pub struct Findings {
     /// What they say whatever the model is.
     pub said: Said,
-    /// Names of constants of which the owner states nothing, so that nothing can be wrong with them.
-    pub unstated: Vec<&'static str>,
+    /// Names of constants that are no causes: of which the owner states nothing, so that nothing can be wrong with them, and which drives
+    /// hardly tell beyond what is stated.
+    pub unweighed: [Vec<&'static str>; 2],
     /// Sigmas of the errors: windows of the pose, m; gyro, rad/s; encoder, m/s.
     pub noise: [f64; 3],
     /// Drives, those with a pose, windows.
@@ -111,7 +112,10 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
     told.dedup();
     Findings {
         said,
-        unstated: data.model.iter().filter(|c| c.sigma >= c.usual).map(|c| c.name).collect(),
+        unweighed: [false, true].map(|is_stated| {
+            let unweighed = data.model.iter().filter(|c| c.sigma >= c.usual && c.is_stated == is_stated);
+            unweighed.map(|c| c.name).collect()
+        }),
         noise: fit.noise.sigma,
         counts: [
             data.drives.len(),

@@ -1,7 +1,7 @@
 //! Findings as a verdict in sentences.
 
-use hierarchical_fit::Answer;
 use hierarchical_fit::telling::Found;
+use hierarchical_fit::{Answer, beyond_references};
 use verdict::Diagnosis;
 
 use crate::diagnose::Findings;
@@ -60,7 +60,8 @@ fn headline(findings: &Findings, found: &Found<'_>, has_references: bool) -> Str
         ),
         Answer::Unknown => format!(
             "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer.{}",
+             {best:.1} % remain with the best answer.{}{}",
+            beyond_references(findings.said.shares[2], findings.said.left_of_references).unwrap_or_default(),
             if findings.said.shares[2] > SETTINGS.unexplained.most {
                 " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
             } else {
