@@ -224,6 +224,16 @@ mod tests {
         assert_eq!(decided([0.9, 0.3, 0.12], false, 1.5, true), Answer::Named);
         assert_eq!(decided([2.0, 1.9, 0.5], false, 1.5, true), Answer::Unknown);
     }
+
+    #[test]
+    fn what_leaves_many_times_as_much_as_the_references_is_not_explained() {
+        assert!(is_beyond_references(0.05, Some(0.01)) && !is_beyond_references(0.05, Some(0.02)));
+        assert!(!is_beyond_references(0.015, Some(0.001)), "hardly anything is left");
+        assert!(!is_beyond_references(0.5, None), "nothing says what is usual");
+        let told = beyond_references(0.05, Some(0.01)).expect("a sentence");
+        assert!(told.contains("leaves 1.0 % of the motion of the references, so that 5 times"), "{told}");
+    }
+
     #[test]
     fn causes_with_which_left_out_drives_are_forecast_worse_are_taken_back() {
         let free_run = |[nominal, retuned, corrected]: [f64; 3]| FreeRun {

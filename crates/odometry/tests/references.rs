@@ -33,3 +33,32 @@ fn what_references_do_not_have_is_named() {
     let (answer, causes) = named(&case);
     assert_eq!((answer, causes.first()), (Answer::Named, Some(&"radius_of_one_wheel")), "{causes:?}");
 }
+
+/// Angles behind which a steering follows with so much play, rad.
+fn with_play(angles: &[f64], play: f64) -> Vec<f64> {
+    let mut held = angles[0];
+    let follow = |angle: &f64| {
+        held = held.clamp(angle - play, angle + play);
+        held
+    };
+    angles.iter().map(follow).collect()
+}
+
+#[test]
+fn what_leaves_many_times_as_much_as_the_references_is_unknown_whatever_fits_best() {
+    let mut case = drawn(Kind::Tricycle, Hidden::Nothing, 6, 60.0, 81).case;
+    case.references = case.recordings.drain(..3).collect();
+    let right = diagnose(&case, &|_| {}).expect("an answer");
+    assert!(matches!(right.answer, Answer::Nothing | Answer::Retune), "{:?}", right.answer);
+    // The angle that is recorded has play before the wheel: no cause of such robots.
+    for drive in &mut case.recordings {
+        drive.steering = drive.steering.as_ref().map(|angles| with_play(angles, 0.08));
+    }
+    let found = diagnose(&case, &|_| {}).expect("an answer");
+    let (left, usual) = (found.shares[2], found.left_of_references.expect("references"));
+    assert!(left > 4.0 * usual && left > 0.02, "{left} of {usual}");
+    assert_eq!(found.answer, Answer::Unknown);
+    let table = odometry::left_out(&case, &|_| {}).expect("forecasts");
+    let told = odometry::diagnosis(&found.after(&table), &table, true);
+    assert!(told.sentences[0].contains("of the motion of the references, so that"), "{:?}", told.sentences);
+}

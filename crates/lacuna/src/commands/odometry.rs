@@ -4,7 +4,9 @@
 use anyhow::{Result, bail};
 use case_files::columns_case::ColumnsCase;
 
+use super::Reading;
 use super::diagnose::Input;
+use crate::console::warning;
 
 /// The case that the arguments name, if its robot is of one of these kinds.
 pub(crate) fn case(input: &Input) -> Result<Option<ColumnsCase>> {
@@ -20,6 +22,11 @@ pub(crate) fn case(input: &Input) -> Result<Option<ColumnsCase>> {
     }
     if !input.simulation.is_empty() {
         bail!("robots of kind {kind} take --reference, --recordings and --heldout; leave out --simulation");
+    }
+    if matches!(input.reading, Reading::Tolerant) {
+        warning(&format!(
+            "--reading tolerant says nothing to robots of kind {kind}: a cell that is no number and a time that does not rise are refused"
+        ));
     }
     if !input.visit.is_empty() {
         bail!(

@@ -83,6 +83,38 @@ fn a_wheel_that_is_too_large_is_named_with_its_radius() {
 }
 
 #[test]
+fn the_next_drive_is_advised_by_itself_and_with_the_verdict() {
+    let bench = bench();
+    let run = bench.run(&["next", "case", "--profile", "p.csv", "--picture", "p.svg", "--json", "n.json"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert!(
+        run.out().contains("Drives, the best first") && run.out().contains("radius of one wheel (right)"),
+        "{}",
+        run.out()
+    );
+    let csv = bench.read("p.csv");
+    assert!(csv.starts_with("t_s,v_ahead_m_s,v_left_m_s,omega_rad_s\n0.00,0.0000,0.0000,0.0000\n"), "{csv}");
+    assert!(bench.read("p.svg").contains("<svg"));
+
+    let json: Value = serde_json::from_str(&bench.read("n.json")).unwrap();
+    let bits = |of: &Value| -> Vec<f64> {
+        let drives = of["manoeuvres"].as_array().unwrap().iter();
+        drives.map(|m| m["expected_bits"].as_f64().unwrap()).collect()
+    };
+    assert!(bits(&json["next"]).is_sorted_by(|a, b| a >= b));
+    assert_eq!(bench.run(&["diagnose", "case", "--next", "--json", "out.json"]).code(), Some(0));
+    let whole: Value = serde_json::from_str(&bench.read("out.json")).unwrap();
+    assert_eq!(whole["diagnosis"]["next"]["rivals"], json["next"]["rivals"]);
+    // Rows that are broken are refused whatever is asked.
+    let tolerant = bench.run(&["diagnose", "case", "--reading", "tolerant"]);
+    assert!(
+        tolerant.err().contains("--reading tolerant says nothing to robots of kind odometry"),
+        "{}",
+        tolerant.err()
+    );
+}
+
+#[test]
 fn counts_that_are_lost_in_many_windows_are_named_with_their_times() {
     let bench = bench();
     // From 9 s on, in every 14 s, the left wheel loses most of its counts for 2 s.
@@ -138,7 +170,7 @@ fn what_needs_torques_or_speeds_says_which_kind_a_robot_is_and_every_robot_has_a
     let is_refused = |args: &[&str], parts: &[&str]| {
         bench.run(args).failed(&[parts, &["`lacuna diagnose` takes it; this command needs"]].concat());
     };
-    is_refused(&["next", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
+    is_refused(&["rehearse", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
     is_refused(
         &["rehearse", "--robot", "tricycle", "--recordings", "case/recordings"],
         &["'tricycle'", "kind odometry"],
