@@ -112,6 +112,13 @@ impl<D: Observed> Data<D> {
         rms(ways).unwrap_or(0.0) / rms(sizes).unwrap_or(1.0).max(f64::MIN_POSITIVE)
     }
 
+    /// The same share that the noise of what is measured alone would leave.
+    pub fn share_of_noise(&self) -> f64 {
+        let drives = || self.drives.iter().filter(|drive| !drive.sizes().is_empty());
+        let noise = rms(drives().map(Observed::noise)).unwrap_or(0.0);
+        noise / rms(drives().flat_map(Observed::sizes)).unwrap_or(1.0).max(f64::MIN_POSITIVE)
+    }
+
     /// One sigma by which drives differ.
     pub fn scatter(&self, factor: f64) -> DVector<f64> {
         DVector::from_iterator(self.spreads.len(), self.spreads.iter().map(|c| factor * c.scatter))

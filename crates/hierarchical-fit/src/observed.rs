@@ -69,6 +69,11 @@ pub trait Observed: Clone + Send + Sync {
     /// What a robot that keeps still would err by in the rows of [`Observed::judged_by`].
     fn sizes(&self) -> Vec<f64>;
 
+    /// What the noise of what is measured alone makes of the errors of the rows of [`Observed::judged_by`], root mean square.
+    fn noise(&self) -> f64 {
+        0.0
+    }
+
     /// The kind of rows by which a model is judged.
     fn judged_by(&self) -> Kind;
 

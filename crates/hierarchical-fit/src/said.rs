@@ -64,6 +64,8 @@ pub struct Said {
     pub shares: [f64; 3],
     /// The same that the best answer leaves of the references; `None` without any.
     pub left_of_references: Option<f64>,
+    /// The same that the noise of what is measured alone would leave.
+    pub share_of_noise: f64,
 }
 
 impl<D: Observed> Solved<D> {
@@ -97,6 +99,7 @@ impl<D: Observed> Solved<D> {
             is_refuted: false,
             shares: [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|t| data.share(t.as_slice())),
             left_of_references: self.left_of_references,
+            share_of_noise: data.share_of_noise(),
             constants: all,
         }
     }
@@ -120,7 +123,9 @@ impl<D: Observed> Solved<D> {
 impl Said {
     /// Decides the answer. `is_stated`: whether a constant that moved is told as re-tuned.
     pub fn decide(&mut self, rules: Unexplained, is_stated: impl Fn(&Estimate) -> bool) {
-        let [_, retuned, left] = self.shares;
+        // What noise would leave is none of theirs.
+        let [_, retuned, left] =
+            self.shares.map(|share| share.powi(2) - self.share_of_noise.powi(2)).map(|s| s.max(0.0).sqrt());
         let is_left = left > rules.most
             || (left > rules.share && left > rules.of_retuned * retuned)
             || is_beyond_references(left, self.left_of_references);
@@ -212,6 +217,7 @@ mod tests {
                 is_refuted: false,
                 shares,
                 left_of_references: None,
+                share_of_noise: 0.0,
             };
             said.decide(rules, |e| e.name == "length");
             said.answer
@@ -257,6 +263,7 @@ mod tests {
                 is_refuted: false,
                 shares: [1.0, 0.2, left],
                 left_of_references: None,
+                share_of_noise: 0.0,
             };
             said.doubt(&[free_run(errors)], 0.05);
             (said.answer, said.is_refuted)

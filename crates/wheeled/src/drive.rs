@@ -9,6 +9,7 @@ use odometry::rates::on_grid;
 use robot_model::wheels::MOST_CASTERS;
 
 use crate::casters;
+use crate::noise::Noise;
 use crate::robot::AnyWheels;
 use crate::settings::{Grid, SETTINGS};
 use crate::units::mistaken;
@@ -47,6 +48,8 @@ pub struct Drive {
     pub(crate) gyro: Option<Command>,
     /// Pose at the beginning of each step; NaN where it was not seen. Empty of a drive without pose.
     pub(crate) pose: Vec<[f64; 3]>,
+    /// How noisy its pose is.
+    pub(crate) noise: Noise,
     /// Angles of casters at the beginning of each step; empty of a robot without.
     pub(crate) casters: Vec<[f64; MOST_CASTERS]>,
     /// When some channel was missing, s from the start.
@@ -103,6 +106,13 @@ impl Drive {
         if rows < RULES.rows || end - start < STEP * RULES.rows as f64 {
             return Err(wrong(format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)));
         }
+        if let Some(apart) = apart_of(&of.pose).filter(|apart| *apart > RULES.pose_gap) {
+            return Err(wrong(format!(
+                "its poses are {apart:.2} s apart, and at most {} s are bridged; record the pose more often, or take x, y and yaw out of \
+                 [columns] to compare wheels and gyro alone",
+                RULES.pose_gap
+            )));
+        }
         let steps = ((end - start) / STEP) as usize;
         let held = |s: &Series| {
             let times: Vec<f64> = s.time.iter().map(|t| t - start).collect();
@@ -136,7 +146,8 @@ impl Drive {
             steering: of.steering.iter().map(|s| summed_angle(s, start, steps)).collect(),
             wheels: of.wheels.iter().map(|s| summed(s, of.is_speed)).collect(),
             gyro: (!of.gyro.time.is_empty()).then(|| summed(&of.gyro, true)),
-            pose: if has_pose { on_grid(seen, steps, STEP, RULES.gap) } else { Vec::new() },
+            pose: if has_pose { on_grid(seen, steps, STEP, RULES.pose_gap) } else { Vec::new() },
+            noise: if has_pose { Noise::of(&of.pose) } else { Noise::default() },
             casters: Vec::new(),
             gaps,
             steps,
@@ -165,6 +176,13 @@ impl Drive {
         let (from, until) = (STEP * from as f64, STEP * until as f64);
         self.gaps.iter().all(|[a, b]| *b <= from || *a >= until)
     }
+}
+
+/// Usual time between two poses, s; `None` where fewer than two were seen.
+fn apart_of([x, y, yaw]: &[Series; 3]) -> Option<f64> {
+    let is_seen = |k: &usize| [x, y, yaw].iter().all(|s| s.value.get(*k).is_some_and(|value| value.is_finite()));
+    let seen: Vec<f64> = (0..x.time.len()).filter(is_seen).map(|k| x.time[k]).collect();
+    median(seen.windows(2).map(|w| w[1] - w[0]))
 }
 
 /// An angle as an integral whose means are the angle on a line between its instants.

@@ -23,6 +23,7 @@ pub mod file;
 mod left_out;
 mod model;
 mod next_drive;
+mod noise;
 mod robot;
 mod rows;
 mod settings;

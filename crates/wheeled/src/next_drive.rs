@@ -184,4 +184,48 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn windows_begin_at_the_velocity_that_wheels_show_where_the_pose_is_noisy_and_at_its_own_where_it_is_not() {
+        let (name, text) = BUILT_IN.iter().find(|b| b.0 == "torque-omni-3").expect("built in");
+        let robot = RobotFile::parse(name, text).expect("a robot").robot;
+        let all = constants(&robot, true, true);
+        let at = Model::at(&robot, &all, &vec![0.0; all.len()]);
+        let reach = Reach { speed: 0.6, turning: 0.3, curvature: 0.4, spins: true, backs: true, goes_sideways: true };
+        let m = menu(reach, 12.0).into_iter().find(|m| m.name == "slalom").expect("on the menu");
+        let whole = driven(&at, &robot, &m, [true; 2]);
+        let drive = |sigma: f64| {
+            let mut of = whole.clone();
+            for (axis, series) in of.pose[..2].iter_mut().enumerate() {
+                // Of unit variance, and in no order.
+                let drawn = |k: usize| ((k + 1000 * axis) as f64 * 12.9898).sin() * 43758.5453;
+                let off = |k: usize| sigma * 12.0_f64.sqrt() * (drawn(k).rem_euclid(1.0) - 0.5);
+                series.value.iter_mut().enumerate().for_each(|(k, value)| *value += off(k));
+            }
+            for series in &mut of.pose {
+                series.value = series.value.iter().step_by(2).copied().collect();
+                series.time = series.time.iter().step_by(2).copied().collect();
+            }
+            Drive::new("a", &robot, &of, false).expect("a drive")
+        };
+        let exact = drive(0.0);
+        let begun = |drive: &Drive, k: usize| {
+            let rates = slope(&drive.pose, [k - 5, k + 5], k, STEP).expect("a pose");
+            let of_pose = at.of_origin(drive.pose[k][2], rates);
+            let s = at.of_pose(drive, &robot, k, (drive.pose[k], rates));
+            [of_pose, at.plant.velocity_of(&s, [0.0; 2])]
+        };
+        let off = |drive: &Drive| {
+            let each = (60..drive.steps - 60).step_by(7).map(|k| {
+                let [_, right] = begun(&exact, k);
+                begun(drive, k).map(|[x, y]| (x - right[0]).hypot(y - right[1]))
+            });
+            let each: Vec<[f64; 2]> = each.collect();
+            [0, 1].map(|i| inference::robust::rms(each.iter().map(|e| e[i])).expect("windows"))
+        };
+        let [by_pose, with_wheels] = off(&drive(0.003));
+        assert!(by_pose > 0.01 && with_wheels < 0.6 * by_pose, "{by_pose} m/s by the pose, {with_wheels} with wheels");
+        let [by_pose, with_wheels] = off(&exact);
+        assert!(with_wheels < by_pose + 2e-3, "{by_pose} {with_wheels}");
+    }
 }

@@ -4,6 +4,7 @@ use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
 use hierarchical_fit::{Data, Kind, Observed, Row};
+use inference::robust::rms;
 use odometry::rates::slope;
 use pulp::NullaryFnOnce;
 use robot_model::{Lanes, real};
@@ -221,6 +222,15 @@ impl Observed for Shown<'_> {
             }
         }
         out
+    }
+
+    fn noise(&self) -> f64 {
+        if !self.drive.has_pose() {
+            return 0.0;
+        }
+        let [middle, end] = [0.5, 1.0].map(|share| self.drive.noise.after(share * RULES.length));
+        let of = |[place, heading]: [f64; 2]| [place, place, RULES.lever * heading];
+        rms([of(middle), of(end)].into_iter().flatten()).unwrap_or(0.0)
     }
 
     fn judged_by(&self) -> Kind {

@@ -12,6 +12,14 @@
         substeps: usize = 4, "1", "guess; 5 ms: implicit in all speeds";
         /// Gaps of a channel that are bridged.
         gap: f64 = 0.1, "s", "guess; motion hardly changes within it";
+        /// Gaps of the pose that are bridged.
+        pose_gap: f64 = 0.25, "s", "guess; a pose at 10 Hz of which one is missing, off by a centimetre at usual accelerations";
+        /// Times the usual distance up to which poses count as evenly apart.
+        even: f64 = 1.2, "1", "guess";
+        /// How well wheels and gyro show velocity and yaw rate of the body at an instant, one sigma.
+        by_wheels: [f64; 2] = [0.01, 0.01], "m/s, rad/s", "guess; noise of encoders over a few rows, and what wheels slip beside the model";
+        /// Share of the wheels below which they are not looked at.
+        little: f64 = 0.05, "1", "guess; a good pose alone is faster";
         /// Half length over which velocities are taken from the pose.
         smoothing: f64 = 0.1, "s", "guess; averages a good pose's noise to millimetres per second";
         /// Half length over which speeds of wheels and gyro are taken at the start of a window: longer ones take a step of the torque
