@@ -99,6 +99,11 @@ impl<D: Observed> Data<D> {
         })
     }
 
+    /// Scale of the errors of the rows in motion, by kind.
+    pub(crate) fn left(&self, theta: &[f64]) -> [f64; 3] {
+        self.sigmas(&self.errors(&vec![theta.to_vec(); self.drives.len()]))
+    }
+
     /// Root mean square error of the rows in motion over the size of what they measure.
     pub fn share(&self, theta: &[f64]) -> f64 {
         let errors = self.errors(&vec![theta.to_vec(); self.drives.len()]);

@@ -68,6 +68,8 @@
         /// Sigmas of what is known within which all constants may be re-tuned for an answer without a cause: known by the robot file, and
         /// by references.
         within: [f64; 2] = [3.5, 2.5], "1", "of thirty normal constants the farthest lies beyond 3.5 in one robot of seventy; since the references 2.5 are 1.5 of the owner's";
+        /// Scale of the errors of one kind of reading over that of re-tuned constants, below which a cause shows in it.
+        seen: f64 = 0.7, "1", "equal to that of the motion of robots under torque";
         /// Share of the probability that a cause keeps which is not needed.
         doubted: f64 = 0.3, "1", "guess";
         /// Error of forecasts of left-out drives with the causes over that of the robot as stated, from which on they are refuted.

@@ -172,11 +172,13 @@ impl<T: PerLane> Model<T> {
         let [px, py] = self.point;
         s.position = [real::<T>(pose[0]) - cos * px + sin * py, real::<T>(pose[1]) - sin * px - cos * py];
         let mut origin = self.of_origin(pose[2], rates);
-        if let Some([share, of_gyro]) = Self::share_of_wheels(drive, robot, from) {
+        if let Some([ahead, left, of_gyro]) = Self::share_of_wheels(drive, robot, from) {
             // Heavy wheels would else be told, which bring a body that starts at a wrong velocity to theirs.
             let seen = self.of_wheels(drive, robot, from);
             let by_wheels = self.plant.velocity_of(&seen, [T::zero(); 2]);
-            origin = [0, 1].map(|axis| origin[axis] + (by_wheels[axis] - origin[axis]) * real(share));
+            for (axis, share) in [ahead, left].into_iter().enumerate() {
+                origin[axis] += (by_wheels[axis] - origin[axis]) * real(share);
+            }
             s.yaw_rate += (seen.yaw_rate - s.yaw_rate) * real(of_gyro);
         }
         self.plant.set_velocity(&mut s, origin);
@@ -188,14 +190,15 @@ impl<T: PerLane> Model<T> {
         s
     }
 
-    /// By how much the velocity that wheels show counts beside that of a noisy pose, and the yaw rate that a gyro shows; `None` where they
-    /// hardly do, or are not there about the step.
-    fn share_of_wheels(drive: &Drive, robot: &AnyWheels, from: usize) -> Option<[f64; 2]> {
-        let [share, of_gyro] = drive.noise.share_of_wheels();
+    /// By how much the velocity that wheels show, ahead and to the left, counts beside that of a noisy pose, and the yaw rate that a gyro
+    /// shows; `None` where they hardly do, or are not there about the step.
+    fn share_of_wheels(drive: &Drive, robot: &AnyWheels, from: usize) -> Option<[f64; 3]> {
         let rolls_any_way = robot.plant.wheels.iter().flatten().all(|wheel| wheel.roller.is_some());
         let determine = robot.measured.len() >= if rolls_any_way { 3 } else { 1 };
         let is_whole = drive.is_whole(from.saturating_sub(RULES.settling), from + 2 * RULES.settling);
-        let shares = [if determine { share } else { 0.0 }, if drive.gyro.is_some() { of_gyro } else { 0.0 }];
+        let [ahead, left, of_gyro] = drive.noise.share_of_wheels(rolls_any_way);
+        let of_wheels = f64::from(u8::from(determine));
+        let shares = [of_wheels * ahead, of_wheels * left, if drive.gyro.is_some() { of_gyro } else { 0.0 }];
         (is_whole && shares.iter().any(|s| *s > RULES.little)).then_some(shares)
     }
 

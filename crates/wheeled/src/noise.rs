@@ -46,17 +46,20 @@ impl Noise {
         Self { pose, rates: pose.map(|sigma| sigma / squares.sqrt()) }
     }
 
-    /// By how much velocities by wheels and gyro count at the beginning of a window beside those of the pose, by their variances.
-    pub(crate) fn share_of_wheels(self) -> [f64; 2] {
-        let share = |(of_pose, of_wheels): (f64, f64)| of_pose.powi(2) / (of_pose.powi(2) + of_wheels.powi(2));
-        [0, 1].map(|k| share((self.rates[k], RULES.by_wheels[k])))
+    /// By how much velocities by wheels and gyro count at the beginning of a window beside those of the pose, by their variances: of those
+    /// ahead, to the left and of turning. Wheels without rollers slide sideways, and do not show it.
+    pub(crate) fn share_of_wheels(self, rolls_any_way: bool) -> [f64; 3] {
+        let share = |of_pose: f64, of_wheels: f64| of_pose.powi(2) / (of_pose.powi(2) + of_wheels.powi(2));
+        let [place, heading] = self.rates;
+        let [along, turning] = RULES.by_wheels;
+        [share(place, along), share(place, if rolls_any_way { along } else { RULES.sideways }), share(heading, turning)]
     }
 
     /// What it makes of the place and the heading so much later, m and rad, root mean square.
     pub(crate) fn after(self, seconds: f64) -> [f64; 2] {
-        let share = self.share_of_wheels();
-        [0, 1].map(|k| {
-            let rate = self.rates[k] * (1.0 - share[k]).sqrt();
+        let [ahead, _, turning] = self.share_of_wheels(false);
+        [(0, ahead), (1, turning)].map(|(k, share)| {
+            let rate = self.rates[k] * (1.0 - share).sqrt();
             (2.0 * self.pose[k].powi(2) + (rate * seconds).powi(2)).sqrt()
         })
     }
@@ -99,7 +102,8 @@ mod tests {
             assert!((0.002..0.006).contains(&found.pose[0]) && (0.002..0.009).contains(&found.pose[1]), "{found:?}");
         }
         let (good, bad) = (seen(100.0, [2e-4, 2e-4]), seen(25.0, [0.003, 0.003]));
-        assert!(good.share_of_wheels()[0] < 0.05 && bad.share_of_wheels()[0] > 0.5, "{good:?} {bad:?}");
+        assert!(good.share_of_wheels(true)[0] < 0.05 && bad.share_of_wheels(true)[1] > 0.5, "{good:?} {bad:?}");
+        assert!(bad.share_of_wheels(false)[1] < 0.5 * bad.share_of_wheels(true)[1], "wheels slide sideways");
         assert!(bad.after(1.0)[0] > 2.0_f64.sqrt() * bad.pose[0] && bad.after(1.0)[0] < 0.03, "{:?}", bad.after(1.0));
         assert_eq!(Noise::of(&Default::default()), Noise::default());
     }

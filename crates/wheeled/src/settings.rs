@@ -18,6 +18,8 @@
         even: f64 = 1.2, "1", "guess";
         /// How well wheels and gyro show velocity and yaw rate of the body at an instant, one sigma.
         by_wheels: [f64; 2] = [0.01, 0.01], "m/s, rad/s", "guess; noise of encoders over a few rows, and what wheels slip beside the model";
+        /// The same of sideways velocity, of robots whose wheels have no rollers.
+        sideways: f64 = 0.05, "m/s", "guess; such wheels slide by some hundredths on slopes and in bends: with 0.01 a slope of 0.035 rad was told as 0.029";
         /// Share of the wheels below which they are not looked at.
         little: f64 = 0.05, "1", "guess; a good pose alone is faster";
         /// Half length over which velocities are taken from the pose.

@@ -50,7 +50,7 @@ pub(crate) struct Args {
     /// Mapping file (column -> signal, unit, sign), or name of a built-in mapping.
     #[arg(long, value_name = "NAME|FILE")]
     mapping: Option<String>,
-    /// Robot of wheel counts or car, whose file names its columns itself: the recordings are read by these.
+    /// Robot of wheel counts, car or robot of any wheels, whose file names its columns itself: the recordings are read by these.
     #[arg(long, value_name = "NAME|FILE", conflicts_with = "mapping")]
     robot: Option<String>,
     /// List the numeric fields of every topic.

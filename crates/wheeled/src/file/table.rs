@@ -14,7 +14,7 @@ impl RobotFile {
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
     pub fn drive(&self, name: &str, table: &str, is_held_out: bool) -> Result<Drive, WheeledError> {
-        self.drive_of(name, &self.signals(name, table)?, is_held_out)
+        self.drive_of(name, &self.signals(name, table, is_held_out)?, is_held_out)
     }
 
     /// A drive from signals at instants of their own, as the messages of a bag have them.
@@ -55,19 +55,21 @@ impl RobotFile {
         Drive::new(name, &self.robot, &measured, is_held_out)
     }
 
-    fn signals(&self, name: &str, table: &str) -> Result<Signals, WheeledError> {
+    fn signals(&self, name: &str, table: &str, is_held_out: bool) -> Result<Signals, WheeledError> {
         let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
         let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
-        let Some(time_at) = header.iter().position(|h| h == self.columns.time) else {
+        let place = |column: &str| {
             let there: Vec<&str> = header.iter().collect();
-            let what = format!(
-                "no column '{}'; it has {}: correct [columns] of the robot file",
-                self.columns.time,
-                there.join(", ")
-            );
-            return Err(wrong(what));
+            let lacks = || format!("no column '{column}'; it has {}: correct the robot file", there.join(", "));
+            header.iter().position(|h| h == column).ok_or_else(|| wrong(lacks()))
         };
+        let time_at = place(&self.columns.time)?;
+        let names = &self.columns;
+        let wheels = names.wheels.iter().filter(|_| !is_held_out);
+        for column in names.torque.iter().chain(&names.joints).map(|(column, _)| column).chain(wheels) {
+            place(column)?;
+        }
         let wanted: Vec<(usize, String)> =
             self.names().filter_map(|n| header.iter().position(|h| h == n).map(|at| (at, n.to_owned()))).collect();
         let mut out: Signals = BTreeMap::new();
@@ -114,7 +116,9 @@ mod tests {
         let drive = file.drive("a", &rows(200), false).expect("a drive");
         assert!(drive.has_pose() && (drive.duration() - 3.98).abs() < 0.03, "{}", drive.duration());
         let refused = |table: &str| file.drive("a", table, false).unwrap_err().to_string();
-        assert!(refused(&rows(200).replace("torque_front", "torque")).contains("'torque_front' has no values"));
+        assert!(
+            refused(&rows(200).replace("torque_front", "torque")).contains("no column 'torque_front'; it has time_s")
+        );
         assert!(refused(&rows(200).replace("time_s", "t")).contains("no column 'time_s'; it has t, torque_front"));
         assert!(
             refused(&rows(200).replace("0.06,1.0", "0.06,one")).contains("column 'torque_front': 'one' is no number")
