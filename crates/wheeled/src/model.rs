@@ -174,7 +174,7 @@ impl<T: PerLane> Model<T> {
         let mut origin = self.of_origin(pose[2], rates);
         if let Some([ahead, left, of_gyro]) = Self::share_of_wheels(drive, robot, from) {
             // Heavy wheels would else be told, which bring a body that starts at a wrong velocity to theirs.
-            let seen = self.of_wheels(drive, robot, from);
+            let seen = self.seen_by_wheels(drive, robot, (from, s.heading));
             let by_wheels = self.plant.velocity_of(&seen, [T::zero(); 2]);
             for (axis, share) in [ahead, left].into_iter().enumerate() {
                 origin[axis] += (by_wheels[axis] - origin[axis]) * real(share);
@@ -205,7 +205,13 @@ impl<T: PerLane> Model<T> {
     /// The state at a step of a drive without a pose: at the origin, moving so that wheels and gyro show what they do once the
     /// wheels slip as they must under their torques.
     pub(crate) fn of_wheels(&self, drive: &Drive, robot: &AnyWheels, from: usize) -> State<T> {
+        self.seen_by_wheels(drive, robot, (from, State::default().heading))
+    }
+
+    /// The same of a body that looks this way, which on a slope is another motion.
+    fn seen_by_wheels(&self, drive: &Drive, robot: &AnyWheels, (from, heading): (usize, [T; 2])) -> State<T> {
         let mut s = self.settled(drive, from);
+        s.heading = heading;
         let (speeds, gyro) = self.shown(drive, robot, from);
         self.plant.roll_body(&mut s, &speeds, gyro);
         self.plant.roll_wheels(&mut s);
