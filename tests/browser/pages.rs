@@ -170,6 +170,7 @@ fn advice() -> Advice {
         start: [0.0; 3],
         profile: vec![[0.0; 3], [2.0, 0.5, 0.2], [4.0, 0.0, 0.0]],
         torque_free: Vec::new(),
+        direction: 0.0,
     };
     Advice { entropy_bits: 1.0, manoeuvres: vec![drive], ..Advice::default() }
 }
