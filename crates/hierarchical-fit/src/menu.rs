@@ -36,7 +36,7 @@ impl Reach {
         let speed = most(&mut did.iter().filter(drives).map(|d| d[0].abs())).filter(|v| *v > MENU.least_speed)?;
         let turning = most(&mut did.iter().map(|d| d[1].abs())).unwrap_or(0.0);
         let curvature = most(&mut did.iter().filter(drives).map(|d| (d[1] / d[0]).abs())).unwrap_or(0.0);
-        let on_the_spot = |d: &&[f64; 2]| !drives(d) && d[1].abs() > MENU.moving * turning && turning > 0.0;
+        let on_the_spot = |d: &&[f64; 2]| !drives(d) && d[1].abs() > MENU.turns * turning && turning > 0.0;
         let backward = did.iter().filter(|d| d[0] < -MENU.moving * top).count() as f64;
         let backs = backward > MENU.spun * did.len() as f64;
         let spins = did.iter().filter(on_the_spot).count() as f64 > MENU.spun * did.len() as f64;

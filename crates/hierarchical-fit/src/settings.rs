@@ -121,8 +121,10 @@
     menu: Menu {
         /// Quantile of speeds, turning and bends that were driven which is asked for at most.
         quantile: f64 = 0.95, "1", "guess; what is beyond may be noise";
-        /// Share of the fastest speed, or turning, from which on a robot drives, or turns.
+        /// Share of the fastest speed from which on a robot drives.
         moving: f64 = 0.15, "1", "guess";
+        /// Share of the fastest turning from which on a robot that does not drive turns on the spot.
+        turns: f64 = 0.4, "1", "guess; noise of a pose at rest is less";
         /// A robot that was never faster hardly moved.
         least_speed: f64 = 0.01, "m/s", "guess";
         /// Share of the time from which on a robot turns on the spot, or drives backward.

@@ -16,6 +16,7 @@
 //! * `findings`: what the drives of a case say, as plain data.
 //! * `doubt`: causes that evidence names and that explain little.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
+//! * `next_drive`: drives of the menu as the robot would drive them, and what they would say.
 //! * `simulate`: a robot as stated on the counts of a drive.
 //! * `traces`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.

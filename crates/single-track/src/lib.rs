@@ -13,6 +13,7 @@
 //! * `diagnose`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `simulate`: a car as stated on the inputs of a drive.
 //! * `traces`: drives beside their simulations, for pages and pictures.
+//! * `next_drive`: drives of the menu as the car would drive them, and what they would say.
 //! * `settings`: every tuned number.
 
 mod answer;

@@ -5,11 +5,13 @@
 //! * `robot`, `constants`: a robot as its owner states it, and the constants on which its motion and its reports depend.
 //! * `drive`: torques, steering, wheels, gyro and pose of a drive on one grid.
 //! * `units`: columns in another unit than the robot file says.
+//! * `noise`: how noisy a pose is, and by how much wheels and gyro count at the start of a window.
 //! * `casters`: where casters point at the start of a window.
 //! * `model`: the plant at values of the constants, and runs of it.
 //! * `rows`: windows of the motion against the model, several values of the constants side by side.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, forecasts of what is left out, and findings as a verdict in
 //!   sentences.
+//! * `next_drive`: drives of the menu as the robot would drive them, and what they would say.
 //! * `simulate`: a robot as stated on the inputs of a drive.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `settings`: every tuned number.

@@ -54,8 +54,8 @@ fn twists(at: &Model<f64>, robot: &AnyWheels, drive: &Drive) -> Vec<[f64; 2]> {
     let of = |k: usize| {
         if drive.has_pose() {
             let rates = slope(&drive.pose, [k.checked_sub(half)?, k + half], k, STEP)?;
-            let origin = at.of_origin(drive.pose[k][2], rates);
-            return Some([signed(origin), rates[2]]);
+            let s = at.of_pose(drive, robot, k, (drive.pose[k], rates));
+            return Some([signed(at.plant.velocity_of(&s, [0.0; 2])), s.yaw_rate]);
         }
         let mut s = State::default();
         at.roll_by_wheels(drive, robot, k, &mut s);
