@@ -31,7 +31,9 @@ impl Reach {
             let sizes = sorted({ of }.filter(|x| x.is_finite()));
             quantile(&sizes, MENU.quantile)
         };
-        let top = did.iter().map(|d| d[0].abs()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+        // What was seen for an instant alone is no speed of the robot.
+        let speeds = sorted(did.iter().map(|d| d[0].abs()).filter(|v| v.is_finite()));
+        let top = quantile(&speeds, MENU.top).unwrap_or(0.0);
         let drives = |d: &&[f64; 2]| d[0].abs() > MENU.moving * top;
         let speed = most(&mut did.iter().filter(drives).map(|d| d[0].abs())).filter(|v| *v > MENU.least_speed)?;
         let turning = most(&mut did.iter().map(|d| d[1].abs())).unwrap_or(0.0);
@@ -111,5 +113,8 @@ mod tests {
         let names: Vec<String> = menu(base, 20.0).into_iter().map(|m| m.name).collect();
         assert!(names.iter().any(|n| n == "fast spins, both ways") && names.iter().any(|n| n.starts_with("sideways")));
         assert_eq!(Reach::of(&[[0.0, 0.0]; 50], false), None);
+        // A pose that jumps is no speed.
+        let jumps = Reach::of(&[&straight[..], &bends[..], &[[40.0, 0.0]]].concat(), false).expect("it moves");
+        assert!((jumps.speed - 0.5).abs() < 1e-9 && !jumps.spins, "{jumps:?}");
     }
 }

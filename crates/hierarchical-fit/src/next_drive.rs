@@ -84,7 +84,11 @@ pub fn advise(said: Said<'_>, candidates: Vec<Candidate>) -> Advice {
         manoeuvre.narrows = rivals.iter().find_map(|r| narrows(&information, &r.posterior, r.size?));
         out.manoeuvres.push(manoeuvre);
     }
-    out.withheld = nothing_to_split(&out);
+    out.withheld = if out.manoeuvres.is_empty() {
+        Some("no drive of the menu could be simulated for this robot".to_owned())
+    } else {
+        nothing_to_split(&out)
+    };
     if !out.manoeuvres.is_empty() {
         out.limits.push(
             "a drive is taken to be recorded with the same sensors and noise, on the same floor; what it would say is that of a \

@@ -121,6 +121,8 @@
     menu: Menu {
         /// Quantile of speeds, turning and bends that were driven which is asked for at most.
         quantile: f64 = 0.95, "1", "guess; what is beyond may be noise";
+        /// Quantile of speeds that counts as the fastest.
+        top: f64 = 0.99, "1", "guess; a glitch lasts for a row or two";
         /// Share of the fastest speed from which on a robot drives.
         moving: f64 = 0.15, "1", "guess";
         /// Share of the fastest turning from which on a robot that does not drive turns on the spot.

@@ -7,6 +7,7 @@ use crate::motion::Laws;
 use crate::settings::SETTINGS;
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
+use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::{Answer, Estimate, NamedCause, is_beyond_references};
 use inference::experiment::Standing;
 use verdict::{Advice, PredictedPath, Trace};
@@ -63,7 +64,9 @@ impl Findings {
         let [_, tuned, best] = out.shares;
         let leaves_most = best > rules.leaves_most * tuned;
         let is_refuted = Standing::new(&table.free_runs()).is_some_and(|s| s.over_nominal > rules.refuted);
-        if out.answer == Answer::Named && leaves_most && is_refuted {
+        // Counts that were lost are seen by themselves, and no law of the constants.
+        let is_law = out.named.iter().any(|cause| *cause.spec != LOST_COUNTS);
+        if out.answer == Answer::Named && is_law && leaves_most && is_refuted {
             out.take_back();
         }
         out
@@ -72,7 +75,9 @@ impl Findings {
     /// Takes back what was named: it is listed, and what is left is as re-tuning leaves it.
     fn take_back(&mut self) {
         let listed = SETTINGS.doubt.listed;
-        self.others.extend(self.named.drain(..).map(|cause| (cause.label, cause.probability.min(listed))));
+        let (lost, laws): (Vec<_>, Vec<_>) = self.named.drain(..).partition(|cause| *cause.spec == LOST_COUNTS);
+        self.others.extend(laws.into_iter().map(|cause| (cause.label, cause.probability.min(listed))));
+        self.named = lost;
         self.others.sort_by(|a, b| b.1.total_cmp(&a.1));
         self.constants.clone_from(&self.retuned);
         self.laws[2] = self.laws[1].clone();
@@ -82,6 +87,8 @@ impl Findings {
             || is_beyond_references(self.shares[2], self.left_of_references);
         self.answer = if is_left {
             Answer::Unknown
+        } else if !self.named.is_empty() {
+            Answer::Named
         } else if self.retuned.iter().any(Estimate::is_moved) {
             Answer::Retune
         } else {

@@ -50,14 +50,17 @@ pub(crate) fn advise(case: &Case, found: &Found<'_>, length: f64) -> Advice {
         let information = equations(&own, &fit.theta, fit.scale).first()?.marginal(&scatter)?.curvature;
         let by_constant = columns(&own, &fit.theta, 0);
         let windows = own.windows[0].len();
-        let of_window = |i: usize, k: usize| by_constant[k][i / 3][i % 3];
+        // A heading that is measured alone is told as one, without its lever.
+        let per = if heading_only { 1.0 / SETTINGS.windows.lever } else { 1.0 };
+        let of_window = |i: usize, k: usize| per * by_constant[k][i / 3][i % 3];
         let columns = DMatrix::from_fn(3 * windows, by_constant.len(), of_window);
         let what = if heading_only {
             format!("the turning over {} s", SETTINGS.windows.length)
         } else {
             format!("the place or heading after {} s", SETTINGS.windows.length)
         };
-        let readings = vec![Readings { what, unit: "m", columns, sigma: fit.scale }];
+        let unit = if heading_only { "rad" } else { "m" };
+        let readings = vec![Readings { what, unit, columns, sigma: per * fit.scale }];
         Some(Candidate { manoeuvre, information, readings })
     };
     let candidates = menu(reach, length).into_iter().filter_map(candidate).collect();

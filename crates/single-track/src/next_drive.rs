@@ -30,6 +30,8 @@ pub(crate) fn advise(solved: &Solved<Shown<'_>>, encoder_window: f64, length: f6
         );
     };
 
+    // However slowly it was seen to turn: a car does not do so on the spot.
+    let reach = Reach { spins: false, ..reach };
     let any = |of: &dyn Fn(&Drive) -> bool| made.iter().any(|shown| of(shown.drive));
     let measured = Measured {
         pose: any(&Drive::has_pose),

@@ -41,7 +41,7 @@ pub(crate) struct Model<T> {
     pub(crate) gyro: [T; 2],
     /// Tracked point and direction of its axes.
     point: [T; 2],
-    direction: T,
+    pub(crate) direction: T,
 }
 
 impl<T: PerLane> Model<T> {

@@ -41,7 +41,7 @@ impl Noise {
         let within_a_turn = |d: f64| (d - (d / TAU).round() * TAU).abs();
         let heading = sigma(&mut windows().map(|w| within_a_turn(third(w, yaw))));
         let pose = [place, heading];
-        let about = (RULES.smoothing / period).floor().max(1.0);
+        let about = (RULES.smoothing / period + RULES.whole).floor().max(1.0);
         let squares: f64 = (1..=about as usize).map(|k| 2.0 * (period * k as f64).powi(2)).sum();
         Self { pose, rates: pose.map(|sigma| sigma / squares.sqrt()) }
     }
@@ -55,10 +55,10 @@ impl Noise {
         [share(place, along), share(place, if rolls_any_way { along } else { RULES.sideways }), share(heading, turning)]
     }
 
-    /// What it makes of the place and the heading so much later, m and rad, root mean square.
-    pub(crate) fn after(self, seconds: f64) -> [f64; 2] {
-        let [ahead, _, turning] = self.share_of_wheels(false);
-        [(0, ahead), (1, turning)].map(|(k, share)| {
+    /// What it makes of the place, ahead and to the left, and of the heading so much later, m and rad, root mean square, where windows
+    /// begin with these shares of wheels and gyro.
+    pub(crate) fn after(self, seconds: f64, [ahead, left, turning]: [f64; 3]) -> [f64; 3] {
+        [(0, ahead), (0, left), (1, turning)].map(|(k, share)| {
             let rate = self.rates[k] * (1.0 - share).sqrt();
             (2.0 * self.pose[k].powi(2) + (rate * seconds).powi(2)).sqrt()
         })
@@ -104,7 +104,8 @@ mod tests {
         let (good, bad) = (seen(100.0, [2e-4, 2e-4]), seen(25.0, [0.003, 0.003]));
         assert!(good.share_of_wheels(true)[0] < 0.05 && bad.share_of_wheels(true)[1] > 0.5, "{good:?} {bad:?}");
         assert!(bad.share_of_wheels(false)[1] < 0.5 * bad.share_of_wheels(true)[1], "wheels slide sideways");
-        assert!(bad.after(1.0)[0] > 2.0_f64.sqrt() * bad.pose[0] && bad.after(1.0)[0] < 0.03, "{:?}", bad.after(1.0));
+        let [with_wheels, without] = [bad.share_of_wheels(true), [0.0; 3]].map(|shares| bad.after(1.0, shares)[0]);
+        assert!(with_wheels > 2.0_f64.sqrt() * bad.pose[0] && with_wheels < 0.7 * without, "{with_wheels} {without}");
         assert_eq!(Noise::of(&Default::default()), Noise::default());
     }
 }

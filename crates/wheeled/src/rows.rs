@@ -228,8 +228,13 @@ impl Observed for Shown<'_> {
         if !self.drive.has_pose() {
             return 0.0;
         }
-        let [middle, end] = [0.5, 1.0].map(|share| self.drive.noise.after(share * RULES.length));
-        let of = |[place, heading]: [f64; 2]| [place, place, RULES.lever * heading];
+        let noise = self.drive.noise;
+        let [ahead, left, turning] = noise.share_of_wheels(false);
+        let [wheels, gyro] =
+            [!self.drive.wheels.is_empty(), self.drive.gyro.is_some()].map(|is| f64::from(u8::from(is)));
+        let shares = [wheels * ahead, wheels * left, gyro * turning];
+        let [middle, end] = [0.5, 1.0].map(|share| noise.after(share * RULES.length, shares));
+        let of = |[ahead, left, heading]: [f64; 3]| [ahead, left, RULES.lever * heading];
         rms([of(middle), of(end)].into_iter().flatten()).unwrap_or(0.0)
     }
 

@@ -14,6 +14,8 @@
         gap: f64 = 0.1, "s", "guess; motion hardly changes within it";
         /// Gaps of the pose that are bridged.
         pose_gap: f64 = 0.25, "s", "guess; a pose at 10 Hz of which one is missing, off by a centimetre at usual accelerations";
+        /// Share of a pose by which a number of them may fall short of a whole one.
+        whole: f64 = 1e-3, "1", "rounding of times";
         /// Times the usual distance up to which poses count as evenly apart.
         even: f64 = 1.2, "1", "guess";
         /// How well wheels and gyro show velocity and yaw rate of the body at an instant, one sigma.

@@ -176,11 +176,15 @@ fn text(advice: &Advice, wanted: Option<&Manoeuvre>, verdict: Option<&String>, l
         out += &format!("\n{}", heading(&format!("Next: {}", m.name)));
         out += &format!("{}\n", m.why);
         let [x, y, yaw] = m.start;
-        out += &format!(
-            "Begin at x {x:.2} m, y {y:.2} m, heading {:.0} degrees; {:.0} s.\n",
-            yaw.to_degrees(),
-            m.length()
-        );
+        // Of drives that may begin anywhere no place is told.
+        out += &match m.start {
+            [0.0, 0.0, 0.0] => format!("Begin anywhere; {:.0} s.\n", m.length()),
+            _ => format!(
+                "Begin at x {x:.2} m, y {y:.2} m, heading {:.0} degrees; {:.0} s.\n",
+                yaw.to_degrees(),
+                m.length()
+            ),
+        };
     }
     out += &listed("What limits this advice", &advice.limits);
     out += &listed("Lost input", lost);
