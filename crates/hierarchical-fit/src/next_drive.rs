@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use catalogue::for_people;
-use inference::advice::{among, nothing_to_split, sorted};
+use inference::advice::{LEAST_RIVAL, MOST_RIVALS, among, nothing_to_split, sorted};
 use inference::evidence::probabilities;
 use inference::expected_information::{Forecast, expected_bits, widest_pair};
 use inference::words::two_digits;
@@ -24,9 +24,9 @@ use crate::settings::SETTINGS;
 use crate::solve::Solved;
 use crate::weigh::{Evidence, Posterior};
 
-/// What the drives that were made say of the answers.
+/// Answers that the drives which were made leave open.
 #[derive(Debug, Clone, Copy)]
-pub struct Said<'a> {
+pub struct Answers<'a> {
     /// Equations of all drives.
     pub evidence: &'a Evidence,
     /// Covariance of the constants before them.
@@ -70,8 +70,8 @@ struct Rival {
 }
 
 /// Advises on the next drive among these.
-pub fn advise(said: Said<'_>, candidates: Vec<Candidate>) -> Advice {
-    let rivals = rivals(said);
+pub fn advise(answers: Answers<'_>, candidates: Vec<Candidate>) -> Advice {
+    let rivals = rivals(answers);
     let mut out = among(rivals.iter().map(|r| r.contender.clone()));
     let p: Vec<f64> = out.rivals.iter().map(|r| r.probability).collect();
     for Candidate { mut manoeuvre, information, readings } in candidates {
@@ -126,20 +126,19 @@ impl<D: Observed> Solved<D> {
             Some(Candidate { manoeuvre, information, readings })
         };
         let candidates: Vec<Candidate> = drives.into_par_iter().filter_map(candidate).collect();
-        let said = Said {
+        let answers = Answers {
             evidence: &evidence,
             known: &self.prior.covariance,
             causes: &self.causes,
             chosen: &self.named.chosen,
         };
-        advise(said, candidates)
+        advise(answers, candidates)
     }
 }
 
 /// What may still be true: what was named, and all that differs from it by one cause, the most probable first.
-fn rivals(said: Said<'_>) -> Vec<Rival> {
-    let Said { evidence, known, causes, chosen } = said;
-    let rules = SETTINGS.next_drive;
+fn rivals(answers: Answers<'_>) -> Vec<Rival> {
+    let Answers { evidence, known, causes, chosen } = answers;
     let told: Vec<usize> = chosen.iter().map(|w| w.cause).collect();
     let all = 0..causes.len();
     let mut sets: Vec<Vec<usize>> = vec![told.clone(), Vec::new()];
@@ -167,7 +166,7 @@ fn rivals(said: Said<'_>) -> Vec<Rival> {
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
 
     let likely = |scored: &[(f64, Vec<usize>)]| probabilities(&scored.iter().map(|s| s.0).collect::<Vec<_>>(), 1.0);
-    let kept = likely(&scored).iter().take(rules.most).filter(|p| **p >= rules.least).count();
+    let kept = likely(&scored).iter().take(MOST_RIVALS).filter(|p| **p >= LEAST_RIVAL).count();
     scored.truncate(kept);
     let p = likely(&scored);
     let rival = |((_, set), probability): (&(f64, Vec<usize>), f64)| {
@@ -272,8 +271,8 @@ mod tests {
         let known = DMatrix::from_diagonal_element(2, 2, 1e-4);
         let causes = [cause(&catalogue::odometry::STEERING_ZERO, 0), cause(&catalogue::odometry::POSE_MOUNTING, 1)];
         let named = name(&evidence, &known, &causes).expect("an answer");
-        let said = Said { evidence: &evidence, known: &known, causes: &causes, chosen: &named.chosen };
-        advise(said, vec![candidate("the same again", [1.0; 2]), candidate("one of them alone", [1.0, 0.0])])
+        let answers = Answers { evidence: &evidence, known: &known, causes: &causes, chosen: &named.chosen };
+        advise(answers, vec![candidate("the same again", [1.0; 2]), candidate("one of them alone", [1.0, 0.0])])
     }
 
     #[test]

@@ -109,14 +109,6 @@
         most: f64 = 0.15, "1", "guess; what moves farther is asked a cause for";
     }
 
-    /// Answers that a next drive is to tell apart.
-    next_drive: NextDrive {
-        /// Answers less probable than this are none.
-        least: f64 = 0.01, "1", "equal to that of speed-driven robots";
-        /// Answers at most.
-        most: usize = 6, "1", "equal to that of speed-driven robots";
-    }
-
     /// Drives to choose from.
     menu: Menu {
         /// Quantile of speeds, turning and bends that were driven which is asked for at most.

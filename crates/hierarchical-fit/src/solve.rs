@@ -161,8 +161,8 @@ fn drop_unmoved(causes: &[Cause], prior: &Prior, named: &mut Named) {
 }
 
 /// Drops all causes that ask some constant for far more sigmas than re-tuning asks any, where constants within what is known of them
-/// leave hardly more of the motion and of no kind of reading much more, and whether it did: evidence counts what the laws of tyres get wrong as noise of many rows, and pays for it with
-/// causes that no owner would believe.
+/// leave hardly more of the motion and of no kind of reading much more, and whether it did: evidence counts what the laws of tyres get
+/// wrong as noise of many rows, and pays for it with causes that no owner would believe.
 fn drop_unneeded<D: Observed>((data, prior, has_references): (&Data<D>, &Prior, bool), named: &mut Named) -> bool {
     let rules = SETTINGS.naming;
     if named.chosen.is_empty() {
@@ -176,9 +176,8 @@ fn drop_unneeded<D: Observed>((data, prior, has_references): (&Data<D>, &Prior, 
     let both = [&named.posterior, &named.retuned];
     let [with, without] = both.map(|p| data.share(p.mean.as_slice()));
     // A wheel of another radius is at odds with its encoder first.
-    let of_kinds = || both.map(|p| data.left(p.mean.as_slice()));
     let is_seen = || {
-        let [with, without] = of_kinds();
+        let [with, without] = both.map(|p| data.left(p.mean.as_slice()));
         with.iter().zip(without).any(|(with, without)| *with < D::HARDLY.min(rules.seen) * without)
     };
     let is_unneeded = is_within && with > D::HARDLY * without && !is_seen();

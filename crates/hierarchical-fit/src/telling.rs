@@ -10,7 +10,7 @@ use catalogue::odometry::{SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use inference::evidence::none_of;
 use inference::experiment::Standing;
 use inference::robust::NINETY;
-use inference::words::probability;
+use inference::words::{probability, two_decimals};
 use verdict::{Cause, Diagnosis, FreeRun, Retuned, Verdict};
 
 /// What was found, however it was compared.
@@ -200,7 +200,7 @@ fn retuned(e: &Estimate) -> Retuned {
 /// "0.0842 ± 0.0003 m", with two digits of the interval.
 fn number(e: &Estimate) -> String {
     let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
-    let digits = (1 - e.half_width.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
+    let digits = two_decimals(e.half_width);
     format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
 }
 

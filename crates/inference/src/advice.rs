@@ -8,6 +8,11 @@ use crate::settings::SETTINGS;
 /// A gain this small, bits, is none.
 pub const LEAST_BITS: f64 = SETTINGS.information.least;
 
+/// An answer less probable than this is no rival.
+pub const LEAST_RIVAL: f64 = SETTINGS.information.least_rival;
+/// Rivals at most.
+pub const MOST_RIVALS: usize = SETTINGS.information.rivals;
+
 /// Advice among contenders, without any drive yet.
 pub fn among(rivals: impl Iterator<Item = Contender>) -> Advice {
     let rivals: Vec<Contender> = rivals.collect();

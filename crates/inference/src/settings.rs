@@ -43,6 +43,10 @@
         points: usize = 256, "1", "guess";
         /// A gain below this is none.
         least: f64 = 0.005, "bit", "guess";
+        /// Answers less probable than this are no rivals.
+        least_rival: f64 = 0.01, "1", "guess";
+        /// Rivals at most.
+        rivals: usize = 6, "1", "guess";
     }
 }
 

@@ -60,7 +60,7 @@ fn number(c: &Cause, m: f64) -> String {
     let unit = if c.unit == "-" { String::new() } else { format!(" {}", c.unit) };
     match c.sigma.filter(|s| *s > 0.0 && s.is_finite()) {
         Some(s) => {
-            let digits = (1 - s.log10().floor() as i32).clamp(0, 6) as usize;
+            let digits = two_decimals(s);
             format!("{m:.digits$} ± {:.digits$}{unit} (90 %)", NINETY * s)
         }
         None => format!("{m:.3}{unit}"),
@@ -80,8 +80,13 @@ pub fn probability(p: f64) -> String {
 
 /// A number with two digits that count.
 pub fn two_digits(x: f64) -> String {
-    let decimals = (1 - x.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
+    let decimals = two_decimals(x);
     format!("{x:.decimals$}")
+}
+
+/// Decimals with which a number of this size has two digits that count, six at most.
+pub fn two_decimals(size: f64) -> usize {
+    (1 - size.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize
 }
 
 /// The drive that reveals an effect best.

@@ -1,7 +1,7 @@
 //! Drives that would tell the remaining answers apart, each as the robot of the answer would drive it.
 
 use hierarchical_fit::menu::{Reach, menu};
-use hierarchical_fit::next_drive::{self, Candidate, Readings, Said};
+use hierarchical_fit::next_drive::{self, Answers, Candidate, Readings};
 use hierarchical_fit::{Cause, Evidence, Weighed};
 use nalgebra::DMatrix;
 use verdict::{Advice, Manoeuvre};
@@ -50,21 +50,25 @@ pub(crate) fn advise(case: &Case, found: &Found<'_>, length: f64) -> Advice {
         let information = equations(&own, &fit.theta, fit.scale).first()?.marginal(&scatter)?.curvature;
         let by_constant = columns(&own, &fit.theta, 0);
         let windows = own.windows[0].len();
-        // A heading that is measured alone is told as one, without its lever.
-        let per = if heading_only { 1.0 / SETTINGS.windows.lever } else { 1.0 };
+        // Headings stand in metres, `yaw / lever`; one that is measured alone is told in radians.
+        let per = if heading_only { SETTINGS.windows.lever } else { 1.0 };
         let of_window = |i: usize, k: usize| per * by_constant[k][i / 3][i % 3];
         let columns = DMatrix::from_fn(3 * windows, by_constant.len(), of_window);
         let what = if heading_only {
             format!("the turning over {} s", SETTINGS.windows.length)
         } else {
-            format!("the place or heading after {} s", SETTINGS.windows.length)
+            format!(
+                "the place (or the heading, at a lever of {:.2} m) after {} s",
+                1.0 / SETTINGS.windows.lever,
+                SETTINGS.windows.length
+            )
         };
         let unit = if heading_only { "rad" } else { "m" };
         let readings = vec![Readings { what, unit, columns, sigma: per * fit.scale }];
         Some(Candidate { manoeuvre, information, readings })
     };
     let candidates = menu(reach, length).into_iter().filter_map(candidate).collect();
-    next_drive::advise(Said { evidence: &evidence, known: &prior.covariance, causes, chosen }, candidates)
+    next_drive::advise(Answers { evidence: &evidence, known: &prior.covariance, causes, chosen }, candidates)
 }
 
 /// Speed and yaw rate at instants of a drive, as its wheels show them.

@@ -147,3 +147,11 @@ fn what_a_gyro_shows_at_rest_is_taken_off() {
     let last = drive.pose[599];
     assert!(last[0].is_nan() && last[2].abs() < 1e-9, "{last:?}");
 }
+
+#[test]
+fn the_next_drive_is_told_by_the_turning_that_it_would_show() {
+    let case = by_gyro(Kind::Differential, Hidden::Distance, [1.0, 0.0], 7);
+    let next = odometry::examine(&case, Some(12.0), &|_| {}).expect("an answer").next.expect("advice");
+    let best = next.best().expect("a drive");
+    assert!(best.why.contains("the turning over 4 s differs by") && best.why.contains(" rad ("), "{}", best.why);
+}

@@ -10,6 +10,8 @@ use crate::rows::Shown;
 use crate::settings::{NextDrive, SETTINGS};
 
 const RULES: NextDrive = SETTINGS.next_drive;
+/// A car that stands at the origin.
+const REST: State = State { place: [0.0; 2], yaw: 0.0, speed: 0.0, side: 0.0, rate: 0.0 };
 
 /// What was measured of a car.
 #[derive(Debug, Clone, Copy)]
@@ -46,9 +48,9 @@ pub(crate) fn advise(solved: &Solved<Shown<'_>>, encoder_window: f64, length: f6
     let drives: Vec<(Manoeuvre, Drive)> = menu(reach, length).into_iter().filter_map(driven).collect();
     let shown =
         drives.iter().map(|(manoeuvre, drive)| (manoeuvre.clone(), Shown::new(drive, encoder_window))).collect();
-    let seconds = SETTINGS.windows.length;
+    let (seconds, lever) = (SETTINGS.windows.length, SETTINGS.windows.lever);
     solved.advise(shown, |kind| match kind {
-        Kind::Pose => (format!("the place or heading {seconds} s ahead"), "m"),
+        Kind::Pose => (format!("the place (or the heading, at a lever of {lever} m) {seconds} s ahead"), "m"),
         Kind::Gyro => ("the yaw rate".to_owned(), "rad/s"),
         Kind::Encoder => ("the speed by the encoder".to_owned(), "m/s"),
     })
@@ -74,7 +76,7 @@ fn twists(laws: &Laws, shown: &Shown<'_>) -> Vec<[f64; 2]> {
 /// Throttle and steering commands by which a car without any lag would drive as wanted.
 fn commands(laws: &Laws, m: &Manoeuvre) -> [Vec<f64>; 2] {
     let steps = (m.length() / STEP).round() as usize;
-    let mut s = State { place: [0.0; 2], yaw: 0.0, speed: 0.0, side: 0.0, rate: 0.0 };
+    let mut s = REST;
     let (mut throttle, mut steering) = (Vec::with_capacity(steps), Vec::with_capacity(steps));
     for k in 0..steps {
         let [wanted, turning] = m.wanted(STEP * k as f64);
@@ -98,10 +100,9 @@ fn recorded(laws: &Laws, [throttle, steering]: [Vec<f64>; 2], measured: Measured
     let time: Vec<f64> = (0..throttle.len()).map(|k| STEP * k as f64).collect();
     let commanded = Table { time, throttle, steering, ..Table::default() };
     let drive = Drive::held_out("next", &commanded).ok()?;
-    let rest = State { place: [0.0; 2], yaw: 0.0, speed: 0.0, side: 0.0, rate: 0.0 };
     let inputs = laws.inputs(&drive);
-    let mut states = vec![rest];
-    states.extend(laws.run(rest, &inputs, 0, inputs.steering.len()));
+    let mut states = vec![REST];
+    states.extend(laws.run(REST, &inputs, 0, inputs.steering.len()));
     states.resize(commanded.time.len(), *states.last()?);
     let column = |is: bool, of: &dyn Fn(&State) -> f64| if is { states.iter().map(of).collect() } else { Vec::new() };
     Some(Table {

@@ -14,7 +14,7 @@ use verdict::{Advice, Contender, Course, Manoeuvre, Quantity};
 use crate::compare::scatter;
 use crate::settings::{NAMING, naming::NextDrive};
 use crate::{Named, Naming, Operating, Tuned, predicted, sensitivity};
-use inference::advice::{LEAST_BITS, among, nothing_to_split, sorted};
+use inference::advice::{LEAST_BITS, LEAST_RIVAL, MOST_RIVALS, among, nothing_to_split, sorted};
 use inference::algebra::solve_spd;
 use robot_model::tunable::tuned;
 
@@ -62,9 +62,9 @@ fn rivals(naming: &Naming) -> Vec<Rival<'_>> {
     let top = found.iter().map(|f| f.2).fold(f64::MIN, f64::max);
     let weight = |s: f64| (s - top).exp();
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
-    found.retain(|f| weight(f.2) >= NEXT.least * sum);
+    found.retain(|f| weight(f.2) >= LEAST_RIVAL * sum);
     found.sort_by(|a, b| b.2.total_cmp(&a.2));
-    found.truncate(NEXT.most);
+    found.truncate(MOST_RIVALS);
     let sum: f64 = found.iter().map(|f| weight(f.2)).sum();
     let name = |named: Option<&Named>| named.map_or("nothing is missing".to_owned(), Named::name);
     found

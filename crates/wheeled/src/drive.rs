@@ -9,7 +9,7 @@ use odometry::rates::on_grid;
 use robot_model::wheels::MOST_CASTERS;
 
 use crate::casters;
-use crate::noise::Noise;
+use crate::noise::{self, Noise};
 use crate::robot::AnyWheels;
 use crate::settings::{Grid, SETTINGS};
 use crate::units::mistaken;
@@ -106,7 +106,7 @@ impl Drive {
         if rows < RULES.rows || end - start < STEP * RULES.rows as f64 {
             return Err(wrong(format!("{rows} rows, but at least {} are needed; record longer", RULES.rows)));
         }
-        if let Some(apart) = apart_of(&of.pose).filter(|apart| *apart > RULES.pose_gap) {
+        if let Some(apart) = noise::apart(&of.pose).filter(|apart| *apart > RULES.pose_gap) {
             return Err(wrong(format!(
                 "its poses are {apart:.2} s apart, and at most {} s are bridged; record the pose more often, or take x, y and yaw out of \
                  [columns] to compare wheels and gyro alone",
@@ -176,13 +176,6 @@ impl Drive {
         let (from, until) = (STEP * from as f64, STEP * until as f64);
         self.gaps.iter().all(|[a, b]| *b <= from || *a >= until)
     }
-}
-
-/// Usual time between two poses, s; `None` where fewer than two were seen.
-fn apart_of([x, y, yaw]: &[Series; 3]) -> Option<f64> {
-    let is_seen = |k: &usize| [x, y, yaw].iter().all(|s| s.value.get(*k).is_some_and(|value| value.is_finite()));
-    let seen: Vec<f64> = (0..x.time.len()).filter(is_seen).map(|k| x.time[k]).collect();
-    median(seen.windows(2).map(|w| w[1] - w[0]))
 }
 
 /// An angle as an integral whose means are the angle on a line between its instants.

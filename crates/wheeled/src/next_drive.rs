@@ -39,9 +39,9 @@ pub(crate) fn advise(solved: &Solved<Shown<'_>>, length: f64) -> Advice {
     };
     let drives: Vec<(Manoeuvre, Drive)> = menu(reach, length).into_iter().filter_map(driven).collect();
     let shown = drives.iter().map(|(manoeuvre, drive)| (manoeuvre.clone(), Shown::new(drive, robot))).collect();
-    let seconds = SETTINGS.windows.length;
+    let (seconds, lever) = (SETTINGS.windows.length, SETTINGS.windows.lever);
     solved.advise(shown, |kind| match kind {
-        Kind::Pose => (format!("the place or heading {seconds} s ahead"), "m"),
+        Kind::Pose => (format!("the place (or the heading, at a lever of {lever} m) {seconds} s ahead"), "m"),
         Kind::Gyro => ("the yaw rate".to_owned(), "rad/s"),
         Kind::Encoder => ("the speed of the wheels".to_owned(), "m/s"),
     })
@@ -228,7 +228,7 @@ mod tests {
         };
         let [by_pose, with_wheels] = off(&drive(0.003));
         assert!(by_pose > 0.01 && with_wheels < 0.6 * by_pose, "{by_pose} m/s by the pose, {with_wheels} with wheels");
-        let [by_pose, with_wheels] = off(&exact);
-        assert!(with_wheels == 0.0 && by_pose < 5e-3, "of a good pose its own velocity is right: {by_pose} m/s off");
+        let [of_pose, _] = off(&exact);
+        assert!(of_pose < 5e-3, "wheels move the start by {of_pose} m/s where the pose is good");
     }
 }

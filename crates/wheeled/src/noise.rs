@@ -25,9 +25,9 @@ pub(crate) struct Noise {
 
 impl Noise {
     /// Of poses at their own instants.
-    pub(crate) fn of([x, y, yaw]: &[Series; 3]) -> Self {
-        let seen: Vec<usize> = (0..x.time.len()).filter(|&k| [x, y, yaw].iter().all(|s| is_seen(s, k))).collect();
-        let Some(period) = median(seen.windows(2).map(|w| x.time[w[1]] - x.time[w[0]])) else { return Self::default() };
+    pub(crate) fn of(pose: &[Series; 3]) -> Self {
+        let (seen, [x, y, yaw]) = (seen(pose), pose);
+        let Some(period) = apart(pose) else { return Self::default() };
         // Third differences across a gap are motion.
         let even = |w: &&[usize]| x.time[w[3]] - x.time[w[0]] < RULES.even * 3.0 * period;
         let third = |w: &[usize], s: &Series| {
@@ -65,8 +65,16 @@ impl Noise {
     }
 }
 
-fn is_seen(s: &Series, k: usize) -> bool {
-    s.value.get(k).is_some_and(|value| value.is_finite())
+/// Rows in which a pose was seen.
+fn seen(pose: &[Series; 3]) -> Vec<usize> {
+    let is_seen = |k: &usize| pose.iter().all(|s| s.value.get(*k).is_some_and(|value| value.is_finite()));
+    (0..pose[0].time.len()).filter(is_seen).collect()
+}
+
+/// Usual time between two poses, s; `None` where fewer than two were seen.
+pub(crate) fn apart(pose: &[Series; 3]) -> Option<f64> {
+    let time = &pose[0].time;
+    median(seen(pose).windows(2).map(|w| time[w[1]] - time[w[0]]))
 }
 
 #[cfg(test)]
@@ -75,12 +83,12 @@ mod tests {
     use inference::robust::normal_quantile;
 
     /// Poses of a robot that drives a slalom, seen so often a second with so much noise.
-    fn seen(rate: f64, [of_place, of_heading]: [f64; 2]) -> Noise {
+    fn drawn(rate: f64, [of_place, of_heading]: [f64; 2]) -> Noise {
         let time: Vec<f64> = (0..(30.0 * rate) as usize).map(|k| k as f64 / rate).collect();
-        let mut drawn = 0_usize;
+        let mut number = 0_usize;
         let mut noise = || {
-            drawn += 1;
-            normal_quantile((drawn as f64 * 0.618_033_988_749_895).fract().clamp(1e-6, 1.0 - 1e-6))
+            number += 1;
+            normal_quantile((number as f64 * 0.618_033_988_749_895).fract().clamp(1e-6, 1.0 - 1e-6))
         };
         let mut series = |of: &dyn Fn(f64) -> f64, sigma: f64| Series {
             time: time.clone(),
@@ -97,11 +105,11 @@ mod tests {
     #[test]
     fn noise_of_a_pose_is_found_beside_its_motion_and_wheels_count_the_more_the_larger_it_is() {
         for rate in [25.0, 50.0, 100.0] {
-            let found = seen(rate, [0.003, 0.004]);
+            let found = drawn(rate, [0.003, 0.004]);
             // Noise that is drawn evenly alternates, which third differences take for more.
             assert!((0.002..0.006).contains(&found.pose[0]) && (0.002..0.009).contains(&found.pose[1]), "{found:?}");
         }
-        let (good, bad) = (seen(100.0, [2e-4, 2e-4]), seen(25.0, [0.003, 0.003]));
+        let (good, bad) = (drawn(100.0, [2e-4, 2e-4]), drawn(25.0, [0.003, 0.003]));
         assert!(good.share_of_wheels(true)[0] < 0.05 && bad.share_of_wheels(true)[1] > 0.5, "{good:?} {bad:?}");
         assert!(bad.share_of_wheels(false)[1] < 0.5 * bad.share_of_wheels(true)[1], "wheels slide sideways");
         let [with_wheels, without] = [bad.share_of_wheels(true), [0.0; 3]].map(|shares| bad.after(1.0, shares)[0]);

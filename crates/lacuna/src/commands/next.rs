@@ -27,7 +27,9 @@ Examples:
 
 The case is diagnosed first, as by `lacuna diagnose`. The profile has time,
 wanted speed and yaw rate, wheel speeds, and whether the drives get no torque
-(coasting); of robots whose files name their columns the body's speeds alone. Record it, add it to the recordings, and diagnose again.
+(coasting); of robots whose files name their columns, the speeds of the body:
+ahead, to the left, and turning. Record it, add it to the recordings, and
+diagnose again.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but some input was lost.";
 
@@ -47,7 +49,7 @@ const SHOWN: usize = 12;
 pub(crate) struct Args {
     #[command(flatten)]
     input: Input,
-    /// Length of the drives to choose from (torque- and command-driven robots), 4 to 120 s.
+    /// Length of the drives to choose from (of speed-driven robots it follows from the levels), 4 to 120 s.
     #[arg(long, value_name = "S", default_value_t = NEXT_LENGTH, value_parser = seconds)]
     seconds: f64,
     /// Write the best drive's profile as CSV, or that of --manoeuvre.

@@ -114,10 +114,6 @@
 
     /// The next drive.
     next: NextDrive {
-        /// Rivals less probable than this are none.
-        least: f64 = 0.01, "1", "guess";
-        /// Rivals at most.
-        most: usize = 6, "1", "guess";
         /// Time of each level.
         each: f64 = 14.0, "s", "a load needs ten seconds of steady driving to be firm";
         /// A load is measured to this share at least in that time.

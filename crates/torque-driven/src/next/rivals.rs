@@ -8,7 +8,8 @@ use crate::decision::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::hypothesis::THROUGHOUT;
 use crate::run_numbers::UNKNOWN;
-use crate::settings::{fit, next::SETTINGS};
+use crate::settings::fit;
+use inference::advice::{LEAST_RIVAL, MOST_RIVALS};
 use inference::algebra::solve_spd;
 use inference::hypothesis::{Free, Place};
 
@@ -121,9 +122,9 @@ pub(crate) fn rivals(problem: &Problem<'_>, decision: &Decision, retuned: &Fitte
         }
     }
     let sum: f64 = found.iter().map(|f| f.3).sum();
-    found.retain(|f| f.3 >= SETTINGS.rivals.least * sum.max(f64::MIN_POSITIVE));
+    found.retain(|f| f.3 >= LEAST_RIVAL * sum.max(f64::MIN_POSITIVE));
     found.sort_by(|a, b| b.3.total_cmp(&a.3));
-    found.truncate(SETTINGS.rivals.most);
+    found.truncate(MOST_RIVALS);
     let shares = normalised(&found.iter().map(|f| f.3).collect::<Vec<_>>());
     let rivals = found.into_iter().zip(shares);
     rivals.filter_map(|((_, h, fitted, _), p)| Rival::new(problem, h, fitted, p)).collect()

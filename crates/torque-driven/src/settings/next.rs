@@ -6,10 +6,6 @@
 
     /// The hypotheses that are still in the running.
     rivals: Rivals {
-        /// Rivals less probable than this are no rivals.
-        least: f64 = 0.01, "1", "guess";
-        /// Rivals at most.
-        most: usize = 6, "1", "guess";
         /// Probability of "unknown" from which advice among the catalogue's effects needs a word.
         doubt: f64 = 0.1, "1", "guess";
     }
