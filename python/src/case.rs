@@ -55,10 +55,13 @@ pub(crate) fn mapping(given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Strin
     given.map(|given| Ok(path(given)?.display().to_string())).transpose()
 }
 
-/// The catalogue with the effects of law files: one, or an iterable of them.
-pub(crate) fn effects(given: Option<&Bound<'_, PyAny>>) -> PyResult<KnownEffects> {
-    let files = given.map_or_else(|| Ok(Vec::new()), paths)?;
-    own_effects::read(&files).map_err(|e| raised(&e))
+/// The catalogue with the effects of law files, and laws that the simulation is given: of each one, or an iterable of them.
+pub(crate) fn effects(
+    given: Option<&Bound<'_, PyAny>>,
+    adopted: Option<&Bound<'_, PyAny>>,
+) -> PyResult<KnownEffects> {
+    let files = |given: Option<&Bound<'_, PyAny>>| given.map_or_else(|| Ok(Vec::new()), paths);
+    own_effects::read(&files(given)?, &files(adopted)?).map_err(|e| raised(&e))
 }
 
 /// What to do with bad rows and cells.

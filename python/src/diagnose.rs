@@ -41,6 +41,8 @@ const NEXT_LENGTH: f64 = 12.0;
 /// effects : path or iterable of paths, optional
 ///     Law files, as ``lacuna law --save`` writes them: each is an effect of your own beside those of the catalogue
 ///     (torque-driven robots).
+/// adopt : path or iterable of paths, optional
+///     Law files that become part of the simulation at their numbers: what it lacks in every drive (torque-driven robots).
 /// next : bool
 ///     Advise on the next drive too: a few seconds more.
 /// progress : callable, optional
@@ -56,7 +58,7 @@ const NEXT_LENGTH: f64 = 12.0;
 ///     When something is missing or cannot be read, or the recordings do not determine an answer.
 #[pyfunction]
 #[pyo3(signature = (case=None, *, robot=None, reference=None, recordings=None, heldout=None, mapping=None,
-    reading="normal", same_robot=false, visit=None, effects=None, next=false, progress=None))]
+    reading="normal", same_robot=false, visit=None, effects=None, adopt=None, next=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "each is a keyword of its own in Python")]
 pub(crate) fn diagnose(
     py: Python<'_>,
@@ -70,6 +72,7 @@ pub(crate) fn diagnose(
     same_robot: bool,
     visit: Option<Vec<String>>,
     effects: Option<&Bound<'_, PyAny>>,
+    adopt: Option<&Bound<'_, PyAny>>,
     next: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Diagnosis> {
@@ -86,7 +89,7 @@ pub(crate) fn diagnose(
     let visits = visits.iter().map(|text| GivenVisit::parse(text)).collect::<Result<Vec<_>, _>>();
     let visits = visits.map_err(LacunaError::new_err)?;
     let (mapping, read) = (case::mapping(mapping)?, case::reading(reading)?);
-    let known = case::effects(effects)?;
+    let known = case::effects(effects, adopt)?;
     let usual = inference::Options::default();
     let options = inference::Options { next: next.then_some(NEXT_LENGTH), same_robot, known, ..usual };
     let (envelope, found) = work::run(py, || {

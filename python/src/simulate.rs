@@ -49,7 +49,7 @@ pub(crate) fn simulate<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let (robot, mapping) = (RobotGiven::of(robot)?, case::mapping(mapping)?);
     let inputs = Part::of(Some(inputs), "drive")?;
-    let (options, known) = (case::reading("normal")?, case::effects(effects)?);
+    let (options, known) = (case::reading("normal")?, case::effects(effects, None)?);
     let shown = work::run(py, move || {
         let robot = robot.open(known)?;
         own_effects::ensure_torque_driven(&robot)?;

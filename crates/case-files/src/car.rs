@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use ::odometry::file::Signals;
 use anyhow::Result;
+use hierarchical_fit::Table;
 use single_track::file::RobotFile;
 use single_track::{Case, Drive, diagnosis, examine};
 use verdict::{Diagnosis, SimulatedPath};
@@ -54,12 +55,17 @@ impl NamesColumns for RobotFile {
         needed.chain(optional.into_iter().flatten()).map(String::as_str).collect()
     }
 
+    fn table_columns(&self) -> Vec<&str> {
+        let held = self.columns.car_time.as_deref();
+        self.columns().into_iter().chain([self.time()]).chain(held).collect()
+    }
+
     fn yaw(&self) -> Option<&str> {
         self.columns.yaw.as_deref()
     }
 
-    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Drive> {
-        Ok(if is_held_out { self.held_out(name, text)? } else { self.drive(name, text)? })
+    fn of_table(&self, table: &Table, is_held_out: bool) -> Result<Drive> {
+        Ok(if is_held_out { self.held_out(table)? } else { self.drive(table)? })
     }
 
     fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive> {

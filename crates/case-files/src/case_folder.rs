@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use inference::{KnownEffects, Options};
+use inference::{GivenEffects, KnownEffects, Options};
 use recordings::{Mapping, Read, ReadOptions};
 use robot_file::{Causality, RobotSpec};
+use robot_model::effect::Redundancy;
 use torque_driven::Visit;
-use verdict::{Coverage, Diagnosis};
+use verdict::{Coverage, Diagnosis, EffectAt};
 
 use crate::inputs;
 pub use crate::inputs::{Loaded, mapping, robot, robot_with};
@@ -195,6 +196,36 @@ impl CaseFolder {
         chosen.filter(|c| c.name == name).map(|c| c.interval[0]).next().unwrap_or_default()
     }
 
+    /// What the simulation of a torque-driven robot is given beside its constants.
+    ///
+    /// # Errors
+    /// Effects that act on what sensors show: recordings are checked for these by themselves.
+    fn given_effects(&self) -> Result<GivenEffects> {
+        let RobotSpec { name, effects, known, .. } = &self.robot;
+        for EffectAt { effect, .. } in effects {
+            ensure!(
+                known.find(effect)?.spec().redundancy == Redundancy::None,
+                "robot '{name}' gives its simulation the effect `{effect}`, which acts on what sensors show and not on the motion: \
+                 recordings are checked for it whatever the robot file says; take it out of its effects"
+            );
+        }
+        Ok(known.given(effects)?)
+    }
+
+    /// Refuses effects where recordings are not compared with free runs of the plant.
+    fn ensure_no_effects(&self) -> Result<()> {
+        let RobotSpec { name, effects, causality, .. } = &self.robot;
+        let names: Vec<&str> = effects.iter().map(|at| at.effect.as_str()).collect();
+        ensure!(
+            names.is_empty(),
+            "robot '{name}' is {} and its file gives its simulation effects ({}), which recordings are not compared with: the \
+             diagnosis would find them again; take them out of the file that is diagnosed",
+            causality.name(),
+            names.join(", ")
+        );
+        Ok(())
+    }
+
     /// The case as the diagnosis takes it, for a torque-driven robot.
     ///
     /// # Errors
@@ -217,6 +248,7 @@ impl CaseFolder {
             .collect::<Result<Vec<_>>>()?;
         Ok(torque_driven::Case {
             robot: self.robot.robot,
+            effects: self.given_effects()?,
             sigma: self.robot.sigma,
             pose_sigma: self.robot.pose_sigma,
             references: visited(reference, &self.reference)?,
@@ -233,6 +265,7 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed, or a robot file without torque per current.
     pub fn speed_driven(&self) -> Result<speed_driven::SteadyCase> {
+        self.ensure_no_effects()?;
         let [torque_per_current, torque_sigma] = self.robot.torque_per_current.with_context(|| {
             format!(
                 "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
@@ -265,6 +298,7 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn command_driven(&self) -> Result<command_driven::ResponseCase> {
+        self.ensure_no_effects()?;
         let runs = |l: &Loaded| -> Result<Vec<command_driven::ResponseRun>> {
             l.reads
                 .iter()

@@ -6,7 +6,6 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use verdict::Diagnosis;
 
 use crate::envelope::{FORMAT, Program, SourceFile};
@@ -139,9 +138,4 @@ fn named(name: &str) -> Result<Option<(Kind, String)>> {
         Some((kind, (*text).to_owned()))
     };
     Ok(Kind::ALL.into_iter().find_map(built_in))
-}
-
-/// A file that was read whole.
-pub(crate) fn source(name: String, text: &str) -> SourceFile {
-    SourceFile { name, bytes: text.len(), sha256: hex::encode(Sha256::digest(text.as_bytes())) }
 }

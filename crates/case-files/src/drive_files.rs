@@ -1,15 +1,17 @@
 //! Files of drives of robots whose files name their columns: tables and bags, read by the part they play.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use hierarchical_fit::{Column, Table};
 use odometry::file::Signals;
-use recordings::{group_bags, is_bag};
+use recordings::{NamedColumn, group_bags, is_bag, named_columns};
 use verdict::{Diagnosis, SimulatedPath};
 
 use crate::bag_signals::{self, Found, Wanted};
 use crate::case_folder::robot_of;
-use crate::columns::{ColumnsEnvelope, Kind, robot_text, source};
+use crate::columns::{ColumnsEnvelope, Kind, robot_text};
 use crate::envelope::SourceFile;
 use crate::inputs::{list, run_names};
 use crate::parts::folders;
@@ -29,10 +31,14 @@ pub(crate) trait NamesColumns: Sized {
     fn time(&self) -> &str;
     /// All others.
     fn columns(&self) -> Vec<&str>;
+    /// All columns of a table.
+    fn table_columns(&self) -> Vec<&str> {
+        self.columns().into_iter().chain([self.time()]).collect()
+    }
     /// The one of the heading.
     fn yaw(&self) -> Option<&str>;
-    /// A drive from comma-separated values.
-    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Self::Drive>;
+    /// A drive from the columns of a table.
+    fn of_table(&self, table: &Table, is_held_out: bool) -> Result<Self::Drive>;
     /// A drive from signals at instants of their own.
     fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Self::Drive>;
     /// What was done to a drive, in sentences.
@@ -45,6 +51,13 @@ pub(crate) trait NamesColumns: Sized {
     /// What is wanted of a bag; `robot` as it is called, `columns` those of this file.
     fn wanted<'a>(&'a self, robot: &'a str, columns: &'a [&'a str]) -> Wanted<'a> {
         Wanted { robot, time: self.time(), columns, yaw: self.yaw() }
+    }
+
+    /// A drive from a file, with how that is written.
+    fn of_file(&self, (table, told): (&Table, Vec<String>), is_held_out: bool) -> Result<Self::Drive> {
+        let mut drive = self.of_table(table, is_held_out)?;
+        Self::told(&mut drive).splice(0..0, told);
+        Ok(drive)
     }
 
     /// A drive from what was found in a bag, with what was lost there.
@@ -111,7 +124,7 @@ pub(crate) fn read<F: NamesColumns>(
     let (drives, files) = drives((&name, &file), folder, parts, &mut ignored)?;
     if drives[1].is_empty() {
         bail!(
-            "robot '{name}' is of kind {}, but there are no recordings; give CSV files or bags with --recordings",
+            "robot '{name}' is of kind {}, but there are no recordings; give tables (CSV, Parquet) or bags with --recordings",
             F::KIND.name()
         );
     }
@@ -127,7 +140,10 @@ pub(crate) fn simulated<F: NamesColumns>(name: &str, paths: &[PathBuf]) -> Resul
     let Some((file, _)) = robot::<F>(name)? else { return Ok(None) };
     let mut ignored = Vec::new();
     let ([_, _, drives], [_, _, sources]) = drives((name, &file), None, [&[], &[], paths], &mut ignored)?;
-    ensure!(!drives.is_empty(), "there is no drive in what was given; name CSV files or bags, or a folder of them");
+    ensure!(
+        !drives.is_empty(),
+        "there is no drive in what was given; name tables (CSV, Parquet) or bags, or a folder of them"
+    );
     let told = drives.into_iter().map(|mut drive| {
         let path = file.simulated(&drive);
         (path, std::mem::take(F::told(&mut drive)))
@@ -172,9 +188,9 @@ fn drives<F: NamesColumns>(
         let recorded = Recorded::below(paths)?;
         ignored.extend(recorded.ignored);
         for path in recorded.tables {
-            let text = table(&path)?;
-            drives[k].push(file.of_table(&name_of(&path), &text, is_held_out)?);
-            files[k].push(source(path.display().to_string(), &text));
+            let (table, told, source) = table(&path, &file.table_columns())?;
+            drives[k].push(file.of_file((&table, told), is_held_out)?);
+            files[k].push(source);
         }
         for (name, bag) in recorded.bags {
             let found = bag_signals::signals((&name, &bag), &wanted)?;
@@ -184,6 +200,9 @@ fn drives<F: NamesColumns>(
     }
     Ok((drives, files))
 }
+
+/// How names of tables end.
+const TABLES: [&str; 6] = [".csv", ".tsv", ".parquet", ".csv.zst", ".tsv.zst", ".csv.zstd"];
 
 /// What is recorded in files and folders.
 #[derive(Debug, Default)]
@@ -210,7 +229,7 @@ impl Recorded {
                 continue;
             }
             for inside in list(path)? {
-                if inside.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+                if inside.is_file() && stem(&inside.to_string_lossy()).is_some() {
                     out.tables.push(inside);
                 } else if !inside.ends_with("metadata.yaml") && files.iter().all(|bag| !bag.starts_with(&inside)) {
                     out.ignored.push(inside.display().to_string());
@@ -226,18 +245,28 @@ impl Recorded {
 
 /// Name of the drive in a table.
 pub(crate) fn name_of(table: &Path) -> String {
-    table.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    stem(&name).unwrap_or(&name).to_owned()
 }
 
-/// A table's text.
-pub(crate) fn table(path: &Path) -> Result<String> {
-    let shown = path.display();
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read '{shown}'"))?;
-    let refused = || {
-        format!(
-            "'{shown}' is no text: robots whose files name their columns are read from comma-separated values and from bags (.mcap, .db3); \
-             write the table as CSV"
-        )
+/// The name of a table without its ending; `None` of what is called like no table.
+fn stem(name: &str) -> Option<&str> {
+    let before = |ending: &&str| {
+        let (stem, end) = name.split_at_checked(name.len().checked_sub(ending.len())?)?;
+        end.eq_ignore_ascii_case(ending).then_some(stem)
     };
-    String::from_utf8(bytes).with_context(refused)
+    TABLES.iter().find_map(before)
+}
+
+/// The columns of a table that the robot file names, how it is written, and the file.
+pub(crate) fn table(path: &Path, columns: &[&str]) -> Result<(Table, Vec<String>, SourceFile)> {
+    let shown = path.display().to_string();
+    let mut file = File::open(path).with_context(|| format!("cannot read '{shown}'"))?;
+    let read = named_columns(&shown, &mut file, columns)?;
+    let drive = name_of(path);
+    let told = read.told.iter().map(|told| format!("recording '{drive}': {told}")).collect();
+    let columns = read.columns.into_iter();
+    let columns = columns.map(|NamedColumn { name, cells, unread, .. }| (name, Column { cells, unread })).collect();
+    let source = SourceFile { name: shown, bytes: read.bytes as usize, sha256: read.sha256 };
+    Ok((Table { drive, names: read.names, columns }, told, source))
 }

@@ -111,7 +111,7 @@ pub fn robot_with(known: KnownEffects, name: &str) -> Result<RobotSpec> {
         }
         other => other,
     })?;
-    Ok(RobotSpec { known, ..spec })
+    Ok(RobotSpec { known, ..spec }.adopting())
 }
 
 /// Why a robot whose file names its columns itself cannot be asked what needs torques or speeds.

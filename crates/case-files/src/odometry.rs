@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use hierarchical_fit::Table;
 use odometry::file::{RobotFile, Signals};
 use odometry::{Case, Drive, diagnosis, left_out};
 use verdict::{Diagnosis, SimulatedPath};
@@ -56,8 +57,8 @@ impl NamesColumns for RobotFile {
         self.columns.pose.as_ref().map(|[_, _, yaw]| yaw.as_str())
     }
 
-    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Drive> {
-        Ok(if is_held_out { self.held_out(name, text)? } else { self.drive(name, text)? })
+    fn of_table(&self, table: &Table, is_held_out: bool) -> Result<Drive> {
+        Ok(if is_held_out { self.held_out(table)? } else { self.drive(table)? })
     }
 
     fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive> {

@@ -46,13 +46,13 @@ struct Written {
     seen: BTreeMap<String, Spanned<[f64; 2]>>,
 }
 
-/// The catalogue with the effects of law files.
+/// The catalogue with the effects of law files, and beside them laws that the simulation of every robot is given.
 ///
 /// # Errors
 /// Files that cannot be read or hold no law that can be an effect, each with its place, and names that are taken.
-pub fn read(files: &[PathBuf]) -> Result<KnownEffects> {
+pub fn read(files: &[PathBuf], adopted: &[PathBuf]) -> Result<KnownEffects> {
     let mut own: Vec<(&Path, &'static OwnEffect)> = Vec::new();
-    for file in files {
+    for file in files.iter().chain(adopted) {
         let shown = file.display().to_string();
         let text = fs::read_to_string(file).with_context(|| {
             format!("cannot read the law file '{shown}'; `lacuna law VERDICT.json --save {shown}` writes such a file")
@@ -71,7 +71,9 @@ pub fn read(files: &[PathBuf]) -> Result<KnownEffects> {
     if own.is_empty() {
         return Ok(KnownEffects::default());
     }
-    Ok(KnownEffects::with(own.into_iter().map(|(_, effect)| effect).collect()))
+    let mut own: Vec<&'static OwnEffect> = own.into_iter().map(|(_, effect)| effect).collect();
+    let adopted = own.split_off(files.len());
+    Ok(KnownEffects::with(own).adopting(adopted))
 }
 
 /// The effect of a law file's text, called `stem` where the file gives no name.
@@ -122,15 +124,14 @@ pub fn parse(file: &str, text: &str, stem: &str) -> Result<&'static OwnEffect, T
 /// # Errors
 /// Such robots, with their kind.
 pub fn ensure_torque_driven(robot: &RobotSpec) -> Result<()> {
-    let fits = robot.known.own().is_empty() || robot.causality == Causality::TorqueDriven;
+    let fits = !robot.known.is_extended() || robot.causality == Causality::TorqueDriven;
     ensure!(fits, refused(robot.known, robot.causality.name()));
     Ok(())
 }
 
 /// Why effects of one's own do not go with a kind of robot.
 pub fn refused(known: KnownEffects, kind: &'static str) -> DiagnosisError {
-    let names: Vec<&str> = known.own().iter().map(|own| own.name()).collect();
-    DiagnosisError::OwnEffects { names: names.join(", "), kind }
+    DiagnosisError::OwnEffects { names: known.names_of_laws().join(", "), kind }
 }
 
 /// A sentence for each effect of one's own that a robot file does not name, with what to write there.
@@ -244,11 +245,11 @@ mod tests {
         let files = ["a.toml", "b.toml"].map(|name| folder.path().join(name));
         fs::write(&files[0], format!("name = \"drag\"\n{LAW}")).expect("writes");
         fs::write(&files[1], format!("name = \"drag\"\n{LAW}")).expect("writes");
-        let error = read(&files).expect_err("refused").to_string();
+        let error = read(&files, &[]).expect_err("refused").to_string();
         assert!(error.contains("a.toml' and '") && error.contains("both hold an effect called 'drag'"), "{error}");
-        assert_eq!(read(&files[..1]).expect("reads").own().len(), 1);
+        assert_eq!(read(&files[..1], &[]).expect("reads").own().len(), 1);
         assert!(
-            read(&[folder.path().join("none.toml")])
+            read(&[folder.path().join("none.toml")], &[])
                 .expect_err("refused")
                 .to_string()
                 .contains("cannot read the law file")

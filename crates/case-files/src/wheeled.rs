@@ -6,6 +6,7 @@ use ::odometry::file::Signals;
 use ::wheeled::file::RobotFile;
 use ::wheeled::{Case, Drive, diagnosis, examine};
 use anyhow::Result;
+use hierarchical_fit::Table;
 use verdict::{Diagnosis, SimulatedPath};
 
 use crate::columns::Kind;
@@ -55,8 +56,8 @@ impl NamesColumns for RobotFile {
         self.columns.pose.as_ref().map(|[_, _, yaw]| yaw.as_str())
     }
 
-    fn of_table(&self, name: &str, text: &str, is_held_out: bool) -> Result<Drive> {
-        Ok(self.drive(name, text, is_held_out)?)
+    fn of_table(&self, table: &Table, is_held_out: bool) -> Result<Drive> {
+        Ok(self.drive(table, is_held_out)?)
     }
 
     fn of_signals(&self, name: &str, signals: &Signals, is_held_out: bool) -> Result<Drive> {

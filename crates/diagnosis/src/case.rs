@@ -24,8 +24,10 @@ fn refuse_own_effects(case: &Case, options: &Options) -> Result<(), DiagnosisErr
         Case::SpeedDriven(_) => "speed-driven",
         Case::CommandDriven(_) => "command-driven",
     };
-    let names: Vec<&str> = options.known.own().iter().map(|own| own.name()).collect();
-    if names.is_empty() { Ok(()) } else { Err(DiagnosisError::OwnEffects { names: names.join(", "), kind }) }
+    if !options.known.is_extended() {
+        return Ok(());
+    }
+    Err(DiagnosisError::OwnEffects { names: options.known.names_of_laws().join(", "), kind })
 }
 
 /// Says what physics the simulation of a case left out. `progress` is told the stage that begins.

@@ -10,6 +10,7 @@
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
 //! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
+//! * `table`: columns of a drive by the names that a robot file gives them.
 //! * `ahead`: forecasts of a pose: where they begin, and how far off they are. `error`: why a case cannot be compared.
 //! * `beside`: drives beside their simulations, for pages and pictures.
 //! * `settings`: every tuned number.
@@ -34,6 +35,7 @@ mod scaled;
 mod session;
 mod settings;
 mod solve;
+mod table;
 pub mod telling;
 mod weigh;
 
@@ -50,6 +52,7 @@ pub use observed::{Kind, Observed, Row, Spread};
 pub use said::{Said, Unexplained, Valued, beyond_references, is_beyond_references};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, solve};
+pub use table::{Column, Table, or_nan};
 pub use weigh::{Evidence, Posterior};
 
 /// Log odds of a cause before the data are seen, nats.

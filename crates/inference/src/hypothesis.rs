@@ -1,5 +1,7 @@
 //! What may be missing: every way in which an effect of the catalogue can be present.
 
+use std::fmt;
+
 use robot_model::constants::NO_LIMIT;
 use robot_model::effect::{MAX_PARAMETERS, Redundancy, Role, Scale};
 use robot_model::presence::{Disc, Presence};
@@ -19,6 +21,17 @@ pub struct Dose {
     pub values: Vec<f64>,
     /// When, where and on which side it is present.
     pub presence: Presence<f64>,
+}
+
+impl fmt::Debug for Dose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { effect, values, presence } = self;
+        f.debug_struct("Dose")
+            .field("effect", &effect.spec().id)
+            .field("values", values)
+            .field("presence", presence)
+            .finish()
+    }
 }
 
 impl Dose {

@@ -1,4 +1,4 @@
-//! The effects that may be named: those of the catalogue, and those of one's own.
+//! The effects that may be named, those of the catalogue and those of one's own, and what a simulation is given of them.
 
 use std::fmt;
 
@@ -9,17 +9,19 @@ use robot_model::{Active, Effect, effects};
 use verdict::{EffectAt, LawOfFile};
 
 use crate::DiagnosisError;
+use crate::hypothesis::Dose;
 
 /// The effects of the catalogue, and after them those of one's own.
 #[derive(Clone, Copy, Default)]
 pub struct KnownEffects {
     own: &'static [&'static OwnEffect],
+    adopted: &'static [&'static OwnEffect],
 }
 
 impl fmt::Debug for KnownEffects {
     /// The laws of one's own: what answers depend on beside the catalogue.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.own).finish()
+        f.debug_list().entries(self.own).entries(self.adopted).finish()
     }
 }
 
@@ -35,12 +37,37 @@ impl KnownEffects {
     /// The catalogue with these, each of which has a name of its own. The list is kept until the program ends, as its
     /// effects are.
     pub fn with(own: Vec<&'static OwnEffect>) -> Self {
-        Self { own: Box::leak(own.into_boxed_slice()) }
+        Self { own: Box::leak(own.into_boxed_slice()), adopted: &[] }
+    }
+
+    /// The same with laws that the simulation of every robot is given: they are found by their names, and never weighed.
+    #[must_use]
+    pub fn adopting(self, adopted: Vec<&'static OwnEffect>) -> Self {
+        Self { adopted: Box::leak(adopted.into_boxed_slice()), ..self }
+    }
+
+    /// The adopted laws at the numbers of their files.
+    pub fn adopted(self) -> Vec<EffectAt> {
+        let at = |own: &&'static OwnEffect| {
+            let values = own.spec().parameters.iter().map(|p| (p.name.to_owned(), p.probes[0]));
+            EffectAt { effect: own.name().to_owned(), values: values.collect(), ..EffectAt::default() }
+        };
+        self.adopted.iter().map(at).collect()
     }
 
     /// Those of one's own.
     pub fn own(self) -> &'static [&'static OwnEffect] {
         self.own
+    }
+
+    /// Whether there are laws of files beside the catalogue.
+    pub fn is_extended(self) -> bool {
+        !self.own.is_empty() || !self.adopted.is_empty()
+    }
+
+    /// Names of the laws of files, those that are weighed and those that are adopted.
+    pub fn names_of_laws(self) -> Vec<&'static str> {
+        self.own.iter().chain(self.adopted).map(|own| own.name()).collect()
     }
 
     /// The same without those of one's own that have one of these names.
@@ -49,7 +76,8 @@ impl KnownEffects {
         if self.own.iter().all(|own| !names.contains(&own.name())) {
             return self;
         }
-        Self::with(self.own.iter().copied().filter(|own| !names.contains(&own.name())).collect())
+        let own: Vec<_> = self.own.iter().copied().filter(|own| !names.contains(&own.name())).collect();
+        Self { own: Box::leak(own.into_boxed_slice()), ..self }
     }
 
     /// All of them.
@@ -62,7 +90,11 @@ impl KnownEffects {
     /// # Errors
     /// When there is none.
     pub fn find(self, id: &str) -> Result<&'static dyn Effect<f64>, DiagnosisError> {
-        self.all().find(|e| e.spec().id == id).ok_or_else(|| DiagnosisError::NoSuchEffect { id: id.to_owned() })
+        let adopted = self.adopted.iter().copied().map(OwnEffect::as_effect);
+        self.all()
+            .chain(adopted)
+            .find(|e| e.spec().id == id)
+            .ok_or_else(|| DiagnosisError::NoSuchEffect { id: id.to_owned() })
     }
 
     /// The effect for the plant of a drive.
@@ -70,6 +102,20 @@ impl KnownEffects {
     /// # Errors
     /// When the effect or a parameter is not known, or a value is not finite.
     pub fn active(self, at: &EffectAt, drive: &str) -> Result<Active<f64>, DiagnosisError> {
+        Ok(Dose { presence: presence_in(at, drive), ..self.dose(at)? }.active())
+    }
+
+    /// Effects that the simulation is given, as a robot file states them.
+    ///
+    /// # Errors
+    /// As [`KnownEffects::active`].
+    pub fn given(self, effects: &[EffectAt]) -> Result<GivenEffects, DiagnosisError> {
+        let given = effects.iter().map(|at| Ok((at.clone(), self.dose(at)?)));
+        Ok(GivenEffects(given.collect::<Result<_, DiagnosisError>>()?))
+    }
+
+    /// The effect at its values, present everywhere and always.
+    fn dose(self, at: &EffectAt) -> Result<Dose, DiagnosisError> {
         let effect = self.find(&at.effect)?;
         let parameters = effect.spec().parameters;
         let mut values: Vec<f64> = parameters.iter().take(MAX_PARAMETERS).map(|p| p.neutral).collect();
@@ -82,16 +128,7 @@ impl KnownEffects {
             })?;
             values[index] = *value;
         }
-        let mut presence = Presence { side: at.side.map(|s| s as usize), ..Presence::default() };
-        if let Some([x, y, radius]) = at.place {
-            presence.disc = Some(Disc { centre: [x, y], radius });
-        }
-        if let Some(from) = at.from.get(drive) {
-            presence.from = *from;
-        } else if at.absent.iter().any(|name| name == drive) {
-            presence.from = f64::MAX;
-        }
-        Ok(Active::new(effect, &values, presence))
+        Ok(Dose { effect, values, presence: Presence::default() })
     }
 
     /// Those of one's own for a verdict.
@@ -102,6 +139,38 @@ impl KnownEffects {
             seen: own.law().seen().iter().map(|(v, range)| (v.symbol().to_owned(), *range)).collect(),
         };
         self.own.iter().map(of).collect()
+    }
+}
+
+/// When, where and on which side an effect is present in a drive.
+fn presence_in(at: &EffectAt, drive: &str) -> Presence<f64> {
+    let mut presence = Presence { side: at.side.map(|s| s as usize), ..Presence::default() };
+    if let Some([x, y, radius]) = at.place {
+        presence.disc = Some(Disc { centre: [x, y], radius });
+    }
+    if let Some(from) = at.from.get(drive) {
+        presence.from = *from;
+    } else if at.absent.iter().any(|name| name == drive) {
+        presence.from = f64::MAX;
+    }
+    presence
+}
+
+/// Effects that the simulation is given beside the constants of its robot: they are part of every hypothesis, and never an
+/// answer.
+#[derive(Clone, Default)]
+pub struct GivenEffects(Vec<(EffectAt, Dose)>);
+
+impl GivenEffects {
+    /// The effects in a drive of this name.
+    pub fn doses(&self, drive: &str) -> Vec<Dose> {
+        self.0.iter().map(|(at, dose)| Dose { presence: presence_in(at, drive), ..dose.clone() }).collect()
+    }
+}
+
+impl fmt::Debug for GivenEffects {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.0.iter().map(|(at, _)| at)).finish()
     }
 }
 

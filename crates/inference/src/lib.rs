@@ -40,7 +40,7 @@ pub mod words;
 pub use corrected::Corrected;
 pub use error::DiagnosisError;
 pub use interpolate::interpolate;
-pub use known::KnownEffects;
+pub use known::{GivenEffects, KnownEffects};
 pub use options::{Options, SearchForLaw};
 
 /// Every tuned number of this crate, for the page of settings; without those of the solver.

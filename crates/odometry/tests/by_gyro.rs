@@ -142,7 +142,7 @@ fn what_a_gyro_shows_at_rest_is_taken_off() {
     let robot =
         robot.replace("\"tick_left\"", "\"l\"").replace("\"tick_right\"", "\"r\"").replace("\"time_s\"", "\"t\"");
     let file = odometry::file::RobotFile::parse("robot.toml", &robot).expect("a robot");
-    let drive = file.drive("a", &text(0.02)).expect("a drive");
+    let drive = file.drive(&testing::table("a", &text(0.02))).expect("a drive");
     assert!(drive.told[0].contains("the gyro shows 0.02000 rad/s, which was taken off"), "{:?}", drive.told);
     let last = drive.pose[599];
     assert!(last[0].is_nan() && last[2].abs() < 1e-9, "{last:?}");

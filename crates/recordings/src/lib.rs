@@ -25,6 +25,7 @@
 //!   `topics`: messages of the crate `bags` against a mapping.
 //! * `row` is one line, message or row of any of them; `samples` makes rows samples, which `column_samples` keeps and
 //!   `column_meter` measures: `column` says what both can. `survey` and `pieces` are the entrances for these.
+//! * `named_columns`: columns by the names in the header, for robots whose files name them; they need no mapping.
 //! * `table_contents`, with `table_guess` and `column_survey`: what a table holds that no mapping fits.
 //! * `signal`, `channel`, `recording`: what comes out. `quality/*`: what can be measured of a channel. `fingerprint`.
 //! * `write`, `write_mcap`, `write_parquet`: files that read back; `described`: what they say of themselves.
@@ -62,6 +63,7 @@ mod mapping_built_in;
 mod mapping_raw;
 mod mapping_text;
 mod mapping_toml;
+mod named_columns;
 mod parquet;
 mod pieces;
 mod quality;
@@ -94,6 +96,7 @@ pub use group::{Group, GroupFile, Grouping, group_bags};
 pub use input::{Input, Opened, Policy, ReadOptions};
 pub use mapping::{ColumnMapping, FileMapping, Mapping, TimeMapping, is_bag};
 pub use mapping_built_in::BUILT_IN_MAPPINGS;
+pub use named_columns::{NamedColumn, NamedColumns, named_columns};
 pub use pieces::{Passage, pieces_from};
 pub use quality::{
     At, Extreme, Finding, FindingKind, Gaps, Grid, Quality, QualityMeter, Severity, Stretch, Tally, Timing, Values,

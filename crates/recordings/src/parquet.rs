@@ -1,4 +1,4 @@
-//! A Parquet table against one entry of a mapping.
+//! A Parquet table against one entry of a mapping, or by the names of its columns.
 //!
 //! Pages carry no checksum of their own and the library may panic on damaged ones: any trouble refuses the file.
 
@@ -17,6 +17,7 @@ use crate::described::Described;
 use crate::error::RecordingError;
 use crate::input::Policy;
 use crate::mapping::FileMapping;
+use crate::named_columns::{NamedColumn, NamedColumns};
 use crate::row::{self, Row, shown};
 use crate::samples::{PlacedColumn, Samples};
 
@@ -106,6 +107,35 @@ pub(crate) fn survey(name: &str, bytes: Vec<u8>) -> Result<(Vec<ColumnSurvey>, u
             rows += 1;
         }
         Ok((columns, rows))
+    });
+    catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
+}
+
+/// The columns of these names; instants in seconds.
+pub(crate) fn named(name: &str, bytes: Vec<u8>, wanted: &[&str]) -> Result<NamedColumns, RecordingError> {
+    /// Seconds in a nanosecond.
+    const NANO: f64 = 1e-9;
+    let refuse = |message: String| refused(name, message);
+    let read = AssertUnwindSafe(|| {
+        let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
+        let schema = reader.metadata().file_metadata().schema();
+        let names: Vec<String> = schema.get_fields().iter().map(|field| field.name().to_owned()).collect();
+        let fields: Vec<_> =
+            schema.get_fields().iter().filter(|field| wanted.contains(&field.name())).cloned().collect();
+        let mut columns: Vec<NamedColumn> = fields.iter().map(|field| NamedColumn::new(field.name())).collect();
+        let chosen = Type::group_type_builder(schema.name()).with_fields(fields).build();
+        let chosen = chosen.map_err(|error| refuse(error.to_string()))?;
+        for row in reader.get_row_iter(Some(chosen)).map_err(|error| refuse(error.to_string()))? {
+            let row = row.map_err(|error| refuse(error.to_string()))?;
+            for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
+                let text = || shown(field.to_string().trim_matches('"'));
+                let number = |(cell, ns): (Cell, Option<i64>)| {
+                    cell.number().map(|number| ns.map_or(number, |ns| number * ns as f64 * NANO))
+                };
+                column.push(cell(field).map(number).ok_or_else(text));
+            }
+        }
+        Ok(NamedColumns { names, columns, ..NamedColumns::default() })
     });
     catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
 }

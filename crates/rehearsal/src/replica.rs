@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use inference::hypothesis::Dose;
-use inference::{DiagnosisError, Options};
+use inference::{DiagnosisError, GivenEffects, Options};
 use recordings::{Channel, Clock, Recording, RecordingError, Signal};
 use robot_model::tunable::{COUNT, tunables, tuned};
 use robot_model::{Active, Robot};
@@ -52,10 +52,11 @@ impl Template {
     pub(crate) fn ideal(
         &self,
         robot: &Robot<f64>,
-        hidden: Option<&Dose>,
+        (given, hidden): (&GivenEffects, Option<&Dose>),
         options: &Options,
     ) -> Result<Recording, DiagnosisError> {
-        let effects: Vec<Active<f64>> = hidden.map(Dose::active).into_iter().collect();
+        let given = given.doses(&self.run.name);
+        let effects: Vec<Active<f64>> = given.iter().chain(hidden).map(Dose::active).collect();
         simulate(robot, &effects, &self.inputs, options)
     }
 }
@@ -135,13 +136,14 @@ impl Replica {
         // Recordings have the first numbers: one reference more or less leaves their noise as it is.
         let first = common.recordings.len();
         let references = common.references.iter().zip(first..).map(|(template, drive)| {
-            let ideal = template.ideal(&of_drive(drive, template), None, common.options)?;
+            let ideal = template.ideal(&of_drive(drive, template), (&case.effects, None), common.options)?;
             let mut run = shown(&template.run, &ideal, &common.sigmas, &noise(drive, template));
             run.name = format!("reference {}", drive - first + 1);
             Ok(run)
         });
         let references: Vec<Run> = references.collect::<Result<_, DiagnosisError>>()?;
-        let base = Case { sigma: case.sigma, pose_sigma: case.pose_sigma, references, ..Case::new(case.robot) };
+        let (effects, sigma, pose_sigma) = (case.effects.clone(), case.sigma, case.pose_sigma);
+        let base = Case { effects, sigma, pose_sigma, references, ..Case::new(case.robot) };
 
         Ok(Self {
             robots: common.recordings.iter().enumerate().map(|(drive, template)| of_drive(drive, template)).collect(),
@@ -158,7 +160,7 @@ impl Replica {
     pub(crate) fn recordings(&self, common: &Common<'_>, hidden: Option<&Dose>) -> Result<Vec<Run>, DiagnosisError> {
         let drives = common.recordings.iter().zip(&self.robots).zip(&self.noise);
         let one = |((template, robot), noise): ((&Template, &Robot<f64>), &Noise)| {
-            let ideal = template.ideal(robot, hidden, common.options)?;
+            let ideal = template.ideal(robot, (&common.case.effects, hidden), common.options)?;
             Ok(shown(&template.run, &ideal, &common.sigmas, noise))
         };
         drives.map(one).collect()

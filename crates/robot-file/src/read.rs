@@ -54,7 +54,7 @@ impl RobotSpec {
         let json = Path::new(file).extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
         if !json {
             let parsed: File = toml::from_str(text).map_err(|e| source.toml(&e))?;
-            return parsed.spec(source, known);
+            return Ok(parsed.spec(source, known)?.adopting());
         }
 
         let value: serde_json::Value = serde_json::from_str(text).map_err(|e| source.json(&e))?;
@@ -66,12 +66,13 @@ impl RobotSpec {
             return Err(RobotFileError::Syntax { place: Spot::file(file), message });
         }
         let full = ["parameters", "name", "causality"].iter().any(|key| value.get(key).is_some());
-        if full {
+        let robot = if full {
             let parsed: File = serde_json::from_str(text).map_err(|e| source.json(&e))?;
             parsed.spec(source, known)
         } else {
             let flat: FlatRobot = serde_json::from_str(text).map_err(|e| source.json(&e))?;
             flat.spec(source, known)
-        }
+        };
+        Ok(robot?.adopting())
     }
 }

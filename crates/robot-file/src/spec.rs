@@ -61,6 +61,15 @@ pub struct RobotSpec {
 }
 
 impl RobotSpec {
+    /// The robot with the laws that are adopted, where its file does not hold them already.
+    #[must_use]
+    pub fn adopting(mut self) -> Self {
+        let is_there = |law: &EffectAt| self.effects.iter().any(|held| held.effect == law.effect);
+        let adopted: Vec<EffectAt> = self.known.adopted().into_iter().filter(|law| !is_there(law)).collect();
+        self.effects.extend(adopted);
+        self
+    }
+
     /// Its effects for the plant of a drive.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ const RULES: Grid = SETTINGS.grid;
 
 /// Columns of a recording; channels that are not there are empty.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Table {
+pub struct Columns {
     /// Time of each row, s.
     pub time: Vec<f64>,
     /// Measured x, y, m, and yaw, rad; NaN where it was not seen.
@@ -62,7 +62,7 @@ impl Drive {
     /// # Errors
     /// Columns that are missing or of unlike length, time that does not rise, commands out of range, a drive that has neither
     /// pose nor both gyro and encoder, channels that contradict each other by the factor of a unit or by a sign.
-    pub fn new(name: &str, table: &Table) -> Result<Self, CarError> {
+    pub fn new(name: &str, table: &Columns) -> Result<Self, CarError> {
         if !has_pose(table) && (table.gyro.is_empty() || table.encoder.is_empty()) {
             let what = "there is neither a pose nor both a gyro and an encoder speed; map one of them".to_owned();
             return Err(CarError::Drive { drive: name.to_owned(), what });
@@ -78,7 +78,7 @@ impl Drive {
     ///
     /// # Errors
     /// As [`Drive::new`], but for what was not measured.
-    pub fn held_out(name: &str, table: &Table) -> Result<Self, CarError> {
+    pub fn held_out(name: &str, table: &Columns) -> Result<Self, CarError> {
         let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
         let rows = table.time.len();
         if rows < RULES.rows {
@@ -204,12 +204,12 @@ impl Drive {
 }
 
 /// Whether a pose was seen in any row.
-fn has_pose(table: &Table) -> bool {
+fn has_pose(table: &Columns) -> bool {
     table.pose.iter().any(|p| p.iter().all(|x| x.is_finite()))
 }
 
 /// Instants of the car's messages, s from the start, with the row in which each arrived.
-fn messages(table: &Table, start: f64, told: &mut Vec<String>, name: &str) -> Vec<(f64, usize)> {
+fn messages(table: &Columns, start: f64, told: &mut Vec<String>, name: &str) -> Vec<(f64, usize)> {
     let rows = table.time.len();
     if table.car_time.is_empty() {
         return (0..rows).map(|row| (table.time[row] - start, row)).collect();

@@ -166,7 +166,7 @@ mod tests {
     use crate::car::Car;
     use crate::constant_table::constants;
     use crate::constants::Quantity;
-    use crate::drive::{Drive, Table};
+    use crate::drive::{Columns, Drive};
 
     /// A drive of laws in circles and eights at changing speeds, 40 s.
     fn drive(laws: &Laws) -> Drive {
@@ -174,19 +174,19 @@ mod tests {
         let time: Vec<f64> = (0..=steps).map(|k| STEP * k as f64).collect();
         let steering: Vec<f64> = time.iter().map(|t| 0.5 * (0.9 * t).sin() + 0.3 * (0.23 * t).sin()).collect();
         let throttle: Vec<f64> = time.iter().map(|t| 0.4 + 0.1 * (0.4 * t).sin()).collect();
-        let table = Table {
+        let table = Columns {
             pose: vec![[0.0; 3]; time.len()],
             gyro: vec![0.0; time.len()],
             time,
             throttle,
             steering,
-            ..Table::default()
+            ..Columns::default()
         };
         let inputs = laws.inputs(&Drive::new("drawn", &table).expect("commands"));
         let start = State { place: [0.0; 2], yaw: 0.0, speed: 1.0, side: 0.0, rate: 0.0 };
         let states = laws.run(start, &inputs, 0, steps);
         let pose = std::iter::once(&start).chain(&states).map(|s| laws.tracked(s)).collect();
-        Drive::new("drawn", &Table { pose, gyro: Vec::new(), ..table }).expect("a drive")
+        Drive::new("drawn", &Columns { pose, gyro: Vec::new(), ..table }).expect("a drive")
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub use case::Case;
 pub use constant_table::constants;
 pub use constants::{Constant, Quantity};
 pub use diagnose::{Findings, diagnose, examine};
-pub use drive::{Drive, Table as Columns};
+pub use drive::{Columns, Drive};
 pub use forecast::{ByLength, Errors, LENGTHS};
 pub use hierarchical_fit::CaseError as CarError;
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};

@@ -4,7 +4,7 @@ use hierarchical_fit::menu::{Reach, menu};
 use hierarchical_fit::{Kind, Solved};
 use verdict::{Advice, Manoeuvre};
 
-use crate::drive::{Drive, Table};
+use crate::drive::{Columns, Drive};
 use crate::model::{Laws, STEP, State};
 use crate::rows::Shown;
 use crate::settings::{NextDrive, SETTINGS};
@@ -96,16 +96,16 @@ fn commands(laws: &Laws, m: &Manoeuvre) -> [Vec<f64>; 2] {
 }
 
 /// What would be recorded with these commands; `None` of commands that are no drive.
-fn recorded(laws: &Laws, [throttle, steering]: [Vec<f64>; 2], measured: Measured) -> Option<Table> {
+fn recorded(laws: &Laws, [throttle, steering]: [Vec<f64>; 2], measured: Measured) -> Option<Columns> {
     let time: Vec<f64> = (0..throttle.len()).map(|k| STEP * k as f64).collect();
-    let commanded = Table { time, throttle, steering, ..Table::default() };
+    let commanded = Columns { time, throttle, steering, ..Columns::default() };
     let drive = Drive::held_out("next", &commanded).ok()?;
     let inputs = laws.inputs(&drive);
     let mut states = vec![REST];
     states.extend(laws.run(REST, &inputs, 0, inputs.steering.len()));
     states.resize(commanded.time.len(), *states.last()?);
     let column = |is: bool, of: &dyn Fn(&State) -> f64| if is { states.iter().map(of).collect() } else { Vec::new() };
-    Some(Table {
+    Some(Columns {
         pose: if measured.pose { states.iter().map(|s| laws.tracked(s)).collect() } else { Vec::new() },
         gyro: column(measured.gyro, &|s| laws.gyro_scale * s.rate + laws.gyro_bias),
         encoder: column(measured.encoder, &|s| laws.encoder(s.speed, s.rate)),

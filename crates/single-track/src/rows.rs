@@ -307,7 +307,7 @@ mod tests {
     use super::*;
     use crate::car::Car;
     use crate::constant_table::constants;
-    use crate::drive::Table;
+    use crate::drive::Columns;
 
     fn laws() -> Laws {
         let all = constants(&Car::new("drawn", 0.25));
@@ -336,13 +336,13 @@ mod tests {
     #[test]
     fn messages_within_one_smoothing_count_once() {
         let rows: Vec<f64> = (0..1000).map(f64::from).collect();
-        let table = Table {
+        let table = Columns {
             time: rows.iter().map(|k| 0.005 * k).collect(),
             pose: rows.iter().map(|k| [0.005 * k, 0.0, 0.0]).collect(),
             throttle: vec![0.2; 1000],
             steering: vec![0.0; 1000],
             gyro: vec![0.0; 1000],
-            ..Table::default()
+            ..Columns::default()
         };
         let drive = Drive::new("drawn", &table).expect("a drive");
         let shown = Shown::new(&drive, 0.0);

@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 
 use inference::robust::{mean, median};
 
-use crate::drive::Table;
+use crate::drive::Columns;
 use crate::settings::{SETTINGS, Units};
 
 const RULES: Units = SETTINGS.units;
 
 /// What is wrong with a unit or a sign, and what to do; `None` where all agree or nothing tells.
-pub(crate) fn mistaken(table: &Table) -> Option<String> {
+pub(crate) fn mistaken(table: &Columns) -> Option<String> {
     let turning = ratio(table, &table.gyro, turned, RULES.turning);
     let moving = ratio(table, &table.encoder, moved, RULES.moving);
     let is_near = |found: Option<f64>, factor: f64| found.is_some_and(|f| (f / factor).ln().abs() < RULES.near.ln());
@@ -49,7 +49,7 @@ pub(crate) fn mistaken(table: &Table) -> Option<String> {
 
 /// Median of what a channel shows over what the pose does in the same time, over stretches in which the pose does `least` and
 /// more per second; `None` without enough of them.
-fn ratio(table: &Table, channel: &[f64], done: fn(&[[f64; 3]]) -> Option<f64>, least: f64) -> Option<f64> {
+fn ratio(table: &Columns, channel: &[f64], done: fn(&[[f64; 3]]) -> Option<f64>, least: f64) -> Option<f64> {
     if channel.is_empty() || table.pose.is_empty() {
         return None;
     }

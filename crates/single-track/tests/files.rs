@@ -40,7 +40,7 @@ fn what_is_wrong_with_a_robot_file_is_one_sentence_with_its_remedy() {
 #[test]
 fn held_channels_are_read_at_the_instants_of_their_own_clock() {
     let file = RobotFile::parse("car.toml", CAR).expect("a car");
-    let drive: Drive = file.drive("run", &table()).expect("a drive");
+    let drive: Drive = file.drive(&testing::table("run", &table())).expect("a drive");
     assert!(drive.has_pose());
     assert!(drive.told.iter().any(|t| t.contains("reports every 0.100 s")), "{:?}", drive.told);
     assert!(drive.told.iter().any(|t| t.contains("first message is in row 26")), "{:?}", drive.told);
@@ -49,7 +49,7 @@ fn held_channels_are_read_at_the_instants_of_their_own_clock() {
 #[test]
 fn what_is_wrong_with_a_table_is_one_sentence_with_its_place() {
     let file = RobotFile::parse("car.toml", CAR).expect("a car");
-    let wrong = |table: &str| file.drive("run", table).expect_err("no drive").to_string();
+    let wrong = |table: &str| file.drive(&testing::table("run", table)).expect_err("no drive").to_string();
     assert!(wrong(&table().replacen("throttle", "gas", 1)).contains("no column 'throttle'; it has time_s"));
     assert!(wrong(&table().replacen("0.00,0,", "0.00,x,", 1)).contains("row 1, column 'x_m': 'x' is no number"));
     assert!(wrong(&table().replace(",0.1,1,", ",30,1,")).contains("steering command is 30, beyond ±1"));
@@ -61,7 +61,9 @@ fn what_is_wrong_with_a_table_is_one_sentence_with_its_place() {
     let refused = wrong(&in_milliseconds);
     assert!(refused.contains("its rows are 1 s apart") && refused.contains("time_unit = \"ms\""), "{refused}");
     let said = CAR.replacen("time = ", "time_unit = \"ms\"\ntime = ", 1);
-    assert!(RobotFile::parse("car.toml", &said).expect("a car").drive("run", &in_milliseconds).is_ok());
+    assert!(
+        RobotFile::parse("car.toml", &said).expect("a car").drive(&testing::table("run", &in_milliseconds)).is_ok()
+    );
     let blind = table().replacen("x_m", "a", 1).replacen("gyro_z", "b", 1);
     assert!(wrong(&blind).contains("neither a pose nor both a gyro and an encoder speed"));
 }

@@ -1,6 +1,9 @@
 #![doc = include_str!("../README.md")]
 
-use recordings::{Channel, Clock, Recording, Signal};
+use std::io::Cursor;
+
+use hierarchical_fit::{Column, Table};
+use recordings::{Channel, Clock, NamedColumn, Recording, Signal, named_columns};
 use robot_model::robot::Drive;
 use robot_model::{Chassis, Robot};
 
@@ -78,6 +81,18 @@ pub fn recording(channels: &[(Signal, Vec<(f64, f64)>)]) -> Recording {
         .collect();
     let clock = Clock { name: "test".to_owned(), nominal_rate_hz: None };
     Recording::new("r", vec![clock], channels).expect("a recording")
+}
+
+/// The columns of a comma-separated table.
+///
+/// # Panics
+/// When it is no table.
+pub fn table(drive: &str, text: &str) -> Table {
+    let header: Vec<&str> = text.lines().next().unwrap_or_default().split(',').collect();
+    let read = named_columns(drive, &mut Cursor::new(text), &header).unwrap_or_else(|error| panic!("{error}"));
+    let columns = read.columns.into_iter();
+    let columns = columns.map(|NamedColumn { name, cells, unread, .. }| (name, Column { cells, unread })).collect();
+    Table { drive: drive.to_owned(), names: read.names, columns }
 }
 
 /// `n` samples of `f` at 100 Hz.

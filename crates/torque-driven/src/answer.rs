@@ -229,13 +229,15 @@ impl Judged<'_> {
             .held_out
             .iter()
             .map(|h| {
-                let doses = corrector.map_or(Vec::new(), |w| {
-                    let doses = w.trial.hypothesis.lasting().doses(&w.trial.fitted.point.effects, 0);
-                    doses.iter().map(Dose::active).collect()
-                });
-                let corrected = predict(h, &tuned(p.robot, &p.sigma, &forecaster), &doses, gyro, self.options.step);
-                let plain =
-                    predict(h, &tuned(p.robot, &p.sigma, &p.centre), &[], GyroError::default(), self.options.step);
+                let given = self.case.effects.doses(&h.name);
+                let named = corrector
+                    .map_or(Vec::new(), |w| w.trial.hypothesis.lasting().doses(&w.trial.fitted.point.effects, 0));
+                let predict = |theta, effects: &[Dose], gyro| {
+                    let active: Vec<_> = effects.iter().map(Dose::active).collect();
+                    predict(h, &tuned(p.robot, &p.sigma, theta), &active, gyro, self.options.step)
+                };
+                let corrected = predict(&forecaster, &[given.clone(), named].concat(), gyro);
+                let plain = predict(&p.centre, &given, GyroError::default());
                 (corrected, plain)
             })
             .collect();

@@ -5,13 +5,15 @@ use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, USUAL_POSE_SIGMA, usual_sigma};
 
 use crate::run::Run;
-use inference::DiagnosisError;
+use inference::{DiagnosisError, GivenEffects};
 
 /// A torque-driven case.
 #[derive(Debug, Clone)]
 pub struct Case {
     /// The user's robot model.
     pub robot: Robot<f64>,
+    /// What the simulation is given beside these constants.
+    pub effects: GivenEffects,
     /// One sigma of each tunable constant, in the order of [`robot_model::tunable::tunables`].
     pub sigma: [f64; NUISANCES],
     /// Noise of the pose sensor, m.
@@ -32,6 +34,7 @@ impl Case {
     pub fn new(robot: Robot<f64>) -> Self {
         Self {
             robot,
+            effects: GivenEffects::default(),
             sigma: usual_sigma(),
             pose_sigma: USUAL_POSE_SIGMA,
             references: Vec::new(),

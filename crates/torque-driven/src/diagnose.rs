@@ -280,7 +280,7 @@ pub(crate) fn cut_all(
                 let needed = (2.0 * options.segment / c.period) as usize;
                 return Err(DiagnosisError::TooShort { recording: c.name, rows: c.torque.len(), needed });
             }
-            Ok(c)
+            Ok(Cut { given: case.effects.doses(&run.name), ..c })
         })
         .collect()
 }

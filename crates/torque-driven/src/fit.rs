@@ -144,7 +144,8 @@ impl Problem<'_> {
     /// Response of the recordings `runs`.
     fn free(&self, lane: &Lane<'_>, runs: Range<usize>) -> Response {
         let body = |run| {
-            let (robot, doses, cut) = (self.robot_of(&lane.point, run), (lane.doses)(run), &self.cuts[run]);
+            let (robot, cut) = (self.robot_of(&lane.point, run), &self.cuts[run]);
+            let doses = cut.with_given((lane.doses)(run));
             let torque = self.drives.delivered(run, cut, &robot, &doses, Grid::nearest(cut.period, self.step));
             Body { robot, doses, acting: lane.acting.clone(), torque }
         };

@@ -55,10 +55,10 @@ fn first_instant<'a>(robot: &Robot<f64>, cuts: &'a [Cut], dose: &Dose, step: f64
     let is_away = |speed: f64| !speed.is_finite() || speed.abs() > most;
 
     let drives = Drives::default();
-    let doses = vec![dose.clone()];
     let body = |(run, cut): (usize, &Cut)| {
+        let doses = cut.with_given(vec![dose.clone()]);
         let torque = drives.delivered(run, cut, robot, &doses, Grid::nearest(cut.period, step));
-        Body { robot: *robot, doses: doses.clone(), acting: None, torque }
+        Body { robot: *robot, doses, acting: None, torque }
     };
     let bodies: Vec<Body> = cuts.iter().enumerate().map(body).collect();
     let response = free_run(cuts, &bodies, 0, None, step);

@@ -1,5 +1,6 @@
 //! Windows of 0.1 s and the segments from which the model runs free.
 
+use inference::hypothesis::Dose;
 use sim::rollout::Start;
 
 use crate::channel::{Channel, Channels};
@@ -50,6 +51,8 @@ pub(crate) struct Cut {
     pub(crate) visit: Option<usize>,
     /// Time of the first row, s.
     pub(crate) from: f64,
+    /// What the simulation of it is given beside its robot.
+    pub(crate) given: Vec<Dose>,
     pub(crate) period: f64,
     pub(crate) rows_per_window: usize,
     pub(crate) torque: Vec<[f64; 2]>,
@@ -62,6 +65,11 @@ impl Cut {
     /// Time of a row, or between rows, s.
     pub(crate) fn time(&self, row: f64) -> f64 {
         self.from + row * self.period
+    }
+
+    /// Doses of a hypothesis after those that the simulation is given.
+    pub(crate) fn with_given(&self, doses: Vec<Dose>) -> Vec<Dose> {
+        if self.given.is_empty() { doses } else { self.given.iter().cloned().chain(doses).collect() }
     }
 
     /// When it ends, s.
@@ -126,6 +134,7 @@ pub(crate) fn cut(run: &Run, o: &CutOptions) -> Cut {
         name: run.name.clone(),
         visit: None,
         from: run.from,
+        given: Vec::new(),
         period: run.period,
         rows_per_window: per_window,
         torque: run.torque.clone(),

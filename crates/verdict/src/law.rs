@@ -234,6 +234,9 @@ pub struct CommonLaw {
     pub formula: String,
     /// Its coefficient in the references, as a share of that in the recordings.
     pub in_references: f64,
+    /// Range in which each of its variables was seen, in the variable's unit; older verdicts have none.
+    #[serde(default)]
+    pub seen: BTreeMap<String, [f64; 2]>,
 }
 
 /// Free-run errors of a recording that was not used for the fit, rms.

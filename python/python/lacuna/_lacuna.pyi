@@ -53,6 +53,7 @@ def diagnose(
     same_robot: bool = False,
     visit: list[str] | None = None,
     effects: _Path | Iterable[_Path] | None = None,
+    adopt: _Path | Iterable[_Path] | None = None,
     next: bool = False,
     progress: Callable[[str], object] | None = None,
 ) -> Diagnosis: ...

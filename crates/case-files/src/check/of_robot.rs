@@ -85,7 +85,8 @@ fn by<F: NamesColumns>(robot: &str, file: &F, paths: &[PathBuf]) -> Result<Vec<D
     let mut out = Vec::new();
     for path in recorded.tables {
         let name = name_of(&path);
-        let read = table(&path).and_then(|text| file.of_table(&name, &text, false));
+        let read = table(&path, &file.table_columns());
+        let read = read.and_then(|(table, told, _)| file.of_file((&table, told), false));
         out.push(drive_read::<F>(name, Vec::new(), read));
     }
     for (name, bag) in recorded.bags {

@@ -98,6 +98,15 @@ impl Reading {
     }
 }
 
+/// Laws that the simulation is given.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Adopted {
+    /// Law files that become part of the simulation at their numbers, of references and recordings alike: what your simulation
+    /// lacks in every drive (torque-driven robots).
+    #[arg(long, value_name = "LAW.toml", value_delimiter = ',')]
+    pub(crate) adopt: Vec<PathBuf>,
+}
+
 /// Effects of one's own.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct OwnEffects {
@@ -105,17 +114,19 @@ pub(crate) struct OwnEffects {
     /// the name that it gives (torque-driven robots).
     #[arg(long = "effects", value_name = "LAW.toml", value_delimiter = ',')]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    adopted: Adopted,
 }
 
 impl OwnEffects {
     /// The catalogue with these.
     pub(crate) fn known(&self) -> Result<KnownEffects> {
-        own_effects::read(&self.files)
+        own_effects::read(&self.files, &self.adopted.adopt)
     }
 
     /// Whether there are any.
     pub(crate) fn is_any(&self) -> bool {
-        !self.files.is_empty()
+        !self.files.is_empty() || !self.adopted.adopt.is_empty()
     }
 }
 

@@ -14,7 +14,7 @@ use serde_json::json;
 
 use super::diagnose::{self, Input};
 use super::report::write_page;
-use super::{Outcome, Usage, listed};
+use super::{Adopted, Outcome, Usage, listed};
 use crate::console::{Counted, Progress, emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -58,6 +58,8 @@ pub(crate) struct Args {
     /// plant can have].
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     effects: Vec<String>,
+    #[command(flatten)]
+    adopted: Adopted,
     /// References of a replica, on the inputs of the recordings: what one more is worth; 0 is none
     /// [default: those of the case, on their own inputs].
     #[arg(long, value_name = "COUNT", value_parser = references)]
@@ -127,7 +129,7 @@ impl Args {
 
 /// Rehearses a case.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
-    let known = own_effects::read(&args.files_and_names().0)?;
+    let known = own_effects::read(&args.files_and_names().0, &args.adopted.adopt)?;
     let plan = args.plan(known);
     plan.checked(known).map_err(told)?;
     for target in [&args.json, &args.html].into_iter().flatten() {

@@ -83,6 +83,25 @@ fn a_wheel_that_is_too_large_is_named_with_its_radius() {
 }
 
 #[test]
+fn a_table_with_semicolons_and_decimal_commas_is_the_same_drive_and_is_told() {
+    let bench = Bench::empty();
+    bench.write("robot.toml", ROBOT);
+    bench.write("points/run.csv", &drive(0.4));
+    bench.write("commas/run.tsv", &drive(0.4).replace(',', ";").replace('.', ","));
+    let check = |file: &str| {
+        let run = bench.run(&["check", file, "--robot", "robot.toml"]);
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+        run.out()
+    };
+    let (points, commas) = (check("points/run.csv"), check("commas/run.tsv"));
+    for said in [&points, &commas] {
+        assert!(said.contains("1200 rows in 60.0 s, a pose in 1200 of them"), "{said}");
+    }
+    let written = "its cells are taken to be separated by ';', and its decimals behind commas";
+    assert!(commas.contains(written) && !points.contains("its cells"), "{commas}");
+}
+
+#[test]
 fn the_next_drive_is_advised_by_itself_and_with_the_verdict() {
     let bench = bench();
     let run = bench.run(&["next", "case", "--profile", "p.csv", "--picture", "p.svg", "--json", "n.json"]);

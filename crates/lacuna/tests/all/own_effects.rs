@@ -174,3 +174,42 @@ fn a_rehearsal_hides_a_law_of_ones_own() {
     let run = bench.run(&[&["rehearse", "case", "--effects", "my-law.toml"][..], &few].concat());
     assert!(run.code() == Some(0) && run.out().contains("right-drag"), "{}{}", run.out(), run.err());
 }
+
+#[test]
+fn what_a_robot_file_or_an_adopted_law_gives_the_simulation_is_no_longer_missing() {
+    let bench = bench();
+    let as_driven = LAW.replace("-1.5", "-2.0").replace("bump(omega, 5)", "bump(omega, 4)");
+    bench.write("flaw.toml", &as_driven);
+    let error = |name: &str, extra: &[&str]| {
+        let files = ["--robot", name, "--recordings", "case/recordings", "--json", "verdict.json"];
+        let run = bench.run(&[&["diagnose"][..], &files, extra].concat());
+        assert_eq!(run.code(), Some(0), "{}", run.err());
+        let verdict: Value = serde_json::from_str(&bench.read("verdict.json")).unwrap();
+        let runs = verdict["diagnosis"]["free_runs"].as_array().unwrap().clone();
+        let nominal = runs.iter().find(|run| run["quantity"].as_str().unwrap().starts_with("wheel speed")).unwrap();
+        let alike = nominal["nominal"].as_f64().unwrap();
+        (verdict["diagnosis"]["verdict"].as_str().unwrap().to_owned(), alike)
+    };
+    let (_, without) = error("case/robot.toml", &[]);
+    let (verdict, adopted) = error("case/robot.toml", &["--adopt", "flaw.toml"]);
+    assert_eq!(verdict, "no_mismatch");
+    assert!(adopted < 0.5 * without, "{adopted} with the law, {without} without");
+
+    // The verdict carries the robot with it, and what exports it asks for the file.
+    bench.run(&["export", "verdict.json", "--to", "toml"]).failed(&["no effect `right-drag`"]);
+    let run = bench.run(&["export", "verdict.json", "--to", "toml", "-o", "whole.toml", "--adopt", "flaw.toml"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    assert_eq!(bench.read("whole.toml").matches("effect = \"right-drag\"").count(), 1);
+
+    // The robot file that holds it is the same simulation, once.
+    let (verdict, of_file) = error("dragging.toml", &["--adopt", "flaw.toml"]);
+    assert_eq!((verdict.as_str(), of_file), ("no_mismatch", adopted));
+}
+
+#[test]
+fn effects_of_a_robot_file_that_recordings_are_not_compared_with_are_refused() {
+    let bench = Bench::new();
+    let gyro = "\n[[effects]]\neffect = \"gyro_bias\"\nvalues = { b = 0.02 }\n";
+    bench.write("case/robot.toml", &format!("{ROBOT}{gyro}"));
+    bench.run(&["diagnose", "case"]).failed(&["`gyro_bias`, which acts on what sensors show", "take it out"]);
+}

@@ -25,5 +25,6 @@ mod robot;
 mod series;
 mod table;
 
+pub use hierarchical_fit::{Column, Table};
 pub use robot::{BUILT_IN, Columns, RobotFile, is_of_kind, seconds_in};
 pub use series::{Series, Signals};

@@ -1,20 +1,20 @@
-//! Drives from tables of comma-separated values.
+//! Drives from the columns of tables.
 
 use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::file::robot::RobotFile;
 use crate::file::series::{Series, headings};
-use hierarchical_fit::CaseError;
+use hierarchical_fit::{Table, or_nan};
 
 impl RobotFile {
-    /// A drive from a table with a line of column names; its name is that of the file.
+    /// A drive from the columns of a table; its name is that of the table.
     ///
     /// Empty cells of the pose were not seen. Rows without a time are refused.
     ///
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
-    pub fn drive(&self, name: &str, table: &str) -> Result<Drive, OdometryError> {
-        self.read(name, table, true)
+    pub fn drive(&self, table: &Table) -> Result<Drive, OdometryError> {
+        self.read(table, true)
     }
 
     /// A drive whose pose is to be predicted: where the pose was seen, the prediction begins; columns and cells of the pose may be
@@ -22,80 +22,49 @@ impl RobotFile {
     ///
     /// # Errors
     /// As [`RobotFile::drive`].
-    pub fn held_out(&self, name: &str, table: &str) -> Result<Drive, OdometryError> {
-        self.read(name, table, false)
+    pub fn held_out(&self, table: &Table) -> Result<Drive, OdometryError> {
+        self.read(table, false)
     }
 
-    fn read(&self, name: &str, table: &str, needs_pose: bool) -> Result<Drive, OdometryError> {
-        let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
-        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
+    fn read(&self, table: &Table, needs_pose: bool) -> Result<Drive, OdometryError> {
         let names = &self.columns;
-        let place = |column: &String| {
-            header.iter().position(|h| h == column).ok_or_else(|| {
-                let there: Vec<&str> = header.iter().collect();
-                wrong(format!("no column '{column}'; it has {}: correct [columns] of the robot file", there.join(", ")))
-            })
-        };
-        let mut places = vec![place(&names.time)?];
-        for column in names.wheels.iter().chain(&names.steering) {
-            places.push(place(column)?);
-        }
+        let time: Vec<f64> = table.filled(&names.time)?.into_iter().map(|t| t * names.second).collect();
+        let wheels: Vec<Vec<f64>> = names.wheels.iter().map(|wheel| table.filled(wheel)).collect::<Result<_, _>>()?;
+        let angles = |column: Vec<f64>| column.into_iter().map(|s| s * names.angle).collect::<Vec<f64>>();
+        let steering = names.steering.as_ref().map(|column| table.filled(column)).transpose()?.map(angles);
+
         // A gyro stands for a pose that was not recorded; one that is to be predicted is predicted from the wheels alone.
-        let is_there = |column: &String| header.iter().any(|h| h == column);
-        let pose = names.pose.as_ref().filter(|pose| pose.iter().any(is_there));
-        let gyro = names.gyro.as_ref().filter(|_| needs_pose && pose.is_none());
-        let body: &[String] = match (pose, gyro, &names.pose) {
-            (Some(pose), _, _) => pose,
-            (None, Some(gyro), _) => std::slice::from_ref(gyro),
-            (None, None, Some(pose)) if needs_pose => pose,
-            (None, None, _) => &[],
+        let pose = names.pose.as_ref().filter(|pose| pose.iter().any(|column| table.has(column)));
+        let session = self.session_of(&table.drive);
+        if let Some(gyro) = names.gyro.as_ref().filter(|_| needs_pose && pose.is_none()) {
+            let pose = self.heading_by(table.needed(gyro)?, &time);
+            let drive = Drive::by_gyro(&table.drive, &self.robot, time, (names.data, &wheels), steering, pose)?;
+            return Ok(drive.of_session(&session));
+        }
+        let seen: Vec<Vec<f64>> = match pose.or(names.pose.as_ref().filter(|_| needs_pose)) {
+            Some(pose) => pose.iter().map(|column| table.needed(column).map(or_nan)).collect::<Result<_, _>>()?,
+            None => vec![vec![f64::NAN; time.len()]; 3],
         };
-        for column in body {
-            places.push(place(column)?);
-        }
-
-        let mut columns: Vec<Vec<f64>> = vec![Vec::new(); places.len()];
-        let first_of_pose = places.len() - body.len();
-        for (row, record) in reader.records().enumerate() {
-            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
-            for (k, &at) in places.iter().enumerate() {
-                let cell = record.get(at).unwrap_or("");
-                let value = if cell.is_empty() && k >= first_of_pose { Ok(f64::NAN) } else { cell.parse::<f64>() };
-                let value = value.map_err(|_| {
-                    wrong(format!("row {}, column '{}': '{cell}' is no number", row + 1, header.get(at).unwrap_or("")))
-                })?;
-                columns[k].push(value);
-            }
-        }
-
-        let wheels = &columns[1..=names.wheels.len()];
-        let steering = names.steering.as_ref().map(|_| {
-            let column = &columns[names.wheels.len() + 1];
-            column.iter().map(|s| s * names.angle).collect::<Vec<f64>>()
-        });
-        let time: Vec<f64> = columns[0].iter().map(|t| t * names.second).collect();
-        if gyro.is_some() {
-            let rates = &columns[first_of_pose];
-            let seen: Vec<usize> = (0..time.len()).filter(|&row| rates[row].is_finite()).collect();
-            let of = |column: &[f64]| seen.iter().map(|&row| column[row]).collect();
-            let mut pose = vec![[f64::NAN; 3]; time.len()];
-            for (&row, heading) in seen.iter().zip(headings(&Series { time: of(&time), value: of(rates) }, names.angle))
-            {
-                pose[row] = heading;
-            }
-            let drive = Drive::by_gyro(name, &self.robot, time, (names.data, wheels), steering, pose)?;
-            return Ok(drive.of_session(&self.session_of(name)));
-        }
         let pose = (0..time.len())
-            .map(|row| {
-                let [x, y, yaw] = [0, 1, 2].map(|axis| columns.get(first_of_pose + axis).map_or(f64::NAN, |c| c[row]));
-                [x * names.length, y * names.length, yaw * names.angle]
-            })
+            .map(|row| [seen[0][row] * names.length, seen[1][row] * names.length, seen[2][row] * names.angle])
             .collect();
         let new = if needs_pose { Drive::new } else { Drive::held_out };
-        let drive = new(name, &self.robot, time, (names.data, wheels), steering, pose)?;
-        Ok(drive.of_session(&self.session_of(name)))
+        Ok(new(&table.drive, &self.robot, time, (names.data, &wheels), steering, pose)?.of_session(&session))
+    }
+
+    /// Poses of which the heading is known, from the rates that a gyro shows.
+    fn heading_by(&self, rates: &[Option<f64>], time: &[f64]) -> Vec<[f64; 3]> {
+        let is_seen = |row: &usize| rates[*row].is_some_and(f64::is_finite);
+        let seen: Vec<usize> = (0..time.len()).filter(is_seen).collect();
+        let series = Series {
+            time: seen.iter().map(|row| time[*row]).collect(),
+            value: seen.iter().filter_map(|row| rates[*row]).collect(),
+        };
+        let mut pose = vec![[f64::NAN; 3]; time.len()];
+        for (row, heading) in seen.into_iter().zip(headings(&series, self.columns.angle)) {
+            pose[row] = heading;
+        }
+        pose
     }
 
     /// The session of a drive of this name.
@@ -123,7 +92,7 @@ mod tests {
     #[test]
     fn a_table_is_a_drive_of_its_session() {
         let file = RobotFile::built_in("differential").expect("a file").expect("a robot");
-        let drive = file.drive("D02-01", &table(80)).expect("a drive");
+        let drive = file.drive(&testing::table("D02-01", &table(80))).expect("a drive");
         assert_eq!((drive.session.as_str(), drive.time.len()), ("D02", 80));
         assert!(drive.pose[7][0].is_nan() && drive.pose[8][0] > 0.0);
         approx::assert_relative_eq!(drive.turns[1][0], std::f64::consts::TAU * 106.0 / 2796.8, epsilon = 1e-12);
@@ -132,7 +101,7 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_table_is_one_clear_sentence() {
         let file = RobotFile::built_in("differential").expect("a file").expect("a robot");
-        let refused = |table: &str| file.drive("a", table).unwrap_err().to_string();
+        let refused = |table: &str| file.drive(&testing::table("a", table)).unwrap_err().to_string();
         assert!(refused(&table(80).replace("tick_left", "left")).contains("no column 'tick_left'; it has time_s"));
         assert!(
             refused(&table(80).replace(",106,106", ",x,106")).contains("row 1, column 'tick_right': 'x' is no number")
@@ -144,7 +113,7 @@ mod tests {
     fn times_in_milliseconds_are_refused_until_the_file_says_so() {
         let (_, text) = crate::file::BUILT_IN[0];
         let plain = RobotFile::parse("robot.toml", text).expect("a robot");
-        let seconds = plain.drive("a", &table(80)).expect("a drive");
+        let seconds = plain.drive(&testing::table("a", &table(80))).expect("a drive");
         let milli = table(80)
             .lines()
             .map(|line| match line.split_once(',') {
@@ -155,10 +124,13 @@ mod tests {
             })
             .collect::<Vec<_>>()
             .join("\n");
-        let refused = plain.drive("a", &milli).unwrap_err().to_string();
+        let refused = plain.drive(&testing::table("a", &milli)).unwrap_err().to_string();
         assert!(refused.contains("its rows are 50 s apart") && refused.contains("time_unit = \"ms\""), "{refused}");
         let said = text.replace("time = ", "time_unit = \"ms\"\ntime = ");
-        let same = RobotFile::parse("robot.toml", &said).expect("a robot").drive("a", &milli).expect("a drive");
+        let same = RobotFile::parse("robot.toml", &said)
+            .expect("a robot")
+            .drive(&testing::table("a", &milli))
+            .expect("a drive");
         for (a, b) in same.time.iter().zip(&seconds.time) {
             approx::assert_relative_eq!(*a, *b, epsilon = 1e-9);
         }

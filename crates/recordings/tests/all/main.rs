@@ -10,6 +10,7 @@ mod good_input;
 mod header_stamps;
 mod late_rows;
 mod mapping_toml;
+mod named_columns;
 mod parquet_tables;
 mod quality;
 mod quality_meter;

@@ -4,4 +4,5 @@ mod robot;
 mod series;
 mod table;
 
+pub use hierarchical_fit::{Column, Table};
 pub use robot::{BUILT_IN, Columns, RobotFile};

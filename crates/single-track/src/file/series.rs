@@ -3,7 +3,7 @@
 use hierarchical_fit::CaseError as CarError;
 use odometry::file::{Series, Signals};
 
-use crate::drive::{Drive, Table};
+use crate::drive::{Columns, Drive};
 use crate::file::robot::RobotFile;
 
 impl RobotFile {
@@ -59,7 +59,7 @@ impl RobotFile {
             let [x, y, yaw] = [&x, &y, &yaw].map(|series| seen(Some(series)));
             x.iter().zip(&y).zip(&yaw).map(|((x, y), yaw)| [*x, *y, *yaw]).collect()
         };
-        let table = Table {
+        let table = Columns {
             pose,
             throttle: held(throttle),
             steering: held(steering).into_iter().map(|s| s * per_unit).collect(),

@@ -1,18 +1,18 @@
-//! Drives from tables of comma-separated values.
+//! Drives from the columns of tables.
 
-use crate::drive::{Drive, Table};
+use crate::drive::{Columns, Drive};
 use crate::file::robot::RobotFile;
-use hierarchical_fit::CaseError as CarError;
+use hierarchical_fit::{CaseError as CarError, Table, or_nan};
 
 impl RobotFile {
-    /// A drive from a table with a line of column names; its name is that of the file.
+    /// A drive from the columns of a table; its name is that of the table.
     ///
     /// A table without the columns of the pose is a drive without pose. Empty cells were not seen.
     ///
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
-    pub fn drive(&self, name: &str, table: &str) -> Result<Drive, CarError> {
-        Drive::new(name, &self.columns_of(name, table)?)
+    pub fn drive(&self, table: &Table) -> Result<Drive, CarError> {
+        Drive::new(&table.drive, &self.columns_of(table)?)
     }
 
     /// A drive whose pose is to be predicted from its commands: nothing else needs to be there. Where the pose was seen for long
@@ -20,8 +20,8 @@ impl RobotFile {
     ///
     /// # Errors
     /// As [`RobotFile::drive`].
-    pub fn held_out(&self, name: &str, table: &str) -> Result<Drive, CarError> {
-        Drive::held_out(name, &self.columns_of(name, table)?)
+    pub fn held_out(&self, table: &Table) -> Result<Drive, CarError> {
+        Drive::held_out(&table.drive, &self.columns_of(table)?)
     }
 
     /// Steering command, −1 to 1, per unit of its column.
@@ -33,34 +33,12 @@ impl RobotFile {
         }
     }
 
-    fn columns_of(&self, name: &str, table: &str) -> Result<Table, CarError> {
-        let wrong = |what: String| CarError::Drive { drive: name.to_owned(), what };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
-        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
-        let rows: Vec<csv::StringRecord> =
-            reader.records().collect::<Result<_, _>>().map_err(|e| wrong(format!("a row cannot be read: {e}")))?;
-        let place = |column: &str| header.iter().position(|h| h == column);
-        let cells = |column: &str, at: usize| -> Result<Vec<f64>, CarError> {
-            let cell = |(row, record): (usize, &csv::StringRecord)| {
-                let cell = record.get(at).unwrap_or("");
-                if cell.is_empty() {
-                    return Ok(f64::NAN);
-                }
-                let value = cell.parse::<f64>();
-                value.map_err(|_| wrong(format!("row {}, column '{column}': '{cell}' is no number", row + 1)))
-            };
-            rows.iter().enumerate().map(cell).collect()
-        };
-        let needed = |column: &str| {
-            let at = place(column).ok_or_else(|| {
-                let there: Vec<&str> = header.iter().collect();
-                wrong(format!("no column '{column}'; it has {}: correct [columns] of the robot file", there.join(", ")))
-            })?;
-            cells(column, at)
-        };
-        let optional = |column: &Option<String>| match column {
-            Some(column) => place(column).map_or_else(|| Ok(Vec::new()), |at| cells(column, at)),
-            None => Ok(Vec::new()),
+    fn columns_of(&self, table: &Table) -> Result<Columns, CarError> {
+        let wrong = |what: String| CarError::Drive { drive: table.drive.clone(), what };
+        let needed = |column: &str| table.needed(column).map(or_nan);
+        let optional = |column: &Option<String>| -> Result<Vec<f64>, CarError> {
+            let Some(column) = column else { return Ok(Vec::new()) };
+            Ok(table.optional(column)?.map(or_nan).unwrap_or_default())
         };
 
         let names = &self.columns;
@@ -69,7 +47,7 @@ impl RobotFile {
         let pose = x.iter().zip(&y).zip(&yaw).map(|((x, y), yaw)| [*x, *y, *yaw]).collect();
         let second = odometry::file::seconds_in(names.time_unit.as_deref()).map_err(wrong)?;
         let seconds = |column: Vec<f64>| column.into_iter().map(|t| t * second).collect();
-        Ok(Table {
+        Ok(Columns {
             time: seconds(needed(&names.time)?),
             pose,
             throttle: needed(&names.throttle)?,

@@ -62,7 +62,7 @@ fn speeds(angle: &[Option<f64>], period: f64) -> Vec<f64> {
 
 /// Mean torque over each row that the drives deliver less what the model's wheels need at the measured speeds, N m.
 fn surplus(run: &Run, cut: &Cut, robot: &Robot<f64>, doses: &[Dose], speed: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+    let active: Vec<Active<f64>> = cut.given.iter().chain(doses).map(Dose::active).collect();
     let grid = Grid::nearest(run.period, IDENTIFYING.step);
     let plant = Plant::new(robot, &active, grid.step());
     let hold = Hold::new(grid, plant.drive().delay);

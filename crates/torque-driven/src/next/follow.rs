@@ -28,6 +28,8 @@ pub(crate) struct Follower {
     rows_per_window: usize,
     /// Channels that the recordings have.
     channels: Channels<bool>,
+    /// What the simulation is given beside the robot.
+    given: Vec<Dose>,
 }
 
 impl Follower {
@@ -39,6 +41,8 @@ impl Follower {
         let inertia = 0.5 * known.mass * known.wheel_radius.powi(2) + 2.0 * known.wheel_inertia + known.motor_inertia;
         let shown = |c: Channel| problem.cuts.iter().flat_map(|cut| &cut.segments).any(|s| s.shows(c));
         Some(Self {
+            // What the simulation is given in one drive alone is no part of the next one.
+            given: cut.given.iter().filter(|dose| dose.presence.from <= cut.from).cloned().collect(),
             known,
             limit,
             gain: inertia / FOLLOW.reach,
@@ -59,7 +63,7 @@ impl Follower {
         start: [f64; 3],
         ground: bool,
     ) -> Cut {
-        let active: Vec<Active<f64>> = doses.iter().map(Dose::active).collect();
+        let active: Vec<Active<f64>> = self.given.iter().chain(doses).map(Dose::active).collect();
         let length = course.points.last().map_or(0.0, |p| p[0]);
         let rows = (length / self.period).round() as usize;
         let grid = Grid::nearest(self.period, self.step);
@@ -86,6 +90,7 @@ impl Follower {
         Cut {
             from: 0.0,
             visit: None,
+            given: self.given.clone(),
             name: "next".to_owned(),
             period: self.period,
             rows_per_window: self.rows_per_window,

@@ -6,7 +6,7 @@ use sim::rollout::Grid;
 
 use super::acting::Inputs;
 use crate::channel::Channel;
-use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::fit::{Fitted, Problem};
 use crate::settings::law::SETTINGS;
 use crate::windows::{Cut, Segment};
 
@@ -20,8 +20,7 @@ impl Signals {
     pub(crate) fn new(problem: &Problem<'_>, base: &Fitted) -> Self {
         let of_run = |(run, cut): (usize, &Cut)| {
             let grid = Grid::nearest(cut.period, problem.step);
-            let doses = Hypothesis::default().doses(&[], run);
-            let torque = problem.drives.delivered(run, cut, problem.robot, &doses, grid);
+            let torque = problem.drives.delivered(run, cut, problem.robot, &cut.given, grid);
             let segments = cut.segments.iter().zip(&base.response[run]);
             segments
                 .flat_map(|(segment, simulated)| of_segment(problem, cut, segment, simulated, &torque, grid))

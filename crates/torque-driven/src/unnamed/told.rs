@@ -77,7 +77,9 @@ pub(crate) fn tell(judged: &Judged<'_>, retuned: &Fitted, out: &Diagnosis) -> Un
     let common = all().find(|(law, s)| law.gain > SETTINGS.gates.score && s.is_in_every_drive());
     let in_every_drive = common.and_then(|(law, s)| {
         let place = law.law.terms().first()?.place().name().to_owned();
-        Some(CommonLaw { place, formula: told_formula(&law.law), in_references: s.in_references?[0] })
+        let seen =
+            ranking.signals.seen(&law.law).into_iter().map(|(v, range)| (v.symbol().to_owned(), range)).collect();
+        Some(CommonLaw { place, formula: told_formula(&law.law), in_references: s.in_references?[0], seen })
     });
 
     // Of those that the references do not have, the best.

@@ -5,6 +5,7 @@ mod table;
 
 use crate::robot::AnyWheels;
 use hierarchical_fit::CaseError as WheeledError;
+pub use hierarchical_fit::{Column, Table};
 
 /// Robots that are there by name.
 pub const BUILT_IN: &[(&str, &str)] = &[

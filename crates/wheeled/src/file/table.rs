@@ -1,6 +1,6 @@
-//! Drives from tables of comma-separated values, and from the messages of bags.
+//! Drives from the columns of tables, and from the messages of bags.
 
-use hierarchical_fit::CaseError as WheeledError;
+use hierarchical_fit::{CaseError as WheeledError, Table};
 use std::collections::BTreeMap;
 
 use odometry::file::{Series, Signals};
@@ -9,12 +9,12 @@ use crate::drive::{Drive, Measured};
 use crate::file::RobotFile;
 
 impl RobotFile {
-    /// A drive from a table with a line of column names; its name is that of the file. Empty cells were not measured.
+    /// A drive from the columns of a table; its name is that of the table. Empty cells were not measured.
     ///
     /// # Errors
     /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
-    pub fn drive(&self, name: &str, table: &str, is_held_out: bool) -> Result<Drive, WheeledError> {
-        self.drive_of(name, &self.signals(name, table, is_held_out)?, is_held_out)
+    pub fn drive(&self, table: &Table, is_held_out: bool) -> Result<Drive, WheeledError> {
+        self.drive_of(&table.drive, &self.signals(table, is_held_out)?, is_held_out)
     }
 
     /// A drive from signals at instants of their own, as the messages of a bag have them.
@@ -55,45 +55,24 @@ impl RobotFile {
         Drive::new(name, &self.robot, &measured, is_held_out)
     }
 
-    fn signals(&self, name: &str, table: &str, is_held_out: bool) -> Result<Signals, WheeledError> {
-        let wrong = |what: String| WheeledError::Drive { drive: name.to_owned(), what };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table.as_bytes());
-        let header = reader.headers().map_err(|e| wrong(format!("no line of column names: {e}")))?.clone();
-        let place = |column: &str| {
-            let there: Vec<&str> = header.iter().collect();
-            let lacks = || format!("no column '{column}'; it has {}: correct the robot file", there.join(", "));
-            header.iter().position(|h| h == column).ok_or_else(|| wrong(lacks()))
-        };
-        let time_at = place(&self.columns.time)?;
+    fn signals(&self, table: &Table, is_held_out: bool) -> Result<Signals, WheeledError> {
         let names = &self.columns;
+        let time: Vec<f64> = table.filled(&names.time)?.into_iter().map(|t| t * names.second).collect();
+        let rises = |row: usize| time[row].is_finite() && (row == 0 || time[row] > time[row - 1]);
+        if let Some(row) = (0..time.len()).find(|row| !rises(*row)) {
+            let what = format!("time does not rise in row {}; sort the rows, or remove repeated ones", row + 1);
+            return Err(WheeledError::Drive { drive: table.drive.clone(), what });
+        }
         let wheels = names.wheels.iter().filter(|_| !is_held_out);
         for column in names.torque.iter().chain(&names.joints).map(|(column, _)| column).chain(wheels) {
-            place(column)?;
+            table.needed(column)?;
         }
-        let wanted: Vec<(usize, String)> =
-            self.names().filter_map(|n| header.iter().position(|h| h == n).map(|at| (at, n.to_owned()))).collect();
         let mut out: Signals = BTreeMap::new();
-        let mut last = f64::NEG_INFINITY;
-        for (row, record) in reader.records().enumerate() {
-            let record = record.map_err(|e| wrong(format!("row {}: {e}", row + 1)))?;
-            let number = |at: usize| {
-                let cell = record.get(at).unwrap_or("");
-                let column = header.get(at).unwrap_or("");
-                cell.parse::<f64>()
-                    .map_err(|_| wrong(format!("row {}, column '{column}': '{cell}' is no number", row + 1)))
-            };
-            let time = number(time_at)? * self.columns.second;
-            if !(time > last && time.is_finite()) {
-                let what = format!("time does not rise in row {}; sort the rows, or remove repeated ones", row + 1);
-                return Err(wrong(what));
-            }
-            last = time;
-            for (at, column) in &wanted {
-                if !record.get(*at).unwrap_or("").is_empty() {
-                    let series = out.entry(column.clone()).or_default();
-                    series.time.push(time);
-                    series.value.push(number(*at)?);
-                }
+        for column in self.names() {
+            let measured = time.iter().zip(table.optional(column)?.unwrap_or_default());
+            let (time, value): (Vec<f64>, Vec<f64>) = measured.filter_map(|(t, cell)| cell.map(|x| (*t, x))).unzip();
+            if !time.is_empty() {
+                out.insert(column.to_owned(), Series { time, value });
             }
         }
         Ok(out)
@@ -113,9 +92,9 @@ mod tests {
             let head = "time_s,torque_front,steer_rad,speed_front,gyro_z,x_m,y_m,yaw_rad\n";
             head.to_owned() + &(0..n).map(row).collect::<String>()
         };
-        let drive = file.drive("a", &rows(200), false).expect("a drive");
+        let drive = file.drive(&testing::table("a", &rows(200)), false).expect("a drive");
         assert!(drive.has_pose() && (drive.duration() - 3.98).abs() < 0.03, "{}", drive.duration());
-        let refused = |table: &str| file.drive("a", table, false).unwrap_err().to_string();
+        let refused = |table: &str| file.drive(&testing::table("a", table), false).unwrap_err().to_string();
         assert!(
             refused(&rows(200).replace("torque_front", "torque")).contains("no column 'torque_front'; it has time_s")
         );
@@ -129,7 +108,8 @@ mod tests {
         // Speeds have a unit of their own: that of angles is none of theirs.
         let turned = |of: &str| {
             let text = text.replace("wheels = \"speed\"", &format!("wheels = \"speed\"\n{of}"));
-            let drive = RobotFile::parse("robot.toml", &text).expect("a robot").drive("a", &rows(200), false);
+            let drive =
+                RobotFile::parse("robot.toml", &text).expect("a robot").drive(&testing::table("a", &rows(200)), false);
             drive.expect("a drive").wheels[0].sum(2.0)
         };
         let plain = turned("");
@@ -141,7 +121,7 @@ mod tests {
         // A pose that is to be predicted, and wheels, may be missing.
         let row = |k: u32| format!("{:.2},1.0,0.1\n", 0.02 * f64::from(k));
         let held_out = "time_s,torque_front,steer_rad\n".to_owned() + &(0..200).map(row).collect::<String>();
-        assert!(!file.drive("a", &held_out, true).expect("a drive").has_pose());
+        assert!(!file.drive(&testing::table("a", &held_out), true).expect("a drive").has_pose());
         let milli = text.replace("time = \"time_s\"", "time = \"time_s\"\ntime_unit = \"ms\"");
         let milli = RobotFile::parse("robot.toml", &milli).expect("a robot");
         let scaled: String = rows(200)
@@ -154,7 +134,7 @@ mod tests {
             })
             .collect();
         assert!(refused(&scaled).contains("its rows are 20 s apart"), "{}", refused(&scaled));
-        let same = milli.drive("a", &scaled, false).expect("a drive");
+        let same = milli.drive(&testing::table("a", &scaled), false).expect("a drive");
         approx::assert_relative_eq!(same.duration(), drive.duration(), epsilon = 1e-9);
     }
 }
