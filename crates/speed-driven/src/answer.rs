@@ -151,6 +151,14 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
         out.push(format!("no gyro was recorded in {}: no effective track can be measured there", blind.join(", ")));
     }
     out.extend(all().flat_map(guesses));
+    let averaged = |run: &SpeedRun| Some(format!("{} over {:.1} s", run.name, run.averaged?));
+    let averaged: Vec<String> = all().filter_map(averaged).collect();
+    if !averaged.is_empty() {
+        let told = averaged.join(", ");
+        out.push(format!(
+            "measured speeds scatter from row to row and are averaged ({told}): changes are known no better"
+        ));
+    }
     out.extend(unused(all().flat_map(|r| &r.unused)));
     if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
         out.push("some straight loads are compared with references driven at another speed".to_owned());

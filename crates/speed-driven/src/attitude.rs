@@ -34,6 +34,19 @@ fn level_of(level: &[f64], step: f64) -> (usize, f64) {
     (every, (MAD_TO_SIGMA / std::f64::consts::SQRT_2 * moved).max(FILTER.from_level))
 }
 
+/// How far a tilt walks by the noise of its turning rate, rad/√s: by how much more what it turns differs from window to window where
+/// windows are longer, so that neither an offset nor vibration, which comes back, counts.
+fn noise_walk(rate: &[f64], step: f64) -> f64 {
+    let variance = |window: f64| {
+        let rows = ((window / step) as usize).max(1);
+        let turned: Vec<f64> = rate.chunks_exact(rows).map(|window| step * window.iter().sum::<f64>()).collect();
+        let scatter = median(turned.windows(2).map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0);
+        0.5 * (MAD_TO_SIGMA * scatter).powi(2)
+    };
+    let [short, long] = FILTER.noise_windows;
+    ((variance(long) - variance(short)) / (long - short)).max(0.0).sqrt()
+}
+
 /// The slope along the heading at the rows of a recording, uphill positive.
 #[derive(Debug, Clone)]
 pub(crate) struct Attitude {
@@ -119,7 +132,9 @@ fn estimate(
     let rolling = FILTER.rolling.max(FILTER.excess * excess) * usual / weight;
     let keep = 1.0 - dt / FILTER.rolling_time;
     let mut walk = Square::zeros();
-    for (k, q) in [FILTER.tilt_walk, FILTER.tilt_walk, FILTER.offset_walk, FILTER.offset_walk].into_iter().enumerate() {
+    // A nose that rises by the noise of its own rate is the rate about the left axis; the roll is the forward one's.
+    let [of_roll, of_pitch] = [0, 1].map(|axis| FILTER.tilt_walk.max(noise_walk(&rates.rate[axis], dt)));
+    for (k, q) in [of_pitch, of_roll, FILTER.offset_walk, FILTER.offset_walk].into_iter().enumerate() {
         walk[(k, k)] = q * q * dt;
     }
     walk[(4, 4)] = rolling * rolling * (1.0 - keep * keep);

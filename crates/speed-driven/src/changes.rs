@@ -6,7 +6,7 @@
 use crate::attitude::{Attitude, attitude};
 use crate::jumps::jumps;
 use crate::level::levels;
-use crate::pieces::{ByClass, STANDING, Usual, class};
+use crate::pieces::{ByClass, GRADE, STANDING, Usual, class};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Pieces};
 use crate::slopes::{Slopes, slopes};
@@ -107,15 +107,26 @@ pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Change
         for c in blocked {
             standing.push(against_something(run, &c));
         }
-        let inside = |t: f64| own.found.iter().any(|c| c.interval[0] <= t && t <= c.interval[1]);
-        let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
-        let most = 2 * straight.iter().filter(|t| inside(**t)).count() > straight.len();
-        run.changed = run.time.iter().map(|t| !most && inside(*t)).collect();
+        run.changed = changed(run, &own.found);
         out.found.extend(own.found);
         out.tentative.extend(own.tentative);
         out.hidden.extend(own.hidden);
     }
     (out, standing)
+}
+
+/// Rows whose straight load is that of a change. What covers most of the straight driving is the load of the recording, but for
+/// slopes: the ground beside them is its ground, unless they are under most of it themselves.
+fn changed(run: &SpeedRun, found: &[LoadChange]) -> Vec<bool> {
+    let inside = |t: f64, of_slopes: bool| {
+        let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
+        found.iter().any(|c| is_slope(c) == of_slopes && c.interval[0] <= t && t <= c.interval[1])
+    };
+    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
+    let (sloping, level): (Vec<f64>, Vec<f64>) = straight.iter().partition(|t| inside(**t, true));
+    let slopes_lead = sloping.len() > level.len();
+    let most = 2 * level.iter().filter(|t| inside(**t, false)).count() > level.len();
+    run.time.iter().map(|&t| !slopes_lead && inside(t, true) || !most && inside(t, false)).collect()
 }
 
 /// A change of the straight load as a body that stands; marks its rows.
@@ -131,7 +142,7 @@ fn against_something(run: &mut SpeedRun, change: &LoadChange) -> Standstill {
         }
     }
     let load = sum[0].max(sum[1]) / rows.max(1) as f64;
-    Standstill { recording: run.name.clone(), interval: [from, until], share: None, load }
+    Standstill { recording: run.name.clone(), interval: [from, until], share: None, wheels: None, load }
 }
 
 /// Driving that shows no straight load for a while.
@@ -149,7 +160,7 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pieces::{GRADE, ROLLING};
+    use crate::pieces::ROLLING;
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive, levelled};
 
     const USUAL: Usual = Usual { load: [Some(STRAIGHT), None, None], unequal: PIECES.alike };

@@ -197,7 +197,7 @@ fn standing(all: &[Standstill]) -> Option<Cause> {
     let longest = longest(all)?;
     let intervals = by_recording(all.iter().map(|s| (s.recording.as_str(), s.interval)));
     Some(Cause {
-        magnitude: longest.share,
+        magnitude: longest.wheels.or(longest.share),
         intervals: Some(intervals),
         ..Cause::plain(STANDING.id, STANDING.name, ANSWER.standing)
     })

@@ -164,7 +164,8 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[R
         return Measured::Everything;
     }
 
-    if there <= beside.iter().map(seconds).sum() {
+    // Several grounds that are not of one kind have no loads in common.
+    if there <= beside.iter().map(seconds).sum() || !are_alike(&loads.grounds) {
         *runs = beside;
         return Measured::Beside;
     }
@@ -177,6 +178,13 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[R
     }
     *runs = on_grounds;
     Measured::Grounds
+}
+
+/// Whether what fits the first ground, the longest, best is among what fits all others.
+fn are_alike(grounds: &[OtherGround]) -> bool {
+    let leading = |g: &OtherGround| g.causes.first().cloned();
+    let Some(cause) = grounds.first().map(leading) else { return true };
+    grounds.iter().all(|g| cause.as_ref().map_or(g.causes.is_empty(), |cause| g.causes.contains(cause)))
 }
 
 fn is_steadily_straight(run: &SpeedRun, i: usize) -> bool {

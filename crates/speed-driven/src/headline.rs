@@ -234,14 +234,20 @@ fn standing(all: &[Standstill]) -> Vec<String> {
         1 => ", and once more".to_owned(),
         n => format!(", and {n} times more"),
     };
-    let because = match s.share {
-        Some(_) => "it is dug in, or its wheels spin",
-        None => "it pushes against something that does not give way, or is dug in",
+    let because = match (s.wheels, s.share) {
+        (Some(_), _) => "something holds the wheels: an obstacle, a brake, or too little torque",
+        (None, Some(_)) => "it is dug in, or its wheels spin",
+        (None, None) => "it pushes against something that does not give way, or is dug in",
     };
     vec![
         format!(
-            "Standing: in {} from {from:.1} s to {until:.1} s the wheels turn and the body hardly moves{more}.",
-            recordings(&s.recording)
+            "Standing: in {} from {from:.1} s to {until:.1} s {}{more}.",
+            recordings(&s.recording),
+            if s.wheels.is_some() {
+                "the wheels are commanded to turn and hardly do"
+            } else {
+                "the wheels turn and the body hardly moves"
+            }
         ),
         format!(
             "There {}: {because}. Nothing else here uses these rows; look at the robot and the \

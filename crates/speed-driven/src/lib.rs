@@ -8,7 +8,7 @@
 //!
 //! * `run`, `stamps`, `body_rates`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
 //!   turns; an accelerometer.
-//! * `standstill`: a body that stands while its wheels turn; its rows leave all else.
+//! * `standstill`: a robot that stands although it is commanded to drive; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
@@ -17,6 +17,7 @@
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
 //! * `mounting`: how the inertial unit leans in the body; `zero`: what current sensors read when nothing flows.
+//! * `power`: signs of torques that no robot can have.
 //! * `plane`: one slope under all driving, by loads and directions of travel.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
@@ -50,6 +51,7 @@ mod name;
 mod next;
 mod pieces;
 mod plane;
+mod power;
 mod run;
 mod scrub;
 mod sentences;
@@ -130,7 +132,7 @@ pub fn diagnose_steady(
         return Err(DiagnosisError::Empty { what: "recording" });
     }
     let robot = case.robot.checked()?;
-
+    power::check(case.references.iter().chain(&case.recordings))?;
     progress("measuring steady loads");
     // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
     let mut marked = case.clone();
@@ -211,8 +213,7 @@ pub fn diagnose_steady(
         calibrated: &calibrated,
         naming: naming.as_ref(),
     };
-    let forecasts = fits.forecasts();
-    let correction = fits.correction();
+    let (forecasts, correction) = (fits.forecasts(), fits.correction());
     loads.withheld.extend(not_given);
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
 

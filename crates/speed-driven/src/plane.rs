@@ -3,13 +3,14 @@
 //! On a plane that falls by `θ` a robot that travels at the angle `δ` from uphill needs `S + m g r sin θ cos δ`: more one way, less the
 //! other, below any friction where it is steep. Ground that resists more does so in every direction.
 
+use inference::interpolate;
 use inference::robust::{NINETY, median};
 use verdict::GroundSlope;
 
 use crate::heading::{apart, directions, headings};
 use crate::pieces::{Usual, class, pieces};
 use crate::run::SpeedRun;
-use crate::settings::{CHANGES, changes::Jumps, changes::Plane};
+use crate::settings::{CHANGES, MEASURING, changes::Jumps, changes::Plane};
 use crate::straight::{Reading, readings};
 
 const PLANE: Plane = CHANGES.plane;
@@ -20,6 +21,8 @@ struct Stretch {
     direction: f64,
     load: f64,
     usual: f64,
+    /// Slope uphill along the way by an accelerometer, rad; `None` without one.
+    tilt: Option<f64>,
     is_bound: bool,
     /// 1 forward, −1 backward.
     way: f64,
@@ -35,6 +38,7 @@ struct Found {
 fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
     let (Some(direction), Some(any)) = (directions(run), usual.any()) else { return Vec::new() };
     let readings = readings(run);
+    let levels = levels_at_rows(run);
     let rows = (0..run.time.len()).filter(|&i| readings[i].is_some() && !run.standing[i]);
     let of = |rows: Vec<usize>| {
         if (rows.len() as f64) * run.period() < PLANE.stretch {
@@ -45,7 +49,12 @@ fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
         let load = median(seen().filter(|r| r.is_exact() != is_bound).map(Reading::value))?;
         let middle = rows[rows.len() / 2];
         let usual = usual.load[class(run.forward(middle).abs())].unwrap_or(any);
-        Some(Stretch { direction: direction[middle], load, usual, is_bound, way: run.forward(middle).signum() })
+        let way = run.forward(middle).signum();
+        // An accelerometer is averaged, so that the ends of a stretch show what was driven before and after it.
+        let lasts = rows.len() as f64 * run.period() >= 2.0 * MEASURING.rows.level_mean;
+        let tilt = levels.as_ref().filter(|_| lasts);
+        let tilt = tilt.and_then(|level| median(rows.iter().map(|&i| way * level[i])));
+        Some(Stretch { direction: direction[middle], load, usual, tilt, is_bound, way })
     };
     pieces(&run.time, rows, PLANE.gap).into_iter().filter_map(of).collect()
 }
@@ -143,14 +152,28 @@ fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> 
     one.min(two)
 }
 
+/// Nose up at the rows by an accelerometer, rad; `None` without one.
+fn levels_at_rows(run: &SpeedRun) -> Option<Vec<f64>> {
+    let (rates, alignment) = (run.body_rates.as_ref()?, run.alignment.as_ref()?);
+    let level = rates.level.as_ref()?;
+    Some(run.time.iter().zip(&alignment.lag).map(|(t, lag)| interpolate(&rates.time, level, t + lag)).collect())
+}
+
+/// Whether the body tilts as a slope of so many degrees under all driving makes it, where an accelerometer shows that.
+fn tilts_with(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> bool {
+    let of_run = |(stretches, uphill): (&Vec<Stretch>, &Option<f64>)| -> Vec<[f64; 2]> {
+        let Some(uphill) = uphill else { return Vec::new() };
+        let pair = |s: &Stretch| Some([s.tilt?, degrees.to_radians() * (s.direction - uphill).cos()]);
+        stretches.iter().filter_map(pair).collect()
+    };
+    let pairs: Vec<[f64; 2]> = all.iter().zip(uphill).flat_map(of_run).collect();
+    let squares = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(|pair| of(pair).powi(2)).sum::<f64>();
+    pairs.is_empty() || squares(&|[seen, own]| seen - own) < PLANE.tilt_left * squares(&|[seen, _]| *seen)
+}
+
 /// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
 /// `m g r`, N m, and by which share torques may be off against it.
 fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> Option<Found> {
-    // An accelerometer shows slopes by itself.
-    let is_levelled = |run: &SpeedRun| run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
-    if runs.iter().any(is_levelled) {
-        return None;
-    }
     let is_unsigned = runs.iter().any(|run| run.magnitude_only);
     let all: Vec<Vec<Stretch>> = runs.iter().map(|run| stretches(run, usual)).collect();
     let several_ways = |stretches: &&Vec<Stretch>| {
@@ -189,7 +212,11 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
         return None;
     }
     let over = || all.iter().flatten().map(|s| s.load / s.usual);
-    let uphill = all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
+    let uphill: Vec<Option<f64>> =
+        all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
+    if !tilts_with(&all, slope, &uphill) {
+        return None;
+    }
     let told = GroundSlope {
         slope,
         half: half.max(PLANE.step).hypot(NINETY * scale_sigma * slope),

@@ -1,6 +1,6 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
-use inference::robust::median;
+use inference::robust::{MAD_TO_SIGMA, median};
 use recordings::{Channel, Recording, Signal};
 
 use crate::body_rates::{BodyRates, level};
@@ -20,6 +20,10 @@ pub struct SpeedRun {
     pub time: Vec<f64>,
     /// Speed at the tyre of each side, m/s (set-points, if nothing else was recorded).
     pub speed: [Vec<f64>; 2],
+    /// Speed that is commanded of each side, m/s, where speeds are measured and commands were recorded beside them.
+    pub commanded: Option<[Vec<f64>; 2]>,
+    /// Over how long measured speeds were averaged because they scatter, s.
+    pub averaged: Option<f64>,
     /// Torque at the wheels of each side, N m; a magnitude if the current has no sign.
     pub torque: [Vec<f64>; 2],
     /// A torque up to this one is in the dead band: only a bound is known, N m.
@@ -85,13 +89,22 @@ impl SpeedRun {
 
         let origin = origin(recording);
         let time: Vec<f64> = common.iter().map(|t| (*t - origin) as f64 * 1e-9).collect();
+        let set_points = kind == 1 || left.attributes().set_point;
+        let (speed, averaged) = if set_points { (speed, None) } else { steadied(&time, speed) };
+        let commands = speeds[1].map(|signal| recording.get(signal));
+        let commanded = match commands {
+            [Some(l), Some(r)] if !set_points => Some([l, r].map(|c| held_at(c, &common, radius))),
+            _ => None,
+        };
         let attributes = load_left.attributes();
         let dead_band = attributes.dead_band.map_or(0.0, |d| (d + ROWS.dead_band_slack) * factor);
         let mut run = Self {
             torque: [take(load_left, factor), take(load_right, factor)],
             dead_band,
             hidden: dead_band,
-            set_points: kind == 1 || left.attributes().set_point,
+            set_points,
+            commanded,
+            averaged,
             magnitude_only: attributes.magnitude_only,
             yaw_rate: None,
             alignment: None,
@@ -135,6 +148,7 @@ impl SpeedRun {
         let levels = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
         let is_used = |s: &Signal| {
             speeds[kind].contains(s)
+                || run.commanded.is_some() && speeds[1].contains(s)
                 || loads[load].contains(s)
                 || *s == Signal::GyroZ
                 || run.body_rates.is_some() && rates.contains(s)
@@ -150,6 +164,7 @@ impl SpeedRun {
         Self {
             time: cut(&self.time),
             speed: [0, 1].map(|j| cut(&self.speed[j])),
+            commanded: self.commanded.as_ref().map(|of| of.each_ref().map(cut)),
             torque: [0, 1].map(|j| cut(&self.torque[j])),
             yaw_rate: self.yaw_rate.as_ref().map(cut),
             standing: self.standing[..rows].to_vec(),
@@ -213,6 +228,30 @@ impl SpeedRun {
         }
         self.time[k] - self.time[i] >= seconds - 1e-9
     }
+}
+
+/// Measured speeds, averaged where they scatter so much from row to row that no speed would count as steady.
+fn steadied(time: &[f64], speed: [Vec<f64>; 2]) -> ([Vec<f64>; 2], Option<f64>) {
+    let scatter = |z: &Vec<f64>| {
+        let moving = z.windows(2).filter(|w| w[0] != 0.0 && w[1] != 0.0);
+        MAD_TO_SIGMA / std::f64::consts::SQRT_2 * median(moving.map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0)
+    };
+    let sigma = speed.iter().map(scatter).fold(0.0, f64::max);
+    if sigma <= ROWS.speed_noise {
+        return (speed, None);
+    }
+    let period = median(time.windows(2).map(|w| w[1] - w[0])).unwrap_or(0.0);
+    let width = ((sigma / ROWS.speed_noise).powi(2).ceil() * period).min(ROWS.speed_mean);
+    if width <= period {
+        return (speed, None);
+    }
+    (speed.map(|z| clock::box_mean(time, &z, width)), Some(width))
+}
+
+/// What was commanded last at each of these stamps, m/s; 0 before the first command.
+fn held_at(c: &Channel, stamps: &[i64], radius: f64) -> Vec<f64> {
+    let last = |t: &i64| c.t_ns().partition_point(|own| own <= t).checked_sub(1);
+    stamps.iter().map(|t| last(t).map_or(0.0, |k| radius * c.values()[k])).collect()
 }
 
 fn has(c: &Channel, t: i64) -> bool {

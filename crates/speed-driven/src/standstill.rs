@@ -1,7 +1,8 @@
-//! Wheels that are commanded to turn the robot while its body does not turn: dug in, or spinning free.
+//! Wheels that are commanded to turn the robot while its body does not turn: dug in, or spinning free; and wheels that are held.
 //!
 //! Looked for before anything else is measured: a body that stands has neither loads nor a track.
 
+use inference::robust::{mean, median};
 use robot_model::Robot;
 use verdict::{Quantity, Standstill};
 
@@ -64,17 +65,50 @@ pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
             recording: run.name.clone(),
             interval: [run.time[first], run.time[last]],
             share: Some(mean(&share)),
+            wheels: None,
             load: mean(&|i| run.torque[0][i].abs().max(run.torque[1][i].abs())),
         }
     };
     found.into_iter().map(told).collect()
 }
 
+/// Stretches in which both sides hardly turn although they are commanded to, at torques above those of driving: motors that are
+/// switched off hold nothing.
+fn held_wheels(run: &SpeedRun) -> Vec<Standstill> {
+    let Some(commanded) = &run.commanded else { return Vec::new() };
+    let asked = |i: usize| (0..2).map(|j| commanded[j][i].abs()).fold(0.0, f64::max) > STUCK.commanded;
+    let share = |i: usize| {
+        let sum = |of: &[Vec<f64>; 2]| of[0][i].abs() + of[1][i].abs();
+        sum(&run.speed) / sum(commanded)
+    };
+    let torque = |i: usize| run.torque[0][i].abs().max(run.torque[1][i].abs());
+    let driving = (0..run.time.len()).filter(|&i| asked(i) && share(i) > STUCK.share).map(torque);
+    let Some(usual) = median(driving) else { return Vec::new() };
+
+    let held = (0..run.time.len()).filter(|&i| asked(i) && share(i) < STUCK.wheels);
+    // Between two commands that change their sign wheels turn as commanded: no stretch reaches across that.
+    let stretches = pieces(&run.time, held, STUCK.mean);
+    let told = |rows: Vec<usize>| {
+        let interval = [run.time[*rows.first()?], run.time[*rows.last()?]];
+        let [load, wheels] = [mean(rows.iter().map(|&i| torque(i)))?, mean(rows.iter().map(|&i| share(i)))?];
+        let lasts = rows.len() as f64 * run.period() >= STUCK.least_seconds;
+        (lasts && load > usual).then(|| Standstill {
+            recording: run.name.clone(),
+            interval,
+            share: None,
+            wheels: Some(wheels),
+            load,
+        })
+    };
+    stretches.into_iter().filter_map(told).collect()
+}
+
 /// Finds where the bodies of these recordings stand, and marks the rows: they leave all else.
 pub(crate) fn mark(runs: &mut [SpeedRun], track: f64) -> Vec<Standstill> {
     let mut out = Vec::new();
     for run in runs {
-        let found = standstills(run, track);
+        let mut found = standstills(run, track);
+        found.extend(held_wheels(run));
         let stands = |t: f64| found.iter().any(|s| s.interval[0] <= t && t <= s.interval[1]);
         run.standing = run.time.iter().map(|t| stands(*t)).collect();
         out.extend(found);
@@ -87,6 +121,7 @@ mod tests {
     use super::*;
     use crate::run::tests::{CONSTANT, GROUND, Ground, RADIUS, recording};
     use crate::testing::value;
+    use crate::testing::{Leg, drive};
 
     const SPIN: [f64; 2] = [-0.2, 0.2];
     const AHEAD: [f64; 2] = [0.5, 0.5];
@@ -116,6 +151,34 @@ mod tests {
         let found = standstills(&run(100.0, &legs), GROUND.track);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].interval[1] > 17.0, "{found:?}");
+    }
+
+    #[test]
+    fn wheels_that_are_held_are_found_by_their_commands_and_motors_that_are_off_are_not() {
+        let mut run = drive(&[Leg::straight(30.0), Leg::straight(10.0), Leg::straight(30.0)], false);
+        let still = |t: f64| (30.0..40.0).contains(&t);
+        run.commanded = Some(run.speed.clone());
+        for i in 0..run.time.len() {
+            if still(run.time[i]) {
+                run.speed.iter_mut().for_each(|side| side[i] *= 0.05);
+                run.torque.iter_mut().for_each(|side| side[i] *= 8.0);
+            }
+        }
+        let found = held_wheels(&run);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let [from, until] = found[0].interval;
+        assert!((29.9..30.5).contains(&from) && (39.5..40.1).contains(&until), "{found:?}");
+        assert!(found[0].wheels.is_some_and(|share| (share - 0.05).abs() < 0.01) && found[0].load > 30.0, "{found:?}");
+        let marked = &mut [run.clone()];
+        assert_eq!(mark(marked, GROUND.track).len(), 1);
+        assert!(marked[0].standing.iter().zip(&marked[0].time).all(|(stands, t)| !still(*t) || *stands));
+
+        let mut off = run.clone();
+        for i in 0..off.time.len() {
+            off.torque.iter_mut().for_each(|side| side[i] *= if still(off.time[i]) { 0.0 } else { 1.0 });
+        }
+        assert_eq!(held_wheels(&off), []);
+        assert_eq!(held_wheels(&SpeedRun { commanded: None, ..run }), []);
     }
 
     #[test]

@@ -89,6 +89,8 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
     SpeedRun {
         name: "run".to_owned(),
         speed: [0, 1].map(|j| rows.iter().map(|leg| leg.speed[j]).collect()),
+        commanded: None,
+        averaged: None,
         torque: [torque(0), torque(1)],
         dead_band: DEAD_BAND,
         hidden: DEAD_BAND,

@@ -91,11 +91,18 @@ fn titled(names: &str) -> String {
 
 pub(crate) fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
-    format!("{}, from {from:.1} s to {until:.1} s: the body stands: {}.", titled(&s.recording), how_it_stands(s))
+    format!("{}, from {from:.1} s to {until:.1} s: the robot stands: {}.", titled(&s.recording), how_it_stands(s))
 }
 
 /// By what a body is seen to stand.
 pub(crate) fn how_it_stands(s: &Standstill) -> String {
+    if let Some(wheels) = s.wheels {
+        return format!(
+            "its wheels turn at {:.0} % of the speed that is commanded, with {:.0} N m on the more loaded side",
+            100.0 * wheels,
+            s.load
+        );
+    }
     match s.share {
         Some(share) => format!(
             "it turns at {:.0} % of the rate that its wheels ask for, with {:.0} N m on the more loaded side",
@@ -114,7 +121,7 @@ pub(crate) fn how_it_stands(s: &Standstill) -> String {
 pub(crate) fn standing_reference(s: &Standstill) -> String {
     let [from, until] = s.interval;
     format!(
-        "reference {}: from {from:.1} s to {until:.1} s the body stands while its wheels turn; these rows are not used",
+        "reference {}: from {from:.1} s to {until:.1} s the robot stands although it is commanded to drive; these rows are not used",
         s.recording
     )
 }

@@ -58,6 +58,24 @@ pub(crate) struct Starts<'a> {
 }
 
 impl Starts<'_> {
+    /// Where the origin is far from the recordings a tangent there says little of how large an effect is: values of a single effect
+    /// whose free run from the origin costs least; `None` where that is near, or these are those of the tangent.
+    pub(crate) fn size_by_free_run(self, problem: &Problem<'_>, h: &Hypothesis, tangent: &[f64]) -> Option<Vec<f64>> {
+        let (variant, _) = h.parts.first().filter(|_| self.is_far && h.parts.len() == 1)?;
+        let sizes = problem.sizes();
+        let free = variant.free(&sizes);
+        let (size, rest) = free.split_first()?;
+        let with = |value: f64| -> Vec<f64> {
+            let shapes = rest.iter().zip(&tangent[1..]).map(|(_, shape)| *shape);
+            std::iter::once(value.clamp(size.bounds[0], size.bounds[1])).chain(shapes).collect()
+        };
+        let cost = |values: &[f64]| begin(problem, h, &self.origin.point, values, self.origin).cost;
+        let tried = FINALISTS.sizes.iter().flat_map(|times| [with(times * size.unit), with(-times * size.unit)]);
+        let tried: Vec<(Vec<f64>, f64)> = tried.map(|values| (cost(&values), values)).map(|(c, v)| (v, c)).collect();
+        let (best, least) = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (least < cost(tangent)).then_some(best)
+    }
+
     /// A first refit from the origin and, where that is far, from the constants of what was fitted before; the better.
     pub(crate) fn refit(self, problem: &Problem<'_>, h: &Hypothesis, effects: &[f64], before: &Fitted) -> Trial {
         let first = refit_from(problem, h, effects, self.origin);

@@ -68,7 +68,10 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
         .into_iter()
         .map(|c| {
             let h = Hypothesis::single(c.variant, c.onsets.clone());
-            let first = refit_from(problem, &h, &c.start, &origin);
+            let mut first = refit_from(problem, &h, &c.start, &origin);
+            if let Some(start) = starts.size_by_free_run(problem, &h, &c.start) {
+                first = better(first, refit_from(problem, &h, &start, &origin));
+            }
             if starts.is_far || retuned.cost - first.fitted.cost < FINALISTS.small_gain {
                 better(first, refit_from(problem, &h, &c.start, &retuned))
             } else {

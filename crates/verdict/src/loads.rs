@@ -310,7 +310,7 @@ pub struct GroundSlope {
     pub stretches: usize,
 }
 
-/// A stretch in which the wheels were commanded to turn and the body did not.
+/// A stretch in which the robot was commanded to drive and did not: its body stood, or its wheels did.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Standstill {
     /// Name of the recording.
@@ -320,6 +320,9 @@ pub struct Standstill {
     /// Yaw rate over what the wheels' speeds and the references' effective track give; `None` where it was driven straight, and
     /// the torque tells that the body pushes against something.
     pub share: Option<f64>,
+    /// Speed of the wheels over what is commanded, where something holds them; `None` where they turn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wheels: Option<f64>,
     /// Mean torque of the more loaded side, N m.
     pub load: f64,
 }

@@ -30,6 +30,8 @@ const fn degrees(x: f64) -> f64 {
         first_offset: f64 = degrees(0.05), "rad/s", "guess";
         /// Random walk of the tilt: vibration, aliasing.
         tilt_walk: f64 = degrees(0.15), "rad/√s", "one of about ten settings tried on the open Husky runs";
+        /// What is turned in windows of two lengths shows the noise of a rate: the tilt walks by that, if that is faster.
+        noise_windows: [f64; 2] = [1.0, 4.0], "s", "guess: longer than a vibration, shorter than a ramp";
         /// Random walk of the gyro's offsets.
         offset_walk: f64 = degrees(0.001), "rad/s/√s", "one of about ten settings tried on the open Husky runs";
         /// Ground is level within this.
@@ -102,6 +104,8 @@ const fn degrees(x: f64) -> f64 {
         most_ratio: f64 = 4.0, "1", "guess: soft ground against firm";
         /// Pulls of a rope that are tried to each way, up to that of the steepest slope.
         ropes: usize = 20, "1", "numerical";
+        /// Share of the mean square of the tilts that an accelerometer shows which a slope under all driving leaves at most.
+        tilt_left: f64 = 0.4, "1", "guess: beyond two thirds of the tilts it is no longer the same slope";
         /// Price of a number that is chosen: a slope, a direction, a ratio.
         per_number: f64 = 2.5, "nats", "guess: half the logarithm of some hundred choices";
         /// How much better the slope must explain the loads than either rival.
@@ -184,6 +188,10 @@ const fn degrees(x: f64) -> f64 {
         share: f64 = 0.35, "1", "field study: 0.2 reported standing up to 11 s late";
         /// For so long at least.
         least_seconds: f64 = 3.0, "s", "guess";
+        /// Commanded speed of a side from which its wheels have to turn.
+        commanded: f64 = 0.1, "m/s", "guess: drives with a dead band follow slower ones badly";
+        /// Wheels are held that turn by less than this share of what is commanded.
+        wheels: f64 = 0.2, "1", "guess: a drive that follows is at .9 and more";
         /// Difference of the speeds in a turn that counts.
         turn: f64 = 0.08, "m/s", "guess";
         /// Turning rates are averaged over this long before: a body that is stuck rocks.

@@ -24,8 +24,24 @@
         sparse: usize = 50, "1", "guess";
         /// Waiting time until a measured speed is steady, as a share of that of a set-point: set-points run ahead.
         measured_patience: f64 = 0.3, "1", "guess";
+        /// Measured speeds that scatter by more than this from row to row are averaged.
+        speed_noise: f64 = 0.005, "m/s", "guess: a quarter of what a steady speed may differ by";
+        /// They are averaged over this long at most.
+        speed_mean: f64 = 1.0, "s", "guess: shorter than a steady stretch";
         /// Readings up to this much above a dead band count as in it: dead bands are given to two decimals.
         dead_band_slack: f64 = 0.01, "A", "last digit of recorded dead bands";
+    }
+
+    /// Signs of torques that no robot can have.
+    power: Power {
+        /// Speed of a side from which it turns.
+        turning: f64 = 0.05, "m/s", "guess: as where the robot drives";
+        /// Speeds have been constant for this long: what accelerates may brake.
+        held: f64 = 0.5, "s", "guess";
+        /// Turning on the spot below which nothing is concluded.
+        least: f64 = 3.0, "s", "guess: as of a load";
+        /// Share of the rows in which a side brakes from which its sign is wrong.
+        share: f64 = 0.8, "1", "guess: sides that push brake in no row but for noise";
     }
 
     /// How the inertial unit leans in the body.

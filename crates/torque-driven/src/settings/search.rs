@@ -62,6 +62,8 @@
         places: [usize; 2] = [6, 2], "1", "guess";
         /// The same without references, where local forms of effects show large evidence before constants are re-tuned.
         places_by_file: [usize; 2] = [9, 2], "1", "a look at the 72 development cases without their references";
+        /// Sizes of an effect, in medium strengths, whose free runs are compared where the robot file is far from the recordings.
+        sizes: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess: from what is seen to what is not overlooked";
         /// Gauss–Newton steps of a first refit.
         steps: usize = 4, "1", "guess";
         /// Gauss–Newton steps of those that may win.

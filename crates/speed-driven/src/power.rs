@@ -1,0 +1,99 @@
+//! Signs of torques that no robot can have: in a spin both sides push against the ground, whatever its slope.
+
+use inference::DiagnosisError;
+
+use crate::run::SpeedRun;
+use crate::settings::{MEASURING, measuring::Power};
+
+const POWER: Power = MEASURING.power;
+
+/// Refuses recordings whose torques brake where they have to push.
+///
+/// # Errors
+/// The first of them, with what is exchanged or turned and what to correct.
+pub(crate) fn check<'a>(runs: impl IntoIterator<Item = &'a SpeedRun>) -> Result<(), DiagnosisError> {
+    let refused = |run: &SpeedRun| {
+        let what = wrong(run)?;
+        Some(DiagnosisError::Impossible { recording: run.name.clone(), what })
+    };
+    runs.into_iter().find_map(refused).map_or(Ok(()), Err)
+}
+
+/// What is wrong with the signs of a recording's torques.
+fn wrong(run: &SpeedRun) -> Option<String> {
+    if run.magnitude_only {
+        return None;
+    }
+    let drives = |i: usize| (0..2).all(|j| run.speed[j][i].abs() > POWER.turning && run.reads(i, j));
+    let steady = |i: &usize| drives(*i) && run.held(*i, MEASURING.turns.steady, POWER.held);
+    let (spins, straight): (Vec<usize>, Vec<usize>) = (0..run.time.len()).filter(steady).partition(|&i| run.spins(i));
+    let seconds = |rows: &[usize]| rows.len() as f64 * run.period();
+    if seconds(&spins) < POWER.least {
+        return None;
+    }
+
+    // Share of the rows in which a side brakes, and whether it does so in nearly all.
+    let brakes = |rows: &[usize], side: usize| {
+        let count = rows.iter().filter(|&&i| run.torque[side][i] * run.speed[side][i] < 0.0).count();
+        count as f64 > POWER.share * rows.len() as f64
+    };
+    let [left, right] = [0, 1].map(|side| brakes(&spins, side));
+    let in_spins = format!("in {:.0} s of turns on the spot", seconds(&spins));
+    match [left, right] {
+        [false, false] => None,
+        [true, true] if [0, 1].iter().any(|&side| brakes(&straight, side)) || straight.is_empty() => Some(format!(
+            "{in_spins} the torques of both sides are against the turning of their wheels: the signs of both currents or torques are \
+             turned; write sign = -1 for them in the mapping, or turn those of both speeds"
+        )),
+        [true, true] => Some(format!(
+            "{in_spins} the torques of both sides are against the turning of their wheels, and straight ahead they are not: left and \
+             right are exchanged between speeds and currents or torques; exchange their columns in the mapping"
+        )),
+        _ => Some(format!(
+            "{in_spins} the torque of the {side} side is against the turning of its wheels: the sign of the {side} current or torque is \
+             turned; write sign = -1 for it in the mapping",
+            side = if left { "left" } else { "right" }
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, drive};
+
+    /// Straight ahead and spins both ways, with signed torques.
+    fn signed() -> SpeedRun {
+        let spin = |way: f64| Leg { speed: [-0.2 * way, 0.2 * way], ..Leg::straight(8.0) };
+        let mut run = drive(&[Leg::straight(20.0), spin(1.0), Leg::straight(10.0), spin(-1.0)], false);
+        run.magnitude_only = false;
+        for j in 0..2 {
+            for i in 0..run.time.len() {
+                run.torque[j][i] = run.torque[j][i].abs() * run.speed[j][i].signum();
+            }
+        }
+        run
+    }
+
+    #[test]
+    fn torques_that_push_are_taken_and_others_refused_with_what_to_correct() {
+        assert_eq!(check(&[signed()]), Ok(()));
+        let refused = |run: SpeedRun| check(&[run]).expect_err("refused").to_string();
+
+        let mut exchanged = signed();
+        exchanged.torque.swap(0, 1);
+        assert!(refused(exchanged).contains("left and right are exchanged"));
+        let mut turned = signed();
+        turned.torque.iter_mut().flatten().for_each(|t| *t = -*t);
+        assert!(refused(turned).contains("the signs of both"));
+        let mut right = signed();
+        right.torque[1].iter_mut().for_each(|t| *t = -*t);
+        assert!(refused(right).contains("the sign of the right current"));
+
+        // Magnitudes have no sign that could be wrong.
+        let mut plain = signed();
+        plain.torque.iter_mut().flatten().for_each(|t| *t = -*t);
+        plain.magnitude_only = true;
+        assert_eq!(check(&[plain]), Ok(()));
+    }
+}
