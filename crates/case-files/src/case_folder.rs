@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use inference::{GivenEffects, KnownEffects, Options};
 use recordings::{Mapping, Read, ReadOptions};
 use robot_file::{Causality, RobotSpec};
+use robot_model::Effect;
 use robot_model::effect::Redundancy;
 use torque_driven::Visit;
 use verdict::{Coverage, Diagnosis, EffectAt};
@@ -199,31 +200,30 @@ impl CaseFolder {
     /// What the simulation of a torque-driven robot is given beside its constants.
     ///
     /// # Errors
-    /// Effects that act on what sensors show: recordings are checked for these by themselves.
+    /// Effects that nobody knows.
     fn given_effects(&self) -> Result<GivenEffects> {
-        let RobotSpec { name, effects, known, .. } = &self.robot;
-        for EffectAt { effect, .. } in effects {
-            ensure!(
-                known.find(effect)?.spec().redundancy == Redundancy::None,
-                "robot '{name}' gives its simulation the effect `{effect}`, which acts on what sensors show and not on the motion: \
-                 recordings are checked for it whatever the robot file says; take it out of its effects"
-            );
-        }
-        Ok(known.given(effects)?)
+        let acts: Vec<EffectAt> = self.robot.effects.iter().filter(|at| self.is_compared(at)).cloned().collect();
+        Ok(self.robot.known.given(&acts)?)
     }
 
-    /// Refuses effects where recordings are not compared with free runs of the plant.
-    fn ensure_no_effects(&self) -> Result<()> {
-        let RobotSpec { name, effects, causality, .. } = &self.robot;
-        let names: Vec<&str> = effects.iter().map(|at| at.effect.as_str()).collect();
-        ensure!(
-            names.is_empty(),
-            "robot '{name}' is {} and its file gives its simulation effects ({}), which recordings are not compared with: the \
-             diagnosis would find them again; take them out of the file that is diagnosed",
-            causality.name(),
-            names.join(", ")
-        );
-        Ok(())
+    /// Whether recordings are compared with simulations that have this effect: with free runs of the plant, and not of what sensors
+    /// show, for which recordings are checked by themselves.
+    fn is_compared(&self, at: &EffectAt) -> bool {
+        let acts = |effect: &'static dyn Effect<f64>| effect.spec().redundancy == Redundancy::None;
+        self.robot.causality == Causality::TorqueDriven && self.robot.known.find(&at.effect).is_ok_and(acts)
+    }
+
+    /// Effects of the robot file that no recording is compared with, in a sentence.
+    fn not_compared(&self) -> Option<String> {
+        let names = self.robot.effects.iter().filter(|at| !self.is_compared(at)).map(|at| at.effect.as_str());
+        let names: Vec<&str> = names.collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "robot '{}' gives its simulation effects that recordings are not compared with, and that may be found again: {}",
+                self.robot.name,
+                names.join(", ")
+            )
+        })
     }
 
     /// The case as the diagnosis takes it, for a torque-driven robot.
@@ -265,7 +265,6 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed, or a robot file without torque per current.
     pub fn speed_driven(&self) -> Result<speed_driven::SteadyCase> {
-        self.ensure_no_effects()?;
         let [torque_per_current, torque_sigma] = self.robot.torque_per_current.with_context(|| {
             format!(
                 "robot '{}' is speed-driven but its file has no torque_per_current (N m/A); add it",
@@ -298,7 +297,6 @@ impl CaseFolder {
     /// # Errors
     /// Recordings without the signals that are needed.
     pub fn command_driven(&self) -> Result<command_driven::ResponseCase> {
-        self.ensure_no_effects()?;
         let runs = |l: &Loaded| -> Result<Vec<command_driven::ResponseRun>> {
             l.reads
                 .iter()
@@ -335,6 +333,7 @@ impl CaseFolder {
     pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
         let mut out = diagnosis::diagnose(&self.case()?, options, stage)?;
         out.rest_on(&self.coverage);
+        out.limits.extend(self.not_compared());
         Ok(out)
     }
 }

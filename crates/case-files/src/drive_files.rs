@@ -186,6 +186,7 @@ fn drives<F: NamesColumns>(
     for (k, paths) in paths.iter().enumerate() {
         let is_held_out = k == 2;
         let recorded = Recorded::below(paths)?;
+        recorded.ensure_one_of_each()?;
         ignored.extend(recorded.ignored);
         for path in recorded.tables {
             let (table, told, source) = table(&path, &file.table_columns())?;
@@ -202,7 +203,9 @@ fn drives<F: NamesColumns>(
 }
 
 /// How names of tables end.
-const TABLES: [&str; 6] = [".csv", ".tsv", ".parquet", ".csv.zst", ".tsv.zst", ".csv.zstd"];
+const TABLES: [&str; 3] = [".csv", ".tsv", ".parquet"];
+/// How they end where they are compressed as a whole, behind that.
+const COMPRESSED: [&str; 2] = [".zst", ".zstd"];
 
 /// What is recorded in files and folders.
 #[derive(Debug, Default)]
@@ -216,6 +219,21 @@ pub(crate) struct Recorded {
 }
 
 impl Recorded {
+    /// Refuses a drive that lies there twice, as CSV and as Parquet: it would count twice.
+    fn ensure_one_of_each(&self) -> Result<()> {
+        let key = |table: &PathBuf| (table.parent().map(Path::to_path_buf), name_of(table));
+        for (k, table) in self.tables.iter().enumerate() {
+            if let Some(other) = self.tables[..k].iter().find(|other| key(other) == key(table)) {
+                bail!(
+                    "'{}' and '{}' have one name, as if they were one drive; leave one of them, or rename it",
+                    other.display(),
+                    table.display()
+                );
+            }
+        }
+        Ok(())
+    }
+
     pub(crate) fn below(paths: &[PathBuf]) -> Result<Self> {
         let files = which_mapping::bags(paths)?;
         let mut out = Self::default();
@@ -250,12 +268,15 @@ pub(crate) fn name_of(table: &Path) -> String {
 }
 
 /// The name of a table without its ending; `None` of what is called like no table.
-fn stem(name: &str) -> Option<&str> {
-    let before = |ending: &&str| {
-        let (stem, end) = name.split_at_checked(name.len().checked_sub(ending.len())?)?;
-        end.eq_ignore_ascii_case(ending).then_some(stem)
-    };
-    TABLES.iter().find_map(before)
+pub(crate) fn stem(name: &str) -> Option<&str> {
+    let without = |name, endings: &[&str]| endings.iter().find_map(|ending| before(name, ending));
+    without(without(name, &COMPRESSED).unwrap_or(name), &TABLES)
+}
+
+/// What is before an ending, in letters of either size.
+fn before<'a>(name: &'a str, ending: &str) -> Option<&'a str> {
+    let (stem, end) = name.split_at_checked(name.len().checked_sub(ending.len())?)?;
+    end.eq_ignore_ascii_case(ending).then_some(stem)
 }
 
 /// The columns of a table that the robot file names, how it is written, and the file.

@@ -124,7 +124,7 @@ pub fn parse(file: &str, text: &str, stem: &str) -> Result<&'static OwnEffect, T
 /// # Errors
 /// Such robots, with their kind.
 pub fn ensure_torque_driven(robot: &RobotSpec) -> Result<()> {
-    let fits = !robot.known.is_extended() || robot.causality == Causality::TorqueDriven;
+    let fits = !robot.known.has_laws_of_files() || robot.causality == Causality::TorqueDriven;
     ensure!(fits, refused(robot.known, robot.causality.name()));
     Ok(())
 }
@@ -180,7 +180,8 @@ pub fn beyond_seen_in_forecast(robot: &RobotSpec, forecast: &Prediction) -> Vec<
 }
 
 fn beyond(robot: &RobotSpec, of: &dyn Fn(Variable) -> Option<[f64; 2]>) -> Vec<String> {
-    robot.known.own().iter().filter(|own| is_named(robot, own)).flat_map(|own| own.beyond_seen(of)).collect()
+    let named = robot.known.laws_of_files().filter(|own| is_named(robot, own));
+    named.flat_map(|own| own.beyond_seen(of)).collect()
 }
 
 /// Least and largest of some values.

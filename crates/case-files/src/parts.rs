@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use recordings::is_bag;
 
+use crate::drive_files;
+
 /// Folders of a case with what belongs into them.
 pub(crate) const FOLDERS: [(&str, &str); 3] = [
     ("reference", "drives in which the simulation was right"),
@@ -48,7 +50,7 @@ pub fn unread_folders(case: &Path) -> Vec<String> {
         FOLDERS.iter().map(|(name, _)| *name).chain(SPELLINGS.concat()).chain([SIMULATION]).collect();
     let holds_recordings = |folder: &Path| {
         let mut inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        let is_one = |name: &str| is_bag(name) || Path::new(name).extension().is_some_and(|e| e == "csv");
+        let is_one = |name: &str| is_bag(name) || drive_files::stem(name).is_some();
         inside.any(|entry| is_one(&entry.file_name().to_string_lossy()))
     };
     let inside = std::fs::read_dir(case).into_iter().flatten().flatten();

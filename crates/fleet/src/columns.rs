@@ -34,8 +34,8 @@ impl Columns {
             kind.name()
         );
         ensure!(
-            settings.options.known.own().is_empty(),
-            "robots of kind {} have no effects of one's own; leave out --effects",
+            !settings.options.known.has_laws_of_files(),
+            "robots of kind {} have no effects of one's own; leave out --effects and --adopt",
             kind.name()
         );
         let key = key::of_setup(setup, settings);

@@ -86,7 +86,7 @@ pub enum DiagnosisError {
         id: String,
     },
     /// A correction names an effect that is not known.
-    #[error("there is no effect '{id}'; `lacuna effects` lists them, and --effects adds one of a law file")]
+    #[error("there is no effect '{id}'; `lacuna effects` lists them, and --effects or --adopt adds one of a law file")]
     NoSuchEffect {
         /// What was named.
         id: String,
@@ -94,7 +94,7 @@ pub enum DiagnosisError {
     /// Effects of one's own for a robot that no free run of the plant is compared with.
     #[error(
         "effects of one's own ({names}) are weighed in free runs of the plant, which torque-driven robots alone have; this \
-         one is {kind}: leave out --effects"
+         one is {kind}: leave out --effects and --adopt"
     )]
     OwnEffects {
         /// Their names.

@@ -21,7 +21,7 @@ pub struct KnownEffects {
 impl fmt::Debug for KnownEffects {
     /// The laws of one's own: what answers depend on beside the catalogue.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.own).entries(self.adopted).finish()
+        f.debug_struct("KnownEffects").field("own", &self.own).field("adopted", &self.adopted).finish()
     }
 }
 
@@ -60,8 +60,8 @@ impl KnownEffects {
         self.own
     }
 
-    /// Whether there are laws of files beside the catalogue.
-    pub fn is_extended(self) -> bool {
+    /// Whether there are laws of files beside the catalogue, weighed or adopted.
+    pub fn has_laws_of_files(self) -> bool {
         !self.own.is_empty() || !self.adopted.is_empty()
     }
 
@@ -110,7 +110,9 @@ impl KnownEffects {
     /// # Errors
     /// As [`KnownEffects::active`].
     pub fn given(self, effects: &[EffectAt]) -> Result<GivenEffects, DiagnosisError> {
-        let given = effects.iter().map(|at| Ok((at.clone(), self.dose(at)?)));
+        let is_adopted = |at: &EffectAt| self.adopted.iter().any(|law| law.name() == at.effect);
+        let given =
+            effects.iter().map(|at| Ok(Given { at: at.clone(), dose: self.dose(at)?, is_adopted: is_adopted(at) }));
         Ok(GivenEffects(given.collect::<Result<_, DiagnosisError>>()?))
     }
 
@@ -129,6 +131,11 @@ impl KnownEffects {
             values[index] = *value;
         }
         Ok(Dose { effect, values, presence: Presence::default() })
+    }
+
+    /// All laws of files, those that are weighed and those that are adopted.
+    pub fn laws_of_files(self) -> impl Iterator<Item = &'static OwnEffect> {
+        self.own.iter().chain(self.adopted).copied()
     }
 
     /// Those of one's own for a verdict.
@@ -159,18 +166,43 @@ fn presence_in(at: &EffectAt, drive: &str) -> Presence<f64> {
 /// Effects that the simulation is given beside the constants of its robot: they are part of every hypothesis, and never an
 /// answer.
 #[derive(Clone, Default)]
-pub struct GivenEffects(Vec<(EffectAt, Dose)>);
+pub struct GivenEffects(Vec<Given>);
+
+/// One of them.
+#[derive(Clone)]
+struct Given {
+    at: EffectAt,
+    dose: Dose,
+    /// Whether it is there because the user's own simulator lacks it.
+    is_adopted: bool,
+}
 
 impl GivenEffects {
     /// The effects in a drive of this name.
     pub fn doses(&self, drive: &str) -> Vec<Dose> {
-        self.0.iter().map(|(at, dose)| Dose { presence: presence_in(at, drive), ..dose.clone() }).collect()
+        self.0.iter().map(|given| given.in_drive(drive)).collect()
+    }
+
+    /// The effects in a log of the user's own simulator, which lacks what is adopted.
+    pub fn doses_of_simulator(&self, log: &str) -> Vec<Dose> {
+        self.0.iter().filter(|given| !given.is_adopted).map(|given| given.in_drive(log)).collect()
+    }
+
+    /// Their names.
+    pub fn names(&self) -> Vec<&str> {
+        self.0.iter().map(|given| given.at.effect.as_str()).collect()
+    }
+}
+
+impl Given {
+    fn in_drive(&self, drive: &str) -> Dose {
+        Dose { presence: presence_in(&self.at, drive), ..self.dose.clone() }
     }
 }
 
 impl fmt::Debug for GivenEffects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.0.iter().map(|(at, _)| at)).finish()
+        f.debug_list().entries(self.0.iter().map(|given| &given.at)).finish()
     }
 }
 

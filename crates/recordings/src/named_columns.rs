@@ -54,7 +54,7 @@ impl NamedColumn {
 }
 
 /// Reads the columns of these names from CSV (any delimiter, decimal point or comma) or Parquet, plain or compressed with zstd.
-/// Instants of Parquet become seconds. A name that is not there is left out.
+/// Instants of Parquet stay in their own unit. A name that is not there is left out.
 ///
 /// # Errors
 /// When the source fails, and when the file is empty, no table, too large for memory, has a row of another length than its header, or

@@ -111,10 +111,8 @@ pub(crate) fn survey(name: &str, bytes: Vec<u8>) -> Result<(Vec<ColumnSurvey>, u
     catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
 }
 
-/// The columns of these names; instants in seconds.
+/// The columns of these names; instants in the unit that the file has them in.
 pub(crate) fn named(name: &str, bytes: Vec<u8>, wanted: &[&str]) -> Result<NamedColumns, RecordingError> {
-    /// Seconds in a nanosecond.
-    const NANO: f64 = 1e-9;
     let refuse = |message: String| refused(name, message);
     let read = AssertUnwindSafe(|| {
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
@@ -123,16 +121,17 @@ pub(crate) fn named(name: &str, bytes: Vec<u8>, wanted: &[&str]) -> Result<Named
         let fields: Vec<_> =
             schema.get_fields().iter().filter(|field| wanted.contains(&field.name())).cloned().collect();
         let mut columns: Vec<NamedColumn> = fields.iter().map(|field| NamedColumn::new(field.name())).collect();
+        if let Some(twice) = (1..columns.len()).find(|&k| columns[..k].iter().any(|c| c.name == columns[k].name)) {
+            let (file, column) = (name.to_owned(), columns[twice].name.clone());
+            return Err(RecordingError::DuplicateColumn { file, line: 1, column });
+        }
         let chosen = Type::group_type_builder(schema.name()).with_fields(fields).build();
         let chosen = chosen.map_err(|error| refuse(error.to_string()))?;
         for row in reader.get_row_iter(Some(chosen)).map_err(|error| refuse(error.to_string()))? {
             let row = row.map_err(|error| refuse(error.to_string()))?;
             for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
                 let text = || shown(field.to_string().trim_matches('"'));
-                let number = |(cell, ns): (Cell, Option<i64>)| {
-                    cell.number().map(|number| ns.map_or(number, |ns| number * ns as f64 * NANO))
-                };
-                column.push(cell(field).map(number).ok_or_else(text));
+                column.push(cell(field).map(|(cell, _)| cell.number()).ok_or_else(text));
             }
         }
         Ok(NamedColumns { names, columns, ..NamedColumns::default() })

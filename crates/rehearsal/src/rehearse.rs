@@ -257,7 +257,8 @@ fn unseen(common: &Common<'_>, plan: &Plan, hidden: &Hidden) -> Option<&'static 
 /// Whether an effect changes a sample that is recorded; a simulation that fails is a change.
 fn changes(common: &Common<'_>, template: &Template, dose: &Dose) -> bool {
     let robot = &common.case.robot;
-    let ideal = |hidden| template.ideal(robot, (&common.case.effects, hidden), common.options);
+    let given = common.case.effects.doses(&template.run.name);
+    let ideal = |hidden| template.ideal(robot, &given, hidden, common.options);
     let (Ok(without), Ok(with)) = (ideal(None), ideal(Some(dose))) else { return true };
     CHANNELS.into_iter().enumerate().any(|(place, signal)| {
         let Some(least) = common.sigmas[place].map(|sigma| SETTINGS.seen.nothing * sigma) else { return false };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use inference::hypothesis::Dose;
-use inference::{DiagnosisError, GivenEffects, Options};
+use inference::{DiagnosisError, Options};
 use recordings::{Channel, Clock, Recording, RecordingError, Signal};
 use robot_model::tunable::{COUNT, tunables, tuned};
 use robot_model::{Active, Robot};
@@ -52,10 +52,10 @@ impl Template {
     pub(crate) fn ideal(
         &self,
         robot: &Robot<f64>,
-        (given, hidden): (&GivenEffects, Option<&Dose>),
+        given: &[Dose],
+        hidden: Option<&Dose>,
         options: &Options,
     ) -> Result<Recording, DiagnosisError> {
-        let given = given.doses(&self.run.name);
         let effects: Vec<Active<f64>> = given.iter().chain(hidden).map(Dose::active).collect();
         simulate(robot, &effects, &self.inputs, options)
     }
@@ -136,10 +136,11 @@ impl Replica {
         // Recordings have the first numbers: one reference more or less leaves their noise as it is.
         let first = common.recordings.len();
         let references = common.references.iter().zip(first..).map(|(template, drive)| {
-            let ideal = template.ideal(&of_drive(drive, template), (&case.effects, None), common.options)?;
-            let mut run = shown(&template.run, &ideal, &common.sigmas, &noise(drive, template));
-            run.name = format!("reference {}", drive - first + 1);
-            Ok(run)
+            let name = format!("reference {}", drive - first + 1);
+            // What the simulation is given goes by the name under which the drive is diagnosed.
+            let given = case.effects.doses(&name);
+            let ideal = template.ideal(&of_drive(drive, template), &given, None, common.options)?;
+            Ok(Run { name, ..shown(&template.run, &ideal, &common.sigmas, &noise(drive, template)) })
         });
         let references: Vec<Run> = references.collect::<Result<_, DiagnosisError>>()?;
         let (effects, sigma, pose_sigma) = (case.effects.clone(), case.sigma, case.pose_sigma);
@@ -160,7 +161,8 @@ impl Replica {
     pub(crate) fn recordings(&self, common: &Common<'_>, hidden: Option<&Dose>) -> Result<Vec<Run>, DiagnosisError> {
         let drives = common.recordings.iter().zip(&self.robots).zip(&self.noise);
         let one = |((template, robot), noise): ((&Template, &Robot<f64>), &Noise)| {
-            let ideal = template.ideal(robot, (&common.case.effects, hidden), common.options)?;
+            let given = common.case.effects.doses(&template.run.name);
+            let ideal = template.ideal(robot, &given, hidden, common.options)?;
             Ok(shown(&template.run, &ideal, &common.sigmas, noise))
         };
         drives.map(one).collect()

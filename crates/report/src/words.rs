@@ -1,6 +1,6 @@
 //! How probabilities, sizes, places and times are written for people: on pages and on the terminal.
 
-use verdict::{Cause, Cell, Diagnosis, FreeRun, Span};
+use verdict::{Cause, Cell, Diagnosis, FreeRun, Span, Verdict};
 
 pub use inference::robust::NINETY;
 pub use inference::words::probability;
@@ -80,6 +80,9 @@ pub fn free_runs(d: &Diagnosis) -> &'static str {
          with as many constants)"
     } else if d.steady.is_some() {
         "Forecasts of recordings left out of the fit (rms error; placebo: the best other law)"
+    } else if d.verdict == Verdict::Unknown && d.free_runs.iter().any(|r| r.placebo.is_some()) {
+        "Free runs on recordings left out of the fit, restarted from a measured state every 2 s unless the row says \
+         otherwise (rms error; corrected: with the nearest effect, which does not explain them; placebo: the best other effect)"
     } else if d.free_runs.iter().any(|r| r.placebo.is_some()) {
         "Free runs on recordings left out of the fit, restarted from a measured state every 2 s unless the row says \
          otherwise (rms error; placebo: the best other effect)"

@@ -221,7 +221,7 @@ fn nearest(error: &DiagnosisError, known: KnownEffects) -> String {
                 Some(name) => format!("there is no effect `{id}`; did you mean `{name}`?"),
                 None => format!(
                     "there is no effect `{id}`; `lacuna effects` lists them, and one of a law file is there with --effects \
-                     {id}.toml"
+                     or --adopt {id}.toml"
                 ),
             }
         }

@@ -156,7 +156,7 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
     if !averaged.is_empty() {
         let told = averaged.join(", ");
         out.push(format!(
-            "measured speeds scatter from row to row and are averaged ({told}): changes are known no better"
+            "measured speeds scatter from row to row and are averaged ({told}): no change is timed better than that"
         ));
     }
     out.extend(unused(all().flat_map(|r| &r.unused)));

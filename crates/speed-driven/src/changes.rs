@@ -4,9 +4,10 @@
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
 use crate::attitude::{Attitude, attitude};
+use crate::grounds::changed_rows;
 use crate::jumps::jumps;
 use crate::level::levels;
-use crate::pieces::{ByClass, GRADE, STANDING, Usual, class};
+use crate::pieces::{ByClass, STANDING, Usual, class};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Pieces};
 use crate::slopes::{Slopes, slopes};
@@ -107,26 +108,12 @@ pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Change
         for c in blocked {
             standing.push(against_something(run, &c));
         }
-        run.changed = changed(run, &own.found);
+        run.changed = changed_rows(run, &own.found);
         out.found.extend(own.found);
         out.tentative.extend(own.tentative);
         out.hidden.extend(own.hidden);
     }
     (out, standing)
-}
-
-/// Rows whose straight load is that of a change. What covers most of the straight driving is the load of the recording, but for
-/// slopes: the ground beside them is its ground, unless they are under most of it themselves.
-fn changed(run: &SpeedRun, found: &[LoadChange]) -> Vec<bool> {
-    let inside = |t: f64, of_slopes: bool| {
-        let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
-        found.iter().any(|c| is_slope(c) == of_slopes && c.interval[0] <= t && t <= c.interval[1])
-    };
-    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
-    let (sloping, level): (Vec<f64>, Vec<f64>) = straight.iter().partition(|t| inside(**t, true));
-    let slopes_lead = sloping.len() > level.len();
-    let most = 2 * level.iter().filter(|t| inside(**t, false)).count() > level.len();
-    run.time.iter().map(|&t| !slopes_lead && inside(t, true) || !most && inside(t, false)).collect()
 }
 
 /// A change of the straight load as a body that stands; marks its rows.
@@ -160,7 +147,7 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pieces::ROLLING;
+    use crate::pieces::{GRADE, ROLLING};
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive, levelled};
 
     const USUAL: Usual = Usual { load: [Some(STRAIGHT), None, None], unequal: PIECES.alike };

@@ -58,6 +58,7 @@ pub(crate) fn scatter(quantity: Quantity) -> f64 {
         Quantity::StraightLoad => SCATTER.straight,
         Quantity::EffectiveTrack => SCATTER.track,
         Quantity::Asymmetry => SCATTER.asymmetry,
+        Quantity::SpinAsymmetry => SCATTER.spin_asymmetry,
         Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => SCATTER.turning,
     }
 }
@@ -203,7 +204,7 @@ pub(crate) fn steady_seconds(loads: &Loads) -> [f64; 2] {
         let own = loads.ratios.iter().filter(|r| match r.quantity {
             Quantity::StraightLoad => straight,
             Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => !straight,
-            Quantity::EffectiveTrack | Quantity::Asymmetry => false,
+            Quantity::EffectiveTrack | Quantity::Asymmetry | Quantity::SpinAsymmetry => false,
         });
         own.map(|r| r.seconds).fold(0.0, |sum, seconds| sum + seconds)
     };

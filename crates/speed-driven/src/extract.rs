@@ -147,6 +147,10 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
     }
     if let Some(c) = clustered(run, &spins, |i| 0.5 * (run.torque[0][i].abs() + run.torque[1][i].abs())) {
         loads.push(load(Quantity::SpinSum, &c, c.mean, c.error));
+        let signed = |i: usize| (run.torque[1][i].abs() - run.torque[0][i].abs()) / (2.0 * c.mean);
+        if let Some(d) = clustered(run, &spins, signed) {
+            loads.push(load(Quantity::SpinAsymmetry, &d, d.mean, d.error));
+        }
     }
     if !loads.iter().any(|l| matches!(l.quantity, Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum)) {
         withheld.push(refuse(Quantity::TurningLoad, arcs.len().max(spins.len()), "steady turning"));

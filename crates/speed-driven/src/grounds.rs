@@ -17,7 +17,7 @@ use crate::name::{Comparison, Named, Open, name};
 use crate::pieces::{GRADE, STANDING};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING};
-use crate::straight::is_straight;
+use crate::straight::{is_straight, readings};
 
 /// What grounds are compared with.
 pub(crate) struct Usual<'a> {
@@ -180,11 +180,25 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[R
     Measured::Grounds
 }
 
-/// Whether what fits the first ground, the longest, best is among what fits all others.
+/// Rows whose straight load is that of a change. What covers most of the straight driving is the load of the recording, but for
+/// slopes: the ground beside them is its ground, unless they are under most of it themselves.
+pub(crate) fn changed_rows(run: &SpeedRun, found: &[LoadChange]) -> Vec<bool> {
+    let inside = |t: f64, of_slopes: bool| {
+        let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
+        found.iter().any(|c| is_slope(c) == of_slopes && c.interval[0] <= t && t <= c.interval[1])
+    };
+    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
+    let (sloping, level): (Vec<f64>, Vec<f64>) = straight.iter().partition(|t| inside(**t, true));
+    let slopes_lead = sloping.len() > level.len();
+    let most = 2 * level.iter().filter(|t| inside(**t, false)).count() > level.len();
+    run.time.iter().map(|&t| !slopes_lead && inside(t, true) || !most && inside(t, false)).collect()
+}
+
+/// Whether what fits the longest ground best is among what fits all others; those that nothing fits say nothing.
 fn are_alike(grounds: &[OtherGround]) -> bool {
-    let leading = |g: &OtherGround| g.causes.first().cloned();
-    let Some(cause) = grounds.first().map(leading) else { return true };
-    grounds.iter().all(|g| cause.as_ref().map_or(g.causes.is_empty(), |cause| g.causes.contains(cause)))
+    let mut classes = grounds.iter().map(|g| &g.causes).filter(|class| !class.is_empty());
+    let Some(leading) = classes.next().and_then(|class| class.first()) else { return true };
+    classes.all(|class| class.contains(leading))
 }
 
 fn is_steadily_straight(run: &SpeedRun, i: usize) -> bool {
@@ -222,9 +236,11 @@ fn is_within(t: f64, stretches: &[[f64; 2]]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use verdict::{Diagnosis, Quantity, Ratio, Verdict};
+    use verdict::{Diagnosis, LoadChange, OtherGround, Quantity, Ratio, Verdict};
 
-    use crate::testing::{Leg, diagnosis, rounds};
+    use super::{are_alike, changed_rows};
+    use crate::pieces::{GRADE, ROLLING};
+    use crate::testing::{Leg, diagnosis, drive, rounds};
 
     /// Rounds on a ground: the straight load and the couple of turning, in those of the references.
     fn on(straight: f64, scrub: f64, n: usize) -> Vec<Leg> {
@@ -252,6 +268,48 @@ mod tests {
         assert!(d.sentences[0].contains("2 stretches"), "{:?}", d.sentences);
         let told = d.sentences.iter().filter(|s| s.contains("other ground")).count();
         assert_eq!(told, 2, "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn grounds_are_alike_where_what_fits_the_longest_fits_all_that_something_fits() {
+        let ground = |causes: &[&str]| OtherGround {
+            recording: "0".to_owned(),
+            interval: [0.0; 2],
+            reach: [0.0; 2],
+            ratios: Vec::new(),
+            causes: causes.iter().map(|id| (*id).to_owned()).collect(),
+        };
+        let alike = |all: &[&[&str]]| are_alike(&all.iter().map(|causes| ground(causes)).collect::<Vec<_>>());
+        assert!(alike(&[&["soft", "scrub"], &["rolling", "soft"], &[]]));
+        assert!(!alike(&[&["grip", "scrub"], &["soft", "scrub"]]));
+        assert!(alike(&[&[], &["soft"]]) && alike(&[]));
+    }
+
+    #[test]
+    fn slopes_leave_the_load_of_a_recording_though_changes_cover_most_of_it() {
+        let change = |from: f64, until: f64, causes: &[verdict::Word]| LoadChange {
+            recording: "run".to_owned(),
+            interval: [from, until],
+            onset: [from; 2],
+            end: [until; 2],
+            seconds: until - from,
+            ratio: None,
+            slope: 0.0,
+            slope_half: 0.0,
+            bound: false,
+            relative: false,
+            causes: causes.to_vec(),
+            reason: "".into(),
+        };
+        let run = drive(&[Leg::straight(100.0)], false);
+        let at = |rows: &[bool], t: f64| rows[run.time.partition_point(|row| *row < t)];
+        let [slope, soft] = [change(10.0, 30.0, &[GRADE]), change(35.0, 95.0, &[ROLLING])];
+        let rows = changed_rows(&run, &[slope.clone(), soft]);
+        assert!(at(&rows, 20.0) && !at(&rows, 50.0) && !at(&rows, 98.0));
+        let rows = changed_rows(&run, &[slope, change(35.0, 50.0, &[ROLLING])]);
+        assert!(at(&rows, 20.0) && at(&rows, 40.0) && !at(&rows, 60.0));
+        // Slopes under most of it are what it was driven on.
+        assert!(!at(&changed_rows(&run, &[change(10.0, 90.0, &[GRADE])]), 20.0));
     }
 
     #[test]

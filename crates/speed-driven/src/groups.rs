@@ -24,7 +24,7 @@ pub(crate) fn disagreements(loads: &Loads) -> Vec<Disagreement<'_>> {
     quantities.dedup();
     let is_pooled = |quantity: &Quantity| loads.pooled.iter().any(|r| r.quantity == *quantity);
     // Sides differ with what lies under each: that is no ground of its own.
-    quantities.retain(|quantity| *quantity != Quantity::Asymmetry && !is_pooled(quantity));
+    quantities.retain(|quantity| !quantity.is_difference() && !is_pooled(quantity));
 
     let of = |quantity: Quantity| {
         let own: Vec<&Ratio> = loads.ratios.iter().filter(|r| r.quantity == quantity && r.firm).collect();

@@ -13,6 +13,7 @@
 //! * `compare`: loads over those of the references.
 //! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
 //! * `answer`, `cause`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
+//! * `speeds`: speeds that are measured with noise, and those that are commanded.
 //! * `guesses`: what a mapping may have wrong.
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
@@ -57,6 +58,7 @@ mod scrub;
 mod sentences;
 mod settings;
 mod slopes;
+mod speeds;
 mod stamps;
 mod standstill;
 mod straight;
@@ -132,11 +134,11 @@ pub fn diagnose_steady(
         return Err(DiagnosisError::Empty { what: "recording" });
     }
     let robot = case.robot.checked()?;
-    power::check(case.references.iter().chain(&case.recordings))?;
     progress("measuring steady loads");
     // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
     let mut marked = case.clone();
     let zero = zero::remove(&mut marked.references, &mut marked.recordings);
+    power::check(marked.references.iter().chain(&marked.recordings))?;
     let of_file = standstill::track_of_file(&robot);
     let standing_references = standstill::mark(&mut marked.references, of_file);
     let (reference_loads, mut withheld) = all_loads(&marked.references);
@@ -271,7 +273,7 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
             let [radius, track] = case.geometry_sigma;
             let beside = match r.quantity {
                 Quantity::EffectiveTrack => radius.hypot(track),
-                Quantity::Asymmetry => 0.0,
+                Quantity::Asymmetry | Quantity::SpinAsymmetry => 0.0,
                 _ => case.torque_sigma,
             };
             let error = (0..NUISANCES).map(|k| by_constants[(0, k)].powi(2)).sum::<f64>().sqrt().hypot(beside);

@@ -64,7 +64,7 @@ pub(crate) fn predicted(robot: &Robot<f64>, doses: &[Dose], at: Operating) -> f6
     } else {
         right_outer * to_the_left() + (1.0 - right_outer) * to_the_right()
     };
-    if at.quantity == Quantity::Asymmetry { value } else { value.abs().max(1e-6).ln() }
+    if at.quantity.is_difference() { value } else { value.abs().max(1e-6).ln() }
 }
 
 /// The load itself at speeds of the left and the right side.
@@ -73,7 +73,7 @@ fn shown(robot: &Robot<f64>, doses: &[Dose], quantity: Quantity, [l, r]: [f64; 2
     let outer = if l.abs() > r.abs() { torque[0] } else { torque[1] };
     match quantity {
         Quantity::StraightLoad => torque[0] + torque[1],
-        Quantity::Asymmetry => (torque[1] - torque[0]) / (torque[0] + torque[1]).max(1e-9),
+        Quantity::Asymmetry | Quantity::SpinAsymmetry => (torque[1] - torque[0]) / (torque[0] + torque[1]).max(1e-9),
         Quantity::ArcSum => outer,
         Quantity::TurningLoad => {
             let v = 0.5 * (l + r);

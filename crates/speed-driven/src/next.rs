@@ -40,6 +40,10 @@ fn menu(fastest: f64) -> Vec<Drive> {
         Drive { name: "straight, both sides compared", levels: [sides(medium), sides(fast)].concat() },
         Drive { name: "slow spins, both ways", levels: vec![spin(slow), turned(spin(slow))] },
         Drive { name: "fast spins, both ways", levels: vec![spin(medium), turned(spin(medium))] },
+        Drive {
+            name: "spins, both sides compared",
+            levels: vec![spin(medium), ([-medium, medium], Quantity::SpinAsymmetry)],
+        },
         Drive { name: "spins at three speeds", levels: vec![spin(NEXT.slowest * slow), spin(slow), spin(medium)] },
         Drive { name: "circles of one radius, both ways", levels: vec![arc(medium), turned(arc(medium))] },
         Drive { name: "straight, then a spin", levels: vec![straight(medium), spin(medium)] },

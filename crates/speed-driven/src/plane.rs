@@ -4,7 +4,7 @@
 //! other, below any friction where it is steep. Ground that resists more does so in every direction.
 
 use inference::interpolate;
-use inference::robust::{NINETY, median};
+use inference::robust::{NINETY, mean, median};
 use verdict::GroundSlope;
 
 use crate::heading::{apart, directions, headings};
@@ -164,7 +164,16 @@ fn tilts_with(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> boo
     let of_run = |(stretches, uphill): (&Vec<Stretch>, &Option<f64>)| -> Vec<[f64; 2]> {
         let Some(uphill) = uphill else { return Vec::new() };
         let pair = |s: &Stretch| Some([s.tilt?, degrees.to_radians() * (s.direction - uphill).cos()]);
-        stretches.iter().filter_map(pair).collect()
+        let mut pairs: Vec<[f64; 2]> = stretches.iter().filter_map(pair).collect();
+        // An accelerometer that leans shows that in all directions.
+        if pairs.len() >= PLANE.leans_from
+            && let Some(lean) = mean(pairs.iter().map(|[seen, own]| seen - own))
+        {
+            for [seen, _] in &mut pairs {
+                *seen -= lean;
+            }
+        }
+        pairs
     };
     let pairs: Vec<[f64; 2]> = all.iter().zip(uphill).flat_map(of_run).collect();
     let squares = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(|pair| of(pair).powi(2)).sum::<f64>();
@@ -297,6 +306,29 @@ mod tests {
 
     fn found(runs: &[SpeedRun]) -> Option<GroundSlope> {
         find(runs, &USUAL, (WEIGHT, 0.0)).map(|found| found.told)
+    }
+
+    #[test]
+    fn an_accelerometer_confirms_a_slope_with_a_lean_of_its_own_or_refuses_it() {
+        let slope = 3.0_f64;
+        let at = |k: u32, tilt: f64| Stretch {
+            direction: 0.9 * f64::from(k),
+            load: STRAIGHT,
+            usual: STRAIGHT,
+            tilt: Some(tilt),
+            is_bound: false,
+            way: 1.0,
+        };
+        let own = |k: u32| slope.to_radians() * (0.9 * f64::from(k)).cos();
+        let all = |tilt: &dyn Fn(u32) -> f64| vec![(0..7).map(|k| at(k, tilt(k))).collect::<Vec<_>>()];
+        let confirms = |tilt: &dyn Fn(u32) -> f64| tilts_with(&all(tilt), slope, &[Some(0.0)]);
+        assert!(confirms(&own) && confirms(&|k| own(k) + 0.06));
+        assert!(!confirms(&|k| -own(k)));
+        assert!(!confirms(&|k| 0.1 * f64::from(k % 3)));
+        assert!(
+            tilts_with(&[vec![Stretch { tilt: None, ..at(0, 0.0) }]], slope, &[Some(0.0)]),
+            "nothing speaks against it"
+        );
     }
 
     #[test]

@@ -1,6 +1,9 @@
-//! Signs of torques that no robot can have: in a spin both sides push against the ground, whatever its slope.
+//! Signs of torques that no robot can have: in spins both ways both sides push against the ground.
+//!
+//! A slope may turn one side of a spin into a brake, and then the other side where the robot spins the other way.
 
 use inference::DiagnosisError;
+use inference::robust::median;
 
 use crate::run::SpeedRun;
 use crate::settings::{MEASURING, measuring::Power};
@@ -28,16 +31,20 @@ fn wrong(run: &SpeedRun) -> Option<String> {
     let steady = |i: &usize| drives(*i) && run.held(*i, MEASURING.turns.steady, POWER.held);
     let (spins, straight): (Vec<usize>, Vec<usize>) = (0..run.time.len()).filter(steady).partition(|&i| run.spins(i));
     let seconds = |rows: &[usize]| rows.len() as f64 * run.period();
-    if seconds(&spins) < POWER.least {
+    let (left_turns, right_turns): (Vec<usize>, Vec<usize>) = spins.iter().partition(|&&i| run.difference(i) > 0.0);
+    if [&left_turns, &right_turns].iter().any(|turns| seconds(turns) < POWER.least) {
         return None;
     }
 
-    // Share of the rows in which a side brakes, and whether it does so in nearly all.
+    // Whether a side brakes in nearly all rows in which it does something.
     let brakes = |rows: &[usize], side: usize| {
-        let count = rows.iter().filter(|&&i| run.torque[side][i] * run.speed[side][i] < 0.0).count();
-        count as f64 > POWER.share * rows.len() as f64
+        let torque = |i: usize| run.torque[side][i];
+        let usual = median(rows.iter().map(|&i| torque(i).abs())).unwrap_or(0.0);
+        let acts: Vec<usize> = rows.iter().copied().filter(|&i| torque(i).abs() > POWER.acts * usual).collect();
+        let count = acts.iter().filter(|&&i| torque(i) * run.speed[side][i] < 0.0).count();
+        count as f64 > POWER.share * acts.len() as f64
     };
-    let [left, right] = [0, 1].map(|side| brakes(&spins, side));
+    let [left, right] = [0, 1].map(|side| brakes(&left_turns, side) && brakes(&right_turns, side));
     let in_spins = format!("in {:.0} s of turns on the spot", seconds(&spins));
     match [left, right] {
         [false, false] => None,
@@ -89,6 +96,14 @@ mod tests {
         let mut right = signed();
         right.torque[1].iter_mut().for_each(|t| *t = -*t);
         assert!(refused(right).contains("the sign of the right current"));
+
+        // Spins one way on a slope may make one side brake.
+        let mut sloping = signed();
+        let turned: Vec<f64> = (0..sloping.time.len()).map(|i| sloping.difference(i)).collect();
+        let left = sloping.torque[0].iter_mut().zip(&turned).filter(|(_, turned)| **turned > 0.0);
+        left.for_each(|(torque, _)| *torque = -*torque);
+        assert_eq!(check(&[sloping.clone()]), Ok(()));
+        assert!(wrong(&sloping.head(sloping.time.partition_point(|t| *t < 30.0))).is_none());
 
         // Magnitudes have no sign that could be wrong.
         let mut plain = signed();

@@ -1,11 +1,12 @@
 //! A speed-driven recording: what the drive imposed and what it took.
 
-use inference::robust::{MAD_TO_SIGMA, median};
+use inference::robust::median;
 use recordings::{Channel, Recording, Signal};
 
 use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
 use crate::settings::{MEASURING, measuring::Rows};
+use crate::speeds::{held_at, steadied};
 use crate::stamps::{origin, samples};
 use inference::{DiagnosisError, interpolate};
 
@@ -228,30 +229,6 @@ impl SpeedRun {
         }
         self.time[k] - self.time[i] >= seconds - 1e-9
     }
-}
-
-/// Measured speeds, averaged where they scatter so much from row to row that no speed would count as steady.
-fn steadied(time: &[f64], speed: [Vec<f64>; 2]) -> ([Vec<f64>; 2], Option<f64>) {
-    let scatter = |z: &Vec<f64>| {
-        let moving = z.windows(2).filter(|w| w[0] != 0.0 && w[1] != 0.0);
-        MAD_TO_SIGMA / std::f64::consts::SQRT_2 * median(moving.map(|w| (w[1] - w[0]).abs())).unwrap_or(0.0)
-    };
-    let sigma = speed.iter().map(scatter).fold(0.0, f64::max);
-    if sigma <= ROWS.speed_noise {
-        return (speed, None);
-    }
-    let period = median(time.windows(2).map(|w| w[1] - w[0])).unwrap_or(0.0);
-    let width = ((sigma / ROWS.speed_noise).powi(2).ceil() * period).min(ROWS.speed_mean);
-    if width <= period {
-        return (speed, None);
-    }
-    (speed.map(|z| clock::box_mean(time, &z, width)), Some(width))
-}
-
-/// What was commanded last at each of these stamps, m/s; 0 before the first command.
-fn held_at(c: &Channel, stamps: &[i64], radius: f64) -> Vec<f64> {
-    let last = |t: &i64| c.t_ns().partition_point(|own| own <= t).checked_sub(1);
-    stamps.iter().map(|t| last(t).map_or(0.0, |k| radius * c.values()[k])).collect()
 }
 
 fn has(c: &Channel, t: i64) -> bool {

@@ -82,7 +82,7 @@ fn held_wheels(run: &SpeedRun) -> Vec<Standstill> {
         sum(&run.speed) / sum(commanded)
     };
     let torque = |i: usize| run.torque[0][i].abs().max(run.torque[1][i].abs());
-    let driving = (0..run.time.len()).filter(|&i| asked(i) && share(i) > STUCK.share).map(torque);
+    let driving = (0..run.time.len()).filter(|&i| asked(i) && share(i) > STUCK.follows).map(torque);
     let Some(usual) = median(driving) else { return Vec::new() };
 
     let held = (0..run.time.len()).filter(|&i| asked(i) && share(i) < STUCK.wheels);

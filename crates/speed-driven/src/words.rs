@@ -42,7 +42,7 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
             "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
             r.value, r.half, r.ratio
         ),
-        Quantity::Asymmetry => format!(
+        Quantity::Asymmetry | Quantity::SpinAsymmetry => format!(
             "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
             r.ratio.abs(),
             if r.ratio < 0.0 { "below" } else { "above" }
@@ -51,17 +51,22 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
     }
 }
 
+/// "straight load at 0.52 m/s".
+fn named_at(r: &Ratio) -> String {
+    let ([slow, fast], name) = (r.range, r.quantity.name());
+    let sign = if r.quantity.is_difference() { " (right less left)" } else { "" };
+    match r.quantity {
+        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
+            format!("{name}{sign} at {slow:.2} to {fast:.2} m/s")
+        }
+        Quantity::StraightLoad | Quantity::Asymmetry => format!("{name}{sign} at {:.2} m/s", r.speed[1]),
+        _ => format!("{name}{sign}"),
+    }
+}
+
 /// A load, how it compares with `theirs`, and whether its interval shows a difference.
 pub(crate) fn load(r: &Ratio, theirs: &str) -> String {
-    let [slow, fast] = r.range;
-    let at = match r.quantity {
-        Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
-            format!(" at {slow:.2} to {fast:.2} m/s")
-        }
-        Quantity::StraightLoad | Quantity::Asymmetry => format!(" at {:.2} m/s", r.speed[1]),
-        _ => String::new(),
-    };
-
+    let at = named_at(r);
     let compared = compared(r, theirs);
     let judgement = match judgement(r) {
         Judgement::Alike => {
@@ -71,12 +76,7 @@ pub(crate) fn load(r: &Ratio, theirs: &str) -> String {
         Judgement::Differs => "it differs".to_owned(),
     };
     let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
-    format!(
-        "{}: the {}{at} is {compared}, measured over {:.0} s{firm}: {judgement}.",
-        titled(&r.recording),
-        r.quantity.name(),
-        r.seconds
-    )
+    format!("{}: the {at} is {compared}, measured over {:.0} s{firm}: {judgement}.", titled(&r.recording), r.seconds)
 }
 
 /// "recording 01", "recordings 01, 05".
@@ -191,7 +191,7 @@ pub(crate) fn tentative(tilts: &[LoadChange]) -> Option<String> {
 pub(crate) fn other_ground(g: &OtherGround, theirs: &str) -> String {
     let [from, until] = g.interval;
     let differs = g.ratios.iter().filter(|r| judgement(r) == Judgement::Differs);
-    let loads: Vec<String> = differs.map(|r| format!("the {} is {}", r.quantity.name(), compared(r, theirs))).collect();
+    let loads: Vec<String> = differs.map(|r| format!("the {} is {}", named_at(r), compared(r, theirs))).collect();
     format!(
         "{}, from {from:.1} s until {until:.1} s, other ground: {}. {}.",
         titled(&g.recording),

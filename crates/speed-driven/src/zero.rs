@@ -27,7 +27,10 @@ fn rests(run: &SpeedRun) -> Vec<Rest> {
     // Without a yaw rate it may have turned: references alone confirm what is read then.
     let heading = headings(run);
     let is_slow = |i: usize| (0..2).all(|j| run.speed[j][i].abs() < ZERO.still);
-    let is_still = |i: &usize| is_slow(*i) && run.held(*i, ZERO.still, ZERO.settled);
+    // Wheels that are held at a command are no drive at rest.
+    let is_asked =
+        |i: usize| run.commanded.as_ref().is_some_and(|of| of.iter().any(|side| side[i].abs() >= ZERO.still));
+    let is_still = |i: &usize| is_slow(*i) && !is_asked(*i) && run.held(*i, ZERO.still, ZERO.settled);
     let moves_from = (0..run.time.len()).find(|&i| !is_slow(i)).unwrap_or(run.time.len());
     let of = |rows: Vec<usize>| {
         let side = |j: usize| median(rows.iter().map(|&i| run.torque[j][i])).unwrap_or(0.0);

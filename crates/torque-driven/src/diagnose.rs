@@ -60,7 +60,10 @@ impl Calibrated {
             None
         } else {
             let logs: Vec<Run> = logs.iter().map(Run::as_recorded).collect();
-            let logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
+            let mut logs = cut_all(&logs, &Redundant::default(), case, &robot, options)?;
+            for log in &mut logs {
+                log.given = case.effects.doses_of_simulator(&log.name);
+            }
             // What a simulator believes are constants.
             let of_constants = Options { known: KnownEffects::default(), ..*options };
             Some(Simulator::new(case, &robot, &logs, largest_torque, &of_constants)?)
@@ -76,6 +79,7 @@ impl Calibrated {
         let visits = visits_of(&references);
         let mut references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
         number(&mut references, &VisitNumbers::new(&visits, &[]).references);
+        own_effects::ensure_given_is_stable(&robot, &references, options.step)?;
         let runaways = own_effects::runaways(options.known, &robot, &references, options.step);
         let options = &own_effects::without(options, &runaways);
         let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
@@ -105,6 +109,7 @@ impl Calibrated {
         let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
         let mut recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
         number(&mut recordings, &visits.recordings);
+        own_effects::ensure_given_is_stable(&robot, &recordings, options.step)?;
         let known = own_effects::without(options, &self.runaways).known;
         let runaways =
             [self.runaways.clone(), own_effects::runaways(known, &robot, &recordings, options.step)].concat();

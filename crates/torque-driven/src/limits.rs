@@ -17,7 +17,7 @@ impl Judged<'_> {
         let names: Vec<String> = all.iter().enumerate().filter(is_usual).map(|(_, t)| t.id.replace('_', " ")).collect();
         (!names.is_empty()).then(|| {
             format!(
-                "the usual sigma was taken for constants of which the robot file states no sigma, or one below the usual: {}; where \
+                "the usual sigma was taken for constants of which the robot file states no sigma, or none above the usual: {}; where \
                  you know them worse than usual, state it",
                 names.join(", ")
             )
@@ -43,6 +43,10 @@ impl Judged<'_> {
                  two minutes as reference to find smaller ones"
                     .to_owned(),
             );
+        }
+        let given = self.case.effects.names();
+        if !given.is_empty() {
+            out.push(format!("the simulation that is compared has these effects already: {}", given.join(", ")));
         }
         let factor = Some(self.calibration.moves.factor).filter(|_| self.calibration.moves.taught);
         out.extend(visit::sentence(self.visits, &visit::visits_of(&self.case.recordings), factor));

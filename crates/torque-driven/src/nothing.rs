@@ -47,9 +47,9 @@ fn with_tyre(problem: &Problem<'_>, [slip_at_peak, rest_speed]: [f64; 2]) -> Poi
     point
 }
 
-/// Whether recordings are so far from the robot file that a fit from there may not arrive: it starts from re-tuned constants too.
-pub(crate) fn is_far(problem: &Problem<'_>, origin: &Fitted, retuned: &Fitted) -> bool {
-    !problem.has_references && origin.cost > RETUNING.far * retuned.cost
+/// Whether recordings are so far from the robot file, or from what references taught, that a fit from there may not arrive.
+pub(crate) fn is_far(origin: &Fitted, retuned: &Fitted) -> bool {
+    origin.cost > RETUNING.far * retuned.cost
 }
 
 #[cfg(test)]
@@ -80,15 +80,13 @@ mod tests {
     }
 
     #[test]
-    fn the_robot_file_is_far_where_re_tuning_closes_most_and_never_with_references() {
+    fn the_robot_file_is_far_where_re_tuning_closes_most() {
         let robot = robot();
         let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
-        let with = problem(&robot, &cuts);
-        let without = Problem { has_references: false, ..problem(&robot, &cuts) };
-        let fitted = with.begin(&Hypothesis::default(), with.origin(), None);
+        let p = problem(&robot, &cuts);
+        let fitted = p.begin(&Hypothesis::default(), p.origin(), None);
         let costing = |cost: f64| Fitted { cost, ..fitted.clone() };
-        assert!(is_far(&without, &costing(900.0), &costing(300.0)));
-        assert!(!is_far(&without, &costing(400.0), &costing(300.0)));
-        assert!(!is_far(&with, &costing(900.0), &costing(300.0)));
+        assert!(is_far(&costing(900.0), &costing(300.0)));
+        assert!(!is_far(&costing(400.0), &costing(300.0)));
     }
 }

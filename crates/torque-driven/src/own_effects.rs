@@ -1,7 +1,7 @@
 //! Effects of one's own in a diagnosis: those that no free run can hold, and drives beyond the range that a law was seen in.
 
 use inference::hypothesis::{Dose, Place, Sizes, Variant};
-use inference::{KnownEffects, Options};
+use inference::{DiagnosisError, KnownEffects, Options};
 use law::{OwnEffect, Variable};
 use robot_model::{Plant, Robot, State};
 use sim::rollout::{Delivered, Grid, Rollout, each_step};
@@ -36,7 +36,7 @@ pub(crate) fn runaways(known: KnownEffects, robot: &Robot<f64>, cuts: &[Cut], st
         let variant = Variant { effect: *own, axis: None, place: Place::Whole };
         let usual: Vec<f64> = variant.free(&Sizes::default()).iter().map(|f| f.usual).collect();
         let dose = variant.dose(&usual, None);
-        let (recording, time) = first_instant(robot, cuts, &dose, step)?;
+        let (recording, time) = first_instant(robot, cuts, Some(&dose), step)?;
         let name = own.name();
         let sentence = format!(
             "with '{name}' the simulation of {recording} runs away {time:.3} s after its first row, at the numbers of the \
@@ -47,8 +47,24 @@ pub(crate) fn runaways(known: KnownEffects, robot: &Robot<f64>, cuts: &[Cut], st
     known.own().iter().filter_map(of).collect()
 }
 
-/// The recording in which a dose makes the plant run away, and the time of the first step at which it has, s.
-fn first_instant<'a>(robot: &Robot<f64>, cuts: &'a [Cut], dose: &Dose, step: f64) -> Option<(&'a str, f64)> {
+/// Refuses what the simulation is given where the plant runs away with it: then nothing can be compared.
+///
+/// # Errors
+/// The first drive in which it does, with the instant.
+pub(crate) fn ensure_given_is_stable(robot: &Robot<f64>, cuts: &[Cut], step: f64) -> Result<(), DiagnosisError> {
+    let Some(given) = cuts.iter().map(|cut| &cut.given).find(|given| !given.is_empty()) else { return Ok(()) };
+    let Some((recording, time)) = first_instant(robot, cuts, None, step) else { return Ok(()) };
+    let names: Vec<&str> = given.iter().map(|dose| dose.effect.spec().id).collect();
+    let what = format!(
+        "with the effects that its simulation is given ({}) it runs away {time:.3} s after the first row; check their signs and numbers, or \
+         take them out",
+        names.join(", ")
+    );
+    Err(DiagnosisError::Impossible { recording: recording.to_owned(), what })
+}
+
+/// The recording in which a dose, or none, makes the plant run away, and the time of the first step at which it has, s.
+fn first_instant<'a>(robot: &Robot<f64>, cuts: &'a [Cut], dose: Option<&Dose>, step: f64) -> Option<(&'a str, f64)> {
     let fastest = cuts.iter().flat_map(|c| &c.segments).flat_map(|s| s.observed.iter().zip(&s.valid));
     let fastest = fastest.flat_map(|(y, valid)| Channel::WHEELS.map(|c| if valid[c] { y[c].abs() } else { 0.0 }));
     let most = SETTINGS.own.runaway * fastest.fold(1.0, f64::max);
@@ -56,7 +72,7 @@ fn first_instant<'a>(robot: &Robot<f64>, cuts: &'a [Cut], dose: &Dose, step: f64
 
     let drives = Drives::default();
     let body = |(run, cut): (usize, &Cut)| {
-        let doses = cut.with_given(vec![dose.clone()]);
+        let doses = cut.with_given(dose.into_iter().cloned().collect());
         let torque = drives.delivered(run, cut, robot, &doses, Grid::nearest(cut.period, step));
         Body { robot: *robot, doses, acting: None, torque }
     };

@@ -55,6 +55,8 @@ pub(crate) struct Starts<'a> {
     pub(crate) origin: &'a Fitted,
     /// Whether that is so far from the recordings that a fit may not arrive.
     pub(crate) is_far: bool,
+    /// Whether it may be so by the constants: no reference taught them, so that fits start from re-tuned ones too.
+    pub(crate) tries_both_tunings: bool,
 }
 
 impl Starts<'_> {
@@ -67,19 +69,21 @@ impl Starts<'_> {
         let (size, rest) = free.split_first()?;
         let with = |value: f64| -> Vec<f64> {
             let shapes = rest.iter().zip(&tangent[1..]).map(|(_, shape)| *shape);
-            std::iter::once(value.clamp(size.bounds[0], size.bounds[1])).chain(shapes).collect()
+            std::iter::once(value).chain(shapes).collect()
         };
         let cost = |values: &[f64]| begin(problem, h, &self.origin.point, values, self.origin).cost;
-        let tried = FINALISTS.sizes.iter().flat_map(|times| [with(times * size.unit), with(-times * size.unit)]);
-        let tried: Vec<(Vec<f64>, f64)> = tried.map(|values| (cost(&values), values)).map(|(c, v)| (v, c)).collect();
-        let (best, least) = tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        // Of an effect that has one sign all sizes of the other are its bound.
+        let sizes = FINALISTS.sizes.iter().flat_map(|times| [times * size.unit, -times * size.unit]);
+        let tried = sizes.filter(|x| (size.bounds[0]..=size.bounds[1]).contains(x)).map(with);
+        let (best, least) =
+            tried.map(|values| (cost(&values), values)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(c, v)| (v, c))?;
         (least < cost(tangent)).then_some(best)
     }
 
-    /// A first refit from the origin and, where that is far, from the constants of what was fitted before; the better.
+    /// A first refit from the origin and, where both tunings are tried, from the constants of what was fitted before; the better.
     pub(crate) fn refit(self, problem: &Problem<'_>, h: &Hypothesis, effects: &[f64], before: &Fitted) -> Trial {
         let first = refit_from(problem, h, effects, self.origin);
-        if self.is_far { better(first, refit_from(problem, h, effects, before)) } else { first }
+        if self.tries_both_tunings { better(first, refit_from(problem, h, effects, before)) } else { first }
     }
 }
 
@@ -173,6 +177,25 @@ mod tests {
     use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
     use inference::hypothesis::{Dose, Place, Variant};
+
+    #[test]
+    fn where_the_origin_is_far_free_runs_tell_how_large_an_effect_is() {
+        let robot = robot();
+        let blank = problem(&robot, &[]);
+        let is_payload = |v: &Variant| v.spec().id == "payload" && v.place == Place::Whole;
+        let payload = blank.variants().into_iter().find(is_payload).expect("in the catalogue");
+        let doses: Vec<Dose> = vec![payload.dose(&[14.0], None)];
+        let cuts = [cut(&driven(&robot, &doses, 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let origin = p.begin(&Hypothesis::default(), p.origin(), None);
+        let h = Hypothesis::single(payload, Vec::new());
+        let starts = Starts { origin: &origin, is_far: true, tries_both_tunings: false };
+        let sized = starts.size_by_free_run(&p, &h, &[0.3]).expect("a better start");
+        assert!((9.0..20.0).contains(&sized[0]), "{sized:?}");
+        assert_eq!(starts.size_by_free_run(&p, &h, &[14.0]), None, "nothing costs less than the truth");
+        let near = Starts { is_far: false, ..starts };
+        assert_eq!(near.size_by_free_run(&p, &h, &[0.3]), None);
+    }
 
     #[test]
     fn two_effects_that_fit_worse_than_one_of_them_are_fitted_again_and_a_loose_constant_becomes_its_effect() {

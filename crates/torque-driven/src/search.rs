@@ -60,7 +60,8 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
     let mut retuned = without_effect(problem, &origin);
     retuned.columns = Arc::new(problem.nuisance_columns(&retuned.point, &none, &retuned.response));
     let second = screen(problem, &retuned, &all, &none);
-    let starts = Starts { origin: &origin, is_far: is_far(problem, &origin, &retuned) };
+    let is_far = is_far(&origin, &retuned);
+    let starts = Starts { origin: &origin, is_far, tries_both_tunings: is_far && !problem.has_references };
 
     progress("fitting the finalists");
     let places = if problem.has_references { FINALISTS.places } else { FINALISTS.places_by_file };
@@ -72,7 +73,7 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
             if let Some(start) = starts.size_by_free_run(problem, &h, &c.start) {
                 first = better(first, refit_from(problem, &h, &start, &origin));
             }
-            if starts.is_far || retuned.cost - first.fitted.cost < FINALISTS.small_gain {
+            if starts.tries_both_tunings || retuned.cost - first.fitted.cost < FINALISTS.small_gain {
                 better(first, refit_from(problem, &h, &c.start, &retuned))
             } else {
                 first

@@ -6,7 +6,8 @@ use inference::words::{listed, probability, quantity};
 use crate::judged::Judged;
 use crate::locate;
 use crate::settings::decision::SETTINGS;
-use verdict::{Cause, Diagnosis, LawOfFile, SimulatorConstants, Verdict};
+use crate::settings::fit;
+use verdict::{Cause, Diagnosis, LawOfFile, Retuned, SimulatorConstants, Verdict};
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
 const SENTENCES: usize = 4;
@@ -85,7 +86,12 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
     out.extend(d.simulator.iter().flat_map(SimulatorConstants::sentences));
     if matches!(d.verdict, Verdict::NoMismatch | Verdict::Explained) {
         let farthest = d.retuned.iter().take(SENTENCES);
-        out.extend(farthest.map(|constant| format!("Re-tune: {}.", constant.sentence())));
+        let at_its_end = |constant: &Retuned| {
+            let moved = d.tuning.get(&constant.constant).copied().unwrap_or(0.0);
+            let is_end = moved.abs() >= fit::SETTINGS.fit.farthest;
+            if is_end { "; no fit goes further, so that something else may be behind it" } else { "" }
+        };
+        out.extend(farthest.map(|c| format!("Re-tune: {}{}.", c.sentence(), at_its_end(c))));
     }
     for class in &d.indistinguishable {
         let name = |id: &String| d.ranked.iter().find(|c| c.effect == *id).map_or(id, |c| &c.name).clone();

@@ -74,6 +74,8 @@ pub enum Quantity {
     EffectiveTrack,
     /// Right less left torque over their sum in straight driving.
     Asymmetry,
+    /// Right less left torque over their sum in spins, each without its sign.
+    SpinAsymmetry,
 }
 
 impl Quantity {
@@ -86,6 +88,7 @@ impl Quantity {
             Self::SpinSum => "sum of straight and turning load in spins",
             Self::EffectiveTrack => "effective track",
             Self::Asymmetry => "asymmetry of the straight load",
+            Self::SpinAsymmetry => "asymmetry of the load in spins",
         }
     }
 
@@ -93,14 +96,14 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::EffectiveTrack => "m",
-            Self::Asymmetry => "-",
+            Self::Asymmetry | Self::SpinAsymmetry => "-",
             _ => "N m",
         }
     }
 
     /// Compared as a difference; all others as a ratio.
     pub fn is_difference(self) -> bool {
-        self == Self::Asymmetry
+        matches!(self, Self::Asymmetry | Self::SpinAsymmetry)
     }
 }
 
@@ -364,18 +367,19 @@ impl Forecast {
 mod tests {
     use super::*;
 
-    const ALL: [Quantity; 6] = [
+    const ALL: [Quantity; 7] = [
         Quantity::StraightLoad,
         Quantity::TurningLoad,
         Quantity::ArcSum,
         Quantity::SpinSum,
         Quantity::EffectiveTrack,
         Quantity::Asymmetry,
+        Quantity::SpinAsymmetry,
     ];
 
     #[test]
     fn each_quantity_has_a_name_of_its_own_and_loads_are_torques() {
-        assert_eq!(ALL.map(Quantity::unit), ["N m", "N m", "N m", "N m", "m", "-"]);
+        assert_eq!(ALL.map(Quantity::unit), ["N m", "N m", "N m", "N m", "m", "-", "-"]);
         for (word, quantity) in [("straight", ALL[0]), ("turning", ALL[1]), ("arcs", ALL[2]), ("spins", ALL[3])] {
             assert!(quantity.name().contains(word) && quantity.name().contains("load"), "{}", quantity.name());
         }
@@ -386,7 +390,7 @@ mod tests {
 
     /// The asymmetry is a share already and may be zero, so that no ratio can be taken of it.
     #[test]
-    fn only_the_asymmetry_is_compared_as_a_difference() {
-        assert_eq!(ALL.map(Quantity::is_difference), [false, false, false, false, false, true]);
+    fn only_asymmetries_are_compared_as_a_difference() {
+        assert_eq!(ALL.map(Quantity::is_difference), [false, false, false, false, false, true, true]);
     }
 }

@@ -58,6 +58,14 @@ impl ColumnsRobot {
         Ok(Some(Self { kind, name, text, diagnosis: None, is_nominal: false }))
     }
 
+    /// A robot that is built in; `None` where none of these kinds has that name.
+    pub fn built_in(name: &str) -> Option<Self> {
+        Kind::ALL.into_iter().find_map(|kind| {
+            let (name, text) = kind.built_in().iter().find(|robot| robot.0 == name)?;
+            Some(Self { kind, name: (*name).to_owned(), text: (*text).to_owned(), diagnosis: None, is_nominal: false })
+        })
+    }
+
     /// The robot of a verdict; `name` is what messages call the verdict's file.
     ///
     /// # Errors

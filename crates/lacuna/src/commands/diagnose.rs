@@ -237,7 +237,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         ));
     }
     if let Some(case) = odometry::case(&args.input)? {
-        ensure!(!known.is_extended(), own_effects::refused(known, case.kind().name()));
+        ensure!(!known.has_laws_of_files(), own_effects::refused(known, case.kind().name()));
         return verdict_of_columns(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);

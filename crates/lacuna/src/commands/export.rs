@@ -9,6 +9,7 @@ use anyhow::{Context, Result, bail, ensure};
 use case_files::case_folder;
 use case_files::corrected::ColumnsRobot;
 use case_files::envelope::{Answered, Envelope};
+use case_files::inputs;
 use case_files::kind;
 use case_files::own_effects;
 use clap::{Args as ClapArgs, ValueEnum};
@@ -25,6 +26,7 @@ Examples:
   lacuna export verdict.json --to toml -o robot.toml   for simulate and predict
   lacuna export verdict.json --to sdf --retuned        re-tuned, no effects
   lacuna export robot.toml --to urdf                   with the file's effects
+  lacuna export husky-a200 --to toml                   the file of a built-in one
   lacuna export verdict.json --to ros2 -o controllers.yaml
                                                        of wheels or a car: ROS 2
   lacuna export verdict.json --to mjcf -o robot.xml --effects my-law.toml
@@ -46,7 +48,7 @@ Exit codes: 0 done, 1 failed, 2 wrong usage.";
 #[derive(Debug, ClapArgs)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    /// What `lacuna diagnose --json` wrote, or a robot file (.toml).
+    /// What `lacuna diagnose --json` wrote, a robot file (.toml), or the name of a built-in robot.
     from: PathBuf,
     /// Format of the model.
     #[arg(long, value_enum)]
@@ -54,7 +56,7 @@ pub(crate) struct Args {
     /// File to write; `-` is standard output.
     #[arg(short, long, value_name = "FILE|-", default_value = "-")]
     out: String,
-    /// The robot as its file had it: nothing re-tuned, no effects.
+    /// The constants of the robot's file alone: nothing re-tuned, no effects.
     #[arg(long, conflicts_with = "retuned")]
     nominal: bool,
     /// The robot with its constants as re-tuned together with the effects, but without these.
@@ -151,7 +153,11 @@ fn source(args: &Args) -> Result<Exportable> {
         return Ok(Exportable::Columns(Box::new(robot)));
     }
     let known = args.effects.known()?;
-    if toml {
+    let is_name = !args.from.is_file() && !inputs::is_path(&args.from.to_string_lossy());
+    if is_name && let Some(robot) = ColumnsRobot::built_in(&args.from.to_string_lossy()) {
+        return Ok(Exportable::Columns(Box::new(robot)));
+    }
+    if toml || is_name {
         let whole = case_folder::robot_with(known, &args.from.display().to_string())?;
         own_effects::ensure_torque_driven(&whole)?;
         for sentence in own_effects::unused(&whole) {
@@ -169,8 +175,9 @@ fn source(args: &Args) -> Result<Exportable> {
     };
     let nominal = envelope.robot_with(known)?;
     own_effects::ensure_torque_driven(&nominal)?;
+    let plain = RobotSpec { effects: Vec::new(), ..nominal.clone() };
     if args.nominal {
-        return Ok(Exportable::Model(Box::new(Source { robot: nominal, before: None, causes: Vec::new() })));
+        return Ok(Exportable::Model(Box::new(Source { robot: plain, before: None, causes: Vec::new() })));
     }
     if !args.retuned {
         envelope.ensure_known(known)?;
@@ -182,7 +189,7 @@ fn source(args: &Args) -> Result<Exportable> {
     if args.retuned {
         correction.effects.clear();
     }
-    let robot = nominal.corrected(&correction)?;
+    let robot = if args.retuned { plain } else { nominal.clone() }.corrected(&correction)?;
     Ok(Exportable::Model(Box::new(Source { robot, before: Some(nominal), causes: envelope.diagnosis.ranked })))
 }
 

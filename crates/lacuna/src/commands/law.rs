@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use case_files::envelope::Envelope;
 use clap::Args as ClapArgs;
 use law::{Law, Variable};
@@ -111,6 +111,12 @@ fn common<'a>(cause: Option<&'a UnnamedCause>, file: &str) -> Result<Found<'a>> 
         )
     })?;
     let CommonLaw { place, formula, seen, .. } = law;
+    let needs_ranges = formula.parse::<Law>().is_ok_and(|law| !law.variables().is_empty());
+    ensure!(
+        !seen.is_empty() || !needs_ranges,
+        "'{file}' does not say in which range its law was seen, as older programs wrote it; run `lacuna diagnose ... --law always \
+         --json '{file}'` again"
+    );
     Ok(Found { place, formula, seen, left: None, numbers: &[] })
 }
 

@@ -75,7 +75,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
     if let Some(case) = odometry::case(&args.input)? {
-        ensure!(!known.is_extended(), own_effects::refused(known, case.kind().name()));
+        ensure!(!known.has_laws_of_files(), own_effects::refused(known, case.kind().name()));
         let diagnosis = case.diagnose(Some(args.seconds), &|what| progress.stage(what))?;
         drop(progress);
         return write(args, (case.robot_name(), &[]), &diagnosis, twists);

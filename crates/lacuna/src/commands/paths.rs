@@ -20,7 +20,7 @@ fn ensure_plain(robot: &str, kind: &str, reader: &Reader, effects: &OwnEffects) 
     }
     ensure!(
         !effects.is_any(),
-        "--effects is for torque-driven robots, and robot '{robot}' is of kind {kind}; leave it out"
+        "--effects and --adopt are for torque-driven robots, and robot '{robot}' is of kind {kind}; leave them out"
     );
     Ok(())
 }
@@ -28,7 +28,10 @@ fn ensure_plain(robot: &str, kind: &str, reader: &Reader, effects: &OwnEffects) 
 /// Says what was done to drives and what was not read.
 fn warn(drives: &SimulatedDrives) {
     drives.told.iter().for_each(|sentence| warning(sentence));
-    drives.ignored.iter().for_each(|file| warning(&format!("'{file}' was not read: it is neither CSV nor a bag")));
+    drives
+        .ignored
+        .iter()
+        .for_each(|file| warning(&format!("'{file}' was not read: it is neither a table (CSV, Parquet) nor a bag")));
 }
 
 /// Predicts drives if all robots are of one of these kinds; whether they were.

@@ -233,3 +233,15 @@ fn colours_can_be_asked_for_and_no_color_goes_before() {
     assert!(out(&[("CLICOLOR_FORCE", "1")]).contains('\u{1b}'));
     assert!(!out(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]).contains('\u{1b}'));
 }
+
+#[test]
+fn every_built_in_robot_is_written_as_a_file_that_reads_back() {
+    let bench = Bench::empty();
+    for name in ["husky-a200", "hendzel-trojnacki-2014", "differential", "dart"] {
+        let run = bench.run(&["export", name, "--to", "toml", "-o", "robot.toml", "--force"]);
+        assert_eq!(run.code(), Some(0), "{name}: {}", run.err());
+        let again = bench.run(&["export", "robot.toml", "--to", "toml"]);
+        assert_eq!(again.code(), Some(0), "{name}: {}", again.err());
+    }
+    bench.run(&["export", "husky", "--to", "toml"]).failed(&["no robot", "husky-a200"]);
+}

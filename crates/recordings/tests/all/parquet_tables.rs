@@ -101,16 +101,15 @@ fn cuts_are_refused_and_flips_do_not_panic() {
 }
 
 #[test]
-fn columns_by_their_names_are_those_of_the_file_with_instants_in_seconds() {
-    for (stamp, second) in [("", 1e6), ("(TIMESTAMP_MICROS)", 1.0)] {
+fn columns_by_their_names_are_those_of_the_file_with_instants_in_its_unit() {
+    for stamp in ["", "(TIMESTAMP_MICROS)"] {
         let bytes = table(9, stamp, Compression::SNAPPY);
         let read = named_columns("a.parquet", &mut std::io::Cursor::new(&bytes), &["wz", "t_us", "note", "b"]).unwrap();
         assert_eq!(read.names, ["t_us", "wz", "ax", "note"]);
         let names: Vec<&str> = read.columns.iter().map(|column| column.name.as_str()).collect();
         assert_eq!(names, ["t_us", "wz", "note"]);
         let [time, rate, note] = &read.columns[..] else { panic!("three columns") };
-        let elapsed = (time.cells[8].unwrap() - time.cells[0].unwrap()) / second;
-        assert!((elapsed - 0.008).abs() < 1e-6, "{elapsed}");
+        assert_eq!(time.cells[8].unwrap() - time.cells[0].unwrap(), 8000.0);
         assert_eq!((rate.cells[1], rate.cells[2]), (Some(18.0), None));
         assert_eq!((note.unread.clone(), note.cells.len()), (Some((1, "x".to_owned())), 9));
         assert!(named_columns("a.parquet", &mut std::io::Cursor::new(&bytes[..bytes.len() / 2]), &["wz"]).is_err());

@@ -2,7 +2,7 @@
 
 use verdict::Diagnosis;
 use verdict::Response;
-use verdict::{Loads, Quantity, Ratio};
+use verdict::{Loads, Ratio};
 
 use crate::figure::{Drawing, Figure, Interval, Intervals};
 use crate::page::{Cell, Page};
@@ -33,7 +33,7 @@ fn ratios(loads: &Loads) -> Figure {
             Cell::from(format!("{:.0}", r.seconds)),
         ]
     };
-    let shown = loads.ratios.iter().filter(|r| r.quantity != Quantity::Asymmetry);
+    let shown = loads.ratios.iter().filter(|r| !r.quantity.is_difference());
     let interval = |r: &Ratio| Interval {
         name: format!("{} · {}", r.recording, r.quantity.name()),
         value: two(r.ratio),

@@ -32,6 +32,8 @@ const fn degrees(x: f64) -> f64 {
         tilt_walk: f64 = degrees(0.15), "rad/√s", "one of about ten settings tried on the open Husky runs";
         /// What is turned in windows of two lengths shows the noise of a rate: the tilt walks by that, if that is faster.
         noise_windows: [f64; 2] = [1.0, 4.0], "s", "guess: longer than a vibration, shorter than a ramp";
+        /// The longer windows that there have to be: of a short drive ramps are most.
+        noise_least: f64 = 25.0, "1", "guess";
         /// Random walk of the gyro's offsets.
         offset_walk: f64 = degrees(0.001), "rad/s/√s", "one of about ten settings tried on the open Husky runs";
         /// Ground is level within this.
@@ -106,6 +108,8 @@ const fn degrees(x: f64) -> f64 {
         ropes: usize = 20, "1", "numerical";
         /// Share of the mean square of the tilts that an accelerometer shows which a slope under all driving leaves at most.
         tilt_left: f64 = 0.4, "1", "guess: beyond two thirds of the tilts it is no longer the same slope";
+        /// Stretches of a recording from which on its accelerometer may lean.
+        leans_from: usize = 3, "1", "guess: two do not tell a lean from a slope";
         /// Price of a number that is chosen: a slope, a direction, a ratio.
         per_number: f64 = 2.5, "nats", "guess: half the logarithm of some hundred choices";
         /// How much better the slope must explain the loads than either rival.
@@ -190,6 +194,8 @@ const fn degrees(x: f64) -> f64 {
         least_seconds: f64 = 3.0, "s", "guess";
         /// Commanded speed of a side from which its wheels have to turn.
         commanded: f64 = 0.1, "m/s", "guess: drives with a dead band follow slower ones badly";
+        /// Wheels that turn at this share of what is commanded follow it.
+        follows: f64 = 0.5, "1", "guess";
         /// Wheels are held that turn by less than this share of what is commanded.
         wheels: f64 = 0.2, "1", "guess: a drive that follows is at .9 and more";
         /// Difference of the speeds in a turn that counts.

@@ -28,6 +28,8 @@
         speed_noise: f64 = 0.005, "m/s", "guess: a quarter of what a steady speed may differ by";
         /// They are averaged over this long at most.
         speed_mean: f64 = 1.0, "s", "guess: shorter than a steady stretch";
+        /// A command that is older is no longer obeyed: drives stop when commands stop.
+        command_age: f64 = 1.0, "s", "guess: twice the usual timeout of drive controllers";
         /// Readings up to this much above a dead band count as in it: dead bands are given to two decimals.
         dead_band_slack: f64 = 0.01, "A", "last digit of recorded dead bands";
     }
@@ -39,7 +41,9 @@
         /// Speeds have been constant for this long: what accelerates may brake.
         held: f64 = 0.5, "s", "guess";
         /// Turning on the spot below which nothing is concluded.
-        least: f64 = 3.0, "s", "guess: as of a load";
+        least: f64 = 2.0, "s", "guess: each way";
+        /// Share of the usual torque from which a side does something.
+        acts: f64 = 0.5, "1", "guess";
         /// Share of the rows in which a side brakes from which its sign is wrong.
         share: f64 = 0.8, "1", "guess: sides that push brake in no row but for noise";
     }
@@ -203,6 +207,8 @@
         track: f64 = 0.015, "1", "open Husky runs, widened";
         /// Asymmetry of the straight load.
         asymmetry: f64 = 0.15, "1", "drive trains wind up in turns and keep up to a fifth of the load on one side";
+        /// The same of spins, in which both sides push alike.
+        spin_asymmetry: f64 = 0.05, "1", "guess: half of what the loads of turns scatter by";
     }
 
     /// Loads over those of the references.

@@ -1,5 +1,6 @@
 //! A robot that follows a course under torque, as a recording without noise.
 
+use robot_model::presence::Presence;
 use robot_model::{Active, Plant, Robot, State};
 use sim::rollout::{Grid, Hold, Input, Rollout, Start};
 
@@ -32,6 +33,12 @@ pub(crate) struct Follower {
     given: Vec<Dose>,
 }
 
+/// What the simulation is given until the end of a drive, from the beginning of the next one on.
+fn lasting(given: &[Dose], end: f64) -> Vec<Dose> {
+    let lasts = given.iter().filter(|dose| dose.presence.from < end).cloned();
+    lasts.map(|dose| Dose { presence: Presence { from: Presence::default().from, ..dose.presence }, ..dose }).collect()
+}
+
 impl Follower {
     /// As the recordings of a problem were made; `None` without any segment.
     pub(crate) fn new(problem: &Problem<'_>) -> Option<Self> {
@@ -41,8 +48,7 @@ impl Follower {
         let inertia = 0.5 * known.mass * known.wheel_radius.powi(2) + 2.0 * known.wheel_inertia + known.motor_inertia;
         let shown = |c: Channel| problem.cuts.iter().flat_map(|cut| &cut.segments).any(|s| s.shows(c));
         Some(Self {
-            // What the simulation is given in one drive alone is no part of the next one.
-            given: cut.given.iter().filter(|dose| dose.presence.from <= cut.from).cloned().collect(),
+            given: lasting(&cut.given, cut.end()),
             known,
             limit,
             gain: inertia / FOLLOW.reach,

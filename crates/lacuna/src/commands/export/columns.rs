@@ -18,7 +18,10 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
              --nominal"
         ))
     );
-    ensure!(!args.effects.is_any(), Usage(format!("--effects: robots of kind {kind} have no effects; leave it out")));
+    ensure!(
+        !args.effects.is_any(),
+        Usage(format!("--effects, --adopt: robots of kind {kind} have no effects; leave them out"))
+    );
     let robot = if args.nominal { robot.nominal() } else { robot };
     let written = match args.to {
         Format::Toml => robot.robot_file()?,

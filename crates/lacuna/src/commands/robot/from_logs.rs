@@ -16,6 +16,14 @@ use crate::console::{Progress, emit, emit_json};
 /// Fits a robot to logs.
 pub(super) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let start = start(args)?;
+    if let Some(given) = start.effects.first() {
+        bail!(
+            "robot '{}' gives its simulation the effect `{}`, which a fit of constants would count twice; take its effects out of the \
+             file that --like names",
+            start.name,
+            given.effect
+        );
+    }
     let (loaded, _) = args.reader.load(&args.from_logs)?;
     if loaded.reads.is_empty() {
         bail!("there is no log among what was given; give files, or a folder of files, of a simulator");
