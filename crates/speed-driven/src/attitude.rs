@@ -250,7 +250,7 @@ mod tests {
         let expected = 0.02 * 0.1_f64.sqrt();
         let walk = noise_walk(&white, 0.1);
         assert!((0.7 * expected..1.4 * expected).contains(&walk), "{walk} of {expected}");
-        assert_eq!(noise_walk(&white[..600], 0.1), 0.0);
+        assert_eq!(noise_walk(&white[..300], 0.1), 0.0);
         let vibration: Vec<f64> = (0..3000).map(|k| 0.05 * (2.9 * f64::from(k)).sin()).collect();
         assert!(noise_walk(&vibration, 0.1) < 0.5 * expected, "{}", noise_walk(&vibration, 0.1));
     }

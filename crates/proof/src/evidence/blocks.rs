@@ -4,7 +4,9 @@ use std::path::Path;
 
 use anyhow::Result;
 use rayon::prelude::*;
+use serde::Deserialize;
 use serde_json::{Value, json};
+use verdict::Quantity;
 
 use super::ask::{Answer, Question, ask, interval};
 use super::find::DataRun;
@@ -72,7 +74,8 @@ pub(super) fn null(binary: &Binary, references: &[&Run], out: &Path) -> Result<V
         let ratios = answer.steady("ratios");
         let excluded = |r: &&Value| {
             let [a, b] = interval(&r["interval"]);
-            let none = if r["quantity"] == "asymmetry" { 0.0 } else { 1.0 };
+            let is_difference = Quantity::deserialize(&r["quantity"]).is_ok_and(Quantity::is_difference);
+            let none = if is_difference { 0.0 } else { 1.0 };
             a > none || b < none
         };
         let mut alarms: Vec<String> = ratios

@@ -33,7 +33,7 @@ const fn degrees(x: f64) -> f64 {
         /// What is turned in windows of two lengths shows the noise of a rate: the tilt walks by that, if that is faster.
         noise_windows: [f64; 2] = [1.0, 4.0], "s", "guess: longer than a vibration, shorter than a ramp";
         /// The longer windows that there have to be: of a short drive ramps are most.
-        noise_least: f64 = 25.0, "1", "guess";
+        noise_least: f64 = 8.0, "1", "guess";
         /// Random walk of the gyro's offsets.
         offset_walk: f64 = degrees(0.001), "rad/s/√s", "one of about ten settings tried on the open Husky runs";
         /// Ground is level within this.
