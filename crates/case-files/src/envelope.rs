@@ -300,7 +300,7 @@ impl Envelope {
         for LawOfFile { name, formula, .. } in self.diagnosis.own_effects.iter().filter(named) {
             ensure!(
                 known.find(name).is_ok(),
-                "this verdict names '{name}', an effect of a file ({formula}): add --effects {name}.toml"
+                "this verdict names '{name}', an effect of a file ({formula}): add --effects {name}.toml, or --adopt where it was adopted"
             );
         }
         Ok(())

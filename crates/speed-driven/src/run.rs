@@ -41,7 +41,7 @@ pub struct SpeedRun {
     pub alignment: Option<Alignment>,
     /// Turning rates of the body about all three axes, on the gyro's clock; `None` where one is missing.
     pub body_rates: Option<BodyRates>,
-    /// Whether the body stands at a row although its wheels turn it: such rows say nothing of loads or tracks.
+    /// Whether the robot stands at a row although it is commanded to drive: such rows say nothing of loads or tracks.
     pub standing: Vec<bool>,
     /// Whether the straight load at a row belongs to a change inside the recording, which is reported by itself.
     pub changed: Vec<bool>,

@@ -243,5 +243,7 @@ fn every_built_in_robot_is_written_as_a_file_that_reads_back() {
         let again = bench.run(&["export", "robot.toml", "--to", "toml"]);
         assert_eq!(again.code(), Some(0), "{name}: {}", again.err());
     }
-    bench.run(&["export", "husky", "--to", "toml"]).failed(&["no robot", "husky-a200"]);
+    bench
+        .run(&["export", "husky", "--to", "toml"])
+        .failed(&["neither a robot file nor a built-in robot", "did you mean `husky-a200`"]);
 }

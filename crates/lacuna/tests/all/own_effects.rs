@@ -98,7 +98,7 @@ fn a_law_of_ones_own_is_named_exported_and_simulated_by_its_name() {
     assert_eq!((run.code(), run.err().as_str()), (Some(0), ""));
     bench
         .run(&["simulate", "corrected.toml", "plan.csv"])
-        .failed(&["no effect `right-drag`", "--effects right-drag.toml"]);
+        .failed(&["no effect `right-drag`", "--effects or --adopt right-drag.toml"]);
     let run = bench.run(&[&["predict", "corrected.toml", "--drives", "case/reference"][..], &with].concat());
     assert_eq!(run.code(), Some(0), "{}", run.err());
     let run = bench.run(&[&["export", "verdict.json", "--to", "mjcf", "-o", "robot.xml"][..], &with].concat());
