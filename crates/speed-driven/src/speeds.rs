@@ -13,7 +13,8 @@ pub(crate) fn steadied(time: &[f64], speed: [Vec<f64>; 2]) -> ([Vec<f64>; 2], Op
     // By second differences, to which a steady acceleration adds nothing; their variance is six times that of a reading.
     let scatter = |z: &Vec<f64>| {
         let moving = z.windows(3).filter(|w| w.iter().all(|v| *v != 0.0));
-        MAD_TO_SIGMA / 6.0_f64.sqrt() * median(moving.map(|w| (w[2] - 2.0 * w[1] + w[0]).abs())).unwrap_or(0.0)
+        MAD_TO_SIGMA / (1.0 + 4.0 + 1.0_f64).sqrt()
+            * median(moving.map(|w| (w[2] - 2.0 * w[1] + w[0]).abs())).unwrap_or(0.0)
     };
     let sigma = speed.iter().map(scatter).fold(0.0, f64::max);
     if sigma <= ROWS.speed_noise {
