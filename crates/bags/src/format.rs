@@ -33,7 +33,7 @@ const FORMATS: [Row; 4] = [
     Row { format: Format::Mcap, magic: mcap::MAGIC, endings: &[".mcap"], is_bag: true },
     Row { format: Format::Sqlite, magic: b"SQLite format 3\0", endings: &[".db3"], is_bag: true },
     Row { format: Format::Parquet, magic: b"PAR1", endings: &[".parquet"], is_bag: false },
-    Row { format: Format::Csv, magic: b"", endings: &[".csv", ".tsv", ".txt"], is_bag: false },
+    Row { format: Format::Csv, magic: b"", endings: &[".csv", ".tsv", NOTE], is_bag: false },
 ];
 
 /// What the beginning and the name of a file tell.
@@ -63,6 +63,15 @@ impl Stored {
     }
 }
 
+/// The ending of tables that notes have, too.
+const NOTE: &str = ".txt";
+
+/// What is before an ending, in letters of either size.
+fn before<'a>(name: &'a str, ending: &str) -> Option<&'a str> {
+    let (stem, end) = name.split_at_checked(name.len().checked_sub(ending.len())?)?;
+    end.eq_ignore_ascii_case(ending).then_some(stem)
+}
+
 impl Format {
     /// The format that the ending of a name means.
     ///
@@ -75,6 +84,21 @@ impl Format {
         let name = name.to_ascii_lowercase();
         let ends = |row: &&Row| row.endings.iter().any(|end| name.ends_with(end));
         FORMATS.iter().find(ends).map(|row| row.format)
+    }
+
+    /// The name of a table without its endings, that of compression too; `None` of what is called like no table. Text that is called
+    /// `.txt` lies beside recordings as a note more often than as a table, and is none by its name alone.
+    ///
+    /// ```
+    /// use bags::Format;
+    /// assert_eq!(Format::stem_of_table("run_1.CSV.zst"), Some("run_1"));
+    /// assert_eq!(Format::stem_of_table("drive.parquet"), Some("drive"));
+    /// assert_eq!([Format::stem_of_table("notes.txt"), Format::stem_of_table("run.mcap")], [None, None]);
+    /// ```
+    pub fn stem_of_table(name: &str) -> Option<&str> {
+        let plain = ZSTD.iter().find_map(|end| before(name, end)).unwrap_or(name);
+        let mut endings = FORMATS.iter().filter(|row| !row.is_bag).flat_map(|row| row.endings);
+        endings.find_map(|end| before(plain, end).filter(|_| *end != NOTE))
     }
 
     /// Whether its files hold messages of topics; otherwise each is one table.

@@ -332,9 +332,14 @@ impl CaseFolder {
     /// Recordings without the signals that are needed, or that do not determine an answer.
     pub fn diagnose(&self, options: &Options, stage: &dyn Fn(&str)) -> Result<Diagnosis> {
         let mut out = diagnosis::diagnose(&self.case()?, options, stage)?;
-        out.rest_on(&self.coverage);
-        out.limits.extend(self.not_compared());
+        self.complete(&mut out);
         Ok(out)
+    }
+
+    /// Adds to a diagnosis what its files say: what long recordings stand for, and what of the robot file was not compared.
+    pub fn complete(&self, diagnosis: &mut Diagnosis) {
+        diagnosis.rest_on(&self.coverage);
+        diagnosis.limits.extend(self.not_compared());
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use hierarchical_fit::{Column, Table};
 use odometry::file::Signals;
-use recordings::{NamedColumn, group_bags, is_bag, named_columns};
+use recordings::{Format, NamedColumn, group_bags, is_bag, named_columns};
 use verdict::{Diagnosis, SimulatedPath};
 
 use crate::bag_signals::{self, Found, Wanted};
@@ -202,11 +202,6 @@ fn drives<F: NamesColumns>(
     Ok((drives, files))
 }
 
-/// How names of tables end.
-const TABLES: [&str; 3] = [".csv", ".tsv", ".parquet"];
-/// How they end where they are compressed as a whole, behind that.
-const COMPRESSED: [&str; 2] = [".zst", ".zstd"];
-
 /// What is recorded in files and folders.
 #[derive(Debug, Default)]
 pub(crate) struct Recorded {
@@ -247,7 +242,7 @@ impl Recorded {
                 continue;
             }
             for inside in list(path)? {
-                if inside.is_file() && stem(&inside.to_string_lossy()).is_some() {
+                if inside.is_file() && Format::stem_of_table(&inside.to_string_lossy()).is_some() {
                     out.tables.push(inside);
                 } else if !inside.ends_with("metadata.yaml") && files.iter().all(|bag| !bag.starts_with(&inside)) {
                     out.ignored.push(inside.display().to_string());
@@ -264,19 +259,7 @@ impl Recorded {
 /// Name of the drive in a table.
 pub(crate) fn name_of(table: &Path) -> String {
     let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    stem(&name).unwrap_or(&name).to_owned()
-}
-
-/// The name of a table without its ending; `None` of what is called like no table.
-pub(crate) fn stem(name: &str) -> Option<&str> {
-    let without = |name, endings: &[&str]| endings.iter().find_map(|ending| before(name, ending));
-    without(without(name, &COMPRESSED).unwrap_or(name), &TABLES)
-}
-
-/// What is before an ending, in letters of either size.
-fn before<'a>(name: &'a str, ending: &str) -> Option<&'a str> {
-    let (stem, end) = name.split_at_checked(name.len().checked_sub(ending.len())?)?;
-    end.eq_ignore_ascii_case(ending).then_some(stem)
+    Format::stem_of_table(&name).unwrap_or(&name).to_owned()
 }
 
 /// The columns of a table that the robot file names, how it is written, and the file.

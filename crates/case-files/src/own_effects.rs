@@ -5,8 +5,8 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail, ensure};
-use inference::{DiagnosisError, KnownEffects};
+use anyhow::{Context, Result, bail};
+use inference::KnownEffects;
 use law::{Law, LawError, OwnEffect, OwnEffectError, Variable};
 use recordings::{Recording, Signal, Spot};
 use robot_file::{Causality, RobotSpec};
@@ -124,14 +124,10 @@ pub fn parse(file: &str, text: &str, stem: &str) -> Result<&'static OwnEffect, T
 /// # Errors
 /// Such robots, with their kind.
 pub fn ensure_torque_driven(robot: &RobotSpec) -> Result<()> {
-    let fits = !robot.known.has_laws_of_files() || robot.causality == Causality::TorqueDriven;
-    ensure!(fits, refused(robot.known, robot.causality.name()));
+    if robot.causality != Causality::TorqueDriven {
+        robot.known.refused_for(robot.causality.name())?;
+    }
     Ok(())
-}
-
-/// Why effects of one's own do not go with a kind of robot.
-pub fn refused(known: KnownEffects, kind: &'static str) -> DiagnosisError {
-    DiagnosisError::OwnEffects { names: known.names_of_laws().join(", "), kind }
 }
 
 /// A sentence for each effect of one's own that a robot file does not name, with what to write there.

@@ -3,9 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
-use recordings::is_bag;
-
-use crate::drive_files;
+use recordings::{Format, is_bag};
 
 /// Folders of a case with what belongs into them.
 pub(crate) const FOLDERS: [(&str, &str); 3] = [
@@ -50,7 +48,7 @@ pub fn unread_folders(case: &Path) -> Vec<String> {
         FOLDERS.iter().map(|(name, _)| *name).chain(SPELLINGS.concat()).chain([SIMULATION]).collect();
     let holds_recordings = |folder: &Path| {
         let mut inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
-        let is_one = |name: &str| is_bag(name) || drive_files::stem(name).is_some();
+        let is_one = |name: &str| is_bag(name) || Format::stem_of_table(name).is_some();
         inside.any(|entry| is_one(&entry.file_name().to_string_lossy()))
     };
     let inside = std::fs::read_dir(case).into_iter().flatten().flatten();

@@ -2,7 +2,7 @@
 
 use crate::CauseSpec;
 
-/// Wheels turn, the body does not.
+/// The robot is commanded to drive and does not.
 pub const STANDING: CauseSpec = CauseSpec {
     id: "standing",
     name: "the robot stands although it is commanded to drive: dug in, or its wheels spin or are held",

@@ -24,10 +24,7 @@ fn refuse_own_effects(case: &Case, options: &Options) -> Result<(), DiagnosisErr
         Case::SpeedDriven(_) => "speed-driven",
         Case::CommandDriven(_) => "command-driven",
     };
-    if !options.known.has_laws_of_files() {
-        return Ok(());
-    }
-    Err(DiagnosisError::OwnEffects { names: options.known.names_of_laws().join(", "), kind })
+    options.known.refused_for(kind)
 }
 
 /// Says what physics the simulation of a case left out. `progress` is told the stage that begins.

@@ -33,11 +33,7 @@ impl Columns {
             setup.robot,
             kind.name()
         );
-        ensure!(
-            !settings.options.known.has_laws_of_files(),
-            "robots of kind {} have no effects of one's own; leave out --effects and --adopt",
-            kind.name()
-        );
+        settings.options.known.refused_for(kind.name())?;
         let key = key::of_setup(setup, settings);
         Ok(Some(Self { key, robot: setup.robot.clone(), reference: setup.reference.clone() }))
     }

@@ -77,7 +77,7 @@ impl Prepared {
         let covered = covered.into_iter().filter_map(|(part, c)| Some((part.to_owned(), c.clone()?)));
         case.coverage = covered.collect();
         let mut diagnosis = self.ready.diagnose(case.case()?, &settings.options, &|_: &str| {})?;
-        diagnosis.rest_on(&case.coverage);
+        case.complete(&mut diagnosis);
         case.reference = self.reference.clone();
         case.refuse_twins()?;
         Ok((diagnosis, case))

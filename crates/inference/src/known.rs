@@ -60,14 +60,18 @@ impl KnownEffects {
         self.own
     }
 
-    /// Whether there are laws of files beside the catalogue, weighed or adopted.
-    pub fn has_laws_of_files(self) -> bool {
-        !self.own.is_empty() || !self.adopted.is_empty()
+    /// All laws of files, those that are weighed and those that are adopted.
+    pub fn laws_of_files(self) -> impl Iterator<Item = &'static OwnEffect> {
+        self.own.iter().chain(self.adopted).copied()
     }
 
-    /// Names of the laws of files, those that are weighed and those that are adopted.
-    pub fn names_of_laws(self) -> Vec<&'static str> {
-        self.own.iter().chain(self.adopted).map(|own| own.name()).collect()
+    /// Refuses them for a kind of robot that no free run of the plant is compared with.
+    ///
+    /// # Errors
+    /// Where there are any, with their names and that kind.
+    pub fn refused_for(self, kind: &'static str) -> Result<(), DiagnosisError> {
+        let names: Vec<&str> = self.laws_of_files().map(OwnEffect::name).collect();
+        if names.is_empty() { Ok(()) } else { Err(DiagnosisError::OwnEffects { names: names.join(", "), kind }) }
     }
 
     /// The same without those of one's own that have one of these names.
@@ -131,11 +135,6 @@ impl KnownEffects {
             values[index] = *value;
         }
         Ok(Dose { effect, values, presence: Presence::default() })
-    }
-
-    /// All laws of files, those that are weighed and those that are adopted.
-    pub fn laws_of_files(self) -> impl Iterator<Item = &'static OwnEffect> {
-        self.own.iter().chain(self.adopted).copied()
     }
 
     /// Those of one's own for a verdict.
@@ -238,5 +237,30 @@ mod tests {
         };
         assert!(known.active(&at("constant"), "drive").is_ok());
         assert!(matches!(known.active(&at("Tb"), "drive"), Err(DiagnosisError::NoSuchParameter { .. })));
+    }
+    #[test]
+    fn what_a_simulation_is_given_is_present_in_the_drives_that_it_says_and_an_adopted_law_in_no_log_of_a_simulator() {
+        let none = KnownEffects::default();
+        let adopting = none.adopting(known(&["flaw"]).own().to_vec());
+        assert_eq!(adopting.all().count(), none.all().count(), "an adopted law is not weighed");
+        assert!(adopting.find("flaw").is_ok());
+
+        let payload = EffectAt {
+            effect: "payload".to_owned(),
+            values: [("mass".to_owned(), 3.0)].into(),
+            from: [("late".to_owned(), 4.0)].into(),
+            absent: vec!["before".to_owned()],
+            ..EffectAt::default()
+        };
+        let [flaw] = &adopting.adopted()[..] else { panic!("one law") };
+        assert_eq!(flaw.values["constant"], -0.5);
+        let given = adopting.given(&[payload, flaw.clone()]).expect("known");
+        let from = |drive: &str| given.doses(drive)[0].presence.from;
+        assert!(from("late") == 4.0 && from("before") == f64::MAX && from("other") <= 0.0);
+        let names = |doses: Vec<Dose>| doses.iter().map(|dose| dose.effect.spec().id).collect::<Vec<_>>();
+        assert_eq!(names(given.doses("late")), ["payload", "flaw"]);
+        assert_eq!(names(given.doses_of_simulator("late")), ["payload"]);
+        assert!(none.given(&adopting.adopted()).is_err(), "nobody knows it");
+        assert!(adopting.refused_for("car").is_err() && none.refused_for("car").is_ok());
     }
 }

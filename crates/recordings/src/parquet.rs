@@ -7,6 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use bags::{Cell, FileError, Loss, Place, suggest};
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::reader::RowIter;
 use parquet::record::{Field, Row as ParquetRow};
 use parquet::schema::types::Type;
 
@@ -68,10 +69,7 @@ pub(crate) fn read_rows<K: Keep>(
         let schema = metadata.schema();
         let names: Vec<&str> = schema.get_fields().iter().map(|field| field.name()).collect();
         let chosen = Chosen::of(&names, name, file, mapping)?;
-        let fields = schema.get_fields().iter().filter(|field| chosen.names.contains(&field.name())).cloned().collect();
-        let wanted = Type::group_type_builder(schema.name()).with_fields(fields).build();
-        let wanted = wanted.map_err(|error| refuse(error.to_string()))?;
-        let rows = reader.get_row_iter(Some(wanted)).map_err(|error| refuse(error.to_string()))?;
+        let rows = rows_of(&reader, &chosen.names).map_err(|error| refuse(error.to_string()))?;
         let mut samples = Samples::new(keep, name, Place::Row, policy, (&file.time, chosen.time), chosen.columns);
         for (number, row) in (0..).zip(rows) {
             let row = row.map_err(|error| refuse(error.to_string()))?;
@@ -118,16 +116,15 @@ pub(crate) fn named(name: &str, bytes: Vec<u8>, wanted: &[&str]) -> Result<Named
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|error| refuse(error.to_string()))?;
         let schema = reader.metadata().file_metadata().schema();
         let names: Vec<String> = schema.get_fields().iter().map(|field| field.name().to_owned()).collect();
-        let fields: Vec<_> =
-            schema.get_fields().iter().filter(|field| wanted.contains(&field.name())).cloned().collect();
-        let mut columns: Vec<NamedColumn> = fields.iter().map(|field| NamedColumn::new(field.name())).collect();
-        if let Some(twice) = (1..columns.len()).find(|&k| columns[..k].iter().any(|c| c.name == columns[k].name)) {
-            let (file, column) = (name.to_owned(), columns[twice].name.clone());
-            return Err(RecordingError::DuplicateColumn { file, line: 1, column });
+        let mut columns: Vec<NamedColumn> = Vec::new();
+        for column in names.iter().filter(|name| wanted.contains(&name.as_str())) {
+            if columns.iter().any(|known| known.name == *column) {
+                let (file, column) = (name.to_owned(), column.clone());
+                return Err(RecordingError::DuplicateColumn { file, line: 1, column });
+            }
+            columns.push(NamedColumn::new(column));
         }
-        let chosen = Type::group_type_builder(schema.name()).with_fields(fields).build();
-        let chosen = chosen.map_err(|error| refuse(error.to_string()))?;
-        for row in reader.get_row_iter(Some(chosen)).map_err(|error| refuse(error.to_string()))? {
+        for row in rows_of(&reader, wanted).map_err(|error| refuse(error.to_string()))? {
             let row = row.map_err(|error| refuse(error.to_string()))?;
             for (column, (_, field)) in columns.iter_mut().zip(row.get_column_iter()) {
                 let text = || shown(field.to_string().trim_matches('"'));
@@ -137,6 +134,14 @@ pub(crate) fn named(name: &str, bytes: Vec<u8>, wanted: &[&str]) -> Result<Named
         Ok(NamedColumns { names, columns, ..NamedColumns::default() })
     });
     catch_unwind(read).unwrap_or_else(|_| Err(refuse("a page is damaged".to_owned())))
+}
+
+/// Rows of the columns of these names, in the order of the file.
+fn rows_of<'a>(reader: &'a dyn FileReader, names: &[&str]) -> parquet::errors::Result<RowIter<'a>> {
+    let schema = reader.metadata().file_metadata().schema();
+    let fields = schema.get_fields().iter().filter(|field| names.contains(&field.name())).cloned().collect();
+    let wanted = Type::group_type_builder(schema.name()).with_fields(fields).build()?;
+    reader.get_row_iter(Some(wanted))
 }
 
 /// A file that cannot be read, and why.

@@ -28,7 +28,7 @@ pub(crate) fn lines(cause: &UnnamedCause) -> Vec<(&'static str, String)> {
 fn in_every_drive(cause: &UnnamedCause) -> Option<(&'static str, String)> {
     let common = cause.in_every_drive.as_ref()?;
     let text = format!(
-        "{}: {} (references {:.2} of the recordings'); it is not what differs. `lacuna law VERDICT.json --in-every-drive \
+        "{}: {}; its coefficient in the references is {:.2} of that in the recordings, so that it is not what differs. `lacuna law VERDICT.json --in-every-drive \
          --save law.toml` writes it, and `lacuna diagnose ... --adopt law.toml` takes it into the simulation",
         common.place, common.formula, common.in_references
     );

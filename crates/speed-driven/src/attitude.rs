@@ -135,8 +135,8 @@ fn estimate(
     let rolling = FILTER.rolling.max(FILTER.excess * excess) * usual / weight;
     let keep = 1.0 - dt / FILTER.rolling_time;
     let mut walk = Square::zeros();
-    // A nose that rises by the noise of its own rate is the rate about the left axis; the roll is the forward one's.
-    // An accelerometer holds it; then what rocks the body is no noise.
+    // The pitch walks by the noise of the rate about the left axis, the roll by that about the forward axis. Where an accelerometer
+    // holds both, what rocks the body is no noise.
     let of_noise = |axis: usize| if rates.level.is_some() { 0.0 } else { noise_walk(&rates.rate[axis], dt) };
     let [of_roll, of_pitch] = [0, 1].map(|axis| FILTER.tilt_walk.max(of_noise(axis)));
     for (k, q) in [of_pitch, of_roll, FILTER.offset_walk, FILTER.offset_walk].into_iter().enumerate() {

@@ -4,7 +4,7 @@
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
 use crate::attitude::{Attitude, attitude};
-use crate::grounds::changed_rows;
+use crate::changed::changed_rows;
 use crate::jumps::jumps;
 use crate::level::levels;
 use crate::pieces::{ByClass, STANDING, Usual, class};

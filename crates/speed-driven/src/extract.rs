@@ -256,6 +256,7 @@ mod tests {
             assert!(l.error < 0.1 * truth && l.seconds >= STRETCHES.least_seconds, "{l:?}");
         }
         assert!(one(&loads, Quantity::Asymmetry).value.abs() < 1e-9);
+        assert!(one(&loads, Quantity::SpinAsymmetry).value.abs() < 1e-9);
         approx::assert_relative_eq!(one(&loads, Quantity::StraightLoad).speed[0], 0.5, epsilon = 1e-9);
         let arc = one(&loads, Quantity::TurningLoad).speed;
         approx::assert_relative_eq!(arc[0], 0.35, epsilon = 1e-9);

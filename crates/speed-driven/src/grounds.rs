@@ -17,7 +17,7 @@ use crate::name::{Comparison, Named, Open, name};
 use crate::pieces::{GRADE, STANDING};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING};
-use crate::straight::{is_straight, readings};
+use crate::straight::is_straight;
 
 /// What grounds are compared with.
 pub(crate) struct Usual<'a> {
@@ -180,20 +180,6 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[R
     Measured::Grounds
 }
 
-/// Rows whose straight load is that of a change. What covers most of the straight driving is the load of the recording, but for
-/// slopes: the ground beside them is its ground, unless they are under most of it themselves.
-pub(crate) fn changed_rows(run: &SpeedRun, found: &[LoadChange]) -> Vec<bool> {
-    let inside = |t: f64, of_slopes: bool| {
-        let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
-        found.iter().any(|c| is_slope(c) == of_slopes && c.interval[0] <= t && t <= c.interval[1])
-    };
-    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
-    let (sloping, level): (Vec<f64>, Vec<f64>) = straight.iter().partition(|t| inside(**t, true));
-    let slopes_lead = sloping.len() > level.len();
-    let most = 2 * level.iter().filter(|t| inside(**t, false)).count() > level.len();
-    run.time.iter().map(|&t| !slopes_lead && inside(t, true) || !most && inside(t, false)).collect()
-}
-
 /// Whether what fits the longest ground best is among what fits all others; those that nothing fits say nothing.
 fn are_alike(grounds: &[OtherGround]) -> bool {
     let mut classes = grounds.iter().map(|g| &g.causes).filter(|class| !class.is_empty());
@@ -236,11 +222,10 @@ fn is_within(t: f64, stretches: &[[f64; 2]]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use verdict::{Diagnosis, LoadChange, OtherGround, Quantity, Ratio, Verdict};
+    use verdict::{Diagnosis, OtherGround, Quantity, Ratio, Verdict};
 
-    use super::{are_alike, changed_rows};
-    use crate::pieces::{GRADE, ROLLING};
-    use crate::testing::{Leg, diagnosis, drive, rounds};
+    use super::are_alike;
+    use crate::testing::{Leg, diagnosis, rounds};
 
     /// Rounds on a ground: the straight load and the couple of turning, in those of the references.
     fn on(straight: f64, scrub: f64, n: usize) -> Vec<Leg> {
@@ -283,33 +268,6 @@ mod tests {
         assert!(alike(&[&["soft", "scrub"], &["rolling", "soft"], &[]]));
         assert!(!alike(&[&["grip", "scrub"], &["soft", "scrub"]]));
         assert!(alike(&[&[], &["soft"]]) && alike(&[]));
-    }
-
-    #[test]
-    fn slopes_leave_the_load_of_a_recording_though_changes_cover_most_of_it() {
-        let change = |from: f64, until: f64, causes: &[verdict::Word]| LoadChange {
-            recording: "run".to_owned(),
-            interval: [from, until],
-            onset: [from; 2],
-            end: [until; 2],
-            seconds: until - from,
-            ratio: None,
-            slope: 0.0,
-            slope_half: 0.0,
-            bound: false,
-            relative: false,
-            causes: causes.to_vec(),
-            reason: "".into(),
-        };
-        let run = drive(&[Leg::straight(100.0)], false);
-        let at = |rows: &[bool], t: f64| rows[run.time.partition_point(|row| *row < t)];
-        let [slope, soft] = [change(10.0, 30.0, &[GRADE]), change(35.0, 95.0, &[ROLLING])];
-        let rows = changed_rows(&run, &[slope.clone(), soft]);
-        assert!(at(&rows, 20.0) && !at(&rows, 50.0) && !at(&rows, 98.0));
-        let rows = changed_rows(&run, &[slope, change(35.0, 50.0, &[ROLLING])]);
-        assert!(at(&rows, 20.0) && at(&rows, 40.0) && !at(&rows, 60.0));
-        // Slopes under most of it are what it was driven on.
-        assert!(!at(&changed_rows(&run, &[change(10.0, 90.0, &[GRADE])]), 20.0));
     }
 
     #[test]

@@ -20,7 +20,7 @@
 //! * `mounting`: how the inertial unit leans in the body; `zero`: what current sensors read when nothing flows.
 //! * `power`: signs of torques that no robot can have.
 //! * `plane`: one slope under all driving, by loads and directions of travel.
-//! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it.
+//! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`: rows that show that.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `grounds`, `groups`, `ground`: several grounds in one recording or in several, soft ground as one cause.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
@@ -31,6 +31,7 @@ mod answer;
 mod attitude;
 mod body_rates;
 mod cause;
+mod changed;
 mod changes;
 mod clock;
 mod compare;

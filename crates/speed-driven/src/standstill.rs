@@ -120,8 +120,7 @@ pub(crate) fn mark(runs: &mut [SpeedRun], track: f64) -> Vec<Standstill> {
 mod tests {
     use super::*;
     use crate::run::tests::{CONSTANT, GROUND, Ground, RADIUS, recording};
-    use crate::testing::value;
-    use crate::testing::{Leg, drive};
+    use crate::testing::{Leg, drive, value};
 
     const SPIN: [f64; 2] = [-0.2, 0.2];
     const AHEAD: [f64; 2] = [0.5, 0.5];

@@ -63,7 +63,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
             .enumerate()
             .map(|(i, leg)| {
                 let turn = (leg.speed[1] - leg.speed[0]).signum() * f64::from(leg.speed[1] != leg.speed[0]);
-                let way = leg.speed[0].signum();
+                let way = leg.speed[side].signum();
                 let pull = WEIGHT * leg.slope.to_radians().sin();
                 let own = 0.5 * (leg.straight * way + pull) + if side == 1 { turn } else { -turn } * leg.scrub;
                 let shown = leg.sides[side] * own * leg.speed[side].signum() + scatter(i + 3 * side);

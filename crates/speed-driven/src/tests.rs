@@ -7,7 +7,7 @@ use inference::robust::NINETY;
 use robot_model::tunable::tunables;
 
 use crate::run::SpeedRun;
-use crate::testing::{Leg, diagnosis, diagnosis_with, drive, robot, rounds};
+use crate::testing::{Leg, case, diagnosis, diagnosis_with, drive, robot, rounds};
 use crate::{SteadyCase, diagnose_steady};
 
 fn ratio(d: &Diagnosis, quantity: Quantity) -> &Ratio {
@@ -124,6 +124,21 @@ fn recordings_of_two_grounds_are_told_to_disagree_and_those_of_one_are_not() {
     let alike = diagnosis(&[&on(2.2), &on(2.1)]);
     assert!(alike.sentences.iter().all(|s| !s.contains("disagree")), "{:?}", alike.sentences);
     assert_eq!(groups(&alike), []);
+}
+
+#[test]
+fn a_motor_of_one_side_that_gives_less_is_told_by_the_spins() {
+    let spin = |way: f64| Leg { speed: [-0.24 * way, 0.24 * way], ..Leg::straight(12.0) };
+    let legs = [Leg::straight(20.0), spin(1.0), Leg::straight(20.0), spin(-1.0)].repeat(3);
+    // The left motor needs a third more current for the same torque.
+    let weak: Vec<Leg> = legs.iter().map(|leg| Leg { sides: [4.0 / 3.0, 1.0], ..*leg }).collect();
+    let drives = |legs: &[Leg]| [0, 1].map(|k| SpeedRun { name: k.to_string(), ..drive(legs, false) }).to_vec();
+    let case = case(drives(&legs), drives(&weak));
+    let d = diagnose_steady(&case, &Options::default(), &|_| ()).expect("an answer");
+    let spins = ratio(&d, Quantity::SpinAsymmetry);
+    assert!((spins.ratio + 1.0 / 7.0).abs() < 0.03 && spins.interval[1] < 0.0, "{spins:?}");
+    let named = &d.indistinguishable[0];
+    assert!(named.iter().any(|id| id == "torque_constant_side"), "{:?}", d.ranked);
 }
 
 #[test]

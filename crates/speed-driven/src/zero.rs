@@ -172,6 +172,13 @@ mod tests {
     }
 
     #[test]
+    fn wheels_that_are_held_at_a_command_show_no_offset() {
+        let mut held = run(-1.2, 0.0);
+        held.commanded = Some([0, 1].map(|_| vec![0.24; held.time.len()]));
+        assert_eq!(remove(&mut [], &mut [held]), None);
+    }
+
+    #[test]
     fn of_currents_without_a_sign_the_way_of_driving_shows_that_of_their_offset() {
         let unsigned = |offset: f64| {
             let mut run = run(offset, 0.0);

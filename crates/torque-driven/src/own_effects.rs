@@ -56,8 +56,8 @@ pub(crate) fn ensure_given_is_stable(robot: &Robot<f64>, cuts: &[Cut], step: f64
     let Some((recording, time)) = first_instant(robot, cuts, None, step) else { return Ok(()) };
     let names: Vec<&str> = given.iter().map(|dose| dose.effect.spec().id).collect();
     let what = format!(
-        "with the effects that its simulation is given ({}) it runs away {time:.3} s after the first row; check their signs and numbers, or \
-         take them out",
+        "the simulation runs away {time:.3} s after the first row with the effects that it is given ({}); check their signs and numbers, \
+         or take them out of the robot file and of --adopt",
         names.join(", ")
     );
     Err(DiagnosisError::Impossible { recording: recording.to_owned(), what })

@@ -64,20 +64,14 @@ impl Starts<'_> {
     /// whose free run from the origin costs least; `None` where that is near, or these are those of the tangent.
     pub(crate) fn size_by_free_run(self, problem: &Problem<'_>, h: &Hypothesis, tangent: &[f64]) -> Option<Vec<f64>> {
         let (variant, _) = h.parts.first().filter(|_| self.is_far && h.parts.len() == 1)?;
-        let sizes = problem.sizes();
-        let free = variant.free(&sizes);
-        let (size, rest) = free.split_first()?;
-        let with = |value: f64| -> Vec<f64> {
-            let shapes = rest.iter().zip(&tangent[1..]).map(|(_, shape)| *shape);
-            std::iter::once(value).chain(shapes).collect()
-        };
+        let [size, ..] = variant.free(&problem.sizes())[..] else { return None };
+        let [least, most] = size.bounds;
+        let with = |value: f64| -> Vec<f64> { std::iter::once(value).chain(tangent.iter().skip(1).copied()).collect() };
         let cost = |values: &[f64]| begin(problem, h, &self.origin.point, values, self.origin).cost;
-        // Of an effect that has one sign all sizes of the other are its bound.
         let sizes = FINALISTS.sizes.iter().flat_map(|times| [times * size.unit, -times * size.unit]);
-        let tried = sizes.filter(|x| (size.bounds[0]..=size.bounds[1]).contains(x)).map(with);
-        let (best, least) =
-            tried.map(|values| (cost(&values), values)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(c, v)| (v, c))?;
-        (least < cost(tangent)).then_some(best)
+        let tried = sizes.filter(|x| (least..=most).contains(x)).map(with).map(|values| (cost(&values), values));
+        let (own, best) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (own < cost(tangent)).then_some(best)
     }
 
     /// A first refit from the origin and, where both tunings are tried, from the constants of what was fitted before; the better.

@@ -5,7 +5,7 @@ use robot_file::RobotSpec;
 use std::path::PathBuf;
 
 use ::report::diagnosis_text;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use case_files::case_folder::{self, CaseFolder};
 use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Envelope;
@@ -237,7 +237,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         ));
     }
     if let Some(case) = odometry::case(&args.input)? {
-        ensure!(!known.has_laws_of_files(), own_effects::refused(known, case.kind().name()));
+        known.refused_for(case.kind().name())?;
         return verdict_of_columns(args, &case, progress);
     }
     let next = (args.next || args.report.is_some()).then_some(NEXT_LENGTH);

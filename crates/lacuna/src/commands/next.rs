@@ -5,9 +5,8 @@ use pages::text_table::number;
 use recordings::suggest::nearest;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use case_files::envelope::Program;
-use case_files::own_effects;
 use clap::Args as ClapArgs;
 use inference::Options;
 use robot_file::Causality;
@@ -75,7 +74,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
     if let Some(case) = odometry::case(&args.input)? {
-        ensure!(!known.has_laws_of_files(), own_effects::refused(known, case.kind().name()));
+        known.refused_for(case.kind().name())?;
         let diagnosis = case.diagnose(Some(args.seconds), &|what| progress.stage(what))?;
         drop(progress);
         return write(args, (case.robot_name(), &[]), &diagnosis, twists);

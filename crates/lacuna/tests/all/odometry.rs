@@ -102,6 +102,13 @@ fn a_table_with_semicolons_and_decimal_commas_is_the_same_drive_and_is_told() {
 }
 
 #[test]
+fn a_drive_that_lies_there_twice_under_one_name_is_refused_with_both_files() {
+    let bench = bench();
+    bench.write("case/recordings/run_1.tsv", &drive(0.4).replace(',', "\t"));
+    bench.run(&["diagnose", "case"]).failed(&["run_1.csv' and '", "run_1.tsv' have one name", "leave one of them"]);
+}
+
+#[test]
 fn the_next_drive_is_advised_by_itself_and_with_the_verdict() {
     let bench = bench();
     let run = bench.run(&["next", "case", "--profile", "p.csv", "--picture", "p.svg", "--json", "n.json"]);

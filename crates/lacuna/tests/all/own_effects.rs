@@ -204,7 +204,7 @@ fn what_a_robot_file_or_an_adopted_law_gives_the_simulation_is_no_longer_missing
     // With another sign the simulation runs away, and nothing is answered.
     bench.write("wrong.toml", "name = \"wrong\"\nformula = \"T_right = 60 [N m s/rad] * pow(omega, 1)\"\n");
     let wrong = ["diagnose", "--robot", "case/robot.toml", "--recordings", "case/recordings", "--adopt", "wrong.toml"];
-    bench.run(&wrong).failed(&["is given (wrong) it runs away", "check their signs"]);
+    bench.run(&wrong).failed(&["the simulation runs away", "that it is given (wrong)", "check their signs"]);
 
     // The robot file that holds it is the same simulation, once.
     let (verdict, of_file) = error("dragging.toml", &["--adopt", "flaw.toml"]);

@@ -109,3 +109,24 @@ fn advice_is_the_same_whatever_the_number_of_threads() {
     };
     assert!(with(1) == with(3));
 }
+
+#[test]
+fn what_the_simulation_is_given_until_the_end_of_a_drive_is_part_of_the_next_one_from_its_beginning() {
+    let robot = robot();
+    let mut seen = [cut(&driven(&robot, &[], 6.0), &cutting())];
+    let course = Course::of_levels(&[[0.3, 0.0], [-0.3, 0.0]], 12.0);
+    let effort = |seen: &[Cut]| -> f64 {
+        let follower = Follower::new(&problem(&robot, seen)).expect("a recording");
+        follower.drive(&robot, &[], &course, [0.0; 3], true).torque.iter().flatten().map(|t| t.abs()).sum()
+    };
+    let plain = effort(&seen);
+    let brake = |from: f64| {
+        let mut dose = form("viscous_friction").dose(&[0.4], None);
+        dose.presence.from = from;
+        dose
+    };
+    for (from, is_given) in [(2.0, true), (f64::MAX, false)] {
+        seen[0].given = vec![brake(from)];
+        assert_eq!(effort(&seen) > 1.1 * plain, is_given, "{} {plain}", effort(&seen));
+    }
+}
