@@ -219,7 +219,8 @@ impl CaseFolder {
         let names: Vec<&str> = names.collect();
         (!names.is_empty()).then(|| {
             format!(
-                "robot '{}' gives its simulation effects that recordings are not compared with, and that may be found again: {}",
+                "robot '{}' gives its simulation effects that recordings are not compared with, and that may be found again: {}; do not add them to its file \
+                 twice",
                 self.robot.name,
                 names.join(", ")
             )

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::observed::{Kind, Observed, Spread};
+use crate::onset::Onset;
 use crate::settings::SETTINGS;
 use inference::robust::{quantile, rms, sorted};
 
@@ -37,6 +38,13 @@ impl Noise {
     /// The same where rows say so many times as much.
     pub(crate) fn times(self, by: f64) -> Self {
         Self { power: self.power.map(|p| p * by), ..self }
+    }
+
+    /// Of two that under which rows say more, kind by kind.
+    pub(crate) fn sharper(self, other: Self) -> Self {
+        let variance = |of: Self, kind: usize| of.sigma[kind].powi(2) / of.power[kind];
+        let of = |kind: usize| if variance(other, kind) < variance(self, kind) { other } else { self };
+        Self { sigma: std::array::from_fn(|k| of(k).sigma[k]), power: std::array::from_fn(|k| of(k).power[k]) }
     }
 
     /// The less noisy of two, kind by kind.
@@ -106,9 +114,21 @@ impl<D: Observed> Data<D> {
 
     /// Root mean square error of the rows in motion over the size of what they measure.
     pub fn share(&self, theta: &[f64]) -> f64 {
-        let errors = self.errors(&vec![theta.to_vec(); self.drives.len()]);
+        self.share_of(&self.errors(&vec![theta.to_vec(); self.drives.len()]))
+    }
+
+    /// The same where a cause is not there all the time, `theta` being the constants where it is.
+    pub(crate) fn share_with(&self, theta: &[f64], onset: &Onset) -> f64 {
+        let all = |theta: &[f64]| self.errors(&vec![theta.to_vec(); self.drives.len()]);
+        let both = all(theta).into_iter().zip(all(onset.off.as_slice())).enumerate();
+        let chosen =
+            |(k, (on, off)): (usize, (Vec<f64>, Vec<f64>))| onset.gate.chosen(k, self.drives[k].rows(), &on, &off);
+        self.share_of(&both.map(chosen).collect::<Vec<_>>())
+    }
+
+    fn share_of(&self, errors: &[Vec<f64>]) -> f64 {
         let (mut ways, mut sizes) = (Vec::new(), Vec::new());
-        for (drive, errors) in self.drives.iter().zip(&errors) {
+        for (drive, errors) in self.drives.iter().zip(errors) {
             let kind = drive.judged_by();
             let moving = drive.rows().iter().zip(errors).filter(|(r, _)| r.kind == kind && r.is_moving);
             ways.extend(moving.map(|(_, e)| *e));

@@ -11,14 +11,25 @@ use crate::session::{Session, joint};
 use crate::settings::SETTINGS;
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step};
 
-/// Normal equations of rows whose errors and columns are known.
-pub fn equations<D: Observed>(drive: &D, (errors, columns): (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
+/// Normal equations of a drive whose errors and columns are known.
+pub fn equations<D: Observed>(drive: &D, known: (&[f64], &[Vec<f64>]), noise: Noise) -> Session {
+    of_rows(drive, known, noise, 0..drive.rows().len())
+}
+
+/// The same of some of its rows.
+pub(crate) fn of_rows<D: Observed>(
+    drive: &D,
+    (errors, columns): (&[f64], &[Vec<f64>]),
+    noise: Noise,
+    rows: impl IntoIterator<Item = usize>,
+) -> Session {
     let n = columns.len();
     let mut out = Session::of_nothing(n);
     let (mut stretch, mut own) = (0.0, DVector::zeros(n));
     let outlier = SETTINGS.errors.outlier;
     let mut row = DVector::zeros(n);
-    for (i, r) in drive.rows().iter().enumerate() {
+    for i in rows {
+        let r = &drive.rows()[i];
         let (scale, weight) = (noise.sigma[r.kind as usize], r.weight * noise.power[r.kind as usize]);
         let error = errors[i] / scale;
         let root = (1.0 + (error / outlier).powi(2)).sqrt();

@@ -40,6 +40,32 @@ impl Estimate {
     }
 }
 
+/// When a cause begins, or ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Began {
+    /// The drive in which it does.
+    pub drive: String,
+    /// When, s from its start, with a 90 % interval; `None` between two drives.
+    pub at: Option<(f64, [f64; 2])>,
+    /// Whether it ends there.
+    pub ends: bool,
+}
+
+impl std::fmt::Display for Began {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { drive, at, ends } = self;
+        let [to, rest] = if *ends { ["until", "before"] } else { ["from", "after"] };
+        match at {
+            Some((at, [least, most])) => write!(
+                f,
+                "it is there {to} {at:.0} s of drive '{drive}' (90 %: {least:.0} to {most:.0} s), and in all drives {rest} it"
+            ),
+            None if *ends => write!(f, "it is there in all drives before '{drive}', and no longer in it"),
+            None => write!(f, "it is there in drive '{drive}' and all after it, and not before"),
+        }
+    }
+}
+
 /// A cause that was named, or may be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedCause {
@@ -55,4 +81,6 @@ pub struct NamedCause {
     pub estimates: Vec<Estimate>,
     /// When it was there: recording, and from when to when, s; empty where it was there all the time.
     pub intervals: Vec<(String, [f64; 2])>,
+    /// When it begins or ends, where it does while the drives go on.
+    pub onset: Option<Began>,
 }

@@ -8,6 +8,8 @@
 //! * `descent`, `fit`: equations of every drive and steps down them; constants with a deviation of each drive, and how drives scatter.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
+//! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
+//!   all of it by one set of equations (`scan`), the best by their own (`search`).
 //! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
 //! * `table`: columns of a drive by the names that a robot file gives them.
@@ -29,12 +31,14 @@ pub mod menu;
 mod name;
 pub mod next_drive;
 mod observed;
+mod onset;
 mod said;
 #[cfg(test)]
 mod scaled;
 mod session;
 mod settings;
 mod solve;
+mod stretches;
 mod table;
 pub mod telling;
 mod weigh;
@@ -46,9 +50,10 @@ pub use data::{Data, Noise, Prior};
 pub use descent::equations;
 pub use error::CaseError;
 pub use fit::Fit;
-pub use found::{Answer, Estimate, NamedCause};
+pub use found::{Answer, Began, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};
+pub use onset::Onset;
 pub use said::{Said, Unexplained, Valued, beyond_references, is_beyond_references};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, solve};

@@ -47,6 +47,9 @@ pub trait Observed: Clone + Send + Sync {
     /// What it is compared with, but for the values of the constants.
     type Model: Clone + Send + Sync;
 
+    /// Length of the windows that rows tell of, up to when they become known, s.
+    const WINDOW: f64;
+
     /// Least sigmas of errors, by kind.
     const FLOOR: [f64; 3];
 
@@ -55,6 +58,12 @@ pub trait Observed: Clone + Send + Sync {
 
     /// Error with causes over that of constants re-tuned within what is known, from which on the causes are not needed.
     const HARDLY: f64;
+
+    /// Its name.
+    fn name(&self) -> &str;
+
+    /// How long it is, s.
+    fn seconds(&self) -> f64;
 
     /// Its rows.
     fn rows(&self) -> &[Row];

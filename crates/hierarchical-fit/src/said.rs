@@ -4,7 +4,7 @@ use inference::experiment::Standing;
 use inference::robust::NINETY;
 use verdict::FreeRun;
 
-use crate::found::{Answer, Estimate, NamedCause};
+use crate::found::{Answer, Began, Estimate, NamedCause};
 use crate::is_widest;
 use crate::name::Weighed;
 use crate::observed::Observed;
@@ -84,24 +84,57 @@ impl<D: Observed> Solved<D> {
                 probability: weighed.probability,
                 alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
                 estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
-                intervals: Vec::new(),
+                intervals: self.spans(weighed.cause),
+                onset: self.began(weighed.cause),
             }
         };
+        let factor = self.onset.as_ref().map_or(fit.factor, |onset| onset.factor);
         Said {
             answer: Answer::Nothing,
             named: named.chosen.iter().map(of_cause).collect(),
             others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
             retuned: estimates(&named.retuned),
             rival: named.rival.map(|c| causes[c].label()),
-            scatter: fit.factor,
+            scatter: factor,
             // Deviations of single drives explain everything where they are as free as was tried.
-            is_scattered: data.drives.len() > 1 && is_widest(fit.factor),
+            is_scattered: data.drives.len() > 1 && is_widest(factor),
             is_refuted: false,
-            shares: [&prior.mean, &named.retuned.mean, &named.posterior.mean].map(|t| data.share(t.as_slice())),
+            shares: [data.share(prior.mean.as_slice()), data.share(named.retuned.mean.as_slice()), self.share()],
             left_of_references: self.left_of_references,
             share_of_noise: data.share_of_noise(),
             constants: all,
         }
+    }
+
+    /// When a cause is there, by drive; nothing where it is there all the time.
+    fn spans(&self, cause: usize) -> Vec<(String, [f64; 2])> {
+        let Some(onset) = self.onset.as_ref().filter(|onset| onset.cause == cause) else { return Vec::new() };
+        let drives = self.data.drives.iter().enumerate();
+        drives.filter_map(|(k, d)| Some((d.name().to_owned(), onset.span(k, d.seconds())?))).collect()
+    }
+
+    fn began(&self, cause: usize) -> Option<Began> {
+        let onset = self.onset.as_ref().filter(|onset| onset.cause == cause)?;
+        let at = (onset.time > 0.0).then_some((onset.time, onset.interval));
+        Some(Began { drive: self.data.drives.get(onset.drive)?.name().to_owned(), at, ends: onset.ends })
+    }
+
+    /// Constants at an instant of a drive, s from its start, with what is named.
+    pub fn corrected(&self, drive: usize, time: f64) -> &[f64] {
+        let onset = self.onset.as_ref().filter(|onset| !onset.acts(drive, time));
+        onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
+    }
+
+    /// The same of a drive that was left out, from its place among all.
+    pub fn corrected_of_left_out(&self, place: usize) -> &[f64] {
+        let onset = self.onset.as_ref().filter(|onset| !onset.acts_in_left_out(place));
+        onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
+    }
+
+    /// What the answer leaves of the motion.
+    fn share(&self) -> f64 {
+        let theta = self.named.posterior.mean.as_slice();
+        self.onset.as_ref().map_or_else(|| self.data.share(theta), |onset| self.data.share_with(theta, onset))
     }
 
     fn estimate(&self, constant: &impl Valued, posterior: &Posterior, k: usize) -> Estimate {
@@ -204,6 +237,7 @@ mod tests {
                 alike: Vec::new(),
                 estimates: Vec::new(),
                 intervals: Vec::new(),
+                onset: None,
             };
             let mut said = Said {
                 answer: Answer::Nothing,

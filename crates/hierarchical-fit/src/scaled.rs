@@ -5,6 +5,7 @@ use crate::observed::{Kind, Observed, Row};
 /// What a scale `e^θ` shows of numbers beside what was shown of them.
 #[derive(Clone)]
 pub(crate) struct Scaled {
+    plain: Vec<f64>,
     shown: Vec<f64>,
     rows: Vec<Row>,
 }
@@ -12,28 +13,49 @@ pub(crate) struct Scaled {
 #[cfg(test)]
 impl Scaled {
     pub(crate) fn by(scale: f64) -> Self {
-        let row = |k: usize| Row { kind: Kind::Encoder, time: k as f64, is_moving: true, weight: 1.0 };
-        Self { shown: (1..=20).map(|k| scale * f64::from(k) / 10.0).collect(), rows: (0..20).map(row).collect() }
+        Self::of(20, 1.0, |_| scale)
+    }
+
+    /// Twenty seconds with another scale from some instant on.
+    pub(crate) fn changing([before, after]: [f64; 2], from: f64) -> Self {
+        Self::of(1000, 0.02, |time| if time < from { before } else { after })
+    }
+
+    fn of(rows: usize, step: f64, scale: impl Fn(f64) -> f64) -> Self {
+        let plain: Vec<f64> = (0..rows).map(|k| (k % 20 + 1) as f64 / 10.0).collect();
+        let time = |k: usize| step * k as f64;
+        let row = |k: usize| Row { kind: Kind::Encoder, time: time(k), is_moving: true, weight: 1.0 };
+        let shown = plain.iter().enumerate().map(|(k, plain)| scale(time(k)) * plain).collect();
+        Self { plain, shown, rows: (0..rows).map(row).collect() }
     }
 }
 
 #[cfg(test)]
 impl Observed for Scaled {
     type Model = ();
+    const WINDOW: f64 = 1.0;
     const FLOOR: [f64; 3] = [1e-3; 3];
     const NEAR: f64 = 0.04;
     const HARDLY: f64 = 0.7;
+
+    fn name(&self) -> &'static str {
+        "scaled"
+    }
+
+    fn seconds(&self) -> f64 {
+        self.rows.iter().map(|row| row.time).fold(0.0, f64::max)
+    }
 
     fn rows(&self) -> &[Row] {
         &self.rows
     }
 
     fn errors(&self, (): &(), theta: &[f64]) -> Vec<f64> {
-        self.shown.iter().zip(1..).map(|(shown, k)| theta[0].exp() * f64::from(k) / 10.0 - shown).collect()
+        self.shown.iter().zip(&self.plain).map(|(shown, plain)| theta[0].exp() * plain - shown).collect()
     }
 
     fn columns(&self, (): &(), theta: &[f64]) -> Vec<Vec<f64>> {
-        vec![(1..=20).map(|k| theta[0].exp() * f64::from(k) / 10.0).collect()]
+        vec![self.plain.iter().map(|plain| theta[0].exp() * plain).collect()]
     }
 
     fn sizes(&self) -> Vec<f64> {

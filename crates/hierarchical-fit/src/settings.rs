@@ -93,6 +93,28 @@
         nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
     }
 
+    /// Causes that begin or end while the drives go on.
+    onset: Onsets {
+        /// Length of the stretches at whose borders they may.
+        coarse: f64 = 1.0, "s", "guess; a window of usual length";
+        /// Time on either side that has to be compared.
+        least: f64 = 4.0, "s", "guess; a manoeuvre";
+        /// Log odds that a cause begins or ends in these drives.
+        odds: f64 = -2.0, "nat", "guess; one in eight";
+        /// Log odds over causes that are always there from which on it is told.
+        named: f64 = 5.0, "nat", "guess; laws that are not quite those of the robot change from manoeuvre to manoeuvre";
+        /// Share of the errors of causes that are always there which may be left then.
+        leaves: f64 = 0.85, "1", "guess; a cause that is there half of the time leaves far less";
+        /// Hypotheses that are tried by equations of their own.
+        tried: usize = 3, "1", "guess; each takes all columns twice a round";
+        /// Evidence by the equations of causes that are always there that a hypothesis may lack before it is tried.
+        near: f64 = 5.0, "nat", "guess; where nothing begins they lack ten and more";
+        /// Evidence that an instant may lack of the best one before it is no longer looked at.
+        likely: f64 = 40.0, "nat", "guess; a straight line errs by tens of them";
+        /// Rounds of these.
+        rounds: usize = 2, "1", "guess";
+    }
+
     /// What is left of recordings beside what is left of references.
     beside_references: BesideReferences {
         /// So many times as much, as a share of the motion, is something that the answer does not hold.

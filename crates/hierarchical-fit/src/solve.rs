@@ -10,6 +10,8 @@ use crate::fit::{Fit, fit, likelier, without};
 use crate::look_alikes::exchanged;
 use crate::name::{Named, covariance, name};
 use crate::observed::Observed;
+use crate::onset::Onset;
+use crate::onset::search::onset;
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
 
@@ -27,6 +29,8 @@ pub struct Solved<D: Observed> {
     pub retuned: Fit,
     /// What was named.
     pub named: Named,
+    /// When one of the causes begins or ends, where it is not there all the time.
+    pub onset: Option<Onset>,
     /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
     pub left_of_references: Option<f64>,
 }
@@ -48,7 +52,8 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
     let (best, retuned) = answered(&data, &prior, &causes, start)?;
     let best = exchanged(&data, &prior, &causes, &retuned, best)?;
     let (fit, named) = told((&data, &prior, references.is_some()), &causes, best, &retuned)?;
-    Some(Solved { data, causes, prior, fit, retuned, named, left_of_references })
+    let (onset, named) = with_onset(&data, &prior, &causes, (&fit, named));
+    Some(Solved { data, causes, prior, fit, retuned, named, onset, left_of_references })
 }
 
 impl<D: Observed> Solved<D> {
@@ -82,7 +87,9 @@ impl<D: Observed> Solved<D> {
         let fit =
             if drop_unneeded((&data, prior, left_of_references.is_some()), &mut named) { retuned.clone() } else { fit };
         let (causes, prior) = (causes.clone(), prior.clone());
-        Some(Self { data, causes, prior, fit, retuned, named, left_of_references })
+        let (onset, named) =
+            if self.onset.is_some() { with_onset(&data, &prior, &causes, (&fit, named)) } else { (None, named) };
+        Some(Self { data, causes, prior, fit, retuned, named, onset, left_of_references })
     }
 }
 
@@ -105,6 +112,19 @@ fn answered<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], start:
     let far = settled(data, prior, causes, free)?;
     let [of_far, of_near] = scores(data, prior, causes, [&far, &near]);
     Some((if of_far > of_near { far } else { near }, retuned))
+}
+
+/// The answer with a cause that begins or ends, where there is one.
+fn with_onset<D: Observed>(
+    data: &Data<D>,
+    prior: &Prior,
+    causes: &[Cause],
+    (fit, named): (&Fit, Named),
+) -> (Option<Onset>, Named) {
+    match onset(data, prior, causes, (fit, &named)) {
+        Some((onset, named)) => (Some(onset), named),
+        None => (None, named),
+    }
 }
 
 /// What is told of an answer.

@@ -143,7 +143,8 @@ impl Found<'_> {
             let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
             let gain = if gains(named) { NO_SLIP } else { "" };
             let name = verdict::sentence_case(&for_people(&named.label));
-            format!("{name}: {}{familiar}{gain}{alike}.", values.collect::<Vec<_>>().join("; "))
+            let onset = named.onset.as_ref().map_or_else(String::new, |onset| format!("; {onset}"));
+            format!("{name}: {}{familiar}{gain}{onset}{alike}.", values.collect::<Vec<_>>().join("; "))
         })
     }
 }
@@ -283,6 +284,7 @@ mod tests {
             alike: Vec::new(),
             estimates: Vec::new(),
             intervals: Vec::new(),
+            onset: None,
         }];
         for answer in [Answer::Named, Answer::Unknown] {
             let shares = [0.3, 0.2, 0.1];

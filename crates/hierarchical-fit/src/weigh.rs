@@ -19,6 +19,15 @@ pub struct Evidence {
     pub base: f64,
 }
 
+/// What other sessions say is added.
+impl std::ops::AddAssign<&Self> for Evidence {
+    fn add_assign(&mut self, other: &Self) {
+        self.base += other.base;
+        self.slope += &other.slope;
+        self.curvature += &other.curvature;
+    }
+}
+
 /// Constants as a prior and the sessions have them together.
 #[derive(Debug, Clone)]
 pub struct Posterior {
@@ -31,17 +40,41 @@ pub struct Posterior {
 impl Evidence {
     /// Of sessions linearised at `theta`, seen from the prior's mean.
     pub fn new(theta: &[f64], sessions: &[Session], scatter: &DVector<f64>, mean: &DVector<f64>) -> Option<Self> {
-        let n = theta.len();
-        let mut out = Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 };
-        let d = mean - DVector::from_column_slice(theta);
+        let theta = DVector::from_column_slice(theta);
+        let mut out = Self::of_nothing(mean);
         for session in sessions {
-            let marginal = session.marginal(scatter)?;
-            let turned = &marginal.curvature * &d;
-            out.base += marginal.cost + marginal.width + marginal.slope.dot(&d) + 0.5 * d.dot(&turned);
-            out.slope += marginal.slope + turned;
-            out.curvature += marginal.curvature;
+            out += &Self::of_session(&theta, session, scatter, mean)?;
         }
         Some(out)
+    }
+
+    /// Of no sessions.
+    pub(crate) fn of_nothing(mean: &DVector<f64>) -> Self {
+        let n = mean.len();
+        Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 }
+    }
+
+    /// Slope of the cost at the prior's mean.
+    pub(crate) fn slope(&self) -> &DVector<f64> {
+        &self.slope
+    }
+
+    /// Of one session.
+    pub(crate) fn of_session(
+        theta: &DVector<f64>,
+        session: &Session,
+        scatter: &DVector<f64>,
+        mean: &DVector<f64>,
+    ) -> Option<Self> {
+        let marginal = session.marginal(scatter)?;
+        let d = mean - theta;
+        let turned = &marginal.curvature * &d;
+        Some(Self {
+            base: marginal.cost + marginal.width + marginal.slope.dot(&d) + 0.5 * d.dot(&turned),
+            slope: marginal.slope + turned,
+            curvature: marginal.curvature,
+            mean: mean.clone(),
+        })
     }
 
     fn factors(&self, covariance: &DMatrix<f64>) -> Option<(DMatrix<f64>, nalgebra::Cholesky<f64, nalgebra::Dyn>)> {

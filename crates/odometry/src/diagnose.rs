@@ -287,6 +287,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
             alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
             estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
             intervals: Vec::new(),
+            onset: None,
         }
     };
     let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
@@ -360,6 +361,7 @@ fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
                     sigmas: 0.0,
                 }],
                 intervals: intervals.collect(),
+                onset: None,
             }),
         }
     }

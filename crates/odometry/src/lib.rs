@@ -3,7 +3,7 @@
 //! # Files
 //!
 //! * `wheel`, `kinematics`: a robot as a list of wheels, and from turning wheels to the motion of its body.
-//! * `drive`, `units`: turns of the wheels, steering and pose on one grid of rows; counters, units.
+//! * `drive`, `units`, `yaw`: turns of the wheels, steering and pose on one grid of rows; counters, units, whole turns.
 //! * `heading`: a gyro in the place of a pose.
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
@@ -50,6 +50,7 @@ mod traces;
 mod units;
 mod wheel;
 mod windows;
+mod yaw;
 
 pub use answer::diagnosis;
 pub use case::Case;

@@ -8,6 +8,7 @@ use crate::error::OdometryError;
 use crate::kinematics::{Geometry, Kinematics};
 use crate::settings::{DriveRules, SETTINGS};
 use crate::wheel::{Wheel, WheeledRobot};
+use crate::yaw::{turn_while_unseen, unwrap_yaw};
 
 const RULES: DriveRules = SETTINGS.drive;
 const DEGREES_OF_A_TURN: f64 = TAU.to_degrees();
@@ -60,6 +61,7 @@ pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) ->
     if !turns_in_degrees(drive, robot, ["yaw", "yaw is taken to be in degrees"]) {
         unwrap_yaw(drive, TAU);
     }
+    turn_while_unseen(drive, robot);
     length(drive, robot)
 }
 
@@ -163,18 +165,6 @@ fn stretches(drive: &Drive) -> Vec<(usize, usize)> {
         }
     }
     out
-}
-
-fn unwrap_yaw(drive: &mut Drive, turn: f64) {
-    let mut last: Option<f64> = None;
-    for pose in &mut drive.pose {
-        if pose[2].is_finite() {
-            if let Some(before) = last {
-                pose[2] -= ((pose[2] - before) / turn).round() * turn;
-            }
-            last = Some(pose[2]);
-        }
-    }
 }
 
 /// Tells a pose in millimetres by its way against that of the wheels.

@@ -155,6 +155,7 @@ impl Apart {
             alike: Vec::new(),
             estimates,
             intervals: Vec::new(),
+            onset: None,
         };
         named.insert(0, cause);
     }

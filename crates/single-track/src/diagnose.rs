@@ -110,6 +110,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
     let mut told: Vec<String> =
         case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
     told.dedup();
+    let traces = data.drives.iter().enumerate();
     Findings {
         said,
         unweighed: [false, true].map(|is_stated| {
@@ -123,7 +124,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
             data.drives.iter().map(|s| s.windows.len()).sum(),
         ],
         told,
-        traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
+        traces: traces.filter_map(|(k, shown)| trace(solved, shown, |time| solved.corrected(k, time), false)).collect(),
         next: None,
         clock: apart.map(|apart| apart.usual),
         laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.model, p.mean.as_slice())),

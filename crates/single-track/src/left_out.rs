@@ -119,7 +119,7 @@ fn fold(all: &Solved<Shown<'_>>, left: usize) -> Option<Fold> {
     let own = &all.data.drives[left];
     let solved = all.without(left)?;
     let constants = &solved.data.model;
-    let best = solved.named.posterior.mean.as_slice();
+    let best = solved.corrected_of_left_out(left);
     let laws = |theta: &[f64]| Some(Laws::at(constants, theta));
     let mut models = vec![
         laws(solved.prior.mean.as_slice()),
@@ -144,6 +144,6 @@ fn fold(all: &Solved<Shown<'_>>, left: usize) -> Option<Fold> {
         named: solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect(),
         plain: RULES.past.into_iter().map(plain).collect(),
         following: RULES.past.into_iter().map(forecast).collect(),
-        trace: trace(&solved, own, true),
+        trace: trace(&solved, own, |_| best, true),
     })
 }

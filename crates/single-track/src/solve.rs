@@ -9,15 +9,25 @@ use crate::constant_table::constants;
 use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::model::Laws;
+use crate::model::STEP;
 use crate::rows::{POSE_ROWS, Shown};
 use crate::settings::SETTINGS;
 
 impl Observed for Shown<'_> {
     type Model = Vec<Constant>;
 
+    const WINDOW: f64 = SETTINGS.windows.length;
     const FLOOR: [f64; 3] = SETTINGS.windows.floor;
     const NEAR: f64 = SETTINGS.windows.near;
     const HARDLY: f64 = SETTINGS.unexplained.hardly;
+
+    fn name(&self) -> &str {
+        &self.drive.name
+    }
+
+    fn seconds(&self) -> f64 {
+        STEP * self.drive.steps() as f64
+    }
 
     fn rows(&self) -> &[Row] {
         &self.rows

@@ -12,17 +12,27 @@ use odometry::rates::end;
 const RULES: Traces = SETTINGS.traces;
 
 /// A drive beside the motion from throttle and steering alone, as stated or as the references have it, re-tuned, and with
-/// the named causes, the last only where there are some; `None` of a drive without a pose.
-pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: bool) -> Option<Trace> {
+/// the named causes, by these constants at each instant, the last only where there are some; `None` of a drive without a pose.
+pub(crate) fn trace<'a>(
+    solved: &Solved<Shown<'_>>,
+    shown: &Shown<'_>,
+    corrected: impl Fn(f64) -> &'a [f64],
+    left_out: bool,
+) -> Option<Trace> {
     let pose = &shown.drive.pose;
     let starts = starts(pose);
     if starts.is_empty() {
         return None;
     }
     let longest = (RULES.free / STEP).round() as usize;
-    let of = |theta: &[f64]| free_runs(&Laws::at(&solved.data.model, theta), shown.drive, &starts, longest);
+    let laws = |theta: &[f64]| Laws::at(&solved.data.model, theta);
+    let of = |theta: &[f64]| free_runs(|_| laws(theta), shown.drive, &starts, longest);
     let named = &solved.named;
-    let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
+    let corrected = if named.chosen.is_empty() {
+        Vec::new()
+    } else {
+        free_runs(|start| laws(corrected(STEP * start as f64)), shown.drive, &starts, longest)
+    };
     let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
     let time = (0..pose.len()).map(|k| STEP * k as f64).collect();
     Some(Beside { recording: &shown.drive.name, left_out, time, measured: pose, starts, simulated }.trace())
@@ -51,7 +61,7 @@ pub(crate) fn predicted(laws: &Laws, drive: &Drive) -> Vec<[f64; 3]> {
     if starts.is_empty() {
         starts.push(0);
     }
-    let mut out = free_runs(laws, drive, &starts, drive.steps());
+    let mut out = free_runs(|_| *laws, drive, &starts, drive.steps());
     for (to, seen) in out.iter_mut().zip(pose).take(starts[0]) {
         *to = *seen;
     }
@@ -59,14 +69,15 @@ pub(crate) fn predicted(laws: &Laws, drive: &Drive) -> Vec<[f64; 3]> {
 }
 
 /// The tracked pose at each step, from start to start and so many steps at most; at rest where no velocity is known.
-fn free_runs(laws: &Laws, drive: &Drive, starts: &[usize], longest: usize) -> Vec<[f64; 3]> {
-    let inputs = laws.inputs(drive);
+fn free_runs(laws: impl Fn(usize) -> Laws, drive: &Drive, starts: &[usize], longest: usize) -> Vec<[f64; 3]> {
     let steps = drive.pose.len().max(drive.steps());
     let mut out = vec![[f64::NAN; 3]; steps];
     for (k, &start) in starts.iter().enumerate() {
         let next = starts.get(k + 1).copied().unwrap_or(steps);
         let last = next.min(start + longest);
         let (at, rates) = end(&drive.pose, start, RULES.past, STEP).unwrap_or_default();
+        let laws = laws(start);
+        let inputs = laws.inputs(drive);
         out[start] = at;
         // A state stands at the end of its step.
         for (after, state) in laws.run(laws.state(at, rates), &inputs, start, last - start - 1).iter().enumerate() {

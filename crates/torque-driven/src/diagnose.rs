@@ -22,7 +22,7 @@ use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, KnownEffects, Options};
 use verdict::{Diagnosis, Verdict};
 
-use crate::{next, own_effects, stand_in, unnamed};
+use crate::{headings, next, own_effects, stand_in, unnamed};
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
 const PRICES: Prices = decision::SETTINGS.prices;
@@ -121,6 +121,9 @@ impl Calibrated {
             self.calibration.clone()
         };
         let mut calibration = taught.for_visits(&visits);
+        let turns =
+            headings::turns(&problem(&robot, case, &recordings, &calibration, largest, options), &case.recordings);
+        headings::turn(&mut recordings, &turns);
         if self.references.is_empty() {
             let problem = problem(&robot, case, &recordings, &calibration, largest, options);
             let origin = problem.begin(&Hypothesis::default(), problem.origin(), None);
@@ -173,6 +176,7 @@ impl Calibrated {
         progress("comparing on data that was not fitted");
         let answer = self.judged(case, options, &sensors, (&problem, &calibration), &decision);
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
+        out.limits.extend(headings::sentence(&recordings, &turns));
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
             progress("looking for a law without a name");

@@ -14,6 +14,7 @@
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
 //! * `hypothesis`: effects that are missing together.
+//! * `headings`: where recordings without a pose head, by the slope that each shows.
 //! * `search`, `several`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
 //!   pairs and threes; `nothing`: re-tuned constants alone; `disc`, `onset`: place and time; `handed_over`: effects that hide
 //!   in a constant.
@@ -46,6 +47,7 @@ mod fit;
 mod fitted_robot;
 mod forward;
 mod handed_over;
+mod headings;
 mod hypothesis;
 mod judged;
 mod leave_out;

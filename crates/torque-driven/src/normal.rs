@@ -66,7 +66,7 @@ impl Problem<'_> {
         Some(sum)
     }
 
-    fn normal_of_run(
+    pub(crate) fn normal_of_run(
         &self,
         point: &Point,
         base: &Response,

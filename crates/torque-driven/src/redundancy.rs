@@ -1,7 +1,8 @@
 //! Sensor faults that show without any force law: two sensors that tell the same thing differ.
 //!
 //! Every check measures a number in each run, pools the recordings robustly and takes off what the references show:
-//! the same robot without the fault. Only the check of the gyro's own zero and gain needs no reference.
+//! the same robot without the fault. Only the checks of the gyro's own zero and gain, and of its clock against that of the pose, need no
+//! reference.
 
 use std::collections::BTreeMap;
 use std::iter;

@@ -104,6 +104,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
     let mut told: Vec<String> =
         case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
     told.dedup();
+    let traces = data.drives.iter().enumerate();
     Findings {
         said,
         counts: [
@@ -112,7 +113,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
             data.drives.iter().map(|s| s.windows.len()).sum(),
         ],
         told,
-        traces: data.drives.iter().filter_map(|shown| trace(solved, shown, false)).collect(),
+        traces: traces.filter_map(|(k, shown)| trace(solved, shown, |time| solved.corrected(k, time), false)).collect(),
         next: None,
         model: data.model.clone(),
         thetas: [&named.retuned, &named.posterior].map(|p| p.mean.as_slice().to_vec()),

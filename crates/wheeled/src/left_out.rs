@@ -69,19 +69,18 @@ pub(crate) fn left_out_of(all: &Solved<Shown<'_>>, progress: &dyn Fn(&str)) -> T
         let own = &all.data.drives[k];
         let solved = all.without(k)?;
         let named = &solved.named;
+        let corrected = solved.corrected_of_left_out(k);
         let theta = [
-            Some(&solved.prior.mean),
-            Some(&named.retuned.mean),
-            Some(&named.posterior.mean),
-            named.placebo.as_ref().map(|(_, p)| &p.mean),
+            Some(solved.prior.mean.as_slice()),
+            Some(named.retuned.mean.as_slice()),
+            Some(corrected),
+            named.placebo.as_ref().map(|(_, p)| p.mean.as_slice()),
         ];
-        let of = |theta: Option<&nalgebra::DVector<f64>>| {
-            theta.map_or_else(Vec::new, |t| forecasts(&solved.data.model, t.as_slice(), own.drive))
-        };
+        let of = |theta: Option<&[f64]>| theta.map_or_else(Vec::new, |t| forecasts(&solved.data.model, t, own.drive));
         let mut errors: Vec<Errors> = theta.into_iter().map(of).collect();
         errors.push(twist(own.drive));
         let labels = named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect::<Vec<_>>();
-        Some((own.drive.name.clone(), errors, labels, trace(&solved, own, true)))
+        Some((own.drive.name.clone(), errors, labels, trace(&solved, own, |_| corrected, true)))
     };
     let folds: Vec<_> = left.par_iter().filter_map(fold).collect();
     let mut sums: Vec<Errors> = vec![Vec::new(); MODELS.len()];
@@ -132,8 +131,13 @@ fn twist(drive: &Drive) -> Errors {
 }
 
 /// A drive beside the motion from torques and steering alone, as stated or as the references have it, re-tuned, and with the
-/// named causes, the last only where there are some; `None` of a drive without a pose.
-pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: bool) -> Option<Trace> {
+/// named causes, by these constants at each instant, the last only where there are some; `None` of a drive without a pose.
+pub(crate) fn trace<'a>(
+    solved: &Solved<Shown<'_>>,
+    shown: &Shown<'_>,
+    corrected: impl Fn(f64) -> &'a [f64],
+    left_out: bool,
+) -> Option<Trace> {
     let drive = shown.drive;
     let longest = AHEAD.longest();
     let mut starts: Vec<usize> = Vec::new();
@@ -146,22 +150,31 @@ pub(crate) fn trace(solved: &Solved<Shown<'_>>, shown: &Shown<'_>, left_out: boo
     if starts.is_empty() {
         return None;
     }
-    let of = |theta: &[f64]| runs_anew(&solved.data.model, theta, drive, (&starts, longest));
+    let of = |theta: &[f64]| runs_anew(&solved.data.model, |_| theta, drive, (&starts, longest));
     let named = &solved.named;
-    let corrected = if named.chosen.is_empty() { Vec::new() } else { of(named.posterior.mean.as_slice()) };
+    let corrected = if named.chosen.is_empty() {
+        Vec::new()
+    } else {
+        runs_anew(&solved.data.model, corrected, drive, (&starts, longest))
+    };
     let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
     let time = (0..drive.pose.len()).map(|k| STEP * k as f64).collect();
     Some(Beside { recording: &drive.name, left_out, time, measured: &drive.pose, starts, simulated }.trace())
 }
 
-/// The tracked pose at each step, from start to start and so many steps at most.
-fn runs_anew(model: &Constants, theta: &[f64], drive: &Drive, (starts, longest): (&[usize], usize)) -> Vec<[f64; 3]> {
-    let at = Model::at(&model.robot, &model.all, theta);
+/// The tracked pose at each step, from start to start and so many steps at most, by the constants at each start.
+fn runs_anew<'a>(
+    model: &Constants,
+    theta: impl Fn(f64) -> &'a [f64],
+    drive: &Drive,
+    (starts, longest): (&[usize], usize),
+) -> Vec<[f64; 3]> {
     let mut out = vec![[f64::NAN; 3]; drive.steps];
     for (k, &start) in starts.iter().enumerate() {
         let next = starts.get(k + 1).copied().unwrap_or(drive.steps);
         let steps = next.min(start + longest) - start - 1;
         let (pose, rates) = end(&drive.pose, start, RULES.past, STEP).unwrap_or_default();
+        let at = Model::at(&model.robot, &model.all, theta(STEP * start as f64));
         out[start] = pose;
         out[start + 1..=start + steps].copy_from_slice(&run((&at, &model.robot), drive, (start, steps), (pose, rates)));
     }
@@ -180,7 +193,7 @@ pub(crate) fn predicted(model: &Constants, theta: &[f64], drive: &Drive) -> Vec<
     if starts.is_empty() {
         starts.push(0);
     }
-    let mut out = runs_anew(model, theta, drive, (&starts, drive.steps));
+    let mut out = runs_anew(model, |_| theta, drive, (&starts, drive.steps));
     out[..starts[0]].copy_from_slice(&drive.pose[..starts[0]]);
     out
 }

@@ -172,9 +172,19 @@ impl NullaryFnOnce for Vectorised<'_, '_> {
 impl Observed for Shown<'_> {
     type Model = Constants;
 
+    const WINDOW: f64 = RULES.length;
+
     const FLOOR: [f64; 3] = RULES.floor;
     const NEAR: f64 = RULES.near;
     const HARDLY: f64 = SETTINGS.unexplained.hardly;
+
+    fn name(&self) -> &str {
+        &self.drive.name
+    }
+
+    fn seconds(&self) -> f64 {
+        STEP * self.drive.steps as f64
+    }
 
     fn rows(&self) -> &[Row] {
         &self.rows

@@ -1,17 +1,20 @@
 //! Draws a case: the robot, what is hidden, drives and sensors.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use super::plant::{Caster, Motor, Robot, Wheel};
-use super::sheet::{column, measured, sheet};
+use super::sheet::{Lasting, column, measured, sheet};
 use super::{Layout, WheeledCase, WheeledHidden as Hidden, WheeledPlan, WheeledTruth};
 use crate::random::Stream;
 
 /// Recordings of a case.
 const RECORDINGS: usize = 3;
+/// Share of a recording before and after what begins in it, at least.
+const EARLIEST: f64 = 0.3;
 /// How well the owner knows the robot, one sigma: mass, inertia, radii, torque as shares; centre of mass as a share of its length;
 /// directions, rad; friction as a share.
 const MASS: f64 = 0.02;
@@ -34,14 +37,26 @@ pub(super) fn case(plan: &WheeledPlan) -> WheeledCase {
         hidden: plan.hidden.into_iter().collect(),
         part: None,
         numbers: BTreeMap::new(),
+        onset: None,
     };
+    let sound = robot.clone();
     if let Some(hidden) = plan.hidden {
         hide(hidden, &stated, &mut robot, &mut truth, &mut stream("wheeled sizes"));
     }
     let mut files = vec![(PathBuf::from("robot.toml"), robot_file(plan.layout, &stated).into_bytes())];
+    let mut of_onset = stream("wheeled onset");
+    let onset = plan.begins.then(|| (1 + of_onset.index(RECORDINGS), of_onset.uniform(EARLIEST, 1.0 - EARLIEST)));
     for number in 1..=RECORDINGS {
         let mut s = Stream::new(plan.seed, "wheeled drive", plan.index * 100 + number as u64);
-        let text = sheet(plan.layout, &stated, &robot, &mut s);
+        let share = onset.map_or(0.0, |(run, share)| match number.cmp(&run) {
+            Ordering::Less => 1.0,
+            Ordering::Equal => share,
+            Ordering::Greater => 0.0,
+        });
+        let (text, from) = sheet(plan.layout, &stated, Lasting { before: &sound, after: &robot, share }, &mut s);
+        if onset.is_some_and(|(run, _)| run == number) {
+            truth.onset = Some((format!("run_{number}"), from));
+        }
         files.push((PathBuf::from(format!("recordings/run_{number}.csv")), text.into_bytes()));
     }
     WheeledCase { files, truth }

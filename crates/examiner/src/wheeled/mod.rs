@@ -135,6 +135,11 @@ impl WheeledHidden {
         }
     }
 
+    /// Whether it may begin while a robot drives.
+    pub fn can_begin(self) -> bool {
+        !matches!(self, Self::CentreOfMass | Self::Direction | Self::Radius | Self::Lag | Self::Slope)
+    }
+
     /// Whether a robot of this kind can have it, and its drives can show it.
     pub fn is_of(self, layout: Layout) -> bool {
         match self {
@@ -164,6 +169,9 @@ pub struct WheeledTruth {
     pub part: Option<String>,
     /// Its numbers as the robot has them, by what they are.
     pub numbers: BTreeMap<String, f64>,
+    /// The recording in which it begins, and when, s from its start; it is there in all after it, and in none before. `None` where it is
+    /// there all the time.
+    pub onset: Option<(String, f64)>,
 }
 
 /// A drawn case: what the diagnoser gets, and what was hidden.
@@ -188,11 +196,13 @@ pub struct WheeledPlan {
     pub layout: Layout,
     /// What is hidden.
     pub hidden: Option<WheeledHidden>,
+    /// Whether it begins in the course of a recording.
+    pub begins: bool,
 }
 
 impl WheeledPlan {
     /// A set of so many cases: every kind of robot in turn; in a quarter nothing is hidden, in the others one thing, each as
-    /// often as kinds permit.
+    /// often as kinds permit. In another quarter it begins while the robot drives, where it can.
     pub fn set(seed: u64, count: usize) -> Vec<Self> {
         let mut turn = [0; Layout::ALL.len()];
         let mut plan = |i: usize| {
@@ -204,7 +214,8 @@ impl WheeledPlan {
                 // Each kind begins elsewhere, so that a small set has many sorts.
                 of[(turn[kind] - 1 + 2 * kind) % of.len()]
             });
-            Self { name: format!("w{:03}", i + 1), seed, index: i as u64, layout, hidden }
+            let begins = i / Layout::ALL.len() % 4 == 2 && hidden.is_some_and(WheeledHidden::can_begin);
+            Self { name: format!("w{:03}", i + 1), seed, index: i as u64, layout, hidden, begins }
         };
         (0..count).map(&mut plan).collect()
     }
@@ -223,6 +234,8 @@ mod tests {
     fn a_set_hides_nothing_in_a_quarter_and_everything_that_a_kind_can_have() {
         let all = WheeledPlan::set(1, 560);
         assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 140);
+        let begin = all.iter().filter(|p| p.begins).count();
+        assert!((60..140).contains(&begin) && all.iter().all(|p| !p.begins || p.hidden.is_some()), "{begin}");
         for (layout, hidden) in Layout::ALL.into_iter().flat_map(|l| WheeledHidden::ALL.map(|h| (l, h))) {
             let cases = all.iter().filter(|p| p.layout == layout && p.hidden == Some(hidden)).count();
             assert_eq!(cases > 2, hidden.is_of(layout), "{layout:?} {hidden:?} {cases}");
@@ -231,10 +244,11 @@ mod tests {
 
     #[test]
     fn a_case_is_the_same_twice_and_its_robot_moves() {
-        for plan in WheeledPlan::set(3, 14) {
+        for plan in WheeledPlan::set(3, 21) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden.into_iter().collect::<Vec<_>>());
+            assert_eq!(case.truth.onset.is_some(), plan.begins);
             let table = String::from_utf8(case.files[1].1.clone()).expect("text");
             let numbers = |line: &str| line.split(',').filter_map(|x| x.parse().ok()).collect::<Vec<f64>>();
             let last = numbers(table.lines().last().expect("rows"));

@@ -44,8 +44,17 @@ impl Wanted {
     }
 }
 
-/// Rows as sensors show them: time, torques, steering, speeds, yaw rate, pose.
-pub(super) fn sheet(layout: Layout, stated: &Robot, robot: &Robot, s: &mut Stream) -> String {
+/// A robot before something begins, and after it.
+#[derive(Clone, Copy)]
+pub(super) struct Lasting<'a> {
+    pub(super) before: &'a Robot,
+    pub(super) after: &'a Robot,
+    /// Share of the recording before it.
+    pub(super) share: f64,
+}
+
+/// Rows as sensors show them: time, torques, steering, speeds, yaw rate, pose; and when the robot changes, s.
+pub(super) fn sheet(layout: Layout, stated: &Robot, robot: Lasting<'_>, s: &mut Stream) -> (String, f64) {
     let seconds = s.uniform(SECONDS[0], SECONDS[1]);
     let row = [0.01, 0.02][s.index(2)];
     let noise = [s.uniform(0.005, 0.03), s.uniform(0.002, 0.006), s.uniform(0.0003, 0.002)];
@@ -58,8 +67,9 @@ pub(super) fn sheet(layout: Layout, stated: &Robot, robot: &Robot, s: &mut Strea
         fastest: s.uniform(0.6, 1.2),
         turn: s.uniform(0.8, 1.5),
     };
-    let mut state: State = robot.at_rest();
-    let mut sums = vec![0.0; robot.motors.len()];
+    let begins = robot.share * seconds;
+    let mut state: State = robot.after.at_rest();
+    let mut sums = vec![0.0; stated.motors.len()];
     let per_motor = stated.mass / stated.motors.len() as f64;
     let mut out = header(layout, stated);
     let substeps = (row / STEP).round() as usize;
@@ -93,10 +103,11 @@ pub(super) fn sheet(layout: Layout, stated: &Robot, robot: &Robot, s: &mut Strea
         let yaw = (state.yaw + s.normal(noise[2]) + PI).rem_euclid(TAU) - PI;
         let _ = writeln!(out, ",{x:.5},{y:.5},{yaw:.5}");
         for _ in 0..substeps {
-            robot.step(&mut state, &torques, steering, STEP);
+            let now = if time < begins { robot.before } else { robot.after };
+            now.step(&mut state, &torques, steering, STEP);
         }
     }
-    out
+    (out, begins)
 }
 
 /// Speed at which a wheel rolls under a motion of the body.

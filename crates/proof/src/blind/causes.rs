@@ -9,6 +9,9 @@ use crate::document::Section;
 use crate::output::Asked::{AtLeast, AtMost};
 use crate::output::Figure;
 
+/// Distance from the hidden onset within which one is told, s.
+const ONSET: f64 = 2.0;
+
 /// Something that can be hidden.
 pub(super) trait Hidden: Copy + PartialEq + 'static {
     const ALL: &'static [Self];
@@ -50,6 +53,21 @@ pub(in crate::blind) struct Row<H> {
     /// Position of what was left out, over the time of [`Asks::forecast`]: corrected over the error as stated.
     pub(super) forecast: Option<f64>,
     pub(super) processor_seconds: Option<f64>,
+    /// Whether it begins while the robot drives, and by how many seconds the told onset is late, infinite in another recording; of kinds
+    /// whose cases have such.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) onset: Option<Onset>,
+}
+
+/// An onset as it was hidden, and as it was told.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct Onset {
+    /// Whether what is hidden begins while the robot drives.
+    pub(super) is_hidden: bool,
+    /// Whether an onset is told.
+    pub(super) is_told: bool,
+    /// How late it is told, s; nothing in another recording.
+    pub(super) late: Option<f64>,
 }
 
 impl<H> Row<H> {
@@ -104,6 +122,14 @@ pub(super) fn figures<H: Hidden>(rows: &[Row<H>], asks: &Asks) -> Vec<Figure> {
     for kind in H::ALL {
         let of = hidden().flat_map(|r| r.hidden.iter().zip(&r.found).filter(|(h, _)| *h == kind));
         list.share(&format!("{}: named", kind.name()), None, of.map(|(_, found)| *found));
+    }
+    let onsets: Vec<Onset> = rows.iter().filter_map(|r| r.onset).collect();
+    if !onsets.is_empty() {
+        let near = |o: &Onset| o.late.is_some_and(|late| late.abs() <= ONSET);
+        let begun = onsets.iter().filter(|o| o.is_hidden);
+        list.share("begins while driving: onset within 2 s", Some(AtLeast(0.8)), begun.map(near));
+        let always = onsets.iter().filter(|o| !o.is_hidden);
+        list.share("there all the time, or nothing: an onset is told", Some(AtMost(0.03)), always.map(|o| o.is_told));
     }
     let held: Vec<bool> = rows.iter().flat_map(|r| &r.errors).map(|(_, e)| e.abs() <= 1.0).collect();
     let [least, most] = asks.held;

@@ -6,7 +6,7 @@
 
 use robot_model::effect::Redundancy;
 
-use super::pool::{Measured, beyond, least_squares};
+use super::pool::{Measured, alone, beyond, least_squares};
 use super::{Fault, spec};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
@@ -82,19 +82,26 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     let (Some(offset), Some(drift)) = (spec(Redundancy::Delay), spec(Redundancy::DelayGrowth)) else { return };
     let (here, there): (Vec<Delays>, Vec<Delays>) =
         (runs.iter().map(delays).collect(), references.iter().map(delays).collect());
-    let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64| {
+    // Without references sound clocks are taken to agree, but for what usual ones differ by.
+    let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64, usual: f64| {
         let of = |all: &[Delays]| all.iter().map(pick).collect::<Vec<_>>();
+        if references.is_empty() {
+            let own = alone(&of(&here), interest)?;
+            return Some(Measured { sigma: own.sigma.hypot(usual), ..own });
+        }
         beyond(&of(&here), &of(&there), interest)
     };
-    let growth = compare(&|d| d.growing.map(|g| g[1]), drift.interest).filter(|g| g.is_reportable(drift.interest));
+    let [usual, usual_growth] = CLOCKS.usual;
+    let growth =
+        compare(&|d| d.growing.map(|g| g[1]), drift.interest, usual_growth).filter(|g| g.is_reportable(drift.interest));
     // Beside a drift, the offset is that at the start.
     let delay = if growth.is_some() {
-        compare(&|d| d.growing.map(|g| g[0]), offset.interest)
+        compare(&|d| d.growing.map(|g| g[0]), offset.interest, usual)
     } else {
-        compare(&|d| d.gyro, offset.interest)
+        compare(&|d| d.gyro, offset.interest, usual)
     };
-    // The sensor that moved against the wheels is the late one.
-    let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest).map_or(0.0, |m| m.value.abs()));
+    // The sensor that moved against the wheels is the late one; without references the one that is farther from them.
+    let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest, usual).map_or(0.0, |m| m.value.abs()));
     let pose = usize::from(moved[1] > moved[0]);
     let mut tell = |spec, m: Measured| {
         let value = if pose == 1 { -m.value } else { m.value };
@@ -149,12 +156,20 @@ mod tests {
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!((found[0].spec.id, found[0].parameter), ("clock_offset", 0));
             approx::assert_abs_diff_eq!(found[0].magnitude, 0.01 * rows, epsilon = 2e-3);
+            // Without references clocks may differ by what is usual.
+            let alone = check(&imu_late(rows, 0.0), &[]).faults;
+            assert_eq!(alone.len(), usize::from(rows > 4.0), "{alone:?}");
         }
+        let alone = check(&imu_late(8.0, 0.0), &[]).faults;
+        assert_eq!((alone[0].spec.id, alone[0].parameter), ("clock_offset", 0));
+        approx::assert_abs_diff_eq!(alone[0].magnitude, 0.08, epsilon = 3e-3);
         let mut all = runs(&[]);
         all.iter_mut().flat_map(|r| &mut r.pose).for_each(|p| late(p, 5.0, 0.0));
         let found = check(&all, &runs(&[])).faults;
         assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "clock_offset", 1));
         approx::assert_abs_diff_eq!(found[0].magnitude, 0.05, epsilon = 2e-3);
+        let alone = check(&all, &[]).faults;
+        assert_eq!((alone.len(), alone[0].spec.id, alone[0].parameter), (1, "clock_offset", 1));
     }
 
     #[test]
@@ -162,6 +177,7 @@ mod tests {
         let found = check(&imu_late(0.0, 4e-3), &runs(&[])).faults;
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].spec.id, "clock_drift");
+        assert_eq!(check(&imu_late(0.0, 4e-3), &[]).faults[0].spec.id, "clock_drift");
         approx::assert_abs_diff_eq!(found[0].magnitude, 4e-3, epsilon = 4e-4);
     }
 
@@ -176,8 +192,10 @@ mod tests {
             (&effects::payload::Law, &[8.0]),
         ] {
             let dose = Dose { effect, values: values.to_vec(), presence: Presence::default() };
-            let found = check(&runs(&[dose]), &runs(&[])).faults;
-            assert!(found.is_empty(), "{}: {found:?}", effect.spec().id);
+            for references in [runs(&[]), Vec::new()] {
+                let found = check(&runs(std::slice::from_ref(&dose)), &references).faults;
+                assert!(found.is_empty(), "{}: {found:?}", effect.spec().id);
+            }
         }
     }
 }

@@ -4,6 +4,14 @@
     /// What recordings are turned into before any force law.
     pub(crate) struct Settings;
 
+    /// Headings of recordings without a pose.
+    headings: Headings {
+        /// Sigmas by which a recording must show by itself that the ground falls.
+        sure: f64 = 6.0, "1", "guess; other laws than a slope look like one for a few sigmas";
+        /// Turn below which recordings are taken to begin alike.
+        least: f64 = 0.35, "rad", "guess; twenty degrees, as well as a drive shows a direction";
+    }
+
     /// Telling a simulator's log from a recording, and what it was simulated on.
     logs: Logs {
         /// Samples of a standing robot that tell noise from none, of each sensor at least.

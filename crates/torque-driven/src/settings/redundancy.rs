@@ -56,6 +56,8 @@
         around: usize = 5, "1", "guess";
         /// Poses that tell as much as one: their noise is white, but the errors of what they are compared with are not.
         alike: f64 = 3.0, "1", "guess";
+        /// Usual delay between gyro and pose, s, and its growth, s/s, which nobody calls a fault: one sigma, where no references show it.
+        usual: [f64; 2] = [0.01, 3e-4], "s, s/s", "guess; a period of usual motion capture and its network; timers that are read apart";
         /// Sigmas by which the wheels' turning must show in a sensor before its delay against them is reported.
         least_gain: f64 = 3.0, "1", "guess";
     }

@@ -90,6 +90,7 @@ pub(super) fn row(truth: &CarTruth, d: &Value, processor_seconds: Option<f64>) -
         forecast: said.forecast("position after 2 s"),
         named: said.named,
         processor_seconds,
+        onset: None,
     }
 }
 

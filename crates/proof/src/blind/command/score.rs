@@ -56,6 +56,7 @@ pub(super) fn row(truth: &CommandTruth, d: &Value, processor_seconds: Option<f64
         errors: truth.numbers.iter().filter_map(error).collect(),
         forecast: forecast.and_then(|f| Some(f["corrected"].as_f64()? / f["nominal"].as_f64()?)),
         processor_seconds,
+        onset: None,
     }
 }
 

@@ -85,6 +85,7 @@ pub(super) fn row(truth: &RollingTruth, d: &Value, forecast: &str, processor_sec
         forecast: said.forecast(forecast),
         named: said.named,
         processor_seconds,
+        onset: None,
     }
 }
 

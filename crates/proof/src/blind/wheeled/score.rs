@@ -83,9 +83,20 @@ pub(super) fn row(truth: &WheeledTruth, d: &Value, processor_seconds: Option<f64
             .filter_map(|(name, value)| Some((name.clone(), said.error(&told_as(name, truth), *value, false)?)))
             .collect(),
         forecast: said.forecast("position after 2 s"),
+        onset: Some(onset(truth, d)),
         named: said.named,
         processor_seconds,
     }
+}
+
+/// The onset of the first cause that is not there all the time, beside what was hidden.
+fn onset(truth: &WheeledTruth, d: &Value) -> causes::Onset {
+    let spans = d["ranked"].as_array().into_iter().flatten().find_map(|cause| cause["intervals"].as_object());
+    let late = truth.onset.as_ref().and_then(|(run, at)| {
+        let from = spans?.get(run)?[0][0].as_f64()?;
+        (from > 0.0).then_some(from - at)
+    });
+    causes::Onset { is_hidden: truth.onset.is_some(), is_told: spans.is_some(), late }
 }
 
 #[cfg(test)]
@@ -101,6 +112,7 @@ mod tests {
             hidden: vec![Hidden::TorqueScale],
             part: Some(part.into()),
             numbers: [("gain".to_owned(), 0.8)].into(),
+            onset: None,
         };
         let parameters = json!({ "factor on the torque of left": { "value": 0.81, "sigma": 0.01 } });
         let say = |label: &str| {
