@@ -193,6 +193,7 @@ impl Said {
             retuned: &self.retuned,
             rival: self.rival.as_deref(),
             shares: self.shares,
+            left_of_references: self.left_of_references,
         }
     }
 }

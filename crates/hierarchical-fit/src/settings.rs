@@ -119,6 +119,10 @@
     beside_references: BesideReferences {
         /// So many times as much, as a share of the motion, is something that the answer does not hold.
         times: f64 = 4.0, "1", "guess; other speeds and turns double it";
+        /// So many times as much is told, and makes something unknown likelier: up to a half where it is called missing.
+        doubted: f64 = 2.0, "1", "guess; of sound drawn robots few leave twice what their references do";
+        /// Share below which it is not.
+        doubted_least: f64 = 0.005, "share", "guess; a millimetre of a stretch of 20 cm";
         /// Below this share nothing is asked for.
         least: f64 = 0.02, "share", "guess";
     }

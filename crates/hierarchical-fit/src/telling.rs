@@ -29,6 +29,8 @@ pub struct Found<'a> {
     pub rival: Option<&'a str>,
     /// Error as a share of the motion: as stated, re-tuned, with the answer.
     pub shares: [f64; 3],
+    /// The same that the best answer leaves of the references; `None` without any.
+    pub left_of_references: Option<f64>,
 }
 
 impl Found<'_> {
@@ -85,11 +87,12 @@ impl Found<'_> {
                 out.push(Cause::plain(id, label, probability));
             }
         }
+        let doubt = self.doubt();
         let none = match self.answer {
-            Answer::Nothing | Answer::Retune => self.none_of_others(),
+            Answer::Nothing | Answer::Retune => (1.0 - doubt) * self.none_of_others(),
             Answer::Named | Answer::Unknown => trust * none_of(self.named.iter().map(|c| c.probability)),
         };
-        let unknown = if is_unknown { 1.0 - SETTINGS.naming.listed } else { 0.0 };
+        let unknown = if is_unknown { 1.0 - SETTINGS.naming.listed } else { doubt };
         out.push(Cause::plain(NONE.id, NONE.name, none));
         out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
         if self.answer != Answer::Named {
@@ -101,6 +104,44 @@ impl Found<'_> {
     /// Probability that none of the causes that are not named is there.
     fn none_of_others(&self) -> f64 {
         none_of(self.others.iter().map(|(_, p)| *p))
+    }
+
+    /// Probability of something unknown where nothing is called missing and yet recordings leave more than references do.
+    fn doubt(&self) -> f64 {
+        let rules = SETTINGS.beside_references;
+        let nothing = matches!(self.answer, Answer::Nothing | Answer::Retune);
+        let times = self.left_of_references.filter(|_| nothing && self.shares[2] > rules.doubted_least);
+        let times = times.map_or(1.0, |usual| self.shares[2] / usual.max(f64::MIN_POSITIVE));
+        0.5 * ((times - rules.doubted) / (rules.times - rules.doubted)).clamp(0.0, 1.0)
+    }
+
+    /// How an answer begins by which nothing is missing.
+    pub fn nothing(&self) -> &'static str {
+        if self.doubt() > 0.0 { "Nothing that can be named is missing" } else { "Nothing is missing" }
+    }
+
+    /// The sentence about it, where it is so.
+    pub fn doubted(&self) -> Option<String> {
+        let usual = self.left_of_references.filter(|_| self.doubt() > 0.0)?;
+        Some(format!(
+            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: less than what is \
+             called missing, and more than what is usual. Look at where they differ.",
+            100.0 * self.shares[2],
+            100.0 * usual,
+            self.shares[2] / usual.max(f64::MIN_POSITIVE)
+        ))
+    }
+
+    /// Causes that are likelier than not, beside those that are named, and not sure enough for it.
+    pub fn perhaps(&self) -> Option<String> {
+        let likely = self.others.iter().filter(|(_, p)| self.answer == Answer::Named && *p > 0.5);
+        let told: Vec<String> = likely.map(|(l, p)| format!("{} ({})", for_people(l), probability(*p))).collect();
+        (!told.is_empty()).then(|| {
+            format!(
+                "There may be more than is named, with a probability in brackets that is too little to be named: {}.",
+                told.join(", ")
+            )
+        })
     }
 
     /// What leads where no cause is named and yet one is likelier than none.
@@ -149,12 +190,32 @@ impl Found<'_> {
     }
 }
 
+/// Sentences about recordings that say the same of several, each once: "recording 'a': it" and "recording 'b': it" as "recordings 'a', 'b':
+/// it".
+pub fn of_recordings(told: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut out: Vec<(Vec<String>, String)> = Vec::new();
+    for sentence in told {
+        let split = sentence.strip_prefix("recording '").and_then(|rest| rest.split_once("': "));
+        let (name, said) = split.map_or((None, sentence.as_str()), |(name, said)| (Some(format!("'{name}'")), said));
+        match out.iter_mut().find(|(names, other)| other == said && names.is_empty() == name.is_none()) {
+            Some((names, _)) => names.extend(name.filter(|name| !names.contains(name))),
+            None => out.push((name.into_iter().collect(), said.to_owned())),
+        }
+    }
+    let told = |(names, said): (Vec<String>, String)| match names.as_slice() {
+        [] => said,
+        [one] => format!("recording {one}: {said}"),
+        several => format!("recordings {}: {said}", several.join(", ")),
+    };
+    out.into_iter().map(told).collect()
+}
+
 /// What is said of a slip below zero.
 const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; look at \
                        track, tyres and clocks";
 
 /// Whether a cause is a slip that would be a gain.
-fn gains(named: &NamedCause) -> bool {
+pub fn gains(named: &NamedCause) -> bool {
     [SLIP_WITH_TURNING.id, SLIP_WITH_SPEED.id].contains(&named.spec.id)
         && named.estimates.first().is_some_and(|e| e.value < 0.0)
 }
@@ -265,7 +326,18 @@ mod tests {
         let told = |answer, probability| {
             let others = [("pose_origin".to_owned(), probability)];
             let shares = [0.3, 0.2, 0.2];
-            Found { answer, named: &[], others: &others, constants: &[], retuned: &[], rival: None, shares }.undecided()
+            let left_of_references = None;
+            Found {
+                answer,
+                named: &[],
+                others: &others,
+                constants: &[],
+                retuned: &[],
+                rival: None,
+                shares,
+                left_of_references,
+            }
+            .undecided()
         };
         let leads = told(Answer::Retune, 0.7).expect("a sentence");
         assert!(
@@ -288,12 +360,71 @@ mod tests {
         }];
         for answer in [Answer::Named, Answer::Unknown] {
             let shares = [0.3, 0.2, 0.1];
-            let found = Found { answer, named: &named, others: &[], constants: &[], retuned: &[], rival: None, shares };
+            let found = Found {
+                answer,
+                named: &named,
+                others: &[],
+                constants: &[],
+                retuned: &[],
+                rival: None,
+                shares,
+                left_of_references: None,
+            };
             let told = found.verdict(Vec::new());
             let total: f64 = told.ranked.iter().map(|c| c.probability).sum();
             approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
             let first = if answer == Answer::Named { "steering_zero" } else { UNKNOWN.id };
             assert_eq!(told.ranked[0].effect, first);
         }
+    }
+
+    #[test]
+    fn what_leaves_more_than_references_do_is_doubted_and_told() {
+        let found = |answer, left: f64, usual: Option<f64>| {
+            let shares = [left; 3];
+            let (named, others): (&[NamedCause], &[(String, f64)]) = (&[], &[]);
+            let told = Found {
+                answer,
+                named,
+                others,
+                constants: &[],
+                retuned: &[],
+                rival: None,
+                shares,
+                left_of_references: usual,
+            };
+            let unknown = told.verdict(Vec::new()).ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
+            assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
+            (unknown.map_or(0.0, |c| c.probability), told.doubted())
+        };
+        let (unknown, told) = found(Answer::Nothing, 0.02, Some(0.006));
+        approx::assert_relative_eq!(unknown, 0.5 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
+        assert!(told.is_some_and(|t| {
+            t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
+        }));
+        assert_eq!(found(Answer::Nothing, 0.02, Some(0.012)), (0.0, None), "it is usual");
+        assert_eq!(found(Answer::Nothing, 0.003, Some(0.001)), (0.0, None), "it is next to nothing");
+        assert_eq!(found(Answer::Nothing, 0.02, None), (0.0, None));
+    }
+
+    #[test]
+    fn what_is_likelier_than_not_and_too_little_to_be_named_is_told_beside_what_is_named() {
+        let others = [("pose_origin".to_owned(), 0.6), ("steering_zero (front)".to_owned(), 0.2)];
+        let told = |answer| {
+            let (shares, left_of_references) = ([0.3, 0.2, 0.1], None);
+            let (named, constants): (&[NamedCause], &[Estimate]) = (&[], &[]);
+            Found { answer, named, others: &others, constants, retuned: &[], rival: None, shares, left_of_references }
+                .perhaps()
+        };
+        let named = told(Answer::Named).expect("a sentence");
+        assert!(named.ends_with("too little to be named: place of the pose's origin in the robot (0.60)."), "{named}");
+        assert_eq!(told(Answer::Nothing), None);
+    }
+
+    #[test]
+    fn what_several_recordings_share_is_told_once() {
+        let told = ["recording 'a': x is guessed", "recording 'b': x is guessed", "recording 'b': y", "z", "z"];
+        let merged = of_recordings(told.map(str::to_owned));
+        assert_eq!(merged, ["recordings 'a', 'b': x is guessed", "recording 'b': y", "z"]);
     }
 }

@@ -7,6 +7,8 @@ use crate::settings::SETTINGS;
 use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
 use hierarchical_fit::telling::Found;
 use hierarchical_fit::{Answer, beyond_references};
+
+use crate::findings::is_nothing_that_slips;
 use verdict::Diagnosis;
 
 /// The verdict of findings, with the forecasts of sessions that were left out.
@@ -19,12 +21,15 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         retuned: &findings.retuned,
         rival: findings.rival.as_deref(),
         shares: findings.shares,
+        left_of_references: findings.left_of_references,
     };
     let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.next.clone_from(&findings.next);
     out.sentences = sentences(findings, &found, &out, has_references);
+    out.sentences.extend(found.doubted());
     out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
+    out.sentences.extend(found.perhaps());
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));
@@ -40,9 +45,10 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
     let mut text: Vec<String> = found.undecided().into_iter().collect();
     let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
     let pose = if findings.measured.pose { "pose" } else { "gyro" };
+    let nothing = found.nothing();
     match findings.answer {
         Answer::Nothing => text.push(format!(
-            "Nothing is missing: wheels and {pose} agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
+            "{nothing}: wheels and {pose} agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
              motion)."
         )),
         Answer::Retune => {
@@ -59,6 +65,11 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
                 found.names()
             ));
         }
+        Answer::Unknown if is_nothing_that_slips(&findings.named) => text.push(format!(
+            "Something is missing that none of the causes accounts for: several slips below zero fit best, which slip does not do \
+             (window errors are {given:.1} % of the motion, and {best:.1} % remain with them). Tyres that turn the robot otherwise than its \
+             track does, the more it turns, look so. Candidates follow."
+        )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \
              {best:.1} % remain with the best answer.{}{}",

@@ -10,7 +10,7 @@ use crate::doubt::without_what_little_shows;
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
-use crate::findings::Findings;
+use crate::findings::{Findings, is_nothing_that_slips};
 use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
 use crate::next_drive::{self, Found};
@@ -19,6 +19,7 @@ use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
 use catalogue::odometry::LOST_COUNTS;
+use hierarchical_fit::telling::of_recordings;
 use hierarchical_fit::{
     Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance,
     is_beyond_references, name_from, of_class,
@@ -299,7 +300,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     let is_left = (best.1 > rules.share && is_much || is_beyond_references(best.1, solved.left_of_references))
         && best.0 > rules.noise * floor;
     let moved = retuned.iter().any(Estimate::is_moved);
-    let answer = if is_left {
+    let answer = if is_left || is_nothing_that_slips(&named_causes) {
         Answer::Unknown
     } else if !named_causes.is_empty() {
         Answer::Named
@@ -308,10 +309,10 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
     } else {
         Answer::Nothing
     };
-    let told = case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned());
-    let mut told: Vec<String> = told.collect();
+    let mut told: Vec<String> =
+        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
     told.sort();
-    told.dedup();
+    let told = of_recordings(told);
     Findings {
         answer,
         named: named_causes,

@@ -187,6 +187,7 @@ impl Drive {
                     };
             }
         }
+        let told = told.into_iter().map(|said| format!("recording '{name}': {said}")).collect();
         let (name, session) = (name.to_owned(), name.to_owned());
         Ok(Self { name, session, time, turns, steering, pose, heading_only: false, told })
     }

@@ -8,6 +8,7 @@ use crate::settings::SETTINGS;
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
 use catalogue::odometry::LOST_COUNTS;
+use hierarchical_fit::telling::gains;
 use hierarchical_fit::{Answer, Estimate, NamedCause, is_beyond_references};
 use inference::experiment::Standing;
 use verdict::{Advice, PredictedPath, Trace};
@@ -107,5 +108,41 @@ impl Findings {
             corrected: path(corrected),
             retuned: path(retuned),
         }
+    }
+}
+
+/// Whether several slips below zero are named: a body that gets ahead of its wheels by one law and falls behind by another has neither.
+pub(crate) fn is_nothing_that_slips(named: &[NamedCause]) -> bool {
+    named.iter().filter(|cause| gains(cause)).count() > 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use catalogue::CauseSpec;
+    use catalogue::odometry::{SLIP_IN_TURNS, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
+
+    #[test]
+    fn one_slip_below_zero_is_remarked_and_several_are_none() {
+        let of = |spec: &'static CauseSpec, value: f64| NamedCause {
+            spec,
+            label: spec.id.to_owned(),
+            probability: 1.0,
+            alike: Vec::new(),
+            estimates: vec![Estimate {
+                name: "slip".to_owned(),
+                unit: "1",
+                given: 0.0,
+                value,
+                half_width: 0.01,
+                sigmas: 5.0,
+            }],
+            intervals: Vec::new(),
+            onset: None,
+        };
+        let named =
+            |speed, turning| [of(&SLIP_WITH_SPEED, speed), of(&SLIP_WITH_TURNING, turning), of(&SLIP_IN_TURNS, 0.1)];
+        assert!(is_nothing_that_slips(&named(-0.1, -0.2)));
+        assert!(!is_nothing_that_slips(&named(-0.1, 0.2)));
     }
 }

@@ -115,9 +115,9 @@ fn of_text(file: &str, bytes: &[u8], wanted: &[&str]) -> Result<NamedColumns, Re
     }
     let mut told = Vec::new();
     if delimiter != b',' {
-        let commas = if decimal_comma { ", and its decimals behind commas" } else { "" };
+        let commas = if decimal_comma { ", and decimals behind commas" } else { "" };
         let sign = char::from(delimiter).escape_default();
-        told.push(format!("its cells are taken to be separated by '{sign}'{commas}"));
+        told.push(format!("cells are taken to be separated by '{sign}'{commas}"));
     }
     Ok(NamedColumns { names, columns, told, ..NamedColumns::default() })
 }

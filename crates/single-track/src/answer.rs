@@ -17,7 +17,9 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     out.next.clone_from(&findings.next);
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.sentences = sentences(findings, &found, &out, has_references);
+    out.sentences.extend(found.doubted());
     out.sentences.extend(found.causes(&[ENCODER_SCALE.id], &out.free_runs));
+    out.sentences.extend(found.perhaps());
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, table, has_references));
     out
@@ -31,9 +33,10 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
     };
     let mut text: Vec<String> = found.undecided().into_iter().collect();
     let [given, tuned, best] = findings.said.shares.map(|s| 100.0 * s);
+    let nothing = found.nothing();
     match findings.said.answer {
         Answer::Nothing => text.push(format!(
-            "Nothing is missing: the car moves as throttle and steering imply, as well as {stated} {is_known} (errors after a \
+            "{nothing}: the car moves as throttle and steering imply, as well as {stated} {is_known} (errors after a \
              second are {given:.1} % of the motion, {tuned:.1} % with the drive train fitted)."
         )),
         Answer::Retune => {

@@ -5,6 +5,8 @@ use std::borrow::Cow;
 
 use hierarchical_fit::{Estimate, Said, Solved, Unexplained};
 
+use hierarchical_fit::telling::of_recordings;
+
 use crate::case::Case;
 use crate::clock::{self, Apart};
 use crate::drive::Drive;
@@ -107,9 +109,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
     let rules = SETTINGS.unexplained;
     let is_stated = |e: &Estimate| data.model.iter().any(|c| c.name == e.name && c.sigma < c.usual);
     said.decide(Unexplained { share: rules.share, of_retuned: rules.of_retuned, most: rules.most }, is_stated);
-    let mut told: Vec<String> =
-        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
-    told.dedup();
+    let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     let traces = data.drives.iter().enumerate();
     Findings {
         said,

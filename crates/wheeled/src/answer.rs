@@ -20,7 +20,9 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     if findings.said.answer == Answer::Retune {
         out.sentences.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
     }
+    out.sentences.extend(found.doubted());
     out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
+    out.sentences.extend(found.perhaps());
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));
     out
@@ -33,9 +35,10 @@ fn headline(findings: &Findings, found: &Found<'_>, has_references: bool) -> Str
         ["the robot file", "is known", "leaves"]
     };
     let [given, tuned, best] = findings.said.shares.map(|s| 100.0 * s);
+    let nothing = found.nothing();
     match findings.said.answer {
         Answer::Nothing => format!(
-            "Nothing is missing: the robot moves as the torques of its motors imply, as well as {stated} {is_known} (errors after a \
+            "{nothing}: the robot moves as the torques of its motors imply, as well as {stated} {is_known} (errors after a \
              second are {given:.1} % of the motion, {tuned:.1} % re-tuned)."
         ),
         Answer::Retune => format!(

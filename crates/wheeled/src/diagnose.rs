@@ -6,6 +6,8 @@ use std::sync::Arc;
 use hierarchical_fit::{Said, Solved, Unexplained};
 use verdict::{Advice, PredictedPath, Trace};
 
+use hierarchical_fit::telling::of_recordings;
+
 use crate::constants::{Has, causes};
 use crate::drive::{Drive, STEP};
 use crate::left_out::{Table, left_out_of, predicted, trace};
@@ -101,9 +103,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
     let rules = SETTINGS.unexplained;
     let mut said = solved.said(&data.model.all);
     said.decide(Unexplained { share: rules.share, of_retuned: rules.of_retuned, most: rules.most }, |_| true);
-    let mut told: Vec<String> =
-        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
-    told.dedup();
+    let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     let traces = data.drives.iter().enumerate();
     Findings {
         said,

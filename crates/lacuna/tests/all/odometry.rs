@@ -97,7 +97,7 @@ fn a_table_with_semicolons_and_decimal_commas_is_the_same_drive_and_is_told() {
     for said in [&points, &commas] {
         assert!(said.contains("1200 rows in 60.0 s, a pose in 1200 of them"), "{said}");
     }
-    let written = "its cells are taken to be separated by ';', and its decimals behind commas";
+    let written = "cells are taken to be separated by ';', and decimals behind commas";
     assert!(commas.contains(written) && !points.contains("its cells"), "{commas}");
 }
 
