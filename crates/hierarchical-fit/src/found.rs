@@ -49,20 +49,28 @@ pub struct Began {
     pub at: Option<(f64, [f64; 2])>,
     /// Whether it ends there.
     pub ends: bool,
+    /// Whether there are drives after it, or before it where it ends.
+    pub others: bool,
 }
 
 impl std::fmt::Display for Began {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { drive, at, ends } = self;
+        let Self { drive, at, ends, others } = self;
         let [to, rest] = if *ends { ["until", "before"] } else { ["from", "after"] };
         match at {
-            Some((at, [least, most])) => write!(
+            Some((at, [least, most])) => {
+                write!(f, "it is there {to} {at:.0} s of drive '{drive}' (90 %: {least:.0} to {most:.0} s)")?;
+                if *others {
+                    write!(f, ", and in all drives {rest} it in the order of their names")?;
+                }
+            }
+            None if *ends => write!(f, "it is there in all drives before '{drive}', and no longer in it")?,
+            None => write!(
                 f,
-                "it is there {to} {at:.0} s of drive '{drive}' (90 %: {least:.0} to {most:.0} s), and in all drives {rest} it"
-            ),
-            None if *ends => write!(f, "it is there in all drives before '{drive}', and no longer in it"),
-            None => write!(f, "it is there in drive '{drive}' and all after it, and not before"),
+                "it is there in drive '{drive}' and all after it in the order of their names, and not before"
+            )?,
         }
+        if *ends { f.write_str(", and predictions are made without it") } else { Ok(()) }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use inference::experiment::Standing;
 use inference::robust::NINETY;
+use nalgebra::DVector;
 use verdict::FreeRun;
 
 use crate::found::{Answer, Began, Estimate, NamedCause};
@@ -48,7 +49,7 @@ pub struct Said {
     pub named: Vec<NamedCause>,
     /// Causes that were not, with their probabilities.
     pub others: Vec<(String, f64)>,
-    /// All constants with the named causes.
+    /// All constants with the named causes, after the last drive.
     pub constants: Vec<Estimate>,
     /// Constants re-tuned within what is known, with no cause.
     pub retuned: Vec<Estimate>,
@@ -102,7 +103,10 @@ impl<D: Observed> Solved<D> {
             shares: [data.share(prior.mean.as_slice()), data.share(named.retuned.mean.as_slice()), self.share()],
             left_of_references: self.left_of_references,
             share_of_noise: data.share_of_noise(),
-            constants: all,
+            constants: estimates(&Posterior {
+                mean: DVector::from_column_slice(self.corrected_from_now_on()),
+                ..named.posterior.clone()
+            }),
         }
     }
 
@@ -116,13 +120,20 @@ impl<D: Observed> Solved<D> {
     fn began(&self, cause: usize) -> Option<Began> {
         let onset = self.onset.as_ref().filter(|onset| onset.cause == cause)?;
         let at = (onset.time > 0.0).then_some((onset.time, onset.interval));
-        Some(Began { drive: self.data.drives.get(onset.drive)?.name().to_owned(), at, ends: onset.ends })
+        let (drives, ends) = (&self.data.drives, onset.ends);
+        let others = if ends { onset.drive > 0 } else { onset.drive + 1 < drives.len() };
+        Some(Began { drive: drives.get(onset.drive)?.name().to_owned(), at, ends, others })
     }
 
     /// Constants at an instant of a drive, s from its start, with what is named.
     pub fn corrected(&self, drive: usize, time: f64) -> &[f64] {
         let onset = self.onset.as_ref().filter(|onset| !onset.acts(drive, time));
         onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
+    }
+
+    /// The same after the last drive.
+    pub fn corrected_from_now_on(&self) -> &[f64] {
+        self.corrected_of_left_out(self.data.drives.len())
     }
 
     /// The same of a drive that was left out, from its place among all.
@@ -157,8 +168,7 @@ impl Said {
     /// Decides the answer. `is_stated`: whether a constant that moved is told as re-tuned.
     pub fn decide(&mut self, rules: Unexplained, is_stated: impl Fn(&Estimate) -> bool) {
         // What noise would leave is none of theirs.
-        let [_, retuned, left] =
-            self.shares.map(|share| share.powi(2) - self.share_of_noise.powi(2)).map(|s| s.max(0.0).sqrt());
+        let [_, retuned, left] = self.without_noise();
         let is_left = left > rules.most
             || (left > rules.share && left > rules.of_retuned * retuned)
             || is_beyond_references(left, self.left_of_references);
@@ -193,8 +203,13 @@ impl Said {
             retuned: &self.retuned,
             rival: self.rival.as_deref(),
             shares: self.shares,
-            left_of_references: self.left_of_references,
+            beside_references: self.left_of_references.map(|usual| [self.without_noise()[2], usual]),
         }
+    }
+
+    /// Errors as shares of the motion, but for what noise alone would leave.
+    fn without_noise(&self) -> [f64; 3] {
+        self.shares.map(|share| (share.powi(2) - self.share_of_noise.powi(2)).max(0.0).sqrt())
     }
 }
 

@@ -105,6 +105,10 @@
         named: f64 = 5.0, "nat", "guess; laws that are not quite those of the robot change from manoeuvre to manoeuvre";
         /// Share of the errors of causes that are always there which may be left then.
         leaves: f64 = 0.85, "1", "guess; a cause that is there half of the time leaves far less";
+        /// Share of a row's window that has passed after an onset when its error is about half there.
+        passed: f64 = 0.6, "share", "mathematics: 0.5 of an error that grows with time, 0.7 of one with its square";
+        /// By how much that is unsure.
+        unsure: f64 = 0.3, "share", "guess";
         /// Hypotheses that are tried by equations of their own.
         tried: usize = 3, "1", "guess; each takes all columns twice a round";
         /// Evidence by the equations of causes that are always there that a hypothesis may lack before it is tried.
@@ -119,8 +123,10 @@
     beside_references: BesideReferences {
         /// So many times as much, as a share of the motion, is something that the answer does not hold.
         times: f64 = 4.0, "1", "guess; other speeds and turns double it";
-        /// So many times as much is told, and makes something unknown likelier: up to a half where it is called missing.
+        /// So many times as much is told, and makes something unknown likelier.
         doubted: f64 = 2.0, "1", "guess; of sound drawn robots few leave twice what their references do";
+        /// Probability of something unknown where it is just called missing.
+        doubt: f64 = 0.45, "1", "guess; nothing is told, so that it is a little likelier";
         /// Share below which it is not.
         doubted_least: f64 = 0.005, "share", "guess; a millimetre of a stretch of 20 cm";
         /// Below this share nothing is asked for.

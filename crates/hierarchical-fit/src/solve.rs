@@ -122,7 +122,12 @@ fn with_onset<D: Observed>(
     (fit, named): (&Fit, Named),
 ) -> (Option<Onset>, Named) {
     match onset(data, prior, causes, (fit, &named)) {
-        Some((onset, named)) => (Some(onset), named),
+        Some((onset, mut named)) => {
+            let [first, rest @ ..] = named.chosen.as_slice() else { return (Some(onset), named) };
+            let moved = rest.iter().filter(|w| is_moved(&causes[w.cause], prior, &named.posterior));
+            named.chosen = std::iter::once(first).chain(moved).cloned().collect();
+            (Some(onset), named)
+        }
         None => (None, named),
     }
 }

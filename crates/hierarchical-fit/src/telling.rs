@@ -29,8 +29,8 @@ pub struct Found<'a> {
     pub rival: Option<&'a str>,
     /// Error as a share of the motion: as stated, re-tuned, with the answer.
     pub shares: [f64; 3],
-    /// The same that the best answer leaves of the references; `None` without any.
-    pub left_of_references: Option<f64>,
+    /// What the answer leaves of the recordings and of the references but for noise, as shares of the motion; `None` without references.
+    pub beside_references: Option<[f64; 2]>,
 }
 
 impl Found<'_> {
@@ -89,30 +89,32 @@ impl Found<'_> {
         }
         let doubt = self.doubt();
         let none = match self.answer {
-            Answer::Nothing | Answer::Retune => (1.0 - doubt) * self.none_of_others(),
+            Answer::Nothing | Answer::Retune => self.nothing_else(),
             Answer::Named | Answer::Unknown => trust * none_of(self.named.iter().map(|c| c.probability)),
         };
         let unknown = if is_unknown { 1.0 - SETTINGS.naming.listed } else { doubt };
         out.push(Cause::plain(NONE.id, NONE.name, none));
         out.push(Cause::plain(UNKNOWN.id, UNKNOWN.name, unknown));
         if self.answer != Answer::Named {
-            out.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+            // What is told comes first where it is as likely as another.
+            let is_other = |c: &Cause| c.effect != NONE.id;
+            out.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(is_other(a).cmp(&is_other(b))));
         }
         out
     }
 
-    /// Probability that none of the causes that are not named is there.
-    fn none_of_others(&self) -> f64 {
-        none_of(self.others.iter().map(|(_, p)| *p))
+    /// Probability that none of the causes that are not named is there, nor anything unknown.
+    fn nothing_else(&self) -> f64 {
+        (1.0 - self.doubt()) * none_of(self.others.iter().map(|(_, p)| *p))
     }
 
     /// Probability of something unknown where nothing is called missing and yet recordings leave more than references do.
     fn doubt(&self) -> f64 {
         let rules = SETTINGS.beside_references;
         let nothing = matches!(self.answer, Answer::Nothing | Answer::Retune);
-        let times = self.left_of_references.filter(|_| nothing && self.shares[2] > rules.doubted_least);
-        let times = times.map_or(1.0, |usual| self.shares[2] / usual.max(f64::MIN_POSITIVE));
-        0.5 * ((times - rules.doubted) / (rules.times - rules.doubted)).clamp(0.0, 1.0)
+        let beside = self.beside_references.filter(|[left, _]| nothing && *left > rules.doubted_least);
+        let times = beside.map_or(1.0, |[left, usual]| left / usual.max(f64::MIN_POSITIVE));
+        rules.doubt * ((times - rules.doubted) / (rules.times - rules.doubted)).clamp(0.0, 1.0)
     }
 
     /// How an answer begins by which nothing is missing.
@@ -122,13 +124,13 @@ impl Found<'_> {
 
     /// The sentence about it, where it is so.
     pub fn doubted(&self) -> Option<String> {
-        let usual = self.left_of_references.filter(|_| self.doubt() > 0.0)?;
+        let [left, usual] = self.beside_references.filter(|_| self.doubt() > 0.0)?;
         Some(format!(
-            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: less than what is \
-             called missing, and more than what is usual. Look at where they differ.",
-            100.0 * self.shares[2],
+            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: more than what is \
+             usual, and not enough to be called missing. Look at where they differ.",
+            100.0 * left,
             100.0 * usual,
-            self.shares[2] / usual.max(f64::MIN_POSITIVE)
+            left / usual.max(f64::MIN_POSITIVE)
         ))
     }
 
@@ -149,7 +151,7 @@ impl Found<'_> {
         if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
             return None;
         }
-        let none = self.none_of_others();
+        let none = self.nothing_else();
         let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
         Some(format!(
             "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
@@ -326,7 +328,7 @@ mod tests {
         let told = |answer, probability| {
             let others = [("pose_origin".to_owned(), probability)];
             let shares = [0.3, 0.2, 0.2];
-            let left_of_references = None;
+            let beside_references = None;
             Found {
                 answer,
                 named: &[],
@@ -335,7 +337,7 @@ mod tests {
                 retuned: &[],
                 rival: None,
                 shares,
-                left_of_references,
+                beside_references,
             }
             .undecided()
         };
@@ -368,7 +370,7 @@ mod tests {
                 retuned: &[],
                 rival: None,
                 shares,
-                left_of_references: None,
+                beside_references: None,
             };
             let told = found.verdict(Vec::new());
             let total: f64 = told.ranked.iter().map(|c| c.probability).sum();
@@ -391,14 +393,14 @@ mod tests {
                 retuned: &[],
                 rival: None,
                 shares,
-                left_of_references: usual,
+                beside_references: usual.map(|usual| [left, usual]),
             };
             let unknown = told.verdict(Vec::new()).ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
             assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
             (unknown.map_or(0.0, |c| c.probability), told.doubted())
         };
         let (unknown, told) = found(Answer::Nothing, 0.02, Some(0.006));
-        approx::assert_relative_eq!(unknown, 0.5 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(unknown, 0.45 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
         assert!(told.is_some_and(|t| {
             t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
         }));
@@ -411,9 +413,9 @@ mod tests {
     fn what_is_likelier_than_not_and_too_little_to_be_named_is_told_beside_what_is_named() {
         let others = [("pose_origin".to_owned(), 0.6), ("steering_zero (front)".to_owned(), 0.2)];
         let told = |answer| {
-            let (shares, left_of_references) = ([0.3, 0.2, 0.1], None);
+            let (shares, beside_references) = ([0.3, 0.2, 0.1], None);
             let (named, constants): (&[NamedCause], &[Estimate]) = (&[], &[]);
-            Found { answer, named, others: &others, constants, retuned: &[], rival: None, shares, left_of_references }
+            Found { answer, named, others: &others, constants, retuned: &[], rival: None, shares, beside_references }
                 .perhaps()
         };
         let named = told(Answer::Named).expect("a sentence");

@@ -21,7 +21,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         retuned: &findings.retuned,
         rival: findings.rival.as_deref(),
         shares: findings.shares,
-        left_of_references: findings.left_of_references,
+        beside_references: findings.left_of_references.map(|usual| [findings.shares[2], usual]),
     };
     let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
@@ -67,8 +67,8 @@ fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_refere
         }
         Answer::Unknown if is_nothing_that_slips(&findings.named) => text.push(format!(
             "Something is missing that none of the causes accounts for: several slips below zero fit best, which slip does not do \
-             (window errors are {given:.1} % of the motion, and {best:.1} % remain with them). Tyres that turn the robot otherwise than its \
-             track does, the more it turns, look so. Candidates follow."
+             (window errors are {given:.1} % of the motion, and {best:.1} % remain with them). Tyres that scrub in turns look like \
+             this: the effective track then depends on how fast the robot turns. Candidates follow."
         )),
         Answer::Unknown => text.push(format!(
             "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \

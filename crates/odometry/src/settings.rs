@@ -34,6 +34,12 @@
         wrap: f64 = 0.5, "1", "a wheel cannot turn by half the range of its counter between two rows";
         /// Ranges of counters that are known: 8, 16 and 32 bits.
         ranges: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0], "1", "widths of integers";
+        /// Time without a pose from which on turns between are those of the wheels.
+        unseen: f64 = 0.25, "s", "guess; no robot turns by half a turn in less";
+        /// Stretches over which the turning of wheels and pose is compared.
+        turning: f64 = 1.0, "s", "guess; single counts do not matter then";
+        /// Share of the turning that both must have in common (squared correlation).
+        agree: f64 = 0.9, "share", "guess; a wheel that is dead or reversed leaves none";
         /// Rates are those of this stretch about a row: single counts are too coarse.
         rate: f64 = 0.25, "s", "guess; longer than the period of usual encoders' logs";
         /// Poses farther apart than this get rows of the wheels between them, so that a bend between two poses is seen.

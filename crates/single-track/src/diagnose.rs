@@ -90,7 +90,8 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let solved = solve(&case.car, &case.references, &all)?;
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
-    findings.next = next.map(|length| {
+    // A drive is chosen for causes that are always there.
+    findings.next = next.filter(|_| solved.onset.is_none()).map(|length| {
         progress("looking for the drive that tells the rivals apart");
         next_drive::advise(&solved, case.car.encoder_window, length)
     });
@@ -127,6 +128,6 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         traces: traces.filter_map(|(k, shown)| trace(solved, shown, |time| solved.corrected(k, time), false)).collect(),
         next: None,
         clock: apart.map(|apart| apart.usual),
-        laws: [&named.retuned, &named.posterior].map(|p| Laws::at(&data.model, p.mean.as_slice())),
+        laws: [named.retuned.mean.as_slice(), solved.corrected_from_now_on()].map(|at| Laws::at(&data.model, at)),
     }
 }

@@ -100,6 +100,22 @@ impl Calibrated {
         options: &Options,
         progress: &dyn Fn(&str),
     ) -> Result<Diagnosis, DiagnosisError> {
+        let (out, is_turned) = self.diagnose_turned(case, options, progress, true)?;
+        // Where no slope is found, nothing says where recordings head.
+        if is_turned && !headings::is_slope(&out) {
+            return Ok(self.diagnose_turned(case, options, progress, false)?.0);
+        }
+        Ok(out)
+    }
+
+    /// The same with recordings that may be turned until the slopes that they show agree, and whether any is.
+    fn diagnose_turned(
+        &self,
+        case: &Case,
+        options: &Options,
+        progress: &dyn Fn(&str),
+        may_turn: bool,
+    ) -> Result<(Diagnosis, bool), DiagnosisError> {
         if case.recordings.is_empty() {
             return Err(DiagnosisError::Empty { what: "recording" });
         }
@@ -121,8 +137,12 @@ impl Calibrated {
             self.calibration.clone()
         };
         let mut calibration = taught.for_visits(&visits);
-        let turns =
-            headings::turns(&problem(&robot, case, &recordings, &calibration, largest, options), &case.recordings);
+        let turns = if may_turn {
+            let problem = problem(&robot, case, &recordings, &calibration, largest, options);
+            headings::turns(&problem, &case.recordings)
+        } else {
+            vec![0.0; recordings.len()]
+        };
         headings::turn(&mut recordings, &turns);
         if self.references.is_empty() {
             let problem = problem(&robot, case, &recordings, &calibration, largest, options);
@@ -198,7 +218,7 @@ impl Calibrated {
             progress("looking for the drive that tells the rivals apart");
             out.next = Some(next::advise(&answer, &found.retuned, length));
         }
-        Ok(out)
+        Ok((out, turns.iter().any(|turn| *turn != 0.0)))
     }
 
     /// What an answer is made of.

@@ -14,6 +14,7 @@ use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::run::Run;
 use crate::settings::preparation::{Headings, SETTINGS};
 use crate::windows::Cut;
+use verdict::Diagnosis;
 
 const RULES: Headings = SETTINGS.headings;
 
@@ -70,14 +71,19 @@ pub(crate) fn turn(cuts: &mut [Cut], turns: &[f64]) {
     }
 }
 
+/// Whether a slope is told, or may be what is.
+pub(crate) fn is_slope(answer: &Diagnosis) -> bool {
+    answer.ranked.iter().any(|cause| cause.effect == "grade" && cause.probability > 0.5)
+}
+
 /// What was done, where anything was.
 pub(crate) fn sentence(cuts: &[Cut], turns: &[f64]) -> Option<String> {
     let turned = cuts.iter().zip(turns).filter(|(_, turn)| **turn != 0.0);
     let told: Vec<String> = turned.map(|(cut, turn)| format!("'{}' by {:.0}°", cut.name, turn.to_degrees())).collect();
     (!told.is_empty()).then(|| {
         format!(
-            "no pose says where these recordings head: {} to the left, as the ground that each shows to fall; the direction of a slope \
-             counts from the heading at which the first recording begins",
+            "no pose says where these recordings head: {} to the left, so that the slopes that they show agree; the direction of the slope \
+             counts from where the recordings head that are not turned",
             told.join(", ")
         )
     })

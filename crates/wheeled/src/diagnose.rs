@@ -72,7 +72,8 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let solved = solved(case, progress)?;
     let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
-    findings.next = next.map(|length| {
+    // A drive is chosen for causes that are always there.
+    findings.next = next.filter(|_| solved.onset.is_none()).map(|length| {
         progress("looking for the drive that tells the rivals apart");
         next_drive::advise(&solved, length)
     });
@@ -116,6 +117,6 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
         traces: traces.filter_map(|(k, shown)| trace(solved, shown, |time| solved.corrected(k, time), false)).collect(),
         next: None,
         model: data.model.clone(),
-        thetas: [&named.retuned, &named.posterior].map(|p| p.mean.as_slice().to_vec()),
+        thetas: [named.retuned.mean.as_slice(), solved.corrected_from_now_on()].map(<[f64]>::to_vec),
     }
 }

@@ -107,22 +107,23 @@ mod tests {
             let [before, after] = if ends { [1.5, 1.0] } else { [1.0, 1.5] };
             let solved = solved([[before; 2], [before, after], [after; 2]].map(|s| Scaled::changing(s, 12.0)).into());
             let onset = solved.onset.as_ref().expect("an onset");
-            // The first row with it became known after 12 s, and tells of the second before.
+            // The first row with it became known after 12 s, and tells of a window before.
             assert_eq!((onset.drive, onset.ends), (1, ends));
-            assert_relative_eq!(onset.time, 11.0, epsilon = 1e-9);
-            assert!(onset.interval[0] < 11.0 && onset.interval[1] > 11.0, "{:?}", onset.interval);
+            assert_relative_eq!(onset.time, 11.4, epsilon = 1e-9);
+            assert!(onset.interval[0] < 11.0 && onset.interval[1] > 12.0, "{:?}", onset.interval);
             assert_relative_eq!(onset.off[0], 0.0, epsilon = 0.01);
             assert_relative_eq!(solved.named.posterior.mean[0], 1.5_f64.ln(), epsilon = 0.01);
 
             let spans = [0, 1, 2].map(|drive| onset.span(drive, 20.0));
             let expected = if ends {
-                [Some([0.0, 20.0]), Some([0.0, 11.0]), None]
+                [Some([0.0, 20.0]), Some([0.0, onset.time]), None]
             } else {
-                [None, Some([11.0, 20.0]), Some([0.0, 20.0])]
+                [None, Some([onset.time, 20.0]), Some([0.0, 20.0])]
             };
             assert_eq!(spans, expected);
             let is_on = |drive: usize, time: f64| solved.corrected(drive, time)[0] > 0.2;
             assert_eq!([is_on(0, 19.0), is_on(1, 5.0), is_on(1, 15.0), is_on(2, 0.0)], [ends, ends, !ends, !ends]);
+            assert_eq!(solved.corrected_from_now_on()[0] > 0.2, !ends);
             let without = solved.without(1).expect("a fold");
             let of_left_out = |s: &Solved<Scaled>, place: usize| s.corrected_of_left_out(place)[0] > 0.2;
             // Between two drives it is not known when.
@@ -142,13 +143,17 @@ mod tests {
 
     #[test]
     fn what_is_told_of_an_onset_names_drive_and_instant() {
-        let began = |at, ends| crate::found::Began { drive: "b".to_owned(), at, ends }.to_string();
-        assert_eq!(
-            began(Some((12.0, [11.4, 12.6])), false),
-            "it is there from 12 s of drive 'b' (90 %: 11 to 13 s), and in all drives after it"
+        let began = |at, ends, others| crate::found::Began { drive: "b".to_owned(), at, ends, others }.to_string();
+        let at = Some((12.0, [11.4, 12.6]));
+        assert_eq!(began(at, false, false), "it is there from 12 s of drive 'b' (90 %: 11 to 13 s)");
+        assert!(began(at, false, true).ends_with(", and in all drives after it in the order of their names"));
+        let ended = began(at, true, true);
+        assert!(
+            ended.starts_with("it is there until 12 s of drive 'b'") && ended.contains("drives before it"),
+            "{ended}"
         );
-        assert!(began(Some((12.0, [11.4, 12.6])), true).starts_with("it is there until 12 s of drive 'b'"));
-        assert_eq!(began(None, false), "it is there in drive 'b' and all after it, and not before");
-        assert_eq!(began(None, true), "it is there in all drives before 'b', and no longer in it");
+        assert!(ended.ends_with(", and predictions are made without it"), "{ended}");
+        assert!(began(None, false, true).starts_with("it is there in drive 'b' and all after it"));
+        assert!(began(None, true, true).starts_with("it is there in all drives before 'b', and no longer in it"));
     }
 }

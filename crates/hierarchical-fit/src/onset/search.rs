@@ -98,16 +98,14 @@ pub(crate) fn onset<D: Observed>(
     };
     let mut found: Vec<(Weighted, Equations)> = found.into_iter().filter_map(scaled).collect();
     found.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
-    let log_odds = found.first()?.0.score - always;
-    if log_odds < rules.named {
-        return None;
-    }
-    let alike: Vec<usize> = found[1..]
-        .iter()
-        .filter(|(other, _)| is_within_odds(other.score, found[0].0.score, SETTINGS.naming.alike))
-        .map(|(other, _)| other.hypothesis.cause)
-        .collect();
-    sought.told(&found[0], named, (log_odds, &alike))
+    let told = |answer: &(Weighted, Equations)| {
+        let log_odds = answer.0.score - always;
+        let is_alike =
+            |other: &&(Weighted, Equations)| is_within_odds(other.0.score, answer.0.score, SETTINGS.naming.alike);
+        let alike: Vec<usize> = found.iter().filter(is_alike).map(|(other, _)| other.hypothesis.cause).collect();
+        if log_odds < rules.named { None } else { sought.told(answer, named, (log_odds, &alike)) }
+    };
+    found.iter().find_map(told)
 }
 
 /// Log prior of a factor on the scatter of drives, nats.
@@ -186,7 +184,16 @@ impl<D: Observed> Sought<'_, D> {
             }
         }
         let score = self.claimed(&hypothesis, &instants, factor);
-        Some(Weighted { hypothesis, score, instants, factor, posterior: best?.1 })
+        let out = Weighted { hypothesis, score, instants, factor, posterior: best?.1 };
+        self.is_possible(&out).then_some(out)
+    }
+
+    /// Whether no constant that cannot be negative is so by more than its sigma, as of causes that are always there.
+    fn is_possible(&self, weighted: &Weighted) -> bool {
+        let Posterior { mean, covariance } = self.acting(weighted);
+        let causes = weighted.hypothesis.always.iter().chain([&weighted.hypothesis.cause]);
+        let halves = causes.filter_map(|&c| self.causes[c].at_least_zero);
+        { halves }.all(|k| mean[k] >= -covariance[(k, k)].max(0.0).sqrt())
     }
 
     /// Evidence of a hypothesis whose instants have these, with the odds of what is claimed, nats.
@@ -222,7 +229,8 @@ impl<D: Observed> Sought<'_, D> {
             if out.len() == rules.tried {
                 break;
             }
-            if out.iter().all(|w| w.hypothesis != hypothesis) {
+            // One of each cause: others may stand for it.
+            if out.iter().all(|w| w.hypothesis.cause != hypothesis.cause) {
                 out.extend(self.weighed(&hypothesis, about, &likely(&instants)));
             }
         }

@@ -14,6 +14,18 @@ use inference::evidence::{log_sum_exp, logistic};
 use inference::robust::{NINETY, normal_cdf};
 
 impl<D: Observed> Sought<'_, D> {
+    /// Constants where the cause of a hypothesis acts.
+    pub(super) fn acting(&self, Weighted { hypothesis, posterior, .. }: &Weighted) -> Posterior {
+        let n = self.prior.mean.len();
+        let (directions, _) = directions(&self.causes[hypothesis.cause], n);
+        let m = directions.ncols();
+        let mut acting = DMatrix::zeros(n, n + m);
+        acting.view_mut((0, 0), (n, n)).fill_with_identity();
+        acting.view_mut((0, n), (n, m)).copy_from(&directions);
+        let covariance = &acting * &posterior.covariance * acting.transpose();
+        Posterior { mean: &acting * &posterior.mean, covariance }
+    }
+
     /// The answer with it.
     pub(super) fn told(
         &self,
@@ -23,45 +35,50 @@ impl<D: Observed> Sought<'_, D> {
     ) -> Option<(Onset, Named)> {
         let Weighted { hypothesis, posterior, .. } = weighted;
         let cause = &self.causes[hypothesis.cause];
-        let n = self.prior.mean.len();
-        let (directions, _) = directions(cause, n);
-        let m = directions.ncols();
-        let off = posterior.mean.rows(0, n).into_owned();
-        let mut acting = DMatrix::zeros(n, n + m);
-        acting.view_mut((0, 0), (n, n)).fill_with_identity();
-        acting.view_mut((0, n), (n, m)).copy_from(&directions);
-        let mean = DVector::from_vec(self.data.within_bounds(&(&acting * &posterior.mean)));
+        let off = posterior.mean.rows(0, self.prior.mean.len()).into_owned();
+        let Posterior { mean, covariance } = self.acting(weighted);
+        let mean = DVector::from_vec(self.data.within_bounds(&mean));
         if cause.at_least_zero.is_some_and(|k| mean[k] <= 0.0) {
             return None;
         }
-        let covariance = &acting * &posterior.covariance * acting.transpose();
 
         let (gate, interval) = when(weighted, &about.off)?;
-        // A row tells of the window before it.
-        let [time, least, most] = [gate.known, interval[0], interval[1]].map(|at| (at - D::WINDOW).max(0.0));
+        // A row tells of the window before it, and is half of the one and half of the other where a part of that has passed.
+        let rules = SETTINGS.onset;
+        let before = |at: f64, share: f64| (at - share * D::WINDOW).max(0.0);
+        let time = before(gate.known, rules.passed);
+        let interval =
+            [before(interval[0], rules.passed + rules.unsure), before(interval[1], rules.passed - rules.unsure)];
         let onset = Onset {
             cause: hypothesis.cause,
             drive: gate.drive,
             time,
-            interval: [least, most],
+            interval,
             gate,
             factor: weighted.factor,
             ends: hypothesis.ends,
             off: DVector::from_vec(self.data.within_bounds(&off)),
         };
+        // What it explains must be more than laws that are not quite those of the robot get wrong.
         let left = self.data.share_with(mean.as_slice(), &onset);
-        if left > SETTINGS.onset.leaves * self.data.share(named.posterior.mean.as_slice()) {
+        let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.share(p.mean.as_slice()));
+        if left > SETTINGS.onset.leaves * always || left > D::HARDLY * retuned {
             return None;
         }
         let mut out = named.clone();
         let (kept, dropped): (Vec<Weighed>, Vec<Weighed>) =
             out.chosen.into_iter().partition(|w| hypothesis.always.contains(&w.cause));
-        out.others.retain(|(c, _)| *c != hypothesis.cause);
+        // What stood for it before still does, and what fits as well as an onset.
+        let known = dropped.iter().filter(|w| w.cause == hypothesis.cause).flat_map(|w| w.class.iter().copied());
+        let mut class = vec![hypothesis.cause];
+        for other in known.chain(alike.iter().copied()) {
+            if !class.contains(&other) && !hypothesis.always.contains(&other) {
+                class.push(other);
+            }
+        }
         let dropped = dropped.into_iter().filter(|w| w.cause != hypothesis.cause);
         out.others.extend(dropped.map(|w| (w.cause, w.probability * logistic(-log_odds))));
-        let class = std::iter::once(hypothesis.cause).chain(alike.iter().copied().filter(|c| *c != hypothesis.cause));
-        let mut class: Vec<usize> = class.collect();
-        class.dedup();
+        out.others.retain(|(c, _)| !class.contains(c));
         let probability = logistic(log_odds);
         out.chosen = vec![Weighed { cause: hypothesis.cause, probability, class }];
         out.chosen.extend(kept);

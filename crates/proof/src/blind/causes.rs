@@ -53,7 +53,7 @@ pub(in crate::blind) struct Row<H> {
     /// Position of what was left out, over the time of [`Asks::forecast`]: corrected over the error as stated.
     pub(super) forecast: Option<f64>,
     pub(super) processor_seconds: Option<f64>,
-    /// Whether it begins while the robot drives, and by how many seconds the told onset is late, infinite in another recording; of kinds
+    /// Whether it begins while the robot drives, and how the onset was told; of kinds
     /// whose cases have such.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) onset: Option<Onset>,

@@ -1,7 +1,8 @@
 //! Clocks against each other: the gyro against the pose, and both against the wheels.
 //!
 //! Gyro and pose see the same turning of the same body, so a delay between them is one of their clocks. Which one, the
-//! wheels tell: it is the one that moved more against them. They cannot tell more: slip delays the body behind the
+//! wheels tell: it is the one that moved more against them, or, where no references say how far it was, that is farther off them. They
+//! cannot tell more: slip delays the body behind the
 //! wheels, for both sensors alike, by an amount that a centre of mass or a belt changes by 0.1 s.
 
 use robot_model::effect::Redundancy;
@@ -101,7 +102,11 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
         compare(&|d| d.gyro, offset.interest, usual)
     };
     // The sensor that moved against the wheels is the late one; without references the one that is farther from them.
-    let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest, usual).map_or(0.0, |m| m.value.abs()));
+    let moved = [0, 1].map(|i| compare(&|d| d.wheels[i], offset.interest, usual));
+    if references.is_empty() && moved.contains(&None) {
+        return;
+    }
+    let moved = moved.map(|m| m.map_or(0.0, |m| m.value.abs()));
     let pose = usize::from(moved[1] > moved[0]);
     let mut tell = |spec, m: Measured| {
         let value = if pose == 1 { -m.value } else { m.value };
