@@ -212,6 +212,10 @@ pub fn of_recordings(told: impl IntoIterator<Item = String>) -> Vec<String> {
     out.into_iter().map(told).collect()
 }
 
+/// Why no next drive is advised where a cause begins or ends while the robot drives.
+pub const NO_ADVICE: &str = "no next drive is advised, for that would be one for causes that are always there: record the same drive again, \
+                             and see whether the cause is still there";
+
 /// What is said of a slip below zero.
 const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; look at \
                        track, tyres and clocks";

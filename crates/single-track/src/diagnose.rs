@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use hierarchical_fit::{Estimate, Said, Solved, Unexplained};
 
-use hierarchical_fit::telling::of_recordings;
+use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
 
 use crate::case::Case;
 use crate::clock::{self, Apart};
@@ -91,6 +91,9 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
     // A drive is chosen for causes that are always there.
+    if next.is_some() && solved.onset.is_some() {
+        findings.told.push(NO_ADVICE.to_owned());
+    }
     findings.next = next.filter(|_| solved.onset.is_none()).map(|length| {
         progress("looking for the drive that tells the rivals apart");
         next_drive::advise(&solved, case.car.encoder_window, length)

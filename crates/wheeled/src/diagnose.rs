@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hierarchical_fit::{Said, Solved, Unexplained};
 use verdict::{Advice, PredictedPath, Trace};
 
-use hierarchical_fit::telling::of_recordings;
+use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
 
 use crate::constants::{Has, causes};
 use crate::drive::{Drive, STEP};
@@ -73,6 +73,9 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
     findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
     // A drive is chosen for causes that are always there.
+    if next.is_some() && solved.onset.is_some() {
+        findings.told.push(NO_ADVICE.to_owned());
+    }
     findings.next = next.filter(|_| solved.onset.is_none()).map(|length| {
         progress("looking for the drive that tells the rivals apart");
         next_drive::advise(&solved, length)
