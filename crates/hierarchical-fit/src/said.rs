@@ -120,9 +120,9 @@ impl<D: Observed> Solved<D> {
     fn began(&self, cause: usize) -> Option<Began> {
         let onset = self.onset.as_ref().filter(|onset| onset.cause == cause)?;
         let at = (onset.time > 0.0).then_some((onset.time, onset.interval));
-        let (drives, ends) = (&self.data.drives, onset.ends);
-        let others = if ends { onset.drive > 0 } else { onset.drive + 1 < drives.len() };
-        Some(Began { drive: drives.get(onset.drive)?.name().to_owned(), at, ends, others })
+        let (drives, drive, ends) = (&self.data.drives, onset.drive(), onset.ends());
+        let others = if ends { drive > 0 } else { drive + 1 < drives.len() };
+        Some(Began { drive: drives.get(drive)?.name().to_owned(), at, ends, others })
     }
 
     /// Constants at an instant of a drive, s from its start, with what is named.
@@ -140,6 +140,18 @@ impl<D: Observed> Solved<D> {
     pub fn corrected_of_left_out(&self, place: usize) -> &[f64] {
         let onset = self.onset.as_ref().filter(|onset| !onset.acts_in_left_out(place));
         onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
+    }
+
+    /// What simulations show of a drive, as stated or as the references have it, re-tuned, and with the named causes by these constants at
+    /// each instant, the last only where there are some; `run` simulates by the constants at an instant, s from the start of the drive.
+    pub fn simulated<'a>(
+        &'a self,
+        corrected: &dyn Fn(f64) -> &'a [f64],
+        run: impl Fn(&dyn Fn(f64) -> &'a [f64]) -> Vec<[f64; 3]>,
+    ) -> [Vec<[f64; 3]>; 3] {
+        let Self { prior, named, .. } = self;
+        let corrected = if named.chosen.is_empty() { Vec::new() } else { run(corrected) };
+        [run(&|_| prior.mean.as_slice()), run(&|_| named.retuned.mean.as_slice()), corrected]
     }
 
     /// What the answer leaves of the motion.

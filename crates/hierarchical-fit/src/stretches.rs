@@ -13,8 +13,8 @@ use crate::session::Session;
 /// What one stretch of a drive says.
 #[derive(Debug, Clone)]
 pub(crate) struct Stretch {
-    /// Begin and end of the instants at which its rows became known, s from the start of the drive.
-    pub(crate) span: [f64; 2],
+    /// From when on its rows became known, s from the start of the drive.
+    pub(crate) from: f64,
     pub(crate) equations: Session,
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn stretches<D: Observed>(
             rows.entry((row.time / length).floor() as i64).or_default().push(i);
         }
         let stretch = |(k, rows): (i64, Vec<usize>)| Stretch {
-            span: [k as f64 * length, (k + 1) as f64 * length],
+            from: k as f64 * length,
             equations: of_rows(drive, (&errors, &columns), noise, rows).seen_from(&shift),
         };
         rows.into_iter().map(stretch).collect()

@@ -399,7 +399,10 @@ mod tests {
                 shares,
                 beside_references: usual.map(|usual| [left, usual]),
             };
-            let unknown = told.verdict(Vec::new()).ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
+            let ranked = told.verdict(Vec::new()).ranked;
+            let total: f64 = ranked.iter().map(|c| c.probability).sum();
+            approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
+            let unknown = ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
             assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
             (unknown.map_or(0.0, |c| c.probability), told.doubted())
         };

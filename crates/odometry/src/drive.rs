@@ -43,6 +43,11 @@ pub enum WheelData {
     Speed,
 }
 
+/// What was done to a recording, with its name.
+pub(crate) fn of_recording(name: &str, told: Vec<String>) -> Vec<String> {
+    told.into_iter().map(|said| format!("recording '{name}': {said}")).collect()
+}
+
 /// Refuses a drive of too few rows, or of rows that are too far apart.
 pub(crate) fn enough_rows(name: &str, time: &[f64]) -> Result<(), OdometryError> {
     let rows = time.len();
@@ -187,7 +192,7 @@ impl Drive {
                     };
             }
         }
-        let told = told.into_iter().map(|said| format!("recording '{name}': {said}")).collect();
+        let told = of_recording(name, told);
         let (name, session) = (name.to_owned(), name.to_owned());
         Ok(Self { name, session, time, turns, steering, pose, heading_only: false, told })
     }

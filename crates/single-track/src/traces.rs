@@ -11,10 +11,9 @@ use odometry::rates::end;
 
 const RULES: Traces = SETTINGS.traces;
 
-/// A drive beside the motion from throttle and steering alone, as stated or as the references have it, re-tuned, and with
-/// the named causes, by these constants at each instant, the last only where there are some; `None` of a drive without a pose.
+/// A drive beside the motion from throttle and steering alone, as [`Solved::simulated`]; `None` of a drive without a pose.
 pub(crate) fn trace<'a>(
-    solved: &Solved<Shown<'_>>,
+    solved: &'a Solved<Shown<'_>>,
     shown: &Shown<'_>,
     corrected: impl Fn(f64) -> &'a [f64],
     left_out: bool,
@@ -25,15 +24,10 @@ pub(crate) fn trace<'a>(
         return None;
     }
     let longest = (RULES.free / STEP).round() as usize;
-    let laws = |theta: &[f64]| Laws::at(&solved.data.model, theta);
-    let of = |theta: &[f64]| free_runs(|_| laws(theta), shown.drive, &starts, longest);
-    let named = &solved.named;
-    let corrected = if named.chosen.is_empty() {
-        Vec::new()
-    } else {
-        free_runs(|start| laws(corrected(STEP * start as f64)), shown.drive, &starts, longest)
-    };
-    let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
+    let simulated = solved.simulated(&corrected, |theta| {
+        let laws = |start: usize| Laws::at(&solved.data.model, theta(STEP * start as f64));
+        free_runs(laws, shown.drive, &starts, longest)
+    });
     let time = (0..pose.len()).map(|k| STEP * k as f64).collect();
     Some(Beside { recording: &shown.drive.name, left_out, time, measured: pose, starts, simulated }.trace())
 }

@@ -79,10 +79,15 @@ pub(crate) fn is_slope(answer: &Diagnosis) -> bool {
 /// What was done, where anything was.
 pub(crate) fn sentence(cuts: &[Cut], turns: &[f64]) -> Option<String> {
     let turned = cuts.iter().zip(turns).filter(|(_, turn)| **turn != 0.0);
-    let told: Vec<String> = turned.map(|(cut, turn)| format!("'{}' by {:.0}°", cut.name, turn.to_degrees())).collect();
+    let told: Vec<String> = turned
+        .map(|(cut, turn)| {
+            let way = if *turn > 0.0 { "left" } else { "right" };
+            format!("'{}' is turned by {:.0}° to the {way}", cut.name, turn.to_degrees().abs())
+        })
+        .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "no pose says where these recordings head: {} to the left, so that the slopes that they show agree; the direction of the slope \
+            "no pose says where these recordings head: {}, so that the slopes that they show agree; the direction of the slope \
              counts from where the recordings head that are not turned",
             told.join(", ")
         )
@@ -129,7 +134,7 @@ mod tests {
         turn(&mut cuts, &turns);
         approx::assert_abs_diff_eq!(cuts[1].segments[2].start.yaw - before, turns[1], epsilon = 1e-12);
         let told = sentence(&cuts, &turns).expect("a sentence");
-        assert!(told.contains(" by -12"), "{told}");
+        assert!(told.contains("is turned by 12") && told.contains("° to the right"), "{told}");
     }
 
     #[test]
@@ -153,5 +158,15 @@ mod tests {
         let turns = turns_of(&runs);
         approx::assert_abs_diff_eq!(turns[0], 2.5 - 0.3, epsilon = 0.1);
         assert_eq!(turns[1], 0.0);
+    }
+
+    #[test]
+    fn recordings_stay_turned_only_where_a_slope_is_likelier_than_not() {
+        let told = |effect: &str, probability| {
+            let mut answer = Diagnosis::withheld();
+            answer.ranked = vec![verdict::Cause::plain(effect, effect, probability)];
+            is_slope(&answer)
+        };
+        assert!(told("grade", 0.9) && !told("grade", 0.3) && !told("payload", 0.9));
     }
 }

@@ -242,12 +242,14 @@ fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibrate::Calibration;
     use crate::case::Case;
     use crate::channel::Channel;
     use crate::decision::Decision;
     use crate::redundancy::Redundant;
     use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
+    use crate::visit::Visit;
     use crate::windows::cut;
     use inference::Options;
     use robot_model::tunable::usual_sigma;
@@ -261,6 +263,18 @@ mod tests {
         Scored { trial: Trial { hypothesis: h, fitted }, visits: None, score, probability: 0.4 }
     }
 
+    /// An answer without references.
+    fn judged<'a>(
+        problem: &'a Problem<'a>,
+        case: &'a Case,
+        (options, sensors): (&'a Options, &'a Redundant),
+        calibration: &'a Calibration,
+        decision: &'a Decision,
+    ) -> Judged<'a> {
+        let (references, visits): (&[Cut], &[Option<Visit>]) = (&[], &[]);
+        Judged { case, options, problem, references, visits, calibration, sensors, simulator: None, decision }
+    }
+
     /// Forecasts of drives whose effects have been weighed: viscous friction first, then rolling resistance.
     fn forecasts(cuts: &[Cut]) -> Forecasts {
         let robot = robot();
@@ -269,17 +283,9 @@ mod tests {
         let case = Case { pose_sigma: 1e-4, ..Case::new(robot) };
         let all = [("viscous_friction", 30.0), ("rolling_resistance", 10.0), ("viscous_friction", 5.0)];
         let scored = all.map(|(id, score)| scored(&p, id, score)).to_vec();
-        let answer = Judged {
-            case: &case,
-            options: &Options::default(),
-            problem: &p,
-            references: &[],
-            visits: &[],
-            calibration: &calibration,
-            sensors: &Redundant::default(),
-            simulator: None,
-            decision: &Decision { scored, none: 0.1, ..Decision::default() },
-        };
+        let decision = Decision { scored, none: 0.1, ..Decision::default() };
+        let (options, sensors) = Default::default();
+        let answer = judged(&p, &case, (&options, &sensors), &calibration, &decision);
         let placebo = placebo(&answer).expect("a rival").trial.hypothesis.ids();
         assert_eq!(placebo, ["rolling_resistance"], "the best hypothesis that shares nothing with the winner");
         leave_one_out(&answer, &p.begin(&Hypothesis::default(), p.origin(), None))
@@ -320,17 +326,9 @@ mod tests {
         let error = |constants_are_loose: bool| {
             let p = Problem { constants_are_loose, ..problem(&file, &cuts) };
             let (calibration, case) = (calibration(&p), Case { pose_sigma: 1e-4, ..Case::new(file) });
-            let answer = Judged {
-                case: &case,
-                options: &Options::default(),
-                problem: &p,
-                references: &[],
-                visits: &[],
-                calibration: &calibration,
-                sensors: &Redundant::default(),
-                simulator: None,
-                decision: &Decision { none: 1.0, ..Decision::default() },
-            };
+            let (options, sensors) = Default::default();
+            let decision = Decision { none: 1.0, ..Decision::default() };
+            let answer = judged(&p, &case, (&options, &sensors), &calibration, &decision);
             let arrived = Point { theta: far.map(|x| -x), ..p.origin() };
             let retuned = p.begin(&Hypothesis::default(), arrived, None);
             leave_one_out(&answer, &retuned).free_runs[0].retuned

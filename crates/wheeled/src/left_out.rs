@@ -130,10 +130,9 @@ fn twist(drive: &Drive) -> Errors {
     AHEAD.beginnings(&drive.pose).into_iter().filter_map(of).collect()
 }
 
-/// A drive beside the motion from torques and steering alone, as stated or as the references have it, re-tuned, and with the
-/// named causes, by these constants at each instant, the last only where there are some; `None` of a drive without a pose.
+/// A drive beside the motion from torques and steering alone, as [`Solved::simulated`]; `None` of a drive without a pose.
 pub(crate) fn trace<'a>(
-    solved: &Solved<Shown<'_>>,
+    solved: &'a Solved<Shown<'_>>,
     shown: &Shown<'_>,
     corrected: impl Fn(f64) -> &'a [f64],
     left_out: bool,
@@ -150,14 +149,8 @@ pub(crate) fn trace<'a>(
     if starts.is_empty() {
         return None;
     }
-    let of = |theta: &[f64]| runs_anew(&solved.data.model, |_| theta, drive, (&starts, longest));
-    let named = &solved.named;
-    let corrected = if named.chosen.is_empty() {
-        Vec::new()
-    } else {
-        runs_anew(&solved.data.model, corrected, drive, (&starts, longest))
-    };
-    let simulated = [of(solved.prior.mean.as_slice()), of(named.retuned.mean.as_slice()), corrected];
+    let simulated =
+        solved.simulated(&corrected, |theta| runs_anew(&solved.data.model, theta, drive, (&starts, longest)));
     let time = (0..drive.pose.len()).map(|k| STEP * k as f64).collect();
     Some(Beside { recording: &drive.name, left_out, time, measured: &drive.pose, starts, simulated }.trace())
 }

@@ -2,7 +2,7 @@
 
 mod drawn;
 
-use drawn::{With, case};
+use drawn::{With, beginning, case};
 use robot_model::wheels::Robot;
 use wheeled::{Answer, diagnose, diagnosis, examine};
 
@@ -72,4 +72,27 @@ fn drives_that_are_left_out_are_forecast_and_the_verdict_says_by_how_much() {
 
     let predicted = findings.predict(&case.recordings[0]);
     assert!(predicted.corrected.iter().all(|p| p.iter().all(|x| x.is_finite())), "from the first pose on");
+}
+
+#[test]
+fn a_cause_that_begins_while_the_robot_drives_is_told_with_its_instant() {
+    let case = beginning("torque-tricycle", 11.0, |r| r.ground.rolling = 0.06);
+    let (findings, table) = examine(&case, Some(12.0), &|_| {}).expect("findings");
+    let told = diagnosis(&findings, &table, false);
+    let first = &told.ranked[0];
+    assert_eq!(first.effect, "rolling_drag", "{:#?}", told.sentences);
+    let size = first.parameters["rolling resistance"];
+    assert!((size.value - 0.06).abs() < 0.006, "{size:?}");
+
+    let spans = first.intervals.as_ref().expect("an onset");
+    assert!(!spans.contains_key("drive 1") && spans["drive 3"][0][0] == 0.0, "{spans:?}");
+    let [from, until] = spans["drive 2"][0];
+    assert!((from - 11.0).abs() < 1.0 && until > 19.0, "{spans:?}");
+    assert!(told.sentences.iter().any(|s| s.contains("s of drive 'drive 2'")), "{:#?}", told.sentences);
+
+    // A drive that tells causes apart which are always there is none for this.
+    assert!(told.next.is_none() && told.limits.iter().any(|limit| limit.starts_with("no next drive is advised")));
+    // The drive before is simulated without it.
+    let errors = |row: usize| table.by_drive[0].1[row][2].expect("forecasts")[0];
+    assert!(errors(2) < 1.5 * errors(0), "{:?}", table.by_drive[0]);
 }

@@ -41,36 +41,42 @@ impl Gate {
 pub struct Onset {
     /// Index among the causes.
     pub cause: usize,
-    /// The drive in which it does, by its place among the drives.
-    pub drive: usize,
-    /// When, s from the start of that drive; 0 where it is between two drives.
+    /// When, s from the start of its drive; 0 where it is between two drives.
     pub time: f64,
     /// 90 % interval of it, as far as it lies within that drive.
     pub interval: [f64; 2],
-    /// Whether it ends there.
-    pub ends: bool,
     /// Constants where it is not there.
     pub off: DVector<f64>,
     /// Factor on the usual scatter of constants between drives.
     pub factor: f64,
-    /// The same by rows.
+    /// In which drive it begins or ends, and in which row.
     pub(crate) gate: Gate,
 }
 
 impl Onset {
+    /// The drive in which it begins, or ends, by its place among the drives.
+    pub fn drive(&self) -> usize {
+        self.gate.drive
+    }
+
+    /// Whether it ends there.
+    pub fn ends(&self) -> bool {
+        self.gate.ends
+    }
+
     /// Whether the cause is there at an instant of a drive.
     pub fn acts(&self, drive: usize, time: f64) -> bool {
-        ((drive, time) >= (self.drive, self.time)) != self.ends
+        Gate { known: self.time, ..self.gate }.acts(drive, time)
     }
 
     /// Whether it is there in a drive that was left out, from whose place on the others follow it.
     pub fn acts_in_left_out(&self, place: usize) -> bool {
-        (place > self.drive) != self.ends
+        (place > self.drive()) != self.ends()
     }
 
     /// From when to when it is there in a drive that is so long, s.
     pub fn span(&self, drive: usize, length: f64) -> Option<[f64; 2]> {
-        let is_inside = drive == self.drive && self.time > 0.0;
+        let is_inside = drive == self.drive() && self.time > 0.0;
         match (self.acts(drive, 0.0), is_inside) {
             (true, true) => Some([0.0, self.time.min(length)]),
             (true, false) => Some([0.0, length]),
@@ -90,13 +96,17 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn solved(drives: Vec<Scaled>) -> Solved<Scaled> {
+        solved_by(drives, None)
+    }
+
+    fn solved_by(drives: Vec<Scaled>, at_least_zero: Option<usize>) -> Solved<Scaled> {
         let spreads = vec![Spread { sigma: 0.01, usual: 0.3, scatter: 0.003, bounds: [-5.0, 5.0] }];
         let data = Data { model: (), spreads, drives };
         let cause = Cause {
             spec: &catalogue::odometry::RADIUS_OF_ALL_WHEELS,
             of: None,
             directions: vec![(vec![(0, 1.0)], 0.3)],
-            at_least_zero: None,
+            at_least_zero,
         };
         solve(data, None, vec![cause]).expect("solved")
     }
@@ -108,7 +118,7 @@ mod tests {
             let solved = solved([[before; 2], [before, after], [after; 2]].map(|s| Scaled::changing(s, 12.0)).into());
             let onset = solved.onset.as_ref().expect("an onset");
             // The first row with it became known after 12 s, and tells of a window before.
-            assert_eq!((onset.drive, onset.ends), (1, ends));
+            assert_eq!((onset.drive(), onset.ends()), (1, ends));
             assert_relative_eq!(onset.time, 11.4, epsilon = 1e-9);
             assert!(onset.interval[0] < 11.0 && onset.interval[1] > 12.0, "{:?}", onset.interval);
             assert_relative_eq!(onset.off[0], 0.0, epsilon = 0.01);
@@ -127,7 +137,7 @@ mod tests {
             let without = solved.without(1).expect("a fold");
             let of_left_out = |s: &Solved<Scaled>, place: usize| s.corrected_of_left_out(place)[0] > 0.2;
             // Between two drives it is not known when.
-            assert!(without.onset.as_ref().is_some_and(|onset| onset.time == 0.0 && onset.drive == 1));
+            assert!(without.onset.as_ref().is_some_and(|onset| onset.time == 0.0 && onset.drive() == 1));
             assert_eq!([of_left_out(&without, 0), of_left_out(&without, 2)], [ends, !ends]);
         }
     }
@@ -139,6 +149,22 @@ mod tests {
             assert!(solved.onset.is_none(), "{:?}", solved.onset);
             assert_eq!(solved.named.chosen.len(), usize::from(scale > 1.0));
         }
+    }
+
+    #[test]
+    fn what_explains_little_of_what_is_left_does_not_begin() {
+        let drives = |after: f64, off: f64| {
+            [[1.0; 2], [1.0, after], [after; 2]].map(|s| Scaled::changing(s, 12.0).roughly(off)).into()
+        };
+        assert!(solved(drives(1.1, 0.03)).onset.is_some());
+        assert!(solved(drives(1.1, 0.2)).onset.is_none());
+    }
+
+    #[test]
+    fn a_share_that_cannot_be_negative_does_not_begin_to_be() {
+        let falls = || vec![Scaled::changing([1.0, 0.6], 12.0)];
+        assert!(solved_by(falls(), None).onset.is_some());
+        assert!(solved_by(falls(), Some(0)).onset.is_none());
     }
 
     #[test]

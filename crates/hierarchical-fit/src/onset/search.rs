@@ -247,10 +247,8 @@ impl<D: Observed> Sought<'_, D> {
 
     /// Constants where the cause is not there, and where it is.
     fn constants(&self, weighted: &Weighted) -> [DVector<f64>; 2] {
-        let [off, moved] = self.split(weighted);
-        let (directions, _) = directions(&self.causes[weighted.hypothesis.cause], off.len());
-        let on = &off + &directions * &moved;
-        [off, on]
+        let [off, _] = self.split(weighted);
+        [off, self.acting(weighted).mean]
     }
 
     /// Constants where the cause is not there, and how far it moves them.
@@ -294,7 +292,7 @@ impl<D: Observed> Sought<'_, D> {
         let n = self.prior.mean.len();
         let sessions = about.off.iter().zip(&about.on).enumerate().map(|(k, (off, on))| {
             let acting = |(off, on): (&Stretch, &Stretch)| {
-                if gate.acts(k, on.span[0]) { on.equations.clone() } else { off.equations.clone() }
+                if gate.acts(k, on.from) { on.equations.clone() } else { off.equations.clone() }
             };
             let all: Vec<Session> = off.iter().zip(on).map(acting).collect();
             let together = (SETTINGS.errors.stretch / SETTINGS.onset.coarse).round().max(1.0) as usize;

@@ -51,12 +51,10 @@ impl<D: Observed> Sought<'_, D> {
             [before(interval[0], rules.passed + rules.unsure), before(interval[1], rules.passed - rules.unsure)];
         let onset = Onset {
             cause: hypothesis.cause,
-            drive: gate.drive,
             time,
             interval,
             gate,
             factor: weighted.factor,
-            ends: hypothesis.ends,
             off: DVector::from_vec(self.data.within_bounds(&off)),
         };
         // What it explains must be more than laws that are not quite those of the robot get wrong.
@@ -92,7 +90,7 @@ impl<D: Observed> Sought<'_, D> {
 pub(super) fn when(weighted: &Weighted, drives: &[Vec<Stretch>]) -> Option<(Gate, [f64; 2])> {
     let instants = &weighted.instants;
     let (_, [drive, from]) = *instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let at = |from: usize| if from == 0 { 0.0 } else { drives[drive].get(from).map_or(0.0, |s| s.span[0]) };
+    let at = |from: usize| if from == 0 { 0.0 } else { drives[drive].get(from).map_or(0.0, |s| s.from) };
     let of_drive: Vec<(f64, usize)> =
         instants.iter().filter(|(_, [d, _])| *d == drive).map(|(score, [_, k])| (*score, *k)).collect();
     let whole = log_sum_exp(&of_drive.iter().map(|(score, _)| *score).collect::<Vec<f64>>());

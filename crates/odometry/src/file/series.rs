@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use inference::interpolate;
 
-use crate::drive::{Drive, WheelData, enough_rows, radians};
+use crate::drive::{Drive, WheelData, enough_rows, of_recording, radians};
 use crate::error::OdometryError;
 use crate::file::robot::RobotFile;
 use crate::settings::{DriveRules, SETTINGS};
@@ -88,7 +88,7 @@ impl RobotFile {
             pose: time.iter().map(|t| seen(t).map_or([f64::NAN; 3], |k| body.pose[k])).collect(),
             heading_only: body.heading_only,
             time,
-            told,
+            told: of_recording(name, told),
         };
         // One pose is a beginning; only motion tells units.
         let is_seen = (0..drive.pose.len()).filter(|&row| drive.is_seen(row)).nth(RULES.rows).is_some();

@@ -50,8 +50,13 @@ fn torques(plant: &Robot<f64>, t: f64, phase: f64) -> [f64; MOST] {
 
 /// A drive of a robot that may be another than the one that is stated.
 pub(crate) fn drive(stated: &AnyWheels, truth: &Robot<f64>, seed: u64, with: With) -> Drive {
+    changing(stated, [truth; 2], 0.0, (seed, with))
+}
+
+/// The same of a robot that becomes another one at an instant, s.
+fn changing(stated: &AnyWheels, [before, after]: [&Robot<f64>; 2], from: f64, (seed, with): (u64, With)) -> Drive {
     let mut noise = Noise(seed * 7919 + 13);
-    let plant = Plant::new(truth, STEP);
+    let plants = [before, after].map(|robot| Plant::new(robot, STEP));
     let mut s = State::default();
     let phase = noise.uniform() * 3.0;
     let mut of = Measured {
@@ -68,7 +73,7 @@ pub(crate) fn drive(stated: &AnyWheels, truth: &Robot<f64>, seed: u64, with: Wit
     for k in 0..(SECONDS / STEP) as usize {
         let t = STEP * k as f64;
         let row = t - t % 0.02;
-        let torque = torques(truth, row, phase);
+        let torque = torques(after, row, phase);
         let mut steering = [0.0; MOST];
         for angle in &mut steering {
             *angle = 0.35 * (0.6 * t + 2.0 * phase).sin();
@@ -91,7 +96,7 @@ pub(crate) fn drive(stated: &AnyWheels, truth: &Robot<f64>, seed: u64, with: Wit
                 }
             }
         }
-        plant.step(&mut s, &torque, &steering);
+        plants[usize::from(t >= from)].step(&mut s, &torque, &steering);
     }
     Drive::new(&format!("drive {seed}"), stated, &of, false).expect("a drive")
 }
@@ -103,4 +108,14 @@ pub(crate) fn case(name: &str, with: With, change: impl Fn(&mut Robot<f64>)) -> 
     change(&mut truth);
     let recordings = [1, 2, 3].map(|seed| drive(&stated, &truth, seed, with)).to_vec();
     Case { robot: stated, references: Vec::new(), recordings }
+}
+
+/// The same with a change that begins in the second recording, s from its start.
+pub(crate) fn beginning(name: &str, from: f64, change: impl Fn(&mut Robot<f64>)) -> Case {
+    let stated = robot(name);
+    let (sound, mut truth) = (stated.plant, stated.plant);
+    change(&mut truth);
+    let drive = |seed: u64, from: f64| changing(&stated, [&sound, &truth], from, (seed, With::Pose));
+    let recordings = vec![drive(1, SECONDS), drive(2, from), drive(3, 0.0)];
+    Case { references: Vec::new(), recordings, robot: stated.clone() }
 }

@@ -129,4 +129,24 @@ mod tests {
         }
         assert_eq!(row(&truth(Layout::Car, "rear axle"), &say("motor_torque_scale"), None).found, [true]);
     }
+
+    #[test]
+    fn an_onset_is_late_by_what_is_told_of_its_recording() {
+        let truth = |onset: Option<(&str, f64)>| WheeledTruth {
+            case: "w001".into(),
+            layout: Layout::Omni3,
+            hidden: vec![Hidden::Mass],
+            part: None,
+            numbers: [].into(),
+            onset: onset.map(|(run, at)| (run.to_owned(), at)),
+        };
+        let told = json!({ "ranked": [{ "intervals": null }, { "intervals": { "run_2": [[12.5, 30.0]], "run_3": [[0.0, 30.0]] } }] });
+        let of = |at: Option<(&str, f64)>, told: &Value| onset(&truth(at), told);
+        let is = |is_hidden, is_told, late| causes::Onset { is_hidden, is_told, late };
+        assert_eq!(of(Some(("run_2", 12.0)), &told), is(true, true, Some(0.5)));
+        assert_eq!(of(Some(("run_1", 12.0)), &told), is(true, true, None), "not in this recording");
+        assert_eq!(of(Some(("run_3", 12.0)), &told), is(true, true, None), "there from its start");
+        assert_eq!(of(None, &told), is(false, true, None));
+        assert_eq!(of(None, &json!({ "ranked": [{}] })), is(false, false, None));
+    }
 }
