@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
+use hierarchical_fit::Rehearsable;
 use verdict::Diagnosis;
 
 use crate::car::{self, CarCase};
@@ -80,7 +81,7 @@ impl ColumnsCase {
     /// Length of its first recording, s; `None` without any.
     pub fn duration(&self) -> Option<f64> {
         match self {
-            Self::Odometry(case) => case.case.recordings.first().map(odometry_length),
+            Self::Odometry(case) => case.case.recordings.first().map(::odometry::Drive::duration),
             Self::Car(case) => case.case.recordings.first().map(single_track::Drive::duration),
             Self::Wheeled(case) => case.case.recordings.first().map(::wheeled::Drive::duration),
         }
@@ -107,6 +108,18 @@ impl ColumnsCase {
         }
     }
 
+    /// What its drives could say, whatever they say.
+    ///
+    /// # Errors
+    /// As [`Self::diagnose`].
+    pub fn rehearsable(&self, progress: &dyn Fn(&str)) -> Result<Rehearsable> {
+        Ok(match self {
+            Self::Odometry(case) => ::odometry::rehearsable(&case.case, progress)?,
+            Self::Car(case) => single_track::rehearsable(&case.case, progress)?,
+            Self::Wheeled(case) => ::wheeled::rehearsable(&case.case, progress)?,
+        })
+    }
+
     /// A diagnosis with what it was made from.
     pub fn envelope(&self, diagnosis: Diagnosis) -> ColumnsEnvelope {
         match self {
@@ -115,10 +128,6 @@ impl ColumnsCase {
             Self::Wheeled(case) => case.origin.envelope(self.kind(), diagnosis),
         }
     }
-}
-
-fn odometry_length(drive: &::odometry::Drive) -> f64 {
-    drive.time.last().zip(drive.time.first()).map_or(0.0, |(last, first)| last - first)
 }
 
 /// The kind of a robot, a file or built in, if it names its columns itself.

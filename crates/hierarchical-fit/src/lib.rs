@@ -12,6 +12,7 @@
 //!   all of it by one set of equations (`scan`), the best by their own (`search`).
 //! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
+//! * `rehearsable`: what the drives of a fit could say, for whoever asks what they would show.
 //! * `table`: columns of a drive by the names that a robot file gives them.
 //! * `ahead`: forecasts of a pose: where they begin, and how far off they are. `error`: why a case cannot be compared.
 //! * `beside`: drives beside their simulations, for pages and pictures.
@@ -32,6 +33,7 @@ mod name;
 pub mod next_drive;
 mod observed;
 mod onset;
+mod rehearsable;
 mod said;
 #[cfg(test)]
 mod scaled;
@@ -54,6 +56,7 @@ pub use found::{Answer, Began, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};
 pub use onset::Onset;
+pub use rehearsable::{Hideable, Rehearsable, Told};
 pub use said::{Said, Unexplained, Valued, beyond_references, is_beyond_references};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, solve};

@@ -92,6 +92,23 @@ pub enum ClockZero {
     Middle,
 }
 
+impl Quantity {
+    /// What it multiplies, where it is kept as the logarithm of a factor.
+    pub(crate) fn multiplied(self, robot: &WheeledRobot) -> Option<f64> {
+        let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);
+        let extent = |axis: usize| places(axis).fold(f64::MIN, f64::max) - places(axis).fold(f64::MAX, f64::min);
+        match self {
+            Self::Radius(wheel) => Some(robot.wheels[robot.measured()[wheel]].radius),
+            Self::Across => Some(extent(1)),
+            Self::Along => Some(extent(0)),
+            Self::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
+            Self::SteeringGain | Self::TurnSlipPower | Self::GyroScale => Some(1.0),
+            Self::TurnSlipRate => Some(SETTINGS.slip.turning),
+            _ => None,
+        }
+    }
+}
+
 /// A constant, how well it is known, and by how much sessions differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {

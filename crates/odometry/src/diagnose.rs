@@ -21,7 +21,7 @@ use crate::windows::{Data, laws};
 use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::telling::of_recordings;
 use hierarchical_fit::{
-    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Weighed, covariance,
+    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Rehearsable, Weighed, covariance,
     is_beyond_references, name_from, of_class,
 };
 use inference::evidence::logistic;
@@ -97,6 +97,23 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     };
     let plainer = solved.plainer().map(|plainer| Box::new(of(&plainer)));
     Ok(Findings { plainer, ..of(&solved) })
+}
+
+/// What the drives of a case could say, whatever they say.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, OdometryError> {
+    case.robot.checked()?;
+    if case.recordings.is_empty() {
+        return Err(OdometryError::Case(CaseError::Empty));
+    }
+    progress("fitting the pose to the wheels' motion");
+    let (case, clock) = clock::joined(case);
+    let drives: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
+    let data = data(&case.robot, &solved.constants, drives, &solved.lost)?;
+    Ok(crate::rehearsable::rehearsable(&case, &data, &solved))
 }
 
 /// What is known before the recordings: of the robot file, or of the references, with the error that is left of these.
@@ -373,19 +390,7 @@ fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
 fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
     let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
     let sigmas = (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt();
-    let places = |axis: usize| robot.wheels.iter().map(move |w| w.place[axis]);
-    let extent = |axis: usize| places(axis).fold(f64::MIN, f64::max) - places(axis).fold(f64::MAX, f64::min);
-    // What is kept as the logarithm of a factor is told as what it multiplies.
-    let multiplied = match constant.quantity {
-        Quantity::Radius(wheel) => Some(robot.wheels[robot.measured()[wheel]].radius),
-        Quantity::Across => Some(extent(1)),
-        Quantity::Along => Some(extent(0)),
-        Quantity::Reach => inference::robust::mean(robot.wheels.iter().map(|w| w.place[0].hypot(w.place[1]))),
-        Quantity::SteeringGain | Quantity::TurnSlipPower | Quantity::GyroScale => Some(1.0),
-        Quantity::TurnSlipRate => Some(SETTINGS.slip.turning),
-        _ => None,
-    };
-    let (given, value, half_width) = match multiplied {
+    let (given, value, half_width) = match constant.quantity.multiplied(robot) {
         Some(of) => {
             let value = of * posterior.mean[k].exp();
             let is_shape = matches!(constant.quantity, Quantity::TurnSlipRate | Quantity::TurnSlipPower);

@@ -204,7 +204,12 @@ impl Drive {
         self
     }
 
-    /// Rows with a pose.
+    /// How long it is, s.
+    pub fn duration(&self) -> f64 {
+        self.time.last().zip(self.time.first()).map_or(0.0, |(last, first)| last - first)
+    }
+
+    /// Whether the pose is seen in a row.
     pub(crate) fn is_seen(&self, row: usize) -> bool {
         let pose = &self.pose[row];
         pose[2].is_finite() && (self.heading_only || pose.iter().all(|x| x.is_finite()))

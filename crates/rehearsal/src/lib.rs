@@ -4,6 +4,7 @@
 //!
 //! * `plan`: what is to be rehearsed; `error`: why nothing could be.
 //! * `rehearse`: the whole way, from a case to shares of replicas.
+//! * `of_fit`: the same by the equations of a fit to whole drives, without simulating.
 //! * `hidden`: an effect of a given size, in the form in which a replica has it.
 //! * `replica`: a robot drawn about the robot file, its references, the drives of its recordings.
 //! * `sensors`: noise, rates and gaps of the recordings, and what such sensors show of a simulated drive.
@@ -12,6 +13,7 @@
 
 mod error;
 mod hidden;
+mod of_fit;
 mod plan;
 mod random;
 mod rehearse;
@@ -24,6 +26,7 @@ mod tests;
 mod words;
 
 pub use error::RehearsalError;
+pub use of_fit::rehearse_fit;
 pub use plan::Plan;
 pub use rehearse::{Rehearsing, rehearse};
 

@@ -7,7 +7,7 @@ use verdict::NotRehearsed;
 
 use crate::error::RehearsalError;
 use crate::hidden::Hidden;
-use crate::settings::{Planned, SETTINGS};
+use crate::settings::{Planned, PlannedOfFit, SETTINGS};
 
 const PLAN: Planned = SETTINGS.plan;
 
@@ -49,11 +49,17 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// The same with sizes that rise, each once.
+    /// The plan for robots whose constants are fitted to whole drives: nothing is simulated, and more can be drawn.
+    pub fn of_fit() -> Self {
+        let PlannedOfFit { sizes, replicas, fault_free } = SETTINGS.plan_of_fit;
+        Self { sizes: sizes.to_vec(), replicas, fault_free, ..Self::default() }
+    }
+
+    /// The same with sizes that rise, each once. `known`: names that effects can have.
     ///
     /// # Errors
     /// Numbers with which nothing can be simulated, and names that are no effect's.
-    pub fn checked(&self, known: KnownEffects) -> Result<Self, RehearsalError> {
+    pub fn checked(&self, known: &[&str]) -> Result<Self, RehearsalError> {
         if let Some(size) = self.sizes.iter().find(|size| !(size.is_finite() && **size > 0.0)) {
             return Err(RehearsalError::Size { size: *size });
         }
@@ -70,9 +76,8 @@ impl Plan {
         if self.seconds.is_nan() || self.seconds <= 0.0 {
             return Err(RehearsalError::Length { seconds: self.seconds });
         }
-        let known: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
         if let Some(name) = self.effects.iter().find(|name| !known.contains(&name.as_str())) {
-            let hint = suggest::hint(name, &known);
+            let hint = suggest::hint(name, known);
             return Err(RehearsalError::UnknownEffect { name: name.clone(), hint });
         }
 
@@ -83,7 +88,7 @@ impl Plan {
     }
 
     /// Whether an effect was asked for.
-    fn wants(&self, id: &str) -> bool {
+    pub(crate) fn wants(&self, id: &str) -> bool {
         self.effects.is_empty() || self.effects.iter().any(|wanted| wanted == id)
     }
 
@@ -110,7 +115,7 @@ mod tests {
     fn refused(change: impl FnOnce(&mut Plan)) -> String {
         let mut plan = Plan::default();
         change(&mut plan);
-        let refused = plan.checked(KnownEffects::default()).expect_err("refused");
+        let refused = plan.checked(&["payload", "grade"]).expect_err("refused");
         assert!(refused.is_of_plan());
         refused.to_string()
     }
@@ -129,7 +134,7 @@ mod tests {
     #[test]
     fn sizes_rise_and_stand_once() {
         let plan = Plan { sizes: vec![2.0, 0.5, 2.0], replicas: 40, ..Plan::default() };
-        let plan = plan.checked(KnownEffects::default()).expect("a plan");
+        let plan = plan.checked(&[]).expect("a plan");
         assert_eq!((plan.sizes, plan.fault_free), (vec![0.5, 2.0], 40));
     }
 

@@ -21,7 +21,7 @@ use crate::words;
 /// Share of replicas from which on an effect counts as found.
 const WANTED: f64 = SETTINGS.plan.wanted;
 /// Why an effect is left out whose smallest size is none.
-const BEYOND: &str = "already its smallest size lies beyond what the catalogue calls sensible on this robot";
+pub(crate) const BEYOND: &str = "already its smallest size lies beyond what the catalogue calls sensible on this robot";
 /// Why an effect is left out that no recorded channel shows.
 const UNSEEN: &str = "it changes nothing that these recordings hold: the channel that would show it is missing";
 
@@ -57,7 +57,8 @@ impl<'a> Rehearsing<'a> {
     /// # Errors
     /// A plan with which nothing can be simulated, a case without recordings, recordings that are too short.
     pub fn new(case: &'a Case, plan: &Plan, options: &'a Options) -> Result<Self, RehearsalError> {
-        let plan = plan.checked(options.known)?;
+        let known: Vec<&str> = options.known.all().map(|effect| effect.spec().id).collect();
+        let plan = plan.checked(&known)?;
         case.robot.checked().map_err(DiagnosisError::from)?;
         if case.recordings.is_empty() {
             return Err(DiagnosisError::Empty { what: "recording" }.into());
@@ -179,8 +180,7 @@ impl<'a> Rehearsing<'a> {
                 sizes,
             }
         };
-        let mut effects: Vec<RehearsedEffect> = (0..self.effects.len()).map(effect).collect();
-        effects.sort_by(|a, b| found_multiple(a).total_cmp(&found_multiple(b)));
+        let effects = in_order((0..self.effects.len()).map(effect).collect());
 
         let limits = words::limits(&effects, &self.plan, self.common.references.len());
         Rehearsal {
@@ -230,6 +230,12 @@ impl<'a> Rehearsing<'a> {
             wanted_share: WANTED,
         }
     }
+}
+
+/// Effects, those that are found from the smallest multiple on first.
+pub(crate) fn in_order(mut effects: Vec<RehearsedEffect>) -> Vec<RehearsedEffect> {
+    effects.sort_by(|a, b| found_multiple(a).total_cmp(&found_multiple(b)));
+    effects
 }
 
 /// From how many sizes of interest on an effect is found.

@@ -41,6 +41,11 @@ impl Scored {
         Self { kind: Kind::Withheld, others: BTreeSet::new(), failure: Some(why) }
     }
 
+    /// An answer that nothing is missing.
+    pub(crate) fn nothing() -> Self {
+        Self { kind: Kind::Nothing, others: BTreeSet::new(), failure: None }
+    }
+
     /// Scores an answer; `hidden` is the effect that was hidden, if any.
     ///
     /// Named are the most probable cause, every cause that is more likely than not, and the members
@@ -48,7 +53,7 @@ impl Scored {
     pub(crate) fn new(answer: &Diagnosis, hidden: Option<&str>) -> Self {
         let without = |kind| Self { kind, others: BTreeSet::new(), failure: None };
         match answer.verdict {
-            Verdict::NoMismatch => return without(Kind::Nothing),
+            Verdict::NoMismatch => return Self::nothing(),
             Verdict::Unknown => return without(Kind::Unknown),
             Verdict::Withheld => return without(Kind::Withheld),
             Verdict::Explained => {}
@@ -61,6 +66,11 @@ impl Scored {
         let alike = answer.indistinguishable.iter().flatten().map(String::as_str);
         let named: BTreeSet<&str> = likely.chain(first).chain(alike).collect();
 
+        Self::of_names(first, named, hidden)
+    }
+
+    /// Scores names that an answer holds, one of them before the others.
+    pub(crate) fn of_names(first: Option<&str>, named: BTreeSet<&str>, hidden: Option<&str>) -> Self {
         let kind = match hidden {
             Some(hidden) if first == Some(hidden) => Kind::First,
             Some(hidden) if named.contains(hidden) => Kind::InSet,

@@ -24,6 +24,16 @@
         wanted: f64 = 0.5, "1", "guess; found more often than not";
     }
 
+    /// What is rehearsed by the equations of a fit unless the caller says otherwise.
+    plan_of_fit: PlannedOfFit {
+        /// Sizes that are hidden, in usual sizes of the cause.
+        sizes: [f64; 4] = [0.125, 0.25, 0.5, 1.0], "1", "guess; octaves up to what such a cause usually has";
+        /// Replicas of each size.
+        replicas: usize = 40, "1", "seconds of two cores";
+        /// Replicas in which nothing is hidden, at least.
+        fault_free: usize = 200, "1", "guess; with none alarmed, Wilson's interval ends at two per cent";
+    }
+
     /// Robots that are drawn about the robot file.
     constants: Constants {
         /// Farthest move of a constant, in the robot file's sigmas.

@@ -48,6 +48,32 @@ pub(crate) fn shortened(
     out
 }
 
+/// What limits an answer by the equations of a fit.
+pub(crate) fn limits_of_fit(plan: &Plan, references: usize) -> Vec<String> {
+    let mut out = vec![
+        "nothing is simulated: a replica obeys the equations of the fit to these recordings, in which a cause changes what is \
+         measured in proportion to its size; nothing is called unknown here, and on a real robot less is found"
+            .to_owned(),
+        "the size of interest of a cause is one sigma of the sizes that it usually has; where it can have either sign, either \
+         is drawn"
+            .to_owned(),
+        format!(
+            "constants are drawn within {} sigmas of the robot file, and differ from drive to drive as the fit found",
+            SETTINGS.constants.farthest
+        ),
+        "a cause is hidden alone and throughout; instants and pairs are not drawn".to_owned(),
+        format!("each size has {} replicas, a reference the inputs of a recording: read the intervals, not the shares", plan.replicas),
+    ];
+    if references == 0 {
+        out.push(NO_REFERENCE.to_owned());
+    }
+    out
+}
+
+/// What limits an answer without references.
+const NO_REFERENCE: &str =
+    "there is no reference: the robot file stands in its place; --references 3 tells what three would be worth";
+
 /// What limits the answer.
 pub(crate) fn limits(effects: &[RehearsedEffect], plan: &Plan, references: usize) -> Vec<String> {
     let mut out = vec![
@@ -72,10 +98,7 @@ pub(crate) fn limits(effects: &[RehearsedEffect], plan: &Plan, references: usize
         ),
     ];
     if references == 0 {
-        out.push(
-            "there is no reference: the robot file stands in its place; --references 3 tells what three would be worth"
-                .to_owned(),
-        );
+        out.push(NO_REFERENCE.to_owned());
     }
     let slowed = |effect: &&RehearsedEffect| effect.sizes.last().is_some_and(|s| s.driven < SETTINGS.seen.slowed);
     let names: Vec<&str> = effects.iter().filter(slowed).map(|effect| effect.effect.as_str()).collect();

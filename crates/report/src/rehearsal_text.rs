@@ -1,6 +1,7 @@
 //! A rehearsal as text: which effects would be found, from which size on, and what is taken for what.
 
 use inference::rate::Rate;
+use inference::words::two_digits;
 use pages::text_table::TextTable;
 use verdict::{Answers, FoundFrom, Rehearsal, RehearsedEffect, RehearsedSize};
 
@@ -73,7 +74,7 @@ fn effects(rehearsal: &Rehearsal) -> String {
 
 /// A size with its unit.
 pub(crate) fn with_unit(size: f64, effect: &RehearsedEffect) -> String {
-    if effect.unit == "-" { number(size) } else { format!("{} {}", number(size), effect.unit) }
+    if ["-", "1"].contains(&&*effect.unit) { number(size) } else { format!("{} {}", number(size), effect.unit) }
 }
 
 /// From where on an effect is found, in words.
@@ -123,7 +124,7 @@ pub(crate) fn driven(rehearsal: &Rehearsal) -> Vec<String> {
     let noise = drives
         .noise
         .iter()
-        .map(|n| format!("{} {} {} at {:.0} Hz ({})", n.channel, number(n.sigma), n.unit, n.rate, n.source));
+        .map(|n| format!("{} {} {} at {} Hz ({})", n.channel, number(n.sigma), n.unit, two_digits(n.rate), n.source));
     vec![
         format!(
             "{} replicas of each size, {} with nothing hidden, seed {}; found is what at least {:.0} % of replicas have",

@@ -3,7 +3,7 @@
 use hierarchical_fit::CaseError as CarError;
 use std::borrow::Cow;
 
-use hierarchical_fit::{Estimate, Said, Solved, Unexplained};
+use hierarchical_fit::{Estimate, Rehearsable, Said, Solved, Unexplained};
 
 use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
 
@@ -99,6 +99,21 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
         next_drive::advise(&solved, case.car.encoder_window, length)
     });
     Ok((findings, table))
+}
+
+/// What the drives of a case could say, whatever they say.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, CarError> {
+    if case.recordings.is_empty() {
+        return Err(CarError::Empty);
+    }
+    progress("fitting the car to its drives");
+    let (case, _) = clock::joined(case);
+    let all: Vec<&Drive> = case.recordings.iter().collect();
+    let solved = solve(&case.car, &case.references, &all)?;
+    Ok(solved.rehearsable(&solved.data.model, case.references.len(), next_drive::read))
 }
 
 fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> Findings {

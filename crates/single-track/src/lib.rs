@@ -44,7 +44,7 @@ pub use car::{Car, Stated};
 pub use case::Case;
 pub use constant_table::constants;
 pub use constants::{Constant, Quantity};
-pub use diagnose::{Findings, diagnose, examine};
+pub use diagnose::{Findings, diagnose, examine, rehearsable};
 pub use drive::{Columns, Drive};
 pub use forecast::{ByLength, Errors, LENGTHS};
 pub use hierarchical_fit::CaseError as CarError;

@@ -48,12 +48,17 @@ pub(crate) fn advise(solved: &Solved<Shown<'_>>, encoder_window: f64, length: f6
     let drives: Vec<(Manoeuvre, Drive)> = menu(reach, length).into_iter().filter_map(driven).collect();
     let shown =
         drives.iter().map(|(manoeuvre, drive)| (manoeuvre.clone(), Shown::new(drive, encoder_window))).collect();
+    solved.advise(shown, read)
+}
+
+/// What readings of a kind are, with their unit.
+pub(crate) fn read(kind: Kind) -> (String, &'static str) {
     let (seconds, lever) = (SETTINGS.windows.length, SETTINGS.windows.lever);
-    solved.advise(shown, |kind| match kind {
+    match kind {
         Kind::Pose => (format!("the place (or the heading, at a lever of {lever} m) {seconds} s ahead"), "m"),
         Kind::Gyro => ("the yaw rate".to_owned(), "rad/s"),
         Kind::Encoder => ("the speed by the encoder".to_owned(), "m/s"),
-    })
+    }
 }
 
 /// Speed and yaw rate at instants of a drive, by the pose where it was measured, else as encoder and gyro show them.

@@ -3,7 +3,7 @@
 use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
-use hierarchical_fit::{Said, Solved, Unexplained};
+use hierarchical_fit::{Rehearsable, Said, Solved, Unexplained};
 use verdict::{Advice, PredictedPath, Trace};
 
 use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
@@ -81,6 +81,15 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
         next_drive::advise(&solved, length)
     });
     Ok((findings, table))
+}
+
+/// What the drives of a case could say, whatever they say.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, WheeledError> {
+    let solved = solved(case, progress)?;
+    Ok(solved.rehearsable(&solved.data.model.all, case.references.len(), next_drive::read))
 }
 
 /// Drives of a case with the constants fitted to them, and what was named.

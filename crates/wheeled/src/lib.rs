@@ -34,7 +34,7 @@ mod units;
 
 pub use answer::diagnosis;
 pub use constants::{Constant, Quantity, constants};
-pub use diagnose::{Case, Findings, diagnose, examine};
+pub use diagnose::{Case, Findings, diagnose, examine, rehearsable};
 pub use drive::{Drive, Measured};
 pub use hierarchical_fit::CaseError as WheeledError;
 pub use hierarchical_fit::{Answer, Estimate, NamedCause};

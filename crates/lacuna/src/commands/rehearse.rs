@@ -5,16 +5,18 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail, ensure};
+use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Program;
 use case_files::{kind, own_effects};
 use clap::Args as ClapArgs;
 use inference::{KnownEffects, Options};
-use rehearsal::{Plan, RehearsalError, Rehearsing};
+use rehearsal::{Plan, RehearsalError, Rehearsing, rehearse_fit};
 use serde_json::json;
+use verdict::Rehearsal;
 
 use super::diagnose::{self, Input};
 use super::report::write_page;
-use super::{Adopted, Outcome, Usage, listed};
+use super::{Adopted, Outcome, Usage, listed, odometry};
 use crate::console::{Counted, Progress, emit, emit_json};
 
 const EXAMPLES: &str = "\
@@ -33,6 +35,11 @@ Effects are present throughout, one at a time.
 
 Before the first drive there is nothing but torques that you plan: make a case
 of them with `lacuna simulate robot.toml plan.csv -o case/recordings/plan.csv`.
+
+Of robots whose files name their columns (wheel counts, cars, any wheels) the
+constants are fitted to the recordings, and replicas are drawn from the
+equations of that fit: of whole drives, 40 of each size, in seconds. Sizes are
+then multiples of what a cause usually has [default: 0.125,0.25,0.5,1].
 
 With the defaults it takes minutes: of each drive the first 12 s, of two
 recordings, each size three times. More of each takes longer in proportion.
@@ -65,18 +72,19 @@ pub(crate) struct Args {
     #[arg(long, value_name = "COUNT", value_parser = references)]
     references: Option<usize>,
     /// Replicas of each size.
-    #[arg(long, value_name = "COUNT", default_value_t = Plan::default().replicas)]
-    replicas: usize,
+    /// [default: 3; 40 where the equations of a fit are used].
+    #[arg(long, value_name = "COUNT")]
+    replicas: Option<usize>,
     /// Replicas in which nothing is hidden: how often one would be alarmed for nothing [default:
-    /// 12, or as many as of each size].
+    /// 12, or as many as of each size; 200 where the equations of a fit are used].
     #[arg(long, value_name = "COUNT")]
     fault_free: Option<usize>,
-    /// Beginning of each recording and reference that is driven again, s.
-    #[arg(long, value_name = "S", default_value_t = Plan::default().seconds)]
-    seconds: f64,
-    /// Recordings that are driven again, at most.
-    #[arg(long, value_name = "COUNT", default_value_t = Plan::default().recordings, value_parser = drives)]
-    drives: usize,
+    /// Beginning of each recording and reference that is driven again, s [default: 12].
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Recordings that are driven again, at most [default: 2].
+    #[arg(long, value_name = "COUNT", value_parser = drives)]
+    drives: Option<usize>,
     /// Seed of all that is drawn.
     #[arg(long, value_name = "NUMBER", default_value_t = Plan::default().seed)]
     seed: u64,
@@ -109,20 +117,19 @@ impl Args {
         (files.into_iter().map(PathBuf::from).collect(), names)
     }
 
-    fn plan(&self, known: KnownEffects) -> Plan {
+    fn plan(&self, known: KnownEffects, usual: Plan) -> Plan {
         let (_, names) = self.files_and_names();
         let of_catalogue = names.into_iter().map(|name| name.to_lowercase().replace(['-', ' '], "_"));
         let own = known.own().iter().map(|own| own.name().to_owned());
-        let usual = Plan::default();
         Plan {
             sizes: if self.size.is_empty() { usual.sizes } else { self.size.clone() },
             effects: of_catalogue.chain(own).collect(),
             references: self.references,
-            replicas: self.replicas,
+            replicas: self.replicas.unwrap_or(usual.replicas),
             fault_free: self.fault_free.unwrap_or(usual.fault_free),
             seed: self.seed,
-            seconds: self.seconds,
-            recordings: self.drives,
+            seconds: self.seconds.unwrap_or(usual.seconds),
+            recordings: self.drives.unwrap_or(usual.recordings),
         }
     }
 }
@@ -130,14 +137,19 @@ impl Args {
 /// Rehearses a case.
 pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     let known = own_effects::read(&args.files_and_names().0, &args.adopted.adopt)?;
-    let plan = args.plan(known);
-    plan.checked(known).map_err(told)?;
     for target in [&args.json, &args.html].into_iter().flatten() {
         is_writable(target)?;
     }
 
     let progress = Progress::new(verbose);
     progress.stage("reading the recordings");
+    if let Some(case) = odometry::case(&args.input)? {
+        known.refused_for(case.kind().name())?;
+        return of_fit(args, &case, progress);
+    }
+    let plan = args.plan(known, Plan::default());
+    let names: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
+    plan.checked(&names).map_err(told)?;
     let robot = diagnose::located(&args.input, known)?.robot;
     if let Some(why) = kind::of(robot.causality).no_rehearsal() {
         bail!("robot '{}' is {}; {why}", robot.name, robot.causality.name());
@@ -159,25 +171,50 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
     drop(progress);
 
     let (rehearsal, lost) = (rehearsal.map_err(told)?, folder.lost());
-    if let Some(target) = &args.html {
-        write_page(target, &::report::rehearsal_page::render(&rehearsal, &folder.robot.name, &program()))?;
-    }
-    if let Some(target) = &args.json {
-        let whole = json!({
-            "format": 1,
-            "program": Program::default(),
-            "robot": folder.robot.to_json()?,
-            "mapping": mapping,
-            "lost": lost,
-            "rehearsal": rehearsal,
-        });
-        emit_json(target, &whole)?;
-    }
+    let about = json!({ "robot": folder.robot.to_json()?, "mapping": mapping, "lost": lost });
+    write(args, &rehearsal, &folder.robot.name, about)?;
     if ![&args.json, &args.html].iter().any(|target| target.as_deref() == Some("-")) {
-        let text = ::report::rehearsal_text::render(&rehearsal);
-        emit(&format!("{text}{}", listed("Input that was lost", &lost)))?;
+        emit(&listed("Input that was lost", &lost))?;
     }
     Ok(Outcome::of(&lost))
+}
+
+/// Rehearses a case whose constants are fitted to whole drives.
+fn of_fit(args: &Args, case: &ColumnsCase, progress: Progress) -> Result<Outcome> {
+    for (given, option) in [(args.seconds.is_some(), "--seconds"), (args.drives.is_some(), "--drives")] {
+        if given {
+            let name = case.robot_name();
+            return Err(Usage(format!(
+                "{option} is of robots whose drives are simulated again; of '{name}' whole drives are taken, and all of them; leave \
+                 it out"
+            ))
+            .into());
+        }
+    }
+    let plan = args.plan(KnownEffects::default(), Plan::of_fit());
+    let rehearsable = case.rehearsable(&|what| progress.stage(what))?;
+    progress.stage("naming the causes of replicas");
+    let rehearsal = rehearse_fit(&rehearsable, &plan).map_err(told)?;
+    drop(progress);
+    write(args, &rehearsal, case.robot_name(), json!({ "robot": case.robot() }))?;
+    Ok(Outcome::of(&[]))
+}
+
+/// Writes what was asked for; `about` is what stands beside a rehearsal in JSON.
+fn write(args: &Args, rehearsal: &Rehearsal, robot: &str, mut about: serde_json::Value) -> Result<()> {
+    if let Some(target) = &args.html {
+        write_page(target, &::report::rehearsal_page::render(rehearsal, robot, &program()))?;
+    }
+    if let Some(target) = &args.json {
+        about["format"] = json!(1);
+        about["program"] = json!(Program::default());
+        about["rehearsal"] = json!(rehearsal);
+        emit_json(target, &about)?;
+    }
+    if ![&args.json, &args.html].iter().any(|target| target.as_deref() == Some("-")) {
+        emit(&::report::rehearsal_text::render(rehearsal))?;
+    }
+    Ok(())
 }
 
 /// A plan that makes no sense is wrong usage.

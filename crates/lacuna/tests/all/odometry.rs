@@ -191,17 +191,40 @@ fn what_cannot_be_is_one_clear_sentence() {
 }
 
 #[test]
+fn drives_are_rehearsed_by_the_equations_of_their_fit() {
+    let bench = bench();
+    let run = bench.run(&["rehearse", "case", "--json", "r.json", "--html", "r.html"]);
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for told in ["of 200 replicas", "radius_of_one_wheel (left)", "run_0 (60.0 s)", "nothing is simulated"] {
+        assert!(run.out().contains(told), "no `{told}` in {}", run.out());
+    }
+    let json: Value = serde_json::from_str(&bench.read("r.json")).unwrap();
+    let effects = json["rehearsal"]["effects"].as_array().unwrap();
+    let radius = effects.iter().find(|e| e["effect"] == "radius_of_one_wheel (left)").expect("the radius");
+    let found = |k: usize| radius["sizes"][k]["answers"]["first"].as_u64();
+    assert_eq!((found(3), &radius["unit"]), (Some(40), &"m".into()));
+    assert!(bench.read("r.html").contains("radius of one wheel"));
+
+    let of = ["rehearse", "case", "--effects", "radius_of_one_wheel", "--size", "1", "--replicas", "2"];
+    let run = bench.run(&of);
+    assert!(run.out().contains("(right)") && run.out().contains("(left)"), "{}", run.out());
+    for (option, value, told) in
+        [("--effects", "payload", "no effect is called `payload`"), ("--seconds", "5", "--seconds is of robots")]
+    {
+        let run = bench.run(&["rehearse", "case", option, value]);
+        assert!(run.code() == Some(2) && run.err().contains(told), "{}", run.err());
+    }
+}
+
+#[test]
 fn what_needs_torques_or_speeds_says_which_kind_a_robot_is_and_every_robot_has_a_name() {
     let bench = bench();
     let is_refused = |args: &[&str], parts: &[&str]| {
         bench.run(args).failed(&[parts, &["`lacuna diagnose` takes it; this command needs"]].concat());
     };
-    is_refused(&["rehearse", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
-    is_refused(
-        &["rehearse", "--robot", "tricycle", "--recordings", "case/recordings"],
-        &["'tricycle'", "kind odometry"],
-    );
-    is_refused(&["rehearse", "--robot", "dart", "--recordings", "case/recordings"], &["'dart'", "kind car"]);
+    is_refused(&["screen", "case"], &["kind odometry, which compares wheel motion beside a pose"]);
+    is_refused(&["screen", "--robot", "tricycle", "--recordings", "case/recordings"], &["'tricycle'", "kind odometry"]);
+    is_refused(&["screen", "--robot", "dart", "--recordings", "case/recordings"], &["'dart'", "kind car"]);
     bench.run(&["diagnose", "--robot", "zebra", "--recordings", "case/recordings"]).failed(&[
         "husky-a200",
         "omni-3",
