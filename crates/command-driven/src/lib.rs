@@ -129,7 +129,12 @@ pub fn diagnose_response(
     let left_out = left_out(&folds);
     let has_position = case.recordings.iter().any(ResponseRun::has_position);
     let mut runs = free_runs("left out in folds", &left_out, has_position);
-    let objection = Standing::new(&runs).and_then(|standing| standing.objection(None));
+    let standing = Standing::new(&runs);
+    let objection = standing.as_ref().and_then(|standing| standing.objection(None));
+    // Each element has a proof of its own, on rows that follow each other; together they have to forecast better than none: than what
+    // was given, of what re-tuning changes too, and than re-tuned constants, of all else.
+    let confirms = |ratio: f64| ratio < SETTINGS.answer.confirmed;
+    let is_confirmed = standing.as_ref().map_or([true; 2], |s| [s.over_nominal, s.over_retuned].map(confirms));
     let mut figures = figures(&left_out, &rivals.drive_only(None), has_position);
     if !unseen.list.is_empty() {
         let errors = rivals.unseen(&unseen);
@@ -148,7 +153,14 @@ pub fn diagnose_response(
     let mut out = Diagnosis::withheld();
     let off = [summary(&left_out.nominal[0])[0], off_error];
     let moved = moved(case, nominal, &response.parameters);
-    out.ranked = name::ranked(&found, &response.parameters, &moved, (off, nominal[1]), &remains, &case.recordings);
+    out.ranked = name::ranked(
+        &found,
+        &response.parameters,
+        &moved,
+        (off, nominal[1]),
+        (&remains, is_confirmed),
+        &case.recordings,
+    );
     let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
     out.retuned = moved.iter().filter(|m| m.is_retuned()).map(|m| m.retuned.clone()).collect();
     out.verdict = if remains.mostly > SETTINGS.left.likely {
@@ -184,7 +196,8 @@ pub fn diagnose_response(
     out.sentences = words::sentences(&out, &response, &figures, nominal[1], all, &remains, begun);
     out.traces = traces::traces(&case.recordings, &windows, &folds);
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
-    out.correction.response = Some(model::model_of(&corrected));
+    let corrected = if is_confirmed.contains(&true) { &corrected } else { &base };
+    out.correction.response = Some(model::model_of(corrected));
     out.response = Some(response);
     out.next = options.next.map(|length| {
         progress("simulating the next drive");

@@ -152,13 +152,14 @@ pub(crate) fn causes_of(present: &[Element]) -> impl Iterator<Item = &'static st
 /// Causes by probability; of those that are sure, the one nearer to the command first.
 ///
 /// `moved`: constants that the robot file may have wrong. `off`: what the wheels do otherwise than commanded, with its
-/// standard error.
+/// standard error. `is_confirmed`: whether forecasts of what was left out need any of it more than what was given,
+/// and than re-tuned constants.
 pub(crate) fn ranked(
     found: &Identified,
     parameters: &[Parameter],
     moved: &[Moved],
     (off, track): ([f64; 2], f64),
-    remains: &Remains,
+    (remains, is_confirmed): (&Remains, [bool; 2]),
     runs: &[ResponseRun],
 ) -> Vec<Cause> {
     let mut out = Vec::new();
@@ -166,7 +167,9 @@ pub(crate) fn ranked(
     for (spec, elements, size) in CAUSES {
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let of_file = moved.iter().find(|m| elements.contains(&m.element)).map_or(0.0, |m| m.probability);
-        let p = (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
+        let is_tuned = elements.iter().all(|e| [Element::Radius, Element::Track].contains(e));
+        let trust = if is_confirmed[usize::from(!is_tuned)] { 1.0 } else { ANSWER.unconfirmed };
+        let p = trust * (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         if p < ANSWER.listed {
             present.push(p);
             continue;

@@ -5,6 +5,7 @@ use recordings::{Channel, Recording, Signal};
 
 use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
+use crate::pieces::pieces;
 use crate::settings::{MEASURING, measuring::Rows};
 use crate::speeds::{held_at, steadied};
 use crate::stamps::{origin, samples};
@@ -141,6 +142,9 @@ impl SpeedRun {
             let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
             let speed =
                 |a: &Alignment| (run.time.iter().zip(&a.lag).map(|(t, lag)| t + lag).collect::<Vec<_>>(), &forward);
+            if let Some(alignment) = &run.alignment {
+                rates.take_offsets_off(&run.rests(alignment));
+            }
             rates.level =
                 run.alignment.as_ref().map(speed).and_then(|(rows, v)| level(recording, [&rows, v], &rates.time));
             run.body_rates = Some(rates);
@@ -157,6 +161,15 @@ impl SpeedRun {
         };
         run.unused = recording.channels().iter().map(Channel::signal).filter(|s| !is_used(s)).collect();
         Ok(run)
+    }
+
+    /// Stretches in which the wheels stand, from and until on the gyro's clock, s.
+    fn rests(&self, alignment: &Alignment) -> Vec<[f64; 2]> {
+        let is_slow = |i: usize| (0..2).all(|j| self.speed[j][i].abs() < MEASURING.zero.still);
+        let is_still = |i: &usize| is_slow(*i) && self.held(*i, MEASURING.zero.still, MEASURING.zero.settled);
+        let stretches = pieces(&self.time, (0..self.time.len()).filter(is_still), MEASURING.zero.gap);
+        let ends = |rows: Vec<usize>| Some([*rows.first()?, *rows.last()?].map(|i| self.time[i] + alignment.lag[i]));
+        stretches.into_iter().filter_map(ends).collect()
     }
 
     /// The recording up to a row.

@@ -14,6 +14,10 @@
         gyro_edge: f64 = 0.5, "s", "guess";
         /// Length of the steps over which turning rates of the body are averaged.
         rate_step: f64 = 0.1, "s", "guess";
+        /// Standing that shows what a gyro reads at rest, in all.
+        rest_least: f64 = 1.0, "s", "guess: ten steps";
+        /// Farther than this no body tilts in a recording in which it drives on.
+        tilted: f64 = 0.5, "rad", "guess: twice the steepest ground that wheeled robots are driven on";
         /// The accelerometer is averaged over this long: wheel vibration puts 1 to 5 m/s² on it.
         level_mean: f64 = 2.0, "s", "field study";
         /// Gravity.
