@@ -1,5 +1,6 @@
 //! A drive: commands, pose and what the car reports, brought to one grid of steps.
 
+use crate::car::Car;
 use crate::model::STEP;
 use crate::settings::{Grid, SETTINGS};
 use hierarchical_fit::CaseError as CarError;
@@ -69,6 +70,18 @@ impl Drive {
         }
         let drive = Self::held_out(name, table)?;
         match crate::units::mistaken(table) {
+            Some(what) => Err(CarError::Drive { drive: name.to_owned(), what }),
+            None => Ok(drive),
+        }
+    }
+
+    /// A drive of a car that turns about as its steering and its wheelbase say.
+    ///
+    /// # Errors
+    /// As [`Drive::new`], and one that turns the other way, or by the factor of a unit less or more.
+    pub fn of_car(name: &str, table: &Columns, car: &Car) -> Result<Self, CarError> {
+        let drive = Self::new(name, table)?;
+        match crate::units::mistaken_by_steering(table, car) {
             Some(what) => Err(CarError::Drive { drive: name.to_owned(), what }),
             None => Ok(drive),
         }

@@ -56,6 +56,14 @@
         moving: f64 = 0.1, "m/s", "guess";
         /// Factor within which a ratio is that of two units.
         near: f64 = 1.25, "1", "guess; scales of sensors are known to a few per cent, and the least factor of units is 3.6";
+        /// Least steering angle of stretches in which the car is compared with its steering.
+        steered: f64 = 0.1, "rad", "guess; beyond offsets and play";
+        /// Least throttle of these: backward a car turns the other way.
+        forward: f64 = 0.03, "1", "guess; noise of a command";
+        /// Stretches in which a car turns to one side, as a share of all, from which on it does.
+        one_sided: f64 = 0.8, "1", "guess; a car that slides or rolls back for a moment";
+        /// Turning over that of the steering, below which x and y are in another unit, and beyond which yaw is.
+        steered_factors: [f64; 2] = [0.03, 15.0], "1", "guess; the least factors of units are 100 and 57, and cars understeer threefold at most";
         /// A step of yaw by this share of a turn of 2 pi is where it wraps around.
         wrap: f64 = 0.5, "1", "definition";
     }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use inference::robust::{mean, median};
 
+use crate::car::Car;
 use crate::drive::Columns;
 use crate::settings::{SETTINGS, Units};
 
@@ -45,6 +46,68 @@ pub(crate) fn mistaken(table: &Columns) -> Option<String> {
         "the gyro and the pose turn opposite ways: yaw, or the gyro, is positive to the right; change the sign of its column"
             .to_owned()
     })
+}
+
+/// What is wrong with a sign or a unit by the way in which the car answers its steering, and what to do: over stretches of forward driving
+/// `ψ̇ L / (v tan δ)`, 1 of a car without slip.
+pub(crate) fn mistaken_by_steering(table: &Columns, car: &Car) -> Option<String> {
+    let by_pose = !table.pose.is_empty();
+    let mut found = Vec::new();
+    let mut from = 0;
+    for until in 1..table.time.len() {
+        let seconds = table.time[until] - table.time[from];
+        if seconds < RULES.stretch {
+            continue;
+        }
+        found.extend(answered(table, car, by_pose, from..until).filter(|_| seconds < 2.0 * RULES.stretch));
+        from = until;
+    }
+    if found.len() < RULES.stretches {
+        return None;
+    }
+
+    let opposite = found.iter().filter(|ratio| **ratio < 0.0).count() as f64;
+    if opposite > RULES.one_sided * found.len() as f64 {
+        return Some(
+            "the car turns to the right where its steering command is positive, and to the left where it is negative: change the \
+             sign of the steering column, or of yaw and gyro if these are positive to the right"
+                .to_owned(),
+        );
+    }
+    let ratio = median(found)?;
+    let [least, most] = RULES.steered_factors;
+    let [way, turning] = if by_pose { ["x and y are", "yaw"] } else { ["the encoder's speed is", "the gyro"] };
+    if (0.0..least).contains(&ratio) {
+        return Some(format!(
+            "by its steering and its wheelbase the car would turn {:.0} times as far on the way that it drives: it seems that {way} \
+             not in metres; convert the columns (mm: divide by 1000, cm: by 100)",
+            1.0 / ratio
+        ));
+    }
+    (ratio > most).then(|| {
+        format!(
+            "the car turns {ratio:.0} times as far as its steering and its wheelbase say: it seems that {turning} is in degrees; convert \
+             its column to radians"
+        )
+    })
+}
+
+/// Turning over that of the steering in a stretch of rows; `None` where it drives backward, hardly steers or hardly moves, or where nothing
+/// was seen.
+fn answered(table: &Columns, car: &Car, by_pose: bool, rows: std::ops::Range<usize>) -> Option<f64> {
+    let seconds = table.time[rows.end] - table.time[rows.start];
+    let of = |column: &[f64]| mean(column.get(rows.clone())?.iter().copied().filter(|x| x.is_finite()));
+    let is_forward = table.throttle[rows.clone()].iter().all(|u| *u > RULES.forward);
+    let angle = car.full_steering.value * of(&table.steering)?;
+    let pose = || &table.pose[rows.start..=rows.end];
+    let (way, turned) = if by_pose {
+        (moved(pose())?, turned(pose())?)
+    } else {
+        (of(&table.encoder)? * seconds, of(&table.gyro)? * seconds)
+    };
+    let expected = way * angle.tan() / car.wheelbase.value;
+    let is_told = is_forward && angle.abs() > RULES.steered && way > RULES.moving * seconds;
+    (is_told && expected != 0.0).then(|| turned / expected)
 }
 
 /// Median of what a channel shows over what the pose does in the same time, over stretches in which the pose does `least` and

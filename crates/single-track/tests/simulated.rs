@@ -157,6 +157,38 @@ fn columns_in_other_units_or_with_another_sign_are_refused_by_name() {
     assert!(Drive::new("gear", &gear).is_ok());
 }
 
+#[test]
+fn a_car_that_answers_its_steering_the_other_way_or_by_the_factor_of_a_unit_is_refused_without_a_second_sensor() {
+    type Fault = fn(&mut Columns);
+    let faults: [(Fault, &str); 4] = [
+        (|c| c.steering.iter_mut().for_each(|s| *s = -*s), "change the sign of the steering column"),
+        (|c| c.pose.iter_mut().for_each(|p| (p[0], p[1]) = (1e3 * p[0], 1e3 * p[1])), "x and y are not in metres"),
+        (|c| c.pose.iter_mut().for_each(|p| (p[0], p[1]) = (1e2 * p[0], 1e2 * p[1])), "x and y are not in metres"),
+        (|c| c.pose.iter_mut().for_each(|p| p[2] = p[2].to_degrees()), "yaw is in degrees"),
+    ];
+    let car = car();
+    for by_pose in [true, false] {
+        let mut right = columns(Hidden::default(), 3);
+        if by_pose {
+            (right.gyro, right.encoder) = (Vec::new(), Vec::new());
+        } else {
+            right.pose = Vec::new();
+        }
+        assert_eq!(Drive::of_car("right", &right, &car).err(), None);
+        for (fault, told) in faults.iter().take(if by_pose { faults.len() } else { 1 }) {
+            let mut wrong = right.clone();
+            fault(&mut wrong);
+            let refusal = Drive::of_car("wrong", &wrong, &car).expect_err(told).to_string();
+            assert!(refusal.contains(told), "{refusal}");
+        }
+    }
+    // A car whose steering does half of what is stated has a cause to be told.
+    let mut weak = columns(Hidden::default(), 3);
+    weak.steering.iter_mut().for_each(|s| *s *= 2.0);
+    weak.steering.iter_mut().for_each(|s| *s = s.clamp(-1.0, 1.0));
+    assert_eq!(Drive::of_car("weak", &weak, &car).err(), None);
+}
+
 /// Drives whose pose is that of `(1 + rate) t + offset` at each time: the car's clock is fast by the rate, its channels late.
 fn apart(hidden: Hidden, [offset, rate]: [f64; 2], seed: u64) -> Vec<Drive> {
     let drive = |k: u64| {

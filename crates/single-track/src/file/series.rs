@@ -69,7 +69,7 @@ impl RobotFile {
             encoder: seen(encoder),
             time,
         };
-        if is_held_out { Drive::held_out(name, &table) } else { Drive::new(name, &table) }
+        if is_held_out { Drive::held_out(name, &table) } else { Drive::of_car(name, &table, &self.car) }
     }
 }
 

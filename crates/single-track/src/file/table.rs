@@ -10,9 +10,9 @@ impl RobotFile {
     /// A table without the columns of the pose is a drive without pose. Empty cells were not seen.
     ///
     /// # Errors
-    /// Columns that are missing, cells that are no numbers, and what [`Drive::new`] refuses.
+    /// Columns that are missing, cells that are no numbers, and what [`Drive::of_car`] refuses.
     pub fn drive(&self, table: &Table) -> Result<Drive, CarError> {
-        Drive::new(&table.drive, &self.columns_of(table)?)
+        Drive::of_car(&table.drive, &self.columns_of(table)?, &self.car)
     }
 
     /// A drive whose pose is to be predicted from its commands: nothing else needs to be there. Where the pose was seen for long
