@@ -179,7 +179,8 @@ pub fn diagnose_response(
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
     if !response.parameters.is_empty() {
-        out.limits.extend(objection);
+        let ratio = standing.as_ref().map(|s| s.over_retuned).filter(|_| !is_confirmed.contains(&true));
+        out.limits.extend(ratio.map(words::not_taken).or(objection));
     }
     let begun: Vec<String> = [
         words::begun(&OfDrive, &found.drive, &case.recordings),

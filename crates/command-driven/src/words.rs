@@ -167,6 +167,14 @@ fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, referen
     out
 }
 
+/// What was fitted and confirmed by nothing.
+pub(crate) fn not_taken(ratio: f64) -> String {
+    format!(
+        "constants of the response were fitted and are not told: windows left out of the fit are forecast with {ratio:.2} times the \
+         error that they have without them"
+    )
+}
+
 /// Constants within the sigma of the robot file.
 fn retuned(d: &Diagnosis) -> impl Iterator<Item = String> {
     d.retuned.iter().map(|r| format!("Re-tune {}.", r.sentence()))

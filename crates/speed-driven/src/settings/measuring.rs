@@ -15,9 +15,9 @@
         /// Length of the steps over which turning rates of the body are averaged.
         rate_step: f64 = 0.1, "s", "guess";
         /// Standing that shows what a gyro reads at rest, in all.
-        rest_least: f64 = 1.0, "s", "guess: ten steps";
-        /// Farther than this no body tilts in a recording in which it drives on.
-        tilted: f64 = 0.5, "rad", "guess: twice the steepest ground that wheeled robots are driven on";
+        rest_least: f64 = 1.5, "s", "guess: fifteen steps";
+        /// What a gyro reads at rest is an offset from here on: three sigmas of those that are found beside the slope.
+        rest_offset: f64 = 0.0026, "rad/s", "three times `attitude.first_offset`; after a stop the open Husky runs rock by 0.002";
         /// The accelerometer is averaged over this long: wheel vibration puts 1 to 5 m/s² on it.
         level_mean: f64 = 2.0, "s", "field study";
         /// Gravity.
