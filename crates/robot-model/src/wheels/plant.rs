@@ -13,6 +13,8 @@ use crate::wheels::{MOST, MOST_CASTERS};
 
 /// Speed over which a caster's or a roller's drag changes its sign, m/s.
 const DRAG_REST: f64 = 0.03;
+/// Distance of a joint from the line that is not steered which counts as none, m.
+const LEAST_LENGTH: f64 = 1e-30;
 /// Rate over which the friction of a caster's pivot changes its sign, rad/s.
 const SWING_REST: f64 = 0.5;
 
@@ -191,7 +193,10 @@ impl<T: Scalar> Plant<T> {
             let length = joint.place[0] - joint.about;
             let across = wheel.place[1] - joint.place[1];
             let along = [length * cos - across * sin, (wheel.place[0] - joint.about) * sin];
-            let per_length = T::one() / (along[0] * along[0] + along[1] * along[1]).sqrt();
+            // A joint behind that line turns its wheels, not their direction of rolling: by the sign of its distance, 1 where there is none.
+            let least = real::<T>(LEAST_LENGTH);
+            let ahead = (length.abs() + least) / (length + least);
+            let per_length = ahead / (along[0] * along[0] + along[1] * along[1]).sqrt();
             let [c, d] = along.map(|x| x * per_length);
             *e = [c * e[0] - d * e[1], c * e[1] + d * e[0]];
         }

@@ -125,6 +125,32 @@ fn axles_of_steered_wheels_meet_where_ackermann_has_them() {
 }
 
 #[test]
+fn joints_behind_the_unsteered_axle_steer_their_wheels_and_do_not_turn_them_round() {
+    let steered = |x: f64, k: usize| Wheel { joint: Some(k), ..wheel([x, 0.0], Some(0)) };
+    let with = |about: f64| {
+        let mut out =
+            robot([steered(0.4, 0), steered(-0.4, 1), wheel([0.0, 0.3], None), wheel([0.0, -0.3], None)], [MOTOR]);
+        let joint = |x: f64| Some(Joint { place: [x, 0.0], about, offset: 0.0, gain: 1.0, lag: 0.0 });
+        (out.joints[0], out.joints[1]) = (joint(0.4), joint(-0.4));
+        let mut asked = [0.0; MOST];
+        (asked[0], asked[1]) = (0.2, -0.2);
+        let at = State { steering: asked, ..State::default() };
+        Plant::new(&out, STEP).directions(&at)
+    };
+    // A wheel at the place of its joint points where the joint does, wherever the other axle is.
+    for about in [0.0, -1.0, 1.0, 0.4] {
+        let directions = with(about);
+        for (k, angle) in [(0, 0.2_f64), (1, -0.2)] {
+            let lies_on_the_line = about == 0.4 && k == 0;
+            if !lies_on_the_line {
+                assert_relative_eq!(directions[k][0], angle.cos(), max_relative = 1e-12);
+                assert_relative_eq!(directions[k][1], angle.sin(), max_relative = 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
 fn mecanum_wheels_drive_sideways_and_rollers_drag() {
     let at = |x: f64, y: f64, roller: f64, motor: usize| Wheel { roller: Some(roller), ..wheel([x, y], Some(motor)) };
     let wheels = [
