@@ -4,7 +4,7 @@
 //! sessions then weigh by what they say of the robot, not by their length, and the interval of a constant is as wide as sessions
 //! scatter (Laird & Ware 1982, random effects).
 
-use faer::Mat;
+use faer::{Mat, Side};
 use inference::least_squares::Normal;
 use nalgebra::{DMatrix, DVector};
 
@@ -92,6 +92,15 @@ impl Session {
         self.cost *= by;
         self.scores *= by * by;
         self
+    }
+
+    /// A root `R` of the curvature, which may be singular: `R Rᵀ` is the curvature. `None` where it has no eigenvalues.
+    pub fn root(&self) -> Option<DMatrix<f64>> {
+        let n = self.curvature.nrows();
+        let matrix = Mat::from_fn(n, n, |i, j| self.curvature[(i, j)]);
+        let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
+        let (vectors, values) = (eigen.U(), eigen.S());
+        Some(DMatrix::from_fn(n, n, |i, j| vectors[(i, j)] * values[j].max(0.0).sqrt()))
     }
 
     /// The session's own most probable deviation from the constants about which it is linearised: `−S M⁻¹ S g`.

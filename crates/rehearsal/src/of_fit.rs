@@ -43,8 +43,7 @@ pub fn rehearse_fit(of: &Rehearsable, plan: &Plan) -> Result<Rehearsal, Rehearsa
         of.causes.iter().map(|c| c.cause.spec.id).chain(labels.iter().map(String::as_str)).collect();
     let plan = plan.checked(&Vec::from_iter(names))?;
     let references = plan.references.unwrap_or(of.references);
-    let roots = of.drives.iter().map(|(.., session)| root(&session.curvature)).collect();
-    let drawn = Drawn { of, seed: plan.seed, references, roots };
+    let drawn = Drawn { of, seed: plan.seed, references, roots: roots(of) };
     let all = |hidden: Hidden<'_>, replicas: usize| {
         let scored: Vec<Scored> = (0..replicas).into_par_iter().map(|replica| drawn.answer(replica, hidden)).collect();
         count(&scored)
@@ -89,6 +88,12 @@ pub fn rehearse_fit(of: &Rehearsable, plan: &Plan) -> Result<Rehearsal, Rehearsa
         shortened: Vec::new(),
         limits: words::limits_of_fit(&plan, references),
     })
+}
+
+/// Roots of the curvature of each drive; of one that has none, no noise.
+fn roots(of: &Rehearsable) -> Vec<DMatrix<f64>> {
+    let n = of.stated.len();
+    of.drives.iter().map(|(.., session)| session.root().unwrap_or_else(|| DMatrix::zeros(n, n))).collect()
 }
 
 impl Drawn<'_> {
@@ -174,13 +179,6 @@ impl Drawn<'_> {
     }
 }
 
-/// A root of a matrix that may be singular: `R Rᵀ` is the matrix.
-fn root(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    let eigen = matrix.clone().symmetric_eigen();
-    let roots = eigen.eigenvalues.map(|value| value.max(0.0).sqrt());
-    eigen.eigenvectors * DMatrix::from_diagonal(&roots)
-}
-
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
@@ -222,8 +220,7 @@ mod tests {
     }
 
     fn drawn(of: &Rehearsable) -> Drawn<'_> {
-        let roots = of.drives.iter().map(|(.., session)| root(&session.curvature)).collect();
-        Drawn { of, seed: 7, references: 0, roots }
+        Drawn { of, seed: 7, references: 0, roots: roots(of) }
     }
 
     #[test]
@@ -276,9 +273,9 @@ mod tests {
 
     #[test]
     fn a_root_times_its_transpose_is_the_matrix_though_it_is_singular() {
-        let matrix = &rehearsable().drives[1].2.curvature;
-        let root = root(matrix);
-        assert_relative_eq!(&root * root.transpose(), matrix.clone(), max_relative = 1e-9);
+        let session = &rehearsable().drives[1].2;
+        let root = session.root().expect("eigenvalues");
+        assert_relative_eq!(&root * root.transpose(), session.curvature.clone(), max_relative = 1e-9);
     }
 
     #[test]
