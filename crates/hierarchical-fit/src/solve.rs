@@ -72,14 +72,17 @@ impl<D: Observed> Solved<D> {
             let posterior = about(&data, prior, fit)?.posterior(&prior.covariance)?;
             Some(Posterior { mean: DVector::from_vec(data.within_bounds(&posterior.mean)), ..posterior })
         };
-        let moved = |from: &Fit, to: &dyn Fn(&Fit) -> Option<DVector<f64>>| {
-            let mut fit = without(&data, prior, from, left);
+        // How much drives scatter is judged where what was named may be there: else it would all be scatter.
+        let set: Vec<usize> = self.named.chosen.iter().map(|w| w.cause).collect();
+        let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+        let moved = |from: &Fit, known: &Prior, to: &dyn Fn(&Fit) -> Option<DVector<f64>>| {
+            let mut fit = without(&data, known, from, left);
             fit.theta = to(&fit)?.as_slice().to_vec();
             fit.sessions = sessions(&data, &fit.theta, &fit.own, fit.noise);
             Some(fit)
         };
-        let fit = moved(&self.fit, &|fit| Some(of_named(fit)?.posterior.mean))?;
-        let retuned = moved(&self.retuned, &|fit| Some(of_none(fit)?.mean))?;
+        let fit = moved(&self.fit, &wide, &|fit| Some(of_named(fit)?.posterior.mean))?;
+        let retuned = moved(&self.retuned, prior, &|fit| Some(of_none(fit)?.mean))?;
         let mut named = of_named(&fit)?;
         named.retuned = of_none(&retuned)?;
         drop_unmoved(causes, prior, &mut named);
@@ -273,6 +276,24 @@ mod tests {
         assert!(!is_dropped(0.36, (0.37, 15.0), false), "3.6 sigmas are beyond what is known");
         assert!(!is_dropped(0.29, (0.31, 15.0), true), "since references 2.9 are");
         assert!(is_dropped(0.24, (0.36, 15.0), true));
+    }
+
+    #[test]
+    fn without_a_drive_what_was_named_is_no_scatter_of_the_others() {
+        let spreads = vec![Spread { sigma: 0.03, usual: 1.0, scatter: 0.1, bounds: [-5.0, 5.0] }];
+        let drives = vec![Scaled::by(1.5).roughly(0.01), Scaled::by(1.5).roughly(0.01), Scaled::by(1.5).roughly(0.01)];
+        let scale = Cause {
+            spec: &catalogue::odometry::GYRO_SCALE,
+            of: None,
+            directions: vec![(vec![(0, 1.0)], 1.0)],
+            at_least_zero: None,
+        };
+        let solved = solve(Data { model: (), spreads, drives }, None, vec![scale]).expect("solved");
+        assert_eq!(solved.named.chosen.len(), 1);
+
+        let others = solved.without(0).expect("solved");
+        assert!(others.fit.factor <= 1.0, "drives scatter by {}", others.fit.factor);
+        approx::assert_relative_eq!(others.named.posterior.mean[0], 1.5_f64.ln(), max_relative = 0.02);
     }
 
     #[test]
