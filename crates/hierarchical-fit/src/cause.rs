@@ -1,6 +1,9 @@
 //! What may make a model and its drives disagree: directions in the space of the constants.
 
 use catalogue::CauseSpec;
+use inference::robust::normal_cdf;
+
+use crate::weigh::Posterior;
 
 /// A cause that can be named.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,9 +14,40 @@ pub struct Cause {
     pub of: Option<String>,
     /// Directions in which it moves the constants: weights by constant; each with its usual size, one sigma.
     pub directions: Vec<(Vec<(usize, f64)>, f64)>,
-    /// The constant, of those that it moves, that cannot be negative if this is the cause: a share that slip loses. Not those
-    /// that grow with a speed: below zero they forecast one of four open robots better than nothing does, whatever they stand for.
-    pub at_least_zero: Option<usize>,
+    /// What one of these constants can be if this is the cause: a share that slip loses is not negative. Not those that grow with a
+    /// speed: below zero they forecast one of four open robots better than nothing does, whatever they stand for.
+    pub possible: Option<Possible>,
+}
+
+/// The range in which a constant lies if some cause moves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Possible {
+    /// Index of the constant.
+    pub constant: usize,
+    /// Its least deviation.
+    pub least: f64,
+    /// Its largest deviation.
+    pub most: f64,
+}
+
+impl Possible {
+    /// Of a constant that cannot be negative.
+    pub fn at_least_zero(constant: usize) -> Self {
+        Self { constant, least: 0.0, most: f64::INFINITY }
+    }
+
+    /// Whether such constants may lie in it, within a sigma.
+    pub(crate) fn may_hold(&self, Posterior { mean, covariance }: &Posterior) -> bool {
+        let k = self.constant;
+        let sd = covariance[(k, k)].max(0.0).sqrt();
+        (self.least - sd..=self.most + sd).contains(&mean[k])
+    }
+
+    /// Probability that a normal constant lies in it.
+    pub(crate) fn probability(&self, mean: f64, variance: f64) -> f64 {
+        let sd = variance.max(f64::MIN_POSITIVE).sqrt();
+        normal_cdf((self.most - mean) / sd) - normal_cdf((self.least - mean) / sd)
+    }
 }
 
 impl Cause {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::observed::{Kind, Observed, Spread};
 use crate::onset::Onset;
 use crate::settings::SETTINGS;
+use crate::weigh::Posterior;
 use inference::robust::{quantile, rms, sorted};
 
 /// Drives with the model that they are compared with.
@@ -157,8 +158,33 @@ impl<D: Observed> Data<D> {
     }
 
     /// Constants within what they can be.
-    pub(crate) fn within_bounds(&self, theta: &DVector<f64>) -> Vec<f64> {
+    fn within_bounds(&self, theta: &DVector<f64>) -> Vec<f64> {
         self.spreads.iter().zip(theta.iter()).map(|(c, x)| x.clamp(c.bounds[0], c.bounds[1])).collect()
+    }
+
+    /// The most probable constants within their bounds: those that lie beyond are held there, and the others follow as they go with them.
+    pub(crate) fn bounded(&self, posterior: &Posterior) -> DVector<f64> {
+        let Posterior { mean, covariance } = posterior;
+        let clamped = |at: &DVector<f64>, k: usize| at[k].clamp(self.spreads[k].bounds[0], self.spreads[k].bounds[1]);
+        let mut held: Vec<(usize, f64)> = Vec::new();
+        let mut at = mean.clone();
+        loop {
+            let open = (0..at.len()).filter(|k| held.iter().all(|(h, _)| h != k) && clamped(&at, *k) != at[*k]);
+            let beyond: Vec<(usize, f64)> = open.map(|k| (k, clamped(&at, k))).collect();
+            if beyond.is_empty() {
+                break;
+            }
+            held.extend(beyond);
+            let indices: Vec<usize> = held.iter().map(|(k, _)| *k).collect();
+            let off = DVector::from_iterator(held.len(), held.iter().map(|(k, value)| value - mean[*k]));
+            let columns = covariance.select_columns(&indices);
+            let Some(of_held) = columns.select_rows(&indices).cholesky() else { break };
+            at = mean + columns * of_held.solve(&off);
+            for (k, value) in &held {
+                at[*k] = *value;
+            }
+        }
+        DVector::from_vec(self.within_bounds(&at))
     }
 
     /// Constants of a drive that deviates from the robot's.
@@ -171,5 +197,29 @@ impl<D: Observed> Data<D> {
         let n = self.spreads.len();
         let variances = DVector::from_iterator(n, self.spreads.iter().map(|c| c.sigma.powi(2)));
         Prior { mean: DVector::zeros(n), covariance: DMatrix::from_diagonal(&variances) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scaled::Scaled;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn what_goes_with_a_constant_follows_it_to_its_bound() {
+        let spread = |bounds: [f64; 2]| Spread { sigma: 1.0, usual: 1.0, scatter: 0.1, bounds };
+        let spreads = vec![spread([-5.0, 1.0]), spread([-0.5, 5.0]), spread([-5.0, 5.0])];
+        let data = Data { model: (), spreads, drives: Vec::<Scaled>::new() };
+        let covariance = DMatrix::from_row_slice(3, 3, &[1.0, 0.8, 0.2, 0.8, 1.0, 0.5, 0.2, 0.5, 1.0]);
+        let of =
+            |mean: [f64; 3]| data.bounded(&Posterior { mean: mean.to_vec().into(), covariance: covariance.clone() });
+
+        assert_eq!(of([0.5, 0.1, 2.0]).as_slice(), [0.5, 0.1, 2.0]);
+        assert_relative_eq!(of([1.5, 1.0, 2.0]).as_slice(), [1.0, 0.6, 1.9].as_slice(), epsilon = 1e-12);
+        // The second one reaches its bound only because the first does: the third follows both.
+        let both = of([2.0, 0.0, 2.0]);
+        assert_relative_eq!(both.as_slice()[..2], [1.0, -0.5]);
+        assert_relative_eq!(both[2], 2.0 + 0.2 / 0.36 - 0.17 / 0.36, epsilon = 1e-12);
     }
 }

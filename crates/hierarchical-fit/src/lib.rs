@@ -10,7 +10,7 @@
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
 //!   all of it by one set of equations (`scan`), the best by their own (`search`).
-//! * `found`, `said`, `telling`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `found`, `said`, `telling`, `sentences`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
 //! * `rehearsable`: what the drives of a fit could say, for whoever asks what they would show.
 //! * `table`: columns of a drive by the names that a robot file gives them.
@@ -37,6 +37,7 @@ mod rehearsable;
 mod said;
 #[cfg(test)]
 mod scaled;
+mod sentences;
 mod session;
 mod settings;
 mod solve;
@@ -47,7 +48,7 @@ mod weigh;
 
 pub use ahead::Ahead;
 pub use beside::Beside;
-pub use cause::Cause;
+pub use cause::{Cause, Possible};
 pub use data::{Data, Noise, Prior};
 pub use descent::equations;
 pub use error::CaseError;
@@ -57,7 +58,8 @@ pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, 
 pub use observed::{Kind, Observed, Row, Spread};
 pub use onset::Onset;
 pub use rehearsable::{Hideable, Rehearsable, Told};
-pub use said::{Said, Unexplained, Valued, beyond_references, is_beyond_references};
+pub use said::{Said, Unconfirmed, Unexplained, Valued, is_beyond_references};
+pub use sentences::{Wording, of_recordings};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, solve};
 pub use table::{Column, Table, or_nan};

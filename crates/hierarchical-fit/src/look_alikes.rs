@@ -33,7 +33,7 @@ pub(crate) fn exchanged<D: Observed>(
         let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
         let fitted = |with: Vec<usize>| {
             let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
-            let ends = data.within_bounds(&lines(retuned)?.posterior(&narrow.covariance)?.mean);
+            let ends = data.bounded(&lines(retuned)?.posterior(&narrow.covariance)?).as_slice().to_vec();
             let start = likelier(data, &narrow, retuned, [retuned.theta.clone(), ends])?;
             let fit = fit_like(data, &narrow, start, &best.fit)?;
             let mut named = named_as(&lines(&fit)?, &prior.covariance, causes, &with)?;

@@ -2,11 +2,10 @@
 
 use nalgebra::DMatrix;
 
-use crate::cause::Cause;
+use crate::cause::{Cause, Possible};
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
 use inference::evidence::{is_within_odds, log_sum_exp, logistic};
-use inference::robust::normal_cdf;
 
 /// A cause with what speaks for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,26 +146,24 @@ pub fn stand_ins(
     out
 }
 
-/// Evidence of a set of causes, nats; `None` where a constant that cannot be negative would be so by more than its sigma: about
-/// such a fit its other numbers mean nothing, whatever they gain. Of such constants the prior is the positive half of the Gaussian,
-/// which multiplies the evidence by `2 Φ(mean/σ)` of the posterior.
+/// Evidence of a set of causes, nats; `None` where a constant would lie outside of what it can be by more than its sigma: about
+/// such a fit its other numbers mean nothing, whatever they gain. The prior of such a constant is the part of the Gaussian within
+/// its range, which multiplies the evidence by the posterior's share in the range over the prior's.
 pub(crate) fn score(evidence: &Evidence, known: &DMatrix<f64>, causes: &[Cause], set: &[usize]) -> Option<f64> {
     let covariance = covariance(known, causes, set);
     let gaussian = evidence.of(&covariance)?;
-    let halves: Vec<usize> = set.iter().filter_map(|&c| causes[c].at_least_zero).collect();
-    if halves.is_empty() {
+    let ranges: Vec<Possible> = set.iter().filter_map(|&c| causes[c].possible).collect();
+    if ranges.is_empty() {
         return Some(gaussian);
     }
     let posterior = evidence.posterior(&covariance)?;
-    let mut of_halves = 0.0;
-    for k in halves {
-        let sigmas = posterior.mean[k] / posterior.covariance[(k, k)].sqrt();
-        if sigmas < -1.0 {
-            return None;
-        }
-        of_halves += (2.0 * normal_cdf(sigmas)).ln();
-    }
-    Some(gaussian + of_halves)
+    let of_range = |range: Possible| {
+        let k = range.constant;
+        let before = range.probability(evidence.mean()[k], covariance[(k, k)]);
+        let after = range.probability(posterior.mean[k], posterior.covariance[(k, k)]);
+        range.may_hold(&posterior).then(|| (after / before.max(f64::MIN_POSITIVE)).ln())
+    };
+    ranges.into_iter().try_fold(gaussian, |sum, range| Some(sum + of_range(range)?))
 }
 
 pub(crate) fn with(set: &[usize], cause: usize) -> Vec<usize> {

@@ -254,7 +254,7 @@ mod tests {
     }
 
     fn cause(spec: &'static catalogue::CauseSpec, constant: usize) -> Cause {
-        Cause { spec, of: None, directions: vec![(vec![(constant, 1.0)], 1.0)], at_least_zero: None }
+        Cause { spec, of: None, directions: vec![(vec![(constant, 1.0)], 1.0)], possible: None }
     }
 
     fn candidate(name: &str, weights: [f64; 2]) -> Candidate {

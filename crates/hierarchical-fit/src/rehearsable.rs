@@ -74,7 +74,9 @@ impl Hideable {
     pub fn signs(&self, multiple: f64) -> [bool; 2] {
         let deviation = multiple * self.usual;
         let [below, above] = self.told.room;
-        [deviation < above, -deviation > below && self.cause.at_least_zero.is_none()]
+        let [least, most] =
+            self.cause.possible.map_or([below, above], |range| [below.max(range.least), above.min(range.most)]);
+        [deviation < most, -deviation > least]
     }
 }
 

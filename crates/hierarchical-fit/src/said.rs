@@ -11,7 +11,7 @@ use crate::name::Weighed;
 use crate::observed::Observed;
 use crate::settings::SETTINGS;
 use crate::solve::Solved;
-use crate::telling::Found;
+use crate::telling::{Found, Unaccounted};
 use crate::weigh::Posterior;
 
 /// A constant as it is told.
@@ -40,6 +40,15 @@ pub struct Unexplained {
     pub most: f64,
 }
 
+/// Causes with which drives that were left out are forecast no better than without.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unconfirmed {
+    /// Their labels.
+    pub labels: Vec<String>,
+    /// How their forecasts stand.
+    pub standing: Standing,
+}
+
 /// What the drives of a fit say.
 #[derive(Debug, Clone)]
 pub struct Said {
@@ -63,6 +72,8 @@ pub struct Said {
     pub is_refuted: bool,
     /// Root mean square error of windows over that of a robot that keeps still: as given, re-tuned, with the named causes.
     pub shares: [f64; 3],
+    /// What was named and is not told, for drives that were left out do not need it.
+    pub unconfirmed: Option<Unconfirmed>,
     /// The same that the best answer leaves of the references; `None` without any.
     pub left_of_references: Option<f64>,
     /// The same that the noise of what is measured alone would leave.
@@ -100,6 +111,7 @@ impl<D: Observed> Solved<D> {
             // Deviations of single drives explain everything where they are as free as was tried.
             is_scattered: data.drives.len() > 1 && is_widest(factor),
             is_refuted: false,
+            unconfirmed: None,
             shares: [data.share(prior.mean.as_slice()), data.share(named.retuned.mean.as_slice()), self.share()],
             left_of_references: self.left_of_references,
             share_of_noise: data.share_of_noise(),
@@ -195,14 +207,37 @@ impl Said {
         };
     }
 
-    /// Takes back what was named where it leaves more than this share of the motion, and drives that were left out are forecast worse with
-    /// it than as they were stated. Re-tuned constants that no owner would believe may forecast better and refute nothing.
-    pub fn doubt(&mut self, free_runs: &[FreeRun], share: f64) {
-        let refuted = |s: Standing| s.over_nominal > SETTINGS.naming.refuted;
-        if self.answer == Answer::Named && self.shares[2] > share && Standing::new(free_runs).is_some_and(refuted) {
+    /// Judges what was named by drives that were left out, and [decides](Said::decide) anew; whether it was taken back. Causes with which
+    /// they are forecast worse than as stated, and which leave more of the motion than `rules.share`, are refuted: something else is
+    /// missing. Re-tuned constants that no owner would believe may forecast better and refute nothing. Causes with which they are
+    /// forecast hardly better than as stated, or worse than re-tuned, are confirmed by nothing, and no longer named; but where `shows` says
+    /// of one of them that forecasts could not show it, as of a sensor that they do not predict.
+    pub fn judge(
+        &mut self,
+        free_runs: &[FreeRun],
+        rules: Unexplained,
+        is_stated: impl Fn(&Estimate) -> bool,
+        shows: impl Fn(&NamedCause) -> bool,
+    ) -> bool {
+        let naming = SETTINGS.naming;
+        let Some(standing) = Standing::new(free_runs).filter(|_| self.answer == Answer::Named) else { return false };
+        if standing.over_nominal > naming.refuted && self.shares[2] > rules.share {
             self.is_refuted = true;
             self.answer = Answer::Unknown;
         }
+        let is_confirmed = standing.over_nominal < naming.confirmed && standing.over_retuned < naming.worse;
+        if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(shows) {
+            return false;
+        }
+        let labels = self.named.iter().map(|cause| cause.label.clone()).collect();
+        self.unconfirmed = Some(Unconfirmed { labels, standing });
+        self.others.extend(self.named.drain(..).map(|cause| (cause.label, naming.doubted * cause.probability)));
+        self.others.sort_by(|a, b| b.1.total_cmp(&a.1));
+        self.constants.clone_from(&self.retuned);
+        self.shares[2] = self.shares[1];
+        self.rival = None;
+        self.decide(rules, is_stated);
+        true
     }
 
     /// The same for a verdict.
@@ -216,6 +251,14 @@ impl Said {
             rival: self.rival.as_deref(),
             shares: self.shares,
             beside_references: self.left_of_references.map(|usual| [self.without_noise()[2], usual]),
+            unconfirmed: self.unconfirmed.as_ref(),
+            unknown: if self.is_scattered {
+                Unaccounted::Scattered(self.scatter)
+            } else if self.is_refuted {
+                Unaccounted::Refuted
+            } else {
+                Unaccounted::Left { of_references: self.left_of_references }
+            },
         }
     }
 
@@ -233,7 +276,7 @@ pub fn is_beyond_references(left: f64, of_references: Option<f64>) -> bool {
 }
 
 /// The sentence about it, where it is so.
-pub fn beyond_references(left: f64, of_references: Option<f64>) -> Option<String> {
+pub(crate) fn beyond_references(left: f64, of_references: Option<f64>) -> Option<String> {
     let usual = of_references.filter(|_| is_beyond_references(left, of_references))?;
     Some(format!(
         " The same model leaves {:.1} % of the motion of the references, so that {:.0} times as much is no noise.",
@@ -277,6 +320,7 @@ mod tests {
                 scatter: 1.0,
                 is_scattered,
                 is_refuted: false,
+                unconfirmed: None,
                 shares,
                 left_of_references: None,
                 share_of_noise: 0.0,
@@ -303,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn causes_with_which_left_out_drives_are_forecast_worse_are_taken_back() {
+    fn what_is_named_is_refuted_or_taken_back_where_left_out_drives_do_not_need_it() {
         let free_run = |[nominal, retuned, corrected]: [f64; 3]| FreeRun {
             recording: "a".to_owned(),
             quantity: "position, m".to_owned(),
@@ -312,27 +356,47 @@ mod tests {
             corrected,
             placebo: None,
         };
-        let answer = |errors: [f64; 3], left: f64| {
+        let judged_where = |is_shown: bool, errors: [f64; 3], left: f64| {
+            let cause = NamedCause {
+                spec: &catalogue::odometry::STEERING_ZERO,
+                label: "steering_zero".to_owned(),
+                probability: 0.9,
+                alike: Vec::new(),
+                estimates: Vec::new(),
+                intervals: Vec::new(),
+                onset: None,
+            };
             let mut said = Said {
                 answer: Answer::Named,
-                named: Vec::new(),
-                others: Vec::new(),
+                named: vec![cause],
+                others: vec![("gyro_bias".to_owned(), 0.1)],
                 constants: Vec::new(),
                 retuned: Vec::new(),
                 rival: None,
                 scatter: 1.0,
                 is_scattered: false,
                 is_refuted: false,
-                shares: [1.0, 0.2, left],
+                unconfirmed: None,
+                shares: [1.0, 0.09, left],
                 left_of_references: None,
                 share_of_noise: 0.0,
             };
-            said.doubt(&[free_run(errors)], 0.05);
-            (said.answer, said.is_refuted)
+            let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4 };
+            let is_taken_back = said.judge(&[free_run(errors)], rules, |_| true, |_| is_shown);
+            assert_eq!((is_taken_back, is_taken_back), (said.unconfirmed.is_some(), said.named.is_empty()));
+            if is_taken_back {
+                approx::assert_relative_eq!(said.others[0].1, SETTINGS.naming.doubted * 0.9);
+                approx::assert_relative_eq!(said.shares[2], 0.09);
+            }
+            said.answer
         };
-        assert_eq!(answer([2.0, 1.0, 1.3], 0.1), (Answer::Named, false));
-        assert_eq!(answer([1.0, 2.0, 1.2], 0.1), (Answer::Named, false));
-        assert_eq!(answer([1.0, 2.0, 1.3], 0.1), (Answer::Unknown, true));
-        assert_eq!(answer([1.0, 2.0, 1.3], 0.04), (Answer::Named, false), "it leaves hardly anything");
+        let judged = |errors: [f64; 3], left: f64| judged_where(true, errors, left);
+        assert_eq!(judged([2.0, 1.0, 0.9], 0.08), Answer::Named);
+        assert_eq!(judged([2.0, 1.0, 1.05], 0.08), Answer::Named, "hardly worse than re-tuned");
+        assert_eq!(judged([2.0, 1.0, 1.3], 0.08), Answer::Nothing, "worse than re-tuned");
+        assert_eq!(judged([1.0, 2.0, 0.98], 0.08), Answer::Nothing, "hardly better than as stated");
+        assert_eq!(judged_where(false, [1.0, 2.0, 0.98], 0.08), Answer::Named, "a sensor that they do not predict");
+        assert_eq!(judged([1.0, 2.0, 1.3], 0.08), Answer::Unknown, "far worse than as stated");
+        assert_eq!(judged([1.0, 2.0, 1.3], 0.04), Answer::Nothing, "the same where it leaves hardly anything");
     }
 }

@@ -70,7 +70,7 @@ impl<D: Observed> Solved<D> {
         };
         let of_none = |fit: &Fit| {
             let posterior = about(&data, prior, fit)?.posterior(&prior.covariance)?;
-            Some(Posterior { mean: DVector::from_vec(data.within_bounds(&posterior.mean)), ..posterior })
+            Some(Posterior { mean: data.bounded(&posterior), ..posterior })
         };
         // How much drives scatter is judged where what was named may be there: else it would all be scatter.
         let set: Vec<usize> = self.named.chosen.iter().map(|w| w.cause).collect();
@@ -172,7 +172,7 @@ fn settled<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], from: F
         }
         let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
         // Along a valley that only what is known closes, a fit hardly moves; the equations know where it ends.
-        let ends = data.within_bounds(&out.named.posterior.mean);
+        let ends = data.bounded(&out.named.posterior).as_slice().to_vec();
         let start = likelier(data, &narrow, &out.fit, [out.fit.theta.clone(), ends])?;
         let fit = fit(data, &narrow, start)?;
         let named = named_about(data, prior, causes, &fit)?;
@@ -221,7 +221,7 @@ fn drop_unneeded<D: Observed>((data, prior, has_references): (&Data<D>, &Prior, 
 fn within<D: Observed>(data: &Data<D>, named: &mut Named) {
     let Named { posterior, retuned, placebo, .. } = named;
     for posterior in [Some(posterior), Some(retuned), placebo.as_mut().map(|(_, p)| p)].into_iter().flatten() {
-        posterior.mean = DVector::from_vec(data.within_bounds(&posterior.mean));
+        posterior.mean = data.bounded(posterior);
     }
 }
 
@@ -286,7 +286,7 @@ mod tests {
             spec: &catalogue::odometry::GYRO_SCALE,
             of: None,
             directions: vec![(vec![(0, 1.0)], 1.0)],
-            at_least_zero: None,
+            possible: None,
         };
         let solved = solve(Data { model: (), spreads, drives }, None, vec![scale]).expect("solved");
         assert_eq!(solved.named.chosen.len(), 1);

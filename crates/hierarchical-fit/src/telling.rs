@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::found::{Answer, Estimate, NamedCause};
+use crate::said::Unconfirmed;
 use crate::settings::SETTINGS;
 use catalogue::answer::{NONE, UNKNOWN};
-use catalogue::for_people;
 use catalogue::odometry::{SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use inference::evidence::none_of;
 use inference::experiment::Standing;
 use inference::robust::NINETY;
-use inference::words::{probability, two_decimals};
 use verdict::{Cause, Diagnosis, FreeRun, Retuned, Verdict};
 
 /// What was found, however it was compared.
@@ -31,6 +30,26 @@ pub struct Found<'a> {
     pub shares: [f64; 3],
     /// What the answer leaves of the recordings and of the references but for noise, as shares of the motion; `None` without references.
     pub beside_references: Option<[f64; 2]>,
+    /// What left-out drives did not confirm.
+    pub unconfirmed: Option<&'a Unconfirmed>,
+    /// Why it is unknown, where it is.
+    pub unknown: Unaccounted,
+}
+
+/// Why no cause accounts for what the drives show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unaccounted {
+    /// The best answer leaves much; what it leaves of the references, where there are some.
+    Left {
+        /// As a share of their motion.
+        of_references: Option<f64>,
+    },
+    /// The drives differ from each other by so many times what is usual.
+    Scattered(f64),
+    /// Left-out drives are forecast worse with the causes than as stated.
+    Refuted,
+    /// Several slips below zero fit best.
+    SlipsBelowZero,
 }
 
 impl Found<'_> {
@@ -49,8 +68,12 @@ impl Found<'_> {
         }
         if self.answer == Answer::Retune {
             out.retuned = self.retuned.iter().filter(|e| e.is_moved()).map(retuned).collect();
-            out.retuned.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
         }
+        if self.answer == Answer::Named {
+            let is_named = |e: &Estimate| self.named.iter().any(|c| c.estimates.iter().any(|own| own.name == e.name));
+            out.retuned = self.constants.iter().filter(|e| e.is_moved() && !is_named(e)).map(retuned).collect();
+        }
+        out.retuned.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
         out.tuning = self.constants.iter().map(|e| (e.name.clone(), e.value)).collect();
         out.free_runs = free_runs;
         let classes = (0..self.named.len()).map(|k| (&self.named[k], self.alike(k, &out.free_runs)));
@@ -65,7 +88,7 @@ impl Found<'_> {
 
     /// Labels of the causes that cannot be told from a named one: by their evidence, and the rival of the first where it
     /// forecasts what was left out nearly as well.
-    fn alike(&self, named: usize, free_runs: &[FreeRun]) -> Vec<String> {
+    pub(crate) fn alike(&self, named: usize, free_runs: &[FreeRun]) -> Vec<String> {
         let mut out = self.named[named].alike.clone();
         let over_rival = Standing::new(free_runs).and_then(|s| s.over_placebo);
         let forecasts_as_well = over_rival.is_some_and(|ratio| ratio > SETTINGS.naming.near_forecast);
@@ -104,121 +127,23 @@ impl Found<'_> {
     }
 
     /// Probability that none of the causes that are not named is there, nor anything unknown.
-    fn nothing_else(&self) -> f64 {
+    pub(crate) fn nothing_else(&self) -> f64 {
         (1.0 - self.doubt()) * none_of(self.others.iter().map(|(_, p)| *p))
     }
 
     /// Probability of something unknown where nothing is called missing and yet recordings leave more than references do.
-    fn doubt(&self) -> f64 {
+    pub(crate) fn doubt(&self) -> f64 {
         let rules = SETTINGS.beside_references;
         let nothing = matches!(self.answer, Answer::Nothing | Answer::Retune);
         let beside = self.beside_references.filter(|[left, _]| nothing && *left > rules.doubted_least);
         let times = beside.map_or(1.0, |[left, usual]| left / usual.max(f64::MIN_POSITIVE));
         rules.doubt * ((times - rules.doubted) / (rules.times - rules.doubted)).clamp(0.0, 1.0)
     }
-
-    /// How an answer begins by which nothing is missing.
-    pub fn nothing(&self) -> &'static str {
-        if self.doubt() > 0.0 { "Nothing that can be named is missing" } else { "Nothing is missing" }
-    }
-
-    /// The sentence about it, where it is so.
-    pub fn doubted(&self) -> Option<String> {
-        let [left, usual] = self.beside_references.filter(|_| self.doubt() > 0.0)?;
-        Some(format!(
-            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: more than what is \
-             usual, and not enough to be called missing. Look at where they differ.",
-            100.0 * left,
-            100.0 * usual,
-            left / usual.max(f64::MIN_POSITIVE)
-        ))
-    }
-
-    /// Causes that are likelier than not, beside those that are named, and not sure enough for it.
-    pub fn perhaps(&self) -> Option<String> {
-        let likely = self.others.iter().filter(|(_, p)| self.answer == Answer::Named && *p > 0.5);
-        let told: Vec<String> = likely.map(|(l, p)| format!("{} ({})", for_people(l), probability(*p))).collect();
-        (!told.is_empty()).then(|| {
-            format!(
-                "There may be more than is named, with a probability in brackets that is too little to be named: {}.",
-                told.join(", ")
-            )
-        })
-    }
-
-    /// What leads where no cause is named and yet one is likelier than none.
-    pub fn undecided(&self) -> Option<String> {
-        if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
-            return None;
-        }
-        let none = self.nothing_else();
-        let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
-        Some(format!(
-            "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
-             drives to decide.",
-            for_people(label),
-            probability(*best),
-            probability(none)
-        ))
-    }
-
-    /// Names of the named causes, with their places.
-    pub fn names(&self) -> String {
-        let names: Vec<String> = self.named.iter().map(|c| for_people(&c.label)).collect();
-        names.join("; ")
-    }
-
-    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scales`: the effects whose
-    /// size is a factor on counts, of which familiar values are told.
-    pub fn causes<'a>(&'a self, scales: &'a [&str], free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
-        self.named.iter().enumerate().map(move |(k, named)| {
-            let values = named.estimates.iter().map(|e| {
-                let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
-                format!("{} {}{from}", e.name, number(e))
-            });
-            let alike = match self.alike(k, free_runs) {
-                alike if alike.is_empty() => String::new(),
-                alike => {
-                    let names: Vec<String> = alike.iter().map(|label| for_people(label)).collect();
-                    format!("; these drives cannot tell it from {}", names.join(", "))
-                }
-            };
-            let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
-            let gain = if gains(named) { NO_SLIP } else { "" };
-            let name = verdict::sentence_case(&for_people(&named.label));
-            let onset = named.onset.as_ref().map_or_else(String::new, |onset| format!("; {onset}"));
-            format!("{name}: {}{familiar}{gain}{onset}{alike}.", values.collect::<Vec<_>>().join("; "))
-        })
-    }
-}
-
-/// Sentences about recordings that say the same of several, each once: "recording 'a': it" and "recording 'b': it" as "recordings 'a', 'b':
-/// it".
-pub fn of_recordings(told: impl IntoIterator<Item = String>) -> Vec<String> {
-    let mut out: Vec<(Vec<String>, String)> = Vec::new();
-    for sentence in told {
-        let split = sentence.strip_prefix("recording '").and_then(|rest| rest.split_once("': "));
-        let (name, said) = split.map_or((None, sentence.as_str()), |(name, said)| (Some(format!("'{name}'")), said));
-        match out.iter_mut().find(|(names, other)| other == said && names.is_empty() == name.is_none()) {
-            Some((names, _)) => names.extend(name.filter(|name| !names.contains(name))),
-            None => out.push((name.into_iter().collect(), said.to_owned())),
-        }
-    }
-    let told = |(names, said): (Vec<String>, String)| match names.as_slice() {
-        [] => said,
-        [one] => format!("recording {one}: {said}"),
-        several => format!("recordings {}: {said}", several.join(", ")),
-    };
-    out.into_iter().map(told).collect()
 }
 
 /// Why no next drive is advised where a cause begins or ends while the robot drives.
 pub const NO_ADVICE: &str = "no next drive is advised, for that would be one for causes that are always there: record the same drive again, \
                              and see whether the cause is still there";
-
-/// What is said of a slip below zero.
-const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; look at \
-                       track, tyres and clocks";
 
 /// Whether a cause is a slip that would be a gain.
 pub fn gains(named: &NamedCause) -> bool {
@@ -265,25 +190,6 @@ fn retuned(e: &Estimate) -> Retuned {
     }
 }
 
-/// "0.0842 ± 0.0003 m", with two digits of the interval.
-fn number(e: &Estimate) -> String {
-    let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
-    let digits = two_decimals(e.half_width);
-    format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
-}
-
-/// Tells a factor on counts that is a familiar one.
-fn familiar(named: &NamedCause) -> String {
-    let Some(first) = named.estimates.first() else { return String::new() };
-    let factor = first.value / first.given;
-    let near = SETTINGS.naming.factors.iter().find(|f| (factor / **f).ln().abs() < SETTINGS.naming.familiar);
-    near.map_or_else(String::new, |near| {
-        format!(
-            ", which is the factor {near:.3}: look at counts per turn (edges that are counted), gear, or diameter for radius"
-        )
-    })
-}
-
 /// Free runs of one recording on which nothing was fitted, from medians of position, m, and heading, rad: by simulation (as
 /// stated, re-tuned, corrected, placebo), then by length, s. `from`: what they are computed from.
 pub fn free_runs(
@@ -328,32 +234,6 @@ mod tests {
     }
 
     #[test]
-    fn a_cause_that_is_likelier_than_none_and_not_named_leads() {
-        let told = |answer, probability| {
-            let others = [("pose_origin".to_owned(), probability)];
-            let shares = [0.3, 0.2, 0.2];
-            let beside_references = None;
-            Found {
-                answer,
-                named: &[],
-                others: &others,
-                constants: &[],
-                retuned: &[],
-                rival: None,
-                shares,
-                beside_references,
-            }
-            .undecided()
-        };
-        let leads = told(Answer::Retune, 0.7).expect("a sentence");
-        assert!(
-            leads.contains("place of the pose's origin in the robot has a probability of 0.70, nothing one of 0.30"),
-            "{leads}"
-        );
-        assert_eq!([told(Answer::Retune, 0.4), told(Answer::Named, 0.7)], [None, None]);
-    }
-
-    #[test]
     fn probabilities_of_all_answers_add_up_whatever_the_answer_is() {
         let named = [NamedCause {
             spec: &catalogue::odometry::STEERING_ZERO,
@@ -375,6 +255,8 @@ mod tests {
                 rival: None,
                 shares,
                 beside_references: None,
+                unconfirmed: None,
+                unknown: Unaccounted::Refuted,
             };
             let told = found.verdict(Vec::new());
             let total: f64 = told.ranked.iter().map(|c| c.probability).sum();
@@ -382,58 +264,5 @@ mod tests {
             let first = if answer == Answer::Named { "steering_zero" } else { UNKNOWN.id };
             assert_eq!(told.ranked[0].effect, first);
         }
-    }
-
-    #[test]
-    fn what_leaves_more_than_references_do_is_doubted_and_told() {
-        let found = |answer, left: f64, usual: Option<f64>| {
-            let shares = [left; 3];
-            let (named, others): (&[NamedCause], &[(String, f64)]) = (&[], &[]);
-            let told = Found {
-                answer,
-                named,
-                others,
-                constants: &[],
-                retuned: &[],
-                rival: None,
-                shares,
-                beside_references: usual.map(|usual| [left, usual]),
-            };
-            let ranked = told.verdict(Vec::new()).ranked;
-            let total: f64 = ranked.iter().map(|c| c.probability).sum();
-            approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
-            let unknown = ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
-            assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
-            (unknown.map_or(0.0, |c| c.probability), told.doubted())
-        };
-        let (unknown, told) = found(Answer::Nothing, 0.02, Some(0.006));
-        approx::assert_relative_eq!(unknown, 0.45 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
-        assert!(told.is_some_and(|t| {
-            t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
-        }));
-        assert_eq!(found(Answer::Nothing, 0.02, Some(0.012)), (0.0, None), "it is usual");
-        assert_eq!(found(Answer::Nothing, 0.003, Some(0.001)), (0.0, None), "it is next to nothing");
-        assert_eq!(found(Answer::Nothing, 0.02, None), (0.0, None));
-    }
-
-    #[test]
-    fn what_is_likelier_than_not_and_too_little_to_be_named_is_told_beside_what_is_named() {
-        let others = [("pose_origin".to_owned(), 0.6), ("steering_zero (front)".to_owned(), 0.2)];
-        let told = |answer| {
-            let (shares, beside_references) = ([0.3, 0.2, 0.1], None);
-            let (named, constants): (&[NamedCause], &[Estimate]) = (&[], &[]);
-            Found { answer, named, others: &others, constants, retuned: &[], rival: None, shares, beside_references }
-                .perhaps()
-        };
-        let named = told(Answer::Named).expect("a sentence");
-        assert!(named.ends_with("too little to be named: place of the pose's origin in the robot (0.60)."), "{named}");
-        assert_eq!(told(Answer::Nothing), None);
-    }
-
-    #[test]
-    fn what_several_recordings_share_is_told_once() {
-        let told = ["recording 'a': x is guessed", "recording 'b': x is guessed", "recording 'b': y", "z", "z"];
-        let merged = of_recordings(told.map(str::to_owned));
-        assert_eq!(merged, ["recordings 'a', 'b': x is guessed", "recording 'b': y", "z"]);
     }
 }

@@ -54,6 +54,11 @@ impl Evidence {
         Self { curvature: DMatrix::zeros(n, n), slope: DVector::zeros(n), mean: mean.clone(), base: 0.0 }
     }
 
+    /// The prior's mean.
+    pub(crate) fn mean(&self) -> &DVector<f64> {
+        &self.mean
+    }
+
     /// Slope of the cost at the prior's mean.
     pub(crate) fn slope(&self) -> &DVector<f64> {
         &self.slope

@@ -5,8 +5,8 @@ use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::settings::SETTINGS;
 use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
-use hierarchical_fit::telling::Found;
-use hierarchical_fit::{Answer, beyond_references};
+use hierarchical_fit::Wording;
+use hierarchical_fit::telling::{Found, Unaccounted};
 
 use crate::findings::is_nothing_that_slips;
 use verdict::Diagnosis;
@@ -22,66 +22,32 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         rival: findings.rival.as_deref(),
         shares: findings.shares,
         beside_references: findings.left_of_references.map(|usual| [findings.shares[2], usual]),
+        unconfirmed: None,
+        unknown: if is_nothing_that_slips(&findings.named) {
+            Unaccounted::SlipsBelowZero
+        } else {
+            Unaccounted::Left { of_references: findings.left_of_references }
+        },
     };
     let mut out = found.verdict(table.free_runs());
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
     out.next.clone_from(&findings.next);
-    out.sentences = sentences(findings, &found, &out, has_references);
-    out.sentences.extend(found.doubted());
-    out.sentences.extend(found.causes(&[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id], &out.free_runs));
-    out.sentences.extend(found.perhaps());
+    let pose = if findings.measured.pose { "pose" } else { "gyro" };
+    let words = Wording {
+        agree: &format!("wheels and {pose} agree"),
+        disagree: &format!("Wheels and {pose} disagree"),
+        errors: "errors of windows",
+        machine: "robot",
+        conditions: "floor and load",
+        most: SETTINGS.unexplained.most,
+        scales: &[RADIUS_OF_ALL_WHEELS.id, RADIUS_OF_ONE_WHEEL.id],
+        has_references,
+    };
+    out.sentences = found.sentences(&words, &out);
     out.sentences.extend(findings.told.iter().map(|t| format!("{t}.")));
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));
     out
-}
-
-fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
-    let [stated, is_known, leaves] = if has_references {
-        ["the references", "are known", "leave"]
-    } else {
-        ["the robot file", "is known", "leaves"]
-    };
-    let mut text: Vec<String> = found.undecided().into_iter().collect();
-    let [given, tuned, best] = findings.shares.map(|s| 100.0 * s);
-    let pose = if findings.measured.pose { "pose" } else { "gyro" };
-    let nothing = found.nothing();
-    match findings.answer {
-        Answer::Nothing => text.push(format!(
-            "{nothing}: wheels and {pose} agree as well as {stated} {is_known} (window errors are {given:.1} % of the \
-             motion)."
-        )),
-        Answer::Retune => {
-            text.push(format!(
-                "Re-tune: wheels and {pose} agree once constants are set within what {stated} {leaves} open (window errors \
-                 go from {given:.1} to {tuned:.1} % of the motion)."
-            ));
-            text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
-        }
-        Answer::Named => {
-            text.push(format!(
-                "Wheels and {pose} disagree by more than {stated} {leaves} open: {} (window errors go from {given:.1} over \
-                 {tuned:.1} re-tuned to {best:.1} % of the motion).",
-                found.names()
-            ));
-        }
-        Answer::Unknown if is_nothing_that_slips(&findings.named) => text.push(format!(
-            "Something is missing that none of the causes accounts for: several slips below zero fit best, which slip does not do \
-             (window errors are {given:.1} % of the motion, and {best:.1} % remain with them). Tyres that scrub in turns look like \
-             this: the effective track then depends on how fast the robot turns. Candidates follow."
-        )),
-        Answer::Unknown => text.push(format!(
-            "Something is missing that none of the causes accounts for: window errors are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer.{}{}",
-            beyond_references(findings.shares[2], findings.left_of_references).unwrap_or_default(),
-            if findings.shares[2] > SETTINGS.unexplained.most {
-                " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
-            } else {
-                ""
-            }
-        )),
-    }
-    text
 }
 
 fn forecast_sentence(table: &Table) -> Option<String> {

@@ -3,7 +3,7 @@
 use crate::constants::{Constant, Quantity};
 use crate::wheel::WheeledRobot;
 use catalogue::odometry as spec;
-use hierarchical_fit::Cause;
+use hierarchical_fit::{Cause, Possible};
 
 /// The causes that can show in a robot's drives.
 pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause> {
@@ -12,7 +12,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
         (0..constants.len()).filter(|&k| matches!(constants[k].quantity, Quantity::Radius(_))).collect();
     let usual = radii.iter().map(|&k| constants[k].usual).fold(f64::INFINITY, f64::min);
     let all = (radii.iter().map(|&k| (k, 1.0)).collect(), usual);
-    out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all], at_least_zero: None });
+    out.push(Cause { spec: &spec::RADIUS_OF_ALL_WHEELS, of: None, directions: vec![all], possible: None });
 
     let measured = robot.measured();
     for (k, constant) in constants.iter().enumerate() {
@@ -43,7 +43,12 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
         let is_loss = matches!(constant.quantity, Quantity::TurnSlip | Quantity::RollerSlip);
         match out.iter_mut().find(|cause| cause.spec == spec && of.is_none()) {
             Some(cause) => cause.directions.push(direction),
-            None => out.push(Cause { spec, of, directions: vec![direction], at_least_zero: is_loss.then_some(k) }),
+            None => out.push(Cause {
+                spec,
+                of,
+                directions: vec![direction],
+                possible: is_loss.then(|| Possible::at_least_zero(k)),
+            }),
         }
     }
     // Clocks that run apart agree at some instant, which may be any.

@@ -19,7 +19,7 @@ use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
 use catalogue::odometry::LOST_COUNTS;
-use hierarchical_fit::telling::of_recordings;
+use hierarchical_fit::of_recordings;
 use hierarchical_fit::{
     Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Rehearsable, Weighed, covariance,
     is_beyond_references, name_from, of_class,

@@ -196,7 +196,7 @@ mod tests {
             out
         };
         let cause = |spec, constant: usize, room: [f64; 2]| {
-            let cause = Cause { spec, of: None, directions: vec![(vec![(constant, 1.0)], 0.1)], at_least_zero: None };
+            let cause = Cause { spec, of: None, directions: vec![(vec![(constant, 1.0)], 0.1)], possible: None };
             let told = Told { value: 2.0, is_factor: constant == 0, unit: "m", room };
             Hideable::new(&cause, |_| told).expect("it moves a constant")
         };

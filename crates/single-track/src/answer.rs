@@ -1,8 +1,7 @@
 //! Findings as a verdict in sentences.
 
 use crate::settings::SETTINGS;
-use hierarchical_fit::telling::Found;
-use hierarchical_fit::{Answer, beyond_references};
+use hierarchical_fit::Wording;
 
 use crate::diagnose::Findings;
 use crate::forecast::{ByLength, LENGTHS};
@@ -16,66 +15,20 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     let mut out = found.verdict(table.free_runs());
     out.next.clone_from(&findings.next);
     out.traces = if table.traces.is_empty() { findings.traces.clone() } else { table.traces.clone() };
-    out.sentences = sentences(findings, &found, &out, has_references);
-    out.sentences.extend(found.doubted());
-    out.sentences.extend(found.causes(&[ENCODER_SCALE.id], &out.free_runs));
-    out.sentences.extend(found.perhaps());
+    let words = Wording {
+        agree: "the car moves as throttle and steering imply",
+        disagree: "The car moves otherwise than throttle and steering imply,",
+        errors: "errors after a second",
+        machine: "car",
+        conditions: "floor and battery",
+        most: SETTINGS.unexplained.most,
+        scales: &[ENCODER_SCALE.id],
+        has_references,
+    };
+    out.sentences = found.sentences(&words, &out);
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, table, has_references));
     out
-}
-
-fn sentences(findings: &Findings, found: &Found<'_>, out: &Diagnosis, has_references: bool) -> Vec<String> {
-    let [stated, is_known, leaves] = if has_references {
-        ["the references", "are known", "leave"]
-    } else {
-        ["the robot file", "is known", "leaves"]
-    };
-    let mut text: Vec<String> = found.undecided().into_iter().collect();
-    let [given, tuned, best] = findings.said.shares.map(|s| 100.0 * s);
-    let nothing = found.nothing();
-    match findings.said.answer {
-        Answer::Nothing => text.push(format!(
-            "{nothing}: the car moves as throttle and steering imply, as well as {stated} {is_known} (errors after a \
-             second are {given:.1} % of the motion, {tuned:.1} % with the drive train fitted)."
-        )),
-        Answer::Retune => {
-            text.push(format!(
-                "Re-tune: the car moves as throttle and steering imply once constants are set within what {stated} {leaves} open \
-                 (errors after a second go from {given:.1} to {tuned:.1} % of the motion)."
-            ));
-            text.extend(out.retuned.iter().map(|r| format!("{}.", r.sentence())));
-        }
-        Answer::Named => {
-            text.push(format!(
-                "The car moves otherwise than throttle and steering imply, by more than {stated} {leaves} open: {} (errors after a \
-                 second go from {given:.1} over {tuned:.1} re-tuned to {best:.1} % of the motion).",
-                found.names()
-            ));
-        }
-        Answer::Unknown if findings.said.is_scattered => text.push(format!(
-            "Unknown: the drives of this car differ from each other by {:.0} times what is usual or more, so that no cause that all \
-             of them share can be trusted (errors after a second are {given:.1} % of the motion, {best:.1} % with the best answer). \
-             Diagnose drives of one day, floor and battery by themselves; candidates follow.",
-            findings.said.scatter
-        )),
-        Answer::Unknown if findings.said.is_refuted => text.push(format!(
-            "Something is missing that these causes do not account for: with them drives that were left out of the fit are forecast worse \
-             than as stated (errors after a second are {given:.1} % of the motion, {tuned:.1} % re-tuned). Candidates \
-             follow."
-        )),
-        Answer::Unknown => text.push(format!(
-            "Something is missing that none of the causes accounts for: errors after a second are {given:.1} % of the motion, and \
-             {best:.1} % remain with the best answer.{}{}",
-            beyond_references(findings.said.shares[2], findings.said.left_of_references).unwrap_or_default(),
-            if findings.said.shares[2] > SETTINGS.unexplained.most {
-                " No robot that drives is off by so much: check the order, the signs and the units of the columns first."
-            } else {
-                ""
-            }
-        )),
-    }
-    text
 }
 
 fn forecast_sentence(table: &Table) -> Option<String> {

@@ -16,7 +16,7 @@ pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
         match out.iter_mut().find(|cause| cause.spec == constant.cause) {
             Some(cause) => cause.directions.push(direction),
             None => {
-                out.push(Cause { spec: constant.cause, of: None, directions: vec![direction], at_least_zero: None });
+                out.push(Cause { spec: constant.cause, of: None, directions: vec![direction], possible: None });
             }
         }
     }

@@ -5,10 +5,12 @@ use std::borrow::Cow;
 
 use hierarchical_fit::{Estimate, Rehearsable, Said, Solved, Unexplained};
 
-use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
+use hierarchical_fit::of_recordings;
+use hierarchical_fit::telling::NO_ADVICE;
 
 use crate::case::Case;
 use crate::clock::{self, Apart};
+use crate::constants::Constant;
 use crate::drive::Drive;
 use crate::left_out::{Table, left_out_of};
 use crate::model::{Laws, STEP};
@@ -19,6 +21,13 @@ use crate::solve::solve;
 use crate::traces::{predicted, trace};
 use catalogue::car::CAR_CLOCK_DELAY;
 use verdict::{Advice, PredictedPath, Trace};
+
+/// When something is left that no cause accounts for.
+const UNEXPLAINED: Unexplained = Unexplained {
+    share: SETTINGS.unexplained.share,
+    of_retuned: SETTINGS.unexplained.of_retuned,
+    most: SETTINGS.unexplained.most,
+};
 
 /// What the drives of a case say.
 #[derive(Debug, Clone)]
@@ -89,7 +98,8 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let all: Vec<&Drive> = case.recordings.iter().collect();
     let solved = solve(&case.car, &case.references, &all)?;
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
-    findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
+    // Many causes of cars are of sensors, or of clocks that were measured before the fit: forecasts of poses say nothing about them.
+    findings.said.judge(&table.free_runs(), UNEXPLAINED, |e| is_stated(&solved.data.model, e), |_| false);
     // A drive is chosen for causes that are always there.
     if next.is_some() && solved.onset.is_some() {
         findings.told.push(NO_ADVICE.to_owned());
@@ -116,6 +126,11 @@ pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, 
     Ok(solved.rehearsable(&solved.data.model, case.references.len(), next_drive::read))
 }
 
+/// Whether the owner states a constant that moved.
+fn is_stated(constants: &[Constant], e: &Estimate) -> bool {
+    constants.iter().any(|c| c.name == e.name && c.sigma < c.usual)
+}
+
 fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> Findings {
     let Solved { data, fit, named, .. } = solved;
     let mut said = solved.said(&data.model);
@@ -125,9 +140,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         // Of the clocks that were measured before the fit there is none.
         said.rival = None;
     }
-    let rules = SETTINGS.unexplained;
-    let is_stated = |e: &Estimate| data.model.iter().any(|c| c.name == e.name && c.sigma < c.usual);
-    said.decide(Unexplained { share: rules.share, of_retuned: rules.of_retuned, most: rules.most }, is_stated);
+    said.decide(UNEXPLAINED, |e| is_stated(&data.model, e));
     let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     let traces = data.drives.iter().enumerate();
     Findings {

@@ -30,7 +30,7 @@ impl Retuned {
     }
 
     /// "adhesion from 0.600 to 0.510 ± 0.020 (90 %)"
-    pub(crate) fn change(&self) -> String {
+    pub fn change(&self) -> String {
         let digits = self.digits();
         let name = self.constant.replace('_', " ");
         format!("{name} from {:.digits$}{} to {}", self.from, self.unit(), self.now())

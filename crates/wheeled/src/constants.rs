@@ -2,7 +2,7 @@
 
 use catalogue::odometry as odo;
 use catalogue::{CauseSpec, wheeled as spec};
-use hierarchical_fit::{Cause, Spread, Valued};
+use hierarchical_fit::{Cause, Possible, Spread, Valued};
 
 use crate::robot::AnyWheels;
 use crate::settings::{SETTINGS, Skidding};
@@ -110,8 +110,12 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
                    [sigma, usual, scatter]: [f64; 3],
                    cause: &'static CauseSpec| {
         let far = SETTINGS.fitting.farthest * (usual + sigma);
-        // What cannot be below some value is not.
-        let most = if quantity == Q::Brush { 1.0 - given } else { far };
+        // What cannot be below or above some value is not.
+        let most = match quantity {
+            Q::Brush => 1.0 - given,
+            Q::YawInertia => (robot.largest_yaw_inertia() / given).ln(),
+            _ => far,
+        };
         let bounds = [(-far).max(least - given), far.min(most)];
         let of_part = of.map_or_else(|| name.to_owned(), |part| format!("{name} of {part}"));
         out.push(Constant {
@@ -345,10 +349,14 @@ pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
         let direction = (vec![(k, 1.0)], c.spread.usual);
         let is_alone = constants.iter().filter(|other| other.cause.0 == *spec).count() == 1;
         let of = of.clone().filter(|_| !is_alone);
-        match out.iter_mut().find(|cause| cause.spec == *spec && cause.of.is_none() && of.is_none()) {
-            Some(cause) => cause.directions.push(direction),
-            None => out.push(Cause { spec, of, directions: vec![direction], at_least_zero: None }),
+        if let Some(cause) = out.iter_mut().find(|cause| cause.spec == *spec && cause.of.is_none() && of.is_none()) {
+            cause.directions.push(direction);
+            continue;
         }
+        let most = c.spread.bounds[1];
+        let possible = Possible { constant: k, least: f64::NEG_INFINITY, most };
+        let possible = (c.quantity == Quantity::YawInertia).then_some(possible);
+        out.push(Cause { spec, of, directions: vec![direction], possible });
     }
     let all = [
         (&spec::MOTOR_TORQUE_SCALE, &spec::MOTOR_TORQUE_SCALE),
@@ -361,36 +369,8 @@ pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
         if parts.len() > 1 {
             let together = parts.iter().flat_map(|cause| cause.directions[0].0.iter().copied()).collect();
             let usual = parts[0].directions[0].1;
-            out.push(Cause { spec: all, of: None, directions: vec![(together, usual)], at_least_zero: None });
+            out.push(Cause { spec: all, of: None, directions: vec![(together, usual)], possible: None });
         }
     }
     out
-}
-
-impl AnyWheels {
-    /// A torque at a wheel that is a fair part of what moves the robot: a share of its weight at a wheel's radius, N m.
-    pub(crate) fn torque_scale(&self) -> f64 {
-        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(0.0, f64::max);
-        let motors = self.motors.len().max(1) as f64;
-        SETTINGS.known.push * self.plant.mass * self.plant.ground.gravity * radius / motors
-    }
-
-    /// The same over the wheel speed of a walking pace, N m s/rad.
-    pub(crate) fn viscous_scale(&self) -> f64 {
-        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(f64::INFINITY, f64::min);
-        self.torque_scale() * radius / SETTINGS.known.pace
-    }
-
-    /// Whether fixed wheels without rollers stand behind each other: turning then makes them skid.
-    pub(crate) fn skids(&self) -> bool {
-        let is_fixed = |w: &&robot_model::wheels::Wheel<f64>| w.joint.is_none() && w.roller.is_none();
-        let along = || self.plant.wheels.iter().flatten().filter(is_fixed).map(|w| w.place[0]);
-        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min) > SETTINGS.known.com * self.size()
-    }
-
-    /// Longest distance between two contacts, m.
-    pub(crate) fn size(&self) -> f64 {
-        let of = |a: [f64; 2]| self.plant.contacts().map(move |b| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
-        self.plant.contacts().map(of).fold(0.0, f64::max)
-    }
 }

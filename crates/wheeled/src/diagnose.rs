@@ -3,10 +3,12 @@
 use hierarchical_fit::CaseError as WheeledError;
 use std::sync::Arc;
 
-use hierarchical_fit::{Rehearsable, Said, Solved, Unexplained};
+use catalogue::odometry::{GYRO_BIAS, GYRO_SCALE};
+use hierarchical_fit::{NamedCause, Rehearsable, Said, Solved, Unexplained};
 use verdict::{Advice, PredictedPath, Trace};
 
-use hierarchical_fit::telling::{NO_ADVICE, of_recordings};
+use hierarchical_fit::of_recordings;
+use hierarchical_fit::telling::NO_ADVICE;
 
 use crate::constants::{Has, causes};
 use crate::drive::{Drive, STEP};
@@ -15,6 +17,13 @@ use crate::next_drive;
 use crate::robot::AnyWheels;
 use crate::rows::{Constants, Shown, data};
 use crate::settings::SETTINGS;
+
+/// When something is left that no cause accounts for.
+const UNEXPLAINED: Unexplained = Unexplained {
+    share: SETTINGS.unexplained.share,
+    of_retuned: SETTINGS.unexplained.of_retuned,
+    most: SETTINGS.unexplained.most,
+};
 
 /// A robot with its drives.
 #[derive(Debug, Clone)]
@@ -71,7 +80,11 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(&str)) -> Result<Findings, Wheele
 pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<(Findings, Table), WheeledError> {
     let solved = solved(case, progress)?;
     let (mut findings, table) = (findings(case, &solved), left_out_of(&solved, progress));
-    findings.said.doubt(&table.free_runs(), SETTINGS.unexplained.share);
+    let is_of_body = |cause: &NamedCause| ![GYRO_SCALE.id, GYRO_BIAS.id].contains(&cause.spec.id);
+    if findings.said.judge(&table.free_runs(), UNEXPLAINED, |_| true, is_of_body) {
+        let [retuned, corrected] = &mut findings.thetas;
+        corrected.clone_from(retuned);
+    }
     // A drive is chosen for causes that are always there.
     if next.is_some() && solved.onset.is_some() {
         findings.told.push(NO_ADVICE.to_owned());
@@ -113,9 +126,8 @@ fn solved<'a>(case: &'a Case, progress: &dyn Fn(&str)) -> Result<Solved<Shown<'a
 
 fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
     let Solved { data, named, .. } = solved;
-    let rules = SETTINGS.unexplained;
     let mut said = solved.said(&data.model.all);
-    said.decide(Unexplained { share: rules.share, of_retuned: rules.of_retuned, most: rules.most }, |_| true);
+    said.decide(UNEXPLAINED, |_| true);
     let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     let traces = data.drives.iter().enumerate();
     Findings {

@@ -1,6 +1,8 @@
 //! A robot as its owner states it.
 
-use robot_model::wheels::Robot;
+use robot_model::wheels::{Robot, Wheel};
+
+use crate::settings::SETTINGS;
 
 /// How well the owner knows the robot: one sigma each.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,4 +66,40 @@ pub struct AnyWheels {
     pub point: [f64; 3],
     /// How well it is known.
     pub sigmas: Sigmas,
+}
+
+impl AnyWheels {
+    /// A torque at a wheel that is a fair part of what moves the robot: a share of its weight at a wheel's radius, N m.
+    pub(crate) fn torque_scale(&self) -> f64 {
+        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(0.0, f64::max);
+        let motors = self.motors.len().max(1) as f64;
+        SETTINGS.known.push * self.plant.mass * self.plant.ground.gravity * radius / motors
+    }
+
+    /// The same over the wheel speed of a walking pace, N m s/rad.
+    pub(crate) fn viscous_scale(&self) -> f64 {
+        let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(f64::INFINITY, f64::min);
+        self.torque_scale() * radius / SETTINGS.known.pace
+    }
+
+    /// Whether fixed wheels without rollers stand behind each other: turning then makes them skid.
+    pub(crate) fn skids(&self) -> bool {
+        let is_fixed = |w: &&Wheel<f64>| w.joint.is_none() && w.roller.is_none();
+        let along = || self.plant.wheels.iter().flatten().filter(is_fixed).map(|w| w.place[0]);
+        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min) > SETTINGS.known.com * self.size()
+    }
+
+    /// The largest yaw inertia that is believed: of all the mass at half the longest distance of two contacts, or more than is stated by a
+    /// share, as of a robot that juts out beyond its wheels, kg m². Where fixed wheels skid, laws of tyres that are not quite those of the
+    /// robot turn it as a far larger one would.
+    pub(crate) fn largest_yaw_inertia(&self) -> f64 {
+        let plant = &self.plant;
+        (plant.mass * (0.5 * self.size()).powi(2)).max((1.0 + SETTINGS.usual.yaw_inertia) * plant.yaw_inertia)
+    }
+
+    /// Longest distance between two contacts, m.
+    pub(crate) fn size(&self) -> f64 {
+        let of = |a: [f64; 2]| self.plant.contacts().map(move |b| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
+        self.plant.contacts().map(of).fold(0.0, f64::max)
+    }
 }

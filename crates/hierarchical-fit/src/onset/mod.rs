@@ -88,7 +88,7 @@ impl Onset {
 
 #[cfg(test)]
 mod tests {
-    use crate::cause::Cause;
+    use crate::cause::{Cause, Possible};
     use crate::data::Data;
     use crate::observed::Spread;
     use crate::scaled::Scaled;
@@ -99,14 +99,14 @@ mod tests {
         solved_by(drives, None)
     }
 
-    fn solved_by(drives: Vec<Scaled>, at_least_zero: Option<usize>) -> Solved<Scaled> {
+    fn solved_by(drives: Vec<Scaled>, possible: Option<Possible>) -> Solved<Scaled> {
         let spreads = vec![Spread { sigma: 0.01, usual: 0.3, scatter: 0.003, bounds: [-5.0, 5.0] }];
         let data = Data { model: (), spreads, drives };
         let cause = Cause {
             spec: &catalogue::odometry::RADIUS_OF_ALL_WHEELS,
             of: None,
             directions: vec![(vec![(0, 1.0)], 0.3)],
-            at_least_zero,
+            possible,
         };
         solve(data, None, vec![cause]).expect("solved")
     }
@@ -164,7 +164,7 @@ mod tests {
     fn a_share_that_cannot_be_negative_does_not_begin_to_be() {
         let falls = || vec![Scaled::changing([1.0, 0.6], 12.0)];
         assert!(solved_by(falls(), None).onset.is_some());
-        assert!(solved_by(falls(), Some(0)).onset.is_none());
+        assert!(solved_by(falls(), Some(Possible::at_least_zero(0))).onset.is_none());
     }
 
     #[test]

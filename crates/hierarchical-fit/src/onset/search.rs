@@ -188,12 +188,11 @@ impl<D: Observed> Sought<'_, D> {
         self.is_possible(&out).then_some(out)
     }
 
-    /// Whether no constant that cannot be negative is so by more than its sigma, as of causes that are always there.
+    /// Whether all constants lie in what they can be within a sigma, as of causes that are always there.
     fn is_possible(&self, weighted: &Weighted) -> bool {
-        let Posterior { mean, covariance } = self.acting(weighted);
-        let causes = weighted.hypothesis.always.iter().chain([&weighted.hypothesis.cause]);
-        let halves = causes.filter_map(|&c| self.causes[c].at_least_zero);
-        { halves }.all(|k| mean[k] >= -covariance[(k, k)].max(0.0).sqrt())
+        let acting = self.acting(weighted);
+        let mut causes = weighted.hypothesis.always.iter().chain([&weighted.hypothesis.cause]);
+        causes.all(|&c| self.causes[c].possible.is_none_or(|range| range.may_hold(&acting)))
     }
 
     /// Evidence of a hypothesis whose instants have these, with the odds of what is claimed, nats.
@@ -328,7 +327,7 @@ mod tests {
         let prior = data.prior();
         let directions = vec![(vec![(0, 1.0)], 0.3), (vec![(0, 0.5)], 0.2)];
         let spec = &catalogue::odometry::RADIUS_OF_ALL_WHEELS;
-        let causes = [Cause { spec, of: None, directions, at_least_zero: None }];
+        let causes = [Cause { spec, of: None, directions, possible: None }];
         let fit = fit(&data, &prior, vec![0.0]).expect("a fit");
         let own = stretches(&data, &fit.theta, &fit.own, (fit.noise, SETTINGS.onset.coarse));
         let sought = Sought { data: &data, prior: &prior, causes: &causes, fit: &fit, borders: borders(&own) };

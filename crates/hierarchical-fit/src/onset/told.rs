@@ -1,6 +1,6 @@
 //! The answer with a cause that begins or ends.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::hypotheses::directions;
 use super::search::{Equations, Sought, Weighted};
@@ -35,10 +35,15 @@ impl<D: Observed> Sought<'_, D> {
     ) -> Option<(Onset, Named)> {
         let Weighted { hypothesis, posterior, .. } = weighted;
         let cause = &self.causes[hypothesis.cause];
-        let off = posterior.mean.rows(0, self.prior.mean.len()).into_owned();
-        let Posterior { mean, covariance } = self.acting(weighted);
-        let mean = DVector::from_vec(self.data.within_bounds(&mean));
-        if cause.at_least_zero.is_some_and(|k| mean[k] <= 0.0) {
+        let n = self.prior.mean.len();
+        let off = Posterior {
+            mean: posterior.mean.rows(0, n).into_owned(),
+            covariance: posterior.covariance.view((0, 0), (n, n)).into_owned(),
+        };
+        let acting = self.acting(weighted);
+        let mean = self.data.bounded(&acting);
+        let covariance = acting.covariance;
+        if cause.possible.is_some_and(|range| mean[range.constant] <= range.least) {
             return None;
         }
 
@@ -55,7 +60,7 @@ impl<D: Observed> Sought<'_, D> {
             interval,
             gate,
             factor: weighted.factor,
-            off: DVector::from_vec(self.data.within_bounds(&off)),
+            off: self.data.bounded(&off),
         };
         // What it explains must be more than laws that are not quite those of the robot get wrong.
         let left = self.data.share_with(mean.as_slice(), &onset);

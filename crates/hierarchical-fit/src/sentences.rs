@@ -1,0 +1,406 @@
+//! Findings in sentences: what every comparison whose sessions give normal equations says alike.
+
+use catalogue::for_people;
+use inference::evidence::logistic;
+use inference::words::{probability, two_decimals};
+use verdict::{Diagnosis, FreeRun, Retuned};
+
+use crate::found::{Answer, Estimate, NamedCause};
+use crate::said::{Unconfirmed, beyond_references};
+use crate::settings::SETTINGS;
+use crate::telling::{Found, Unaccounted, gains};
+
+/// How a kind of comparison calls what it compares.
+#[derive(Debug, Clone, Copy)]
+pub struct Wording<'a> {
+    /// That motion and model agree: "the robot moves as the torques of its motors imply".
+    pub agree: &'a str,
+    /// That they do not.
+    pub disagree: &'a str,
+    /// Of what errors are told as shares: "errors after a second".
+    pub errors: &'a str,
+    /// The machine: "robot".
+    pub machine: &'a str,
+    /// What drives should share: "floor and load".
+    pub conditions: &'a str,
+    /// Share of the motion beyond which the columns are to be checked first.
+    pub most: f64,
+    /// Ids of the effects whose size is a factor on counts.
+    pub scales: &'a [&'static str],
+    /// Whether the drives came with references.
+    pub has_references: bool,
+}
+
+impl Wording<'_> {
+    /// What stands for right, "is known" and "leaves" after it.
+    fn right(&self) -> [&'static str; 3] {
+        if self.has_references {
+            ["the references", "are known", "leave"]
+        } else {
+            ["the robot file", "is known", "leaves"]
+        }
+    }
+}
+
+impl Found<'_> {
+    /// All sentences about what was found but for forecasts: the answer first, then its numbers.
+    pub fn sentences(&self, words: &Wording<'_>, told: &Diagnosis) -> Vec<String> {
+        let mut out: Vec<String> = self.undecided().into_iter().collect();
+        out.push(self.headline(words));
+        if self.answer == Answer::Retune {
+            out.extend(told.retuned.iter().map(|r| format!("{}.", r.sentence())));
+        }
+        out.extend(self.unconfirmed());
+        out.extend(self.doubted());
+        out.extend(self.causes(words.scales, &told.free_runs));
+        out.extend(self.perhaps());
+        if self.answer == Answer::Named && !told.retuned.is_empty() {
+            let most = told.retuned.iter().take(SETTINGS.naming.beside);
+            let changes: Vec<String> = most.map(Retuned::change).collect();
+            let [stated, _, leaves] = words.right();
+            out.push(format!(
+                "Re-tuned beside that, within what {stated} {leaves} open, those that moved most first: {}.",
+                changes.join("; ")
+            ));
+        }
+        out
+    }
+
+    /// The first sentence.
+    fn headline(&self, words: &Wording<'_>) -> String {
+        let [given, tuned, best] = self.shares.map(|s| 100.0 * s);
+        let [stated, is_known, leaves] = words.right();
+        let Wording { agree, disagree, errors, machine, conditions, .. } = words;
+        match self.answer {
+            Answer::Nothing => format!(
+                "{}: {agree}, as well as {stated} {is_known} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned).",
+                self.nothing()
+            ),
+            Answer::Retune => format!(
+                "Re-tune: {agree} once constants are set within what {stated} {leaves} open ({errors}: {given:.1} % of the motion, \
+                 {tuned:.1} % re-tuned)."
+            ),
+            Answer::Named => format!(
+                "{disagree} by more than {stated} {leaves} open: {} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned, \
+                 {best:.1} % with what is named).",
+                self.names()
+            ),
+            Answer::Unknown => match self.unknown {
+                Unaccounted::Scattered(times) => format!(
+                    "Unknown: the drives of this {machine} differ from each other by {times:.0} times what is usual or more, so that no \
+                     cause that all of them share can be trusted ({errors}: {given:.1} % of the motion, {best:.1} % with the best \
+                     answer). Diagnose drives of one day, {conditions} by themselves."
+                ),
+                Unaccounted::Refuted => format!(
+                    "Something is missing that the candidates do not account for: with them drives that were left out of the fit are \
+                     forecast worse than as stated ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned)."
+                ),
+                Unaccounted::SlipsBelowZero => format!(
+                    "Something is missing that none of the causes accounts for: several slips below zero fit best, which slip does not do \
+                     ({errors}: {given:.1} % of the motion, {best:.1} % with them). Tyres that scrub in turns look like this: the effective \
+                     track then depends on how fast the robot turns."
+                ),
+                Unaccounted::Left { of_references } => format!(
+                    "Something is missing that none of the causes accounts for ({errors}: {given:.1} % of the motion, of which the best \
+                     answer leaves {best:.1} %).{}{}",
+                    beyond_references(self.shares[2], of_references).unwrap_or_default(),
+                    if self.shares[2] > words.most {
+                        " Nothing that drives is off by so much: check the order, the signs and the units of the columns first."
+                    } else {
+                        ""
+                    }
+                ),
+            },
+        }
+    }
+
+    /// How an answer begins by which nothing is missing.
+    fn nothing(&self) -> &'static str {
+        if self.doubt() > 0.0 { "Nothing that can be named is missing" } else { "Nothing is missing" }
+    }
+
+    /// What was named and is not told.
+    fn unconfirmed(&self) -> Option<String> {
+        let Unconfirmed { labels, standing } = self.unconfirmed?;
+        let names: Vec<String> = labels.iter().map(|label| for_people(label)).collect();
+        Some(format!(
+            "Not told, for it is confirmed by nothing: {}. Drives left out of the fit are forecast with {:.2} times the error of the simulation \
+             as stated, and {:.2} times that of the re-tuned one. Record more drives, and longer ones, to decide.",
+            names.join("; "),
+            standing.over_nominal,
+            standing.over_retuned
+        ))
+    }
+
+    /// What is left of the recordings beside the references, where that is more than usual.
+    fn doubted(&self) -> Option<String> {
+        let [left, usual] = self.beside_references.filter(|_| self.doubt() > 0.0)?;
+        Some(format!(
+            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: more than what is \
+             usual, and not enough to be called missing. Look at where they differ.",
+            100.0 * left,
+            100.0 * usual,
+            left / usual.max(f64::MIN_POSITIVE)
+        ))
+    }
+
+    /// Causes that are likelier than not, beside those that are named, and not sure enough for it.
+    fn perhaps(&self) -> Option<String> {
+        let likely = self.others.iter().filter(|(_, p)| self.answer == Answer::Named && *p > 0.5);
+        let told: Vec<String> = likely.map(|(l, p)| format!("{} ({})", for_people(l), probability(*p))).collect();
+        (!told.is_empty()).then(|| {
+            format!(
+                "Perhaps also, with a probability in brackets below the {} from which a cause is named: {}.",
+                probability(logistic(SETTINGS.naming.named)),
+                told.join(", ")
+            )
+        })
+    }
+
+    /// What leads where no cause is named and yet one is likelier than none.
+    fn undecided(&self) -> Option<String> {
+        if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
+            return None;
+        }
+        let none = self.nothing_else();
+        let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
+        Some(format!(
+            "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
+             drives to decide.",
+            for_people(label),
+            probability(*best),
+            probability(none)
+        ))
+    }
+
+    /// Names of the named causes, with their places.
+    fn names(&self) -> String {
+        let names: Vec<String> = self.named.iter().map(|c| for_people(&c.label)).collect();
+        names.join("; ")
+    }
+
+    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scales`: the effects whose
+    /// size is a factor on counts, of which familiar values are told.
+    fn causes<'a>(&'a self, scales: &'a [&str], free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
+        self.named.iter().enumerate().map(move |(k, named)| {
+            let values = named.estimates.iter().map(|e| {
+                let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
+                format!("{} {}{from}", e.name, number(e))
+            });
+            let alike = match self.alike(k, free_runs) {
+                alike if alike.is_empty() => String::new(),
+                alike => {
+                    let names: Vec<String> = alike.iter().map(|label| for_people(label)).collect();
+                    format!("; these drives cannot tell it from {}", names.join(", "))
+                }
+            };
+            let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
+            let gain = if gains(named) { NO_SLIP } else { "" };
+            let name = verdict::sentence_case(&for_people(&named.label));
+            let name = if self.answer == Answer::Unknown { format!("Candidate only: {name}") } else { name };
+            let onset = named.onset.as_ref().map_or_else(String::new, |onset| format!("; {onset}"));
+            format!("{name}: {}{familiar}{gain}{onset}{alike}.", values.collect::<Vec<_>>().join("; "))
+        })
+    }
+}
+
+/// Sentences about recordings that say the same of several, each once: "recording 'a': it" and "recording 'b': it" as "recordings 'a', 'b':
+/// it".
+pub fn of_recordings(told: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut out: Vec<(Vec<String>, String)> = Vec::new();
+    for sentence in told {
+        let split = sentence.strip_prefix("recording '").and_then(|rest| rest.split_once("': "));
+        let (name, said) = split.map_or((None, sentence.as_str()), |(name, said)| (Some(format!("'{name}'")), said));
+        match out.iter_mut().find(|(names, other)| other == said && names.is_empty() == name.is_none()) {
+            Some((names, _)) => names.extend(name.filter(|name| !names.contains(name))),
+            None => out.push((name.into_iter().collect(), said.to_owned())),
+        }
+    }
+    let told = |(names, said): (Vec<String>, String)| match names.as_slice() {
+        [] => said,
+        [one] => format!("recording {one}: {said}"),
+        several => format!("recordings {}: {said}", several.join(", ")),
+    };
+    out.into_iter().map(told).collect()
+}
+
+/// What is said of a slip below zero.
+const NO_SLIP: &str = ", below zero: the body gets ahead of its wheels the more, the faster, which slip does not do; look at \
+                       track, tyres and clocks";
+
+/// "0.0842 ± 0.0003 m", with two digits of the interval.
+fn number(e: &Estimate) -> String {
+    let unit = if e.unit == "1" { String::new() } else { format!(" {}", e.unit) };
+    let digits = two_decimals(e.half_width);
+    format!("{:.digits$} ± {:.digits$}{unit} (90 %)", e.value, e.half_width)
+}
+
+/// Tells a factor on counts that is a familiar one.
+fn familiar(named: &NamedCause) -> String {
+    let Some(first) = named.estimates.first() else { return String::new() };
+    let factor = first.value / first.given;
+    let near = SETTINGS.naming.factors.iter().find(|f| (factor / **f).ln().abs() < SETTINGS.naming.familiar);
+    near.map_or_else(String::new, |near| {
+        format!(
+            ", which is the factor {near:.3}: look at counts per turn (edges that are counted), gear, or diameter for radius"
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use catalogue::answer::UNKNOWN;
+
+    #[test]
+    fn a_cause_that_is_likelier_than_none_and_not_named_leads() {
+        let told = |answer, probability| {
+            let others = [("pose_origin".to_owned(), probability)];
+            let shares = [0.3, 0.2, 0.2];
+            let beside_references = None;
+            Found {
+                answer,
+                named: &[],
+                others: &others,
+                constants: &[],
+                retuned: &[],
+                rival: None,
+                shares,
+                beside_references,
+                unconfirmed: None,
+                unknown: Unaccounted::Refuted,
+            }
+            .undecided()
+        };
+        let leads = told(Answer::Retune, 0.7).expect("a sentence");
+        assert!(
+            leads.contains("place of the pose's origin in the robot has a probability of 0.70, nothing one of 0.30"),
+            "{leads}"
+        );
+        assert_eq!([told(Answer::Retune, 0.4), told(Answer::Named, 0.7)], [None, None]);
+    }
+
+    #[test]
+    fn what_is_likelier_than_not_and_too_little_to_be_named_is_told_beside_what_is_named() {
+        let others = [("pose_origin".to_owned(), 0.6), ("steering_zero (front)".to_owned(), 0.2)];
+        let told = |answer| {
+            let (shares, beside_references) = ([0.3, 0.2, 0.1], None);
+            let (named, constants): (&[NamedCause], &[Estimate]) = (&[], &[]);
+            Found {
+                answer,
+                named,
+                others: &others,
+                constants,
+                retuned: &[],
+                rival: None,
+                shares,
+                beside_references,
+                unconfirmed: None,
+                unknown: Unaccounted::Refuted,
+            }
+            .perhaps()
+        };
+        let named = told(Answer::Named).expect("a sentence");
+        assert!(named.ends_with("named: place of the pose's origin in the robot (0.60)."), "{named}");
+        assert_eq!(told(Answer::Nothing), None);
+    }
+
+    #[test]
+    fn what_several_recordings_share_is_told_once() {
+        let told = ["recording 'a': x is guessed", "recording 'b': x is guessed", "recording 'b': y", "z", "z"];
+        let merged = of_recordings(told.map(str::to_owned));
+        assert_eq!(merged, ["recordings 'a', 'b': x is guessed", "recording 'b': y", "z"]);
+    }
+
+    #[test]
+    fn what_leaves_more_than_references_do_is_doubted_and_told() {
+        let found = |answer, left: f64, usual: Option<f64>| {
+            let shares = [left; 3];
+            let (named, others): (&[NamedCause], &[(String, f64)]) = (&[], &[]);
+            let told = Found {
+                answer,
+                named,
+                others,
+                constants: &[],
+                retuned: &[],
+                rival: None,
+                shares,
+                beside_references: usual.map(|usual| [left, usual]),
+                unconfirmed: None,
+                unknown: Unaccounted::Refuted,
+            };
+            let ranked = told.verdict(Vec::new()).ranked;
+            let total: f64 = ranked.iter().map(|c| c.probability).sum();
+            approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
+            let unknown = ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
+            assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
+            (unknown.map_or(0.0, |c| c.probability), told.doubted())
+        };
+        let (unknown, told) = found(Answer::Nothing, 0.02, Some(0.006));
+        approx::assert_relative_eq!(unknown, 0.45 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
+        assert!(told.is_some_and(|t| {
+            t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
+        }));
+        assert_eq!(found(Answer::Nothing, 0.02, Some(0.012)), (0.0, None), "it is usual");
+        assert_eq!(found(Answer::Nothing, 0.003, Some(0.001)), (0.0, None), "it is next to nothing");
+        assert_eq!(found(Answer::Nothing, 0.02, None), (0.0, None));
+    }
+
+    #[test]
+    fn what_was_re_tuned_is_told_beside_what_is_named_and_candidates_of_the_unknown_are_called_so() {
+        let estimate = |name: &str, sigmas: f64| Estimate {
+            name: name.to_owned(),
+            unit: "m",
+            given: 1.0,
+            value: 1.0 + 0.1 * sigmas,
+            half_width: 0.05,
+            sigmas,
+        };
+        let named = [NamedCause {
+            spec: &catalogue::odometry::STEERING_ZERO,
+            label: "steering_zero (front)".to_owned(),
+            probability: 0.99,
+            alike: Vec::new(),
+            estimates: vec![estimate("zero", 9.0)],
+            intervals: Vec::new(),
+            onset: None,
+        }];
+        let constants = [estimate("zero", 9.0), estimate("still", 0.1), estimate("near", 1.0), estimate("far", 2.0)];
+        let words = Wording {
+            agree: "both agree",
+            disagree: "Both disagree",
+            errors: "errors",
+            machine: "robot",
+            conditions: "floor",
+            most: 0.5,
+            scales: &[],
+            has_references: false,
+        };
+        let told = |answer| {
+            let found = Found {
+                answer,
+                named: &named,
+                others: &[],
+                constants: &constants,
+                retuned: &[],
+                rival: None,
+                shares: [0.3, 0.2, 0.1],
+                beside_references: None,
+                unconfirmed: None,
+                unknown: Unaccounted::Left { of_references: None },
+            };
+            found.sentences(&words, &found.verdict(Vec::new()))
+        };
+        assert_eq!(
+            told(Answer::Named),
+            [
+                "Both disagree by more than the robot file leaves open: zero of the steering (front) (errors: 30.0 % of the motion, \
+                 20.0 % re-tuned, 10.0 % with what is named).",
+                "Zero of the steering (front): zero 1.900 ± 0.050 m (90 %), given as 1.0000.",
+                "Re-tuned beside that, within what the robot file leaves open, those that moved most first: far from 1.000 m to 1.200 ± 0.050 m \
+                 (90 %); near from 1.000 m to 1.100 ± 0.050 m (90 %)."
+            ]
+        );
+        assert!(told(Answer::Unknown)[1].starts_with("Candidate only: "));
+    }
+}
