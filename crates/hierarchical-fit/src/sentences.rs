@@ -52,7 +52,7 @@ impl Found<'_> {
         }
         out.extend(self.unconfirmed());
         out.extend(self.doubted());
-        out.extend(self.causes(words.scales, &told.free_runs));
+        out.extend(self.causes(words, &told.free_runs));
         out.extend(self.perhaps());
         if self.answer == Answer::Named && !told.retuned.is_empty() {
             let most = told.retuned.iter().take(SETTINGS.naming.beside);
@@ -179,12 +179,12 @@ impl Found<'_> {
         names.join("; ")
     }
 
-    /// A sentence for each named cause, with its numbers and those that cannot be told from it. `scales`: the effects whose
-    /// size is a factor on counts, of which familiar values are told.
-    fn causes<'a>(&'a self, scales: &'a [&str], free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
+    /// A sentence for each named cause, with its numbers and those that cannot be told from it.
+    fn causes<'a>(&'a self, words: &'a Wording<'a>, free_runs: &'a [FreeRun]) -> impl Iterator<Item = String> + 'a {
         self.named.iter().enumerate().map(move |(k, named)| {
             let values = named.estimates.iter().map(|e| {
-                let from = if e.given == 0.0 { String::new() } else { format!(", given as {:.4}", e.given) };
+                let stated = if words.has_references { "in the references" } else { "given as" };
+                let from = if e.given == 0.0 { String::new() } else { format!(", {stated} {:.4}", e.given) };
                 format!("{} {}{from}", e.name, number(e))
             });
             let alike = match self.alike(k, free_runs) {
@@ -194,7 +194,7 @@ impl Found<'_> {
                     format!("; these drives cannot tell it from {}", names.join(", "))
                 }
             };
-            let familiar = if scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
+            let familiar = if words.scales.contains(&named.spec.id) { familiar(named) } else { String::new() };
             let gain = if gains(named) { NO_SLIP } else { "" };
             let name = verdict::sentence_case(&for_people(&named.label));
             let name = if self.answer == Answer::Unknown { format!("Candidate only: {name}") } else { name };

@@ -22,7 +22,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         rival: findings.rival.as_deref(),
         shares: findings.shares,
         beside_references: findings.left_of_references.map(|usual| [findings.shares[2], usual]),
-        unconfirmed: None,
+        unconfirmed: findings.unconfirmed.as_ref(),
         unknown: if is_nothing_that_slips(&findings.named) {
             Unaccounted::SlipsBelowZero
         } else {

@@ -338,6 +338,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         rival: named.rival.map(|c| causes[c].label()),
         retuned,
         noise: fit.scale,
+        unconfirmed: None,
         scatter: fit.factors[0],
         shares: [given.1, tuned.1, best.1],
         left_of_references: solved.left_of_references,

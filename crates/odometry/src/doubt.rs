@@ -29,8 +29,10 @@ pub(crate) fn without_what_little_shows(
     let rest: Vec<usize> = rest.iter().map(|w| w.cause).collect();
     let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;
     let mut out = named_as(&evidence, &prior.covariance, causes, &rest)?;
-    let left = |mean: &DVector<f64>| share(data, mean).0;
-    if left(&named.posterior.mean) < rules.leaves * left(&out.posterior.mean) {
+    let [(with, of_motion_with), (without, of_motion_without)] =
+        [&named.posterior.mean, &out.posterior.mean].map(|mean: &DVector<f64>| share(data, mean));
+    let taken = (of_motion_without.powi(2) - of_motion_with.powi(2)).max(0.0).sqrt();
+    if with < rules.leaves * without && taken > rules.least {
         return None;
     }
 

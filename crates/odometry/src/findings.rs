@@ -9,7 +9,7 @@ use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
 use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::telling::gains;
-use hierarchical_fit::{Answer, Estimate, NamedCause, is_beyond_references};
+use hierarchical_fit::{Answer, Estimate, NamedCause, Unconfirmed, is_beyond_references};
 use inference::experiment::Standing;
 use verdict::{Advice, PredictedPath, Trace};
 
@@ -30,6 +30,8 @@ pub struct Findings {
     pub rival: Option<String>,
     /// Sigma of a window's error, m.
     pub noise: f64,
+    /// What was named and is not told, for sessions that were left out do not need it.
+    pub unconfirmed: Option<Unconfirmed>,
     /// Factor on the usual scatter of constants between sessions.
     pub scatter: f64,
     /// Root mean square error of windows over their way: as given, re-tuned, with the named causes.
@@ -54,7 +56,7 @@ pub struct Findings {
 
 impl Findings {
     /// What stands once sessions were left out: causes that explain little, only where those are forecast better with them; none with
-    /// which they are forecast worse than as stated and which leave most of the error.
+    /// which they are forecast worse than as stated and which leave most of the error, nor with which they are forecast no better.
     #[must_use]
     pub fn after(self, table: &Table) -> Self {
         let mut out = match self.plainer {
@@ -64,11 +66,16 @@ impl Findings {
         let rules = SETTINGS.doubt;
         let [_, tuned, best] = out.shares;
         let leaves_most = best > rules.leaves_most * tuned;
-        let is_refuted = Standing::new(&table.free_runs()).is_some_and(|s| s.over_nominal > rules.refuted);
         // Counts that were lost are seen by themselves, and no law of the constants.
-        let is_law = out.named.iter().any(|cause| *cause.spec != LOST_COUNTS);
-        if out.answer == Answer::Named && is_law && leaves_most && is_refuted {
+        let labels: Vec<String> =
+            out.named.iter().filter(|c| *c.spec != LOST_COUNTS).map(|c| c.label.clone()).collect();
+        let standing = Standing::new(&table.free_runs()).filter(|_| out.answer == Answer::Named && !labels.is_empty());
+        let Some(standing) = standing else { return out };
+        if leaves_most && standing.over_nominal > rules.refuted {
             out.take_back();
+        } else if standing.over_nominal > rules.confirmed {
+            out.take_back();
+            out.unconfirmed = Some(Unconfirmed { labels, standing });
         }
         out
     }

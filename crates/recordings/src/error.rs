@@ -63,14 +63,14 @@ pub enum RecordingError {
     /// Text where a number is expected.
     #[error(
         "{file}: {place} {line}, column {column}: `{text}` is not a number; \
-         correct it, leave the cell empty, or read in tolerant mode to skip it"
+         correct it, leave the cell empty, or read in tolerant mode (`--reading tolerant`) to skip it"
     )]
     NotANumber { file: String, place: Place, line: u64, column: String, text: String },
 
     /// NaN, infinity, or too large for the arithmetic.
     #[error(
         "{file}: {place} {line}, column {column}: `{text}` is not a finite number in range; \
-         a missing sample is an empty cell (or read in tolerant mode to skip it)"
+         a missing sample is an empty cell (or read in tolerant mode (`--reading tolerant`) to skip it)"
     )]
     NotFinite { file: String, place: Place, line: u64, column: String, text: String },
 
@@ -84,7 +84,7 @@ pub enum RecordingError {
     /// A stamp before the one above it.
     #[error(
         "{file}: {place} {line}, column {column}: time runs backwards, from {before_s} s to {now_s} s; \
-         sort the rows, split the file there, or read in tolerant mode to skip them \
+         sort the rows, split the file there, or read in tolerant mode (`--reading tolerant`) to skip them \
          (rows that are up to 1 s late are sorted, unless reading is strict; a longer step is a clock that was set anew)"
     )]
     TimeBackwards { file: String, place: Place, line: u64, column: String, before_s: f64, now_s: f64 },

@@ -168,7 +168,7 @@ fn pose_columns(names: &ColumnNames) -> Result<Option<[String; 3]>, String> {
              something to compare the wheels with"
                 .to_owned(),
         ),
-        _ => Err("[columns] names a part of the pose; give x, y and yaw, or none of them".to_owned()),
+        _ => Err("[columns] names a part of the pose; give x, y and yaw, or none of them: a position without a heading is not compared".to_owned()),
     }
 }
 

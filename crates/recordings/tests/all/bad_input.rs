@@ -82,7 +82,7 @@ fn text_in_a_number() {
     assert_eq!(
         message(text),
         "a.csv: line 3, column wz: `oops` is not a number; \
-         correct it, leave the cell empty, or read in tolerant mode to skip it"
+         correct it, leave the cell empty, or read in tolerant mode (`--reading tolerant`) to skip it"
     );
     assert_eq!(tolerated(text), (LossKind::BadCell, vec![3], vec![1.0, 3.0]));
     let in_time = "t,wz,curL\n0,1,1\nnoon,2,1\n0.2,3,1\n";
@@ -121,7 +121,7 @@ fn time_running_backwards() {
     assert_eq!(
         message(text),
         "a.csv: line 4, column t: time runs backwards, from 2.2 s to 0.1 s; \
-         sort the rows, split the file there, or read in tolerant mode to skip them \
+         sort the rows, split the file there, or read in tolerant mode (`--reading tolerant`) to skip them \
          (rows that are up to 1 s late are sorted, unless reading is strict; a longer step is a clock that was set anew)"
     );
     assert_eq!(tolerated(text), (LossKind::TimeBackwards, vec![4], vec![1.0, 2.0, 4.0]));

@@ -178,7 +178,7 @@ impl RobotFile {
         };
         let pose = [&columns.x, &columns.y, &columns.yaw].iter().filter(|c| c.is_some()).count();
         if pose % 3 != 0 {
-            return Err(wrong("[columns] names a part of the pose; give x, y and yaw, or none of them".to_owned()));
+            return Err(wrong("[columns] names a part of the pose; give x, y and yaw, or none of them: a position without a heading is not compared".to_owned()));
         }
         odometry::file::seconds_in(columns.time_unit.as_deref()).map_err(wrong)?;
         if !["command", "rad", "deg"].contains(&columns.steering_unit.as_str()) {
