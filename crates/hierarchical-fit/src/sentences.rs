@@ -101,8 +101,8 @@ impl Found<'_> {
                      track then depends on how fast the robot turns."
                 ),
                 Unaccounted::Left { of_references } => format!(
-                    "Something is missing that none of the causes accounts for ({errors}: {given:.1} % of the motion, of which the best \
-                     answer leaves {best:.1} %).{}{}",
+                    "Something is missing that none of the causes accounts for ({errors}: {given:.1} % of the motion, {best:.1} % with the \
+                     best answer).{}{}",
                     beyond_references(self.shares[2], of_references).unwrap_or_default(),
                     if self.shares[2] > words.most {
                         " Nothing that drives is off by so much: check the order, the signs and the units of the columns first."

@@ -237,6 +237,7 @@ fn about<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> Option<Eviden
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cause::Possible;
     use crate::name::Weighed;
     use crate::observed::Spread;
     use crate::scaled::Scaled;
@@ -278,17 +279,28 @@ mod tests {
         assert!(is_dropped(0.24, (0.36, 15.0), true));
     }
 
-    #[test]
-    fn without_a_drive_what_was_named_is_no_scatter_of_the_others() {
+    /// Three drives whose scale is 1.5, with a cause that may move its logarithm to `most`.
+    fn solved_with_largest(most: f64) -> Solved<Scaled> {
         let spreads = vec![Spread { sigma: 0.03, usual: 1.0, scatter: 0.1, bounds: [-5.0, 5.0] }];
         let drives = vec![Scaled::by(1.5).roughly(0.01), Scaled::by(1.5).roughly(0.01), Scaled::by(1.5).roughly(0.01)];
         let scale = Cause {
             spec: &catalogue::odometry::GYRO_SCALE,
             of: None,
             directions: vec![(vec![(0, 1.0)], 1.0)],
-            possible: None,
+            possible: Some(Possible { constant: 0, least: f64::NEG_INFINITY, most }),
         };
-        let solved = solve(Data { model: (), spreads, drives }, None, vec![scale]).expect("solved");
+        solve(Data { model: (), spreads, drives }, None, vec![scale]).expect("solved")
+    }
+
+    #[test]
+    fn a_cause_is_named_only_where_its_constant_can_be_what_the_drives_ask_for() {
+        assert_eq!(solved_with_largest(0.5).named.chosen.len(), 1, "the logarithm of 1.5 is 0.41");
+        assert!(solved_with_largest(0.2).named.chosen.is_empty());
+    }
+
+    #[test]
+    fn without_a_drive_what_was_named_is_no_scatter_of_the_others() {
+        let solved = solved_with_largest(f64::INFINITY);
         assert_eq!(solved.named.chosen.len(), 1);
 
         let others = solved.without(0).expect("solved");

@@ -85,13 +85,7 @@ impl Found<'_> {
             out.limits.extend(standing.and_then(|s| s.objection(self.rival)));
         }
         if self.answer == Answer::Retune {
-            let worse = standing.map(|s| s.over_nominal).filter(|ratio| *ratio > SETTINGS.naming.worse);
-            out.limits.extend(worse.map(|ratio| {
-                format!(
-                    "recordings left out of the fit are forecast worse with the re-tuned constants than as stated ({ratio:.2} times the \
-                     error): do not adopt them, for something differs between the recordings that no constant holds"
-                )
-            }));
+            out.limits.extend(standing.and_then(|s| s.objection_to_re_tuning()));
         }
         out
     }
@@ -241,35 +235,6 @@ mod tests {
         let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([Some(1.0), Some(2.0)]));
         let of = |quantity: &str| runs.iter().filter_map(|run| length_of(run, quantity)).collect::<Vec<_>>();
         assert_eq!((of("position"), of("heading"), of("speed")), (vec![2.0, 10.0, 0.5], vec![2.0, 10.0, 0.5], vec![]));
-    }
-
-    #[test]
-    fn re_tuned_constants_with_which_left_out_recordings_are_forecast_worse_are_not_to_be_adopted() {
-        let limits = |retuned: f64| {
-            let found = Found {
-                answer: Answer::Retune,
-                named: &[],
-                others: &[],
-                constants: &[],
-                retuned: &[],
-                rival: None,
-                shares: [0.3, 0.2, 0.2],
-                beside_references: None,
-                unconfirmed: None,
-                unknown: Unaccounted::Refuted,
-            };
-            let run = FreeRun {
-                recording: "a".to_owned(),
-                quantity: "position, m".to_owned(),
-                nominal: 1.0,
-                retuned,
-                corrected: retuned,
-                placebo: None,
-            };
-            found.verdict(vec![run]).limits
-        };
-        assert!(limits(1.05).is_empty());
-        assert!(limits(1.5)[0].contains("1.50 times the error): do not adopt them"), "{:?}", limits(1.5));
     }
 
     #[test]

@@ -13,7 +13,10 @@ pub enum DiagnosisError {
         what: &'static str,
     },
     /// A recording is too short.
-    #[error("recording '{recording}' has {rows} rows, but at least {needed} are needed; record longer")]
+    #[error(
+        "recording '{recording}' has {rows} rows, but at least {needed} are needed; record longer, or, where the file has many more, state \
+         the unit of its times in the mapping"
+    )]
     TooShort {
         /// Name of the recording.
         recording: String,

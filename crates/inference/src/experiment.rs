@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use verdict::FreeRun;
 
 use crate::robust::{geometric_mean, rms};
+use crate::settings::SETTINGS;
 
 /// The four simulations that every verdict compares, or something of each.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -168,6 +169,17 @@ impl Standing {
             )
         })
     }
+
+    /// What these figures hold against constants that were re-tuned where nothing is named, for people.
+    pub fn objection_to_re_tuning(&self) -> Option<String> {
+        (self.over_nominal > SETTINGS.forecasts.worse).then(|| {
+            format!(
+                "recordings left out of the fit are forecast worse with the re-tuned constants than as stated ({:.2} times the error): do not \
+                 adopt them, for something differs between the recordings that no constant holds",
+                self.over_nominal
+            )
+        })
+    }
 }
 
 #[cfg(test)]
@@ -242,6 +254,10 @@ mod tests {
         assert!(matched.contains("forecast as well or better with drag") && matched.contains("1.05"), "{matched}");
         let idle = objection(&[row(1.0, 1.2, Some(1.5))]).expect("an objection");
         assert!(idle.contains("1.20 times"), "{idle}");
+        // Where nothing is named the re-tuned simulation is the best there is.
+        let re_tuned = |error: f64| Standing::new(&[row(error, error, None)]).and_then(|s| s.objection_to_re_tuning());
+        assert_eq!(re_tuned(9.5), None);
+        assert!(re_tuned(13.5).is_some_and(|told| told.contains("1.50 times the error): do not adopt them")));
         // Shares count, whatever the quantities' sizes: half of one outweighs a fifth more of another.
         assert_eq!(objection(&[row(1.0, 1.2, None), row(100.0, 50.0, None)]), None);
     }

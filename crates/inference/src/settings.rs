@@ -29,6 +29,12 @@
         farthest: f64 = 1e3, "m", "guess";
     }
 
+    /// Forecasts of recordings that were left out of the fit.
+    forecasts: Forecasts {
+        /// Error with re-tuned constants over that as stated, beyond which they are not to be adopted.
+        worse: f64 = 1.1, "1", "guess; fault-free robots of another hand have 1.09 at most, one whose tyres scrub by a third more had 1.49";
+    }
+
     /// A constant of a fit by residuals unless set otherwise.
     constant: Fitting {
         /// Step of finite differences, in scales of the constant.

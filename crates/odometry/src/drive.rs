@@ -1,7 +1,9 @@
 //! A drive: turns of the wheels, steering and the measured pose on one grid of rows.
 
 use crate::constants::ClockZero;
+use crate::counter;
 use crate::error::OdometryError;
+use crate::lost_pose::without_zeros;
 use crate::settings::{DriveRules, SETTINGS};
 use crate::units;
 use crate::wheel::{Wheel, WheeledRobot};
@@ -149,7 +151,7 @@ impl Drive {
         time: Vec<f64>,
         (data, wheels): (WheelData, &[Vec<f64>]),
         steering: Option<Vec<f64>>,
-        pose: Vec<[f64; 3]>,
+        mut pose: Vec<[f64; 3]>,
     ) -> Result<Self, OdometryError> {
         let wrong = |what: String| OdometryError::Case(CaseError::Drive { drive: name.to_owned(), what });
         let measured = robot.measured();
@@ -178,11 +180,12 @@ impl Drive {
         }
 
         let mut told = Vec::new();
+        without_zeros(&mut pose, &mut told);
         let mut turns = vec![vec![0.0; wheels.len()]; rows];
         for (k, column) in wheels.iter().enumerate() {
             let wheel = &robot.wheels[measured[k]];
             let unit = radians(robot, wheel, data)?;
-            let column = units::unwrapped(column, data, wheel, &mut told);
+            let column = counter::unwrapped(column, data, wheel, &mut told);
             for row in 1..rows {
                 turns[row][k] = unit
                     * match data {
@@ -338,6 +341,11 @@ mod tests {
         let wrapped = straight(WheelData::Counter, |k| ((start + k * 300) % 65_536) as f64, 1.0).expect("a wrap");
         assert_eq!(wrapped.turns, drive.turns);
         assert!(wrapped.told[0].contains("wraps around at 65536 1 times"), "{:?}", wrapped.told);
+        // Set to zero at 50: the step in between is the one before.
+        let reset =
+            straight(WheelData::Counter, |k| (if k < 50 { k } else { k - 50 } * 300) as f64, 1.0).expect("a reset");
+        assert_eq!(reset.turns, drive.turns);
+        assert!(reset.told[0].contains("begins anew at 0 1 times"), "{:?}", reset.told);
         let counts = straight(WheelData::Counts, |_| 300.0, 1.0).expect("counts");
         assert_eq!(counts.turns[1..], drive.turns[1..]);
     }

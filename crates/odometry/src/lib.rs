@@ -3,7 +3,7 @@
 //! # Files
 //!
 //! * `wheel`, `kinematics`: a robot as a list of wheels, and from turning wheels to the motion of its body.
-//! * `drive`, `units`, `yaw`: turns of the wheels, steering and pose on one grid of rows; counters, units, whole turns.
+//! * `drive`, `counter`, `lost_pose`, `units`, `yaw`: turns of the wheels, steering and pose on one grid of rows; counters, units, whole turns.
 //! * `heading`: a gyro in the place of a pose.
 //! * `constants`, `motion`: what the implied pose depends on, with the laws of slip and of the pose's frame.
 //! * `windows`, `fit`: errors over windows, and their fit with a deviation of each session.
@@ -27,6 +27,7 @@ mod case;
 mod cause;
 mod clock;
 mod constants;
+mod counter;
 mod diagnose;
 mod doubt;
 mod drive;
@@ -40,6 +41,7 @@ mod heading;
 pub mod held;
 mod kinematics;
 mod left_out;
+mod lost_pose;
 mod motion;
 mod next_drive;
 pub mod rates;

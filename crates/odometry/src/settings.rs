@@ -32,6 +32,11 @@
         way: f64 = 0.1, "m", "guess; a hundred times the noise of a good pose";
         /// Share of a counter's range by which it jumps where it wraps around.
         wrap: f64 = 0.5, "1", "a wheel cannot turn by half the range of its counter between two rows";
+        /// Quantile of the steps of a counter, or of a pose, that counts as its fastest.
+        usual_step: f64 = 0.99, "1", "guess; a counter begins anew in few rows";
+        /// So many of these steps are no motion: a counter that jumps by more, and to less than that, has begun anew, and a pose that is farther from
+        /// the origin does not pass it.
+        reset: f64 = 5.0, "1", "guess";
         /// Ranges of counters that are known: 8, 16 and 32 bits.
         ranges: [f64; 3] = [256.0, 65_536.0, 4_294_967_296.0], "1", "widths of integers";
         /// Time without a pose from which on turns between are those of the wheels.

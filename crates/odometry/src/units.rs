@@ -1,4 +1,4 @@
-//! Units that the file does not state, and counters that wrap around: guessed from what wheels and pose say together.
+//! Units that the file does not state: guessed from what wheels and pose say together.
 
 use hierarchical_fit::CaseError;
 use std::f64::consts::TAU;
@@ -7,41 +7,11 @@ use crate::drive::{Drive, WheelData};
 use crate::error::OdometryError;
 use crate::kinematics::{Geometry, Kinematics};
 use crate::settings::{DriveRules, SETTINGS};
-use crate::wheel::{Wheel, WheeledRobot};
+use crate::wheel::WheeledRobot;
 use crate::yaw::{turn_while_unseen, unwrap_yaw};
 
 const RULES: DriveRules = SETTINGS.drive;
 const DEGREES_OF_A_TURN: f64 = TAU.to_degrees();
-
-/// A column of a wheel without its jumps where it wraps around.
-pub(crate) fn unwrapped(column: &[f64], data: WheelData, wheel: &Wheel, told: &mut Vec<String>) -> Vec<f64> {
-    let mut ranges: Vec<f64> = match data {
-        WheelData::Counter => RULES.ranges.into_iter().chain(wheel.counts_per_turn).collect(),
-        WheelData::Angle => vec![TAU, DEGREES_OF_A_TURN],
-        WheelData::Counts | WheelData::Speed => Vec::new(),
-    };
-    ranges.sort_by(|a, b| b.total_cmp(a));
-    let largest = column.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
-    let fits = |range: &f64| largest > RULES.wrap * *range && column.iter().all(|c| c.abs() <= *range);
-    let Some(range) = ranges.into_iter().find(fits) else { return column.to_vec() };
-    let mut added = 0.0;
-    let mut wraps = 0;
-    let mut out = Vec::with_capacity(column.len());
-    for (k, &count) in column.iter().enumerate() {
-        if k > 0 {
-            let jump = count - column[k - 1];
-            if jump.abs() > RULES.wrap * range {
-                added -= range * jump.signum();
-                wraps += 1;
-            }
-        }
-        out.push(count + added);
-    }
-    let what = if data == WheelData::Angle { "angle" } else { "counter" };
-    let range = if range == TAU { "2 pi".to_owned() } else { format!("{range:.0}") };
-    told.push(format!("the {what} of wheel '{}' wraps around at {range} {wraps} times: it was unwrapped", wheel.name));
-    out
-}
 
 /// Sets the units of a drive to metres and radians, where wheels and pose permit one reading only, and tells so.
 pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) -> Result<(), OdometryError> {

@@ -262,6 +262,9 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
+        if verdict == Verdict::NoMismatch {
+            limits.extend(Standing::new(&forecasts.free_runs).and_then(|s| s.objection_to_re_tuning()));
+        }
         if winner.is_some() && !worthwhile {
             limits.push(
                 "the correction does not improve the forecasts of recordings left out of the fit: \

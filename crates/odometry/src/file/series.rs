@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use inference::interpolate;
 
+use crate::counter;
 use crate::drive::{Drive, WheelData, enough_rows, of_recording, radians};
 use crate::error::OdometryError;
 use crate::file::robot::RobotFile;
@@ -152,7 +153,7 @@ fn summed(rows: usize, step: impl Fn(usize) -> f64) -> Vec<f64> {
 /// How far a wheel has turned at each instant, in the unit of its column.
 fn angles(series: &Series, data: WheelData, wheel: &Wheel, told: &mut Vec<String>) -> Series {
     let value = match data {
-        WheelData::Counter | WheelData::Angle => units::unwrapped(&series.value, data, wheel, told),
+        WheelData::Counter | WheelData::Angle => counter::unwrapped(&series.value, data, wheel, told),
         WheelData::Counts => summed(series.time.len(), |row| series.value[row]),
         WheelData::Speed => series.integral(),
     };
