@@ -124,7 +124,7 @@ impl Found<'_> {
         let Unconfirmed { labels, standing } = self.unconfirmed?;
         let names: Vec<String> = labels.iter().map(|label| for_people(label)).collect();
         Some(format!(
-            "Not told, for it is confirmed by nothing: {}. Drives left out of the fit are forecast with {:.2} times the error of the simulation \
+            "Not part of the answer, because forecasts do not confirm it: {}. Drives left out of the fit are forecast with {:.2} times the error of the simulation \
              as stated, and {:.2} times that of the re-tuned one. Record more drives, and longer ones, to decide.",
             names.join("; "),
             standing.over_nominal,
