@@ -59,11 +59,13 @@ impl Findings {
     /// which they are forecast worse than as stated and which leave most of the error, nor with which they are forecast no better.
     #[must_use]
     pub fn after(self, table: &Table) -> Self {
-        let mut out = match self.plainer {
-            Some(plainer) if table.is_plainer => *plainer,
-            _ => self,
-        };
         let rules = SETTINGS.doubt;
+        // What sessions that were left out need more than the answer without it has passed that test.
+        let (mut out, confirmed) = match self.plainer {
+            Some(plainer) if table.is_plainer => (*plainer, rules.confirmed),
+            Some(_) => (self, 1.0),
+            None => (self, rules.confirmed),
+        };
         let [_, tuned, best] = out.shares;
         let leaves_most = best > rules.leaves_most * tuned;
         // Counts that were lost are seen by themselves, and no law of the constants.
@@ -73,7 +75,7 @@ impl Findings {
         let Some(standing) = standing else { return out };
         if leaves_most && standing.over_nominal > rules.refuted {
             out.take_back();
-        } else if standing.over_nominal > rules.confirmed {
+        } else if standing.over_nominal > confirmed {
             out.take_back();
             out.unconfirmed = Some(Unconfirmed { labels, standing });
         }

@@ -81,7 +81,7 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         }
     }
     let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
-    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < SETTINGS.doubt.confirmed);
+    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < SETTINGS.doubt.little);
     Ok(if is_better { table } else { plainer })
 }
 
