@@ -289,6 +289,34 @@ pub(crate) fn beyond_references(left: f64, of_references: Option<f64>) -> Option
 mod tests {
     use super::*;
 
+    /// A zero of the steering is named, and such shares of the motion are left.
+    fn named(shares: [f64; 3]) -> Said {
+        let cause = NamedCause {
+            spec: &catalogue::odometry::STEERING_ZERO,
+            label: "steering_zero".to_owned(),
+            probability: 0.9,
+            alike: Vec::new(),
+            estimates: Vec::new(),
+            intervals: Vec::new(),
+            onset: None,
+        };
+        Said {
+            answer: Answer::Named,
+            named: vec![cause],
+            others: Vec::new(),
+            constants: Vec::new(),
+            retuned: Vec::new(),
+            rival: None,
+            scatter: 1.0,
+            is_scattered: false,
+            is_refuted: false,
+            unconfirmed: None,
+            shares,
+            left_of_references: None,
+            share_of_noise: 0.0,
+        }
+    }
+
     #[test]
     fn an_answer_is_unknown_where_much_is_left_or_drives_differ_too_much_to_trust_a_cause() {
         let rules = Unexplained { share: 0.1, of_retuned: 0.8, most: 0.4 };
@@ -301,30 +329,8 @@ mod tests {
             sigmas: (value - 1.0) / 0.1,
         };
         let decided = |shares, is_scattered, retuned: f64, is_named: bool| {
-            let cause = NamedCause {
-                spec: &catalogue::odometry::STEERING_ZERO,
-                label: "steering_zero".to_owned(),
-                probability: 0.9,
-                alike: Vec::new(),
-                estimates: Vec::new(),
-                intervals: Vec::new(),
-                onset: None,
-            };
-            let mut said = Said {
-                answer: Answer::Nothing,
-                named: if is_named { vec![cause] } else { Vec::new() },
-                others: Vec::new(),
-                constants: Vec::new(),
-                retuned: vec![estimate(retuned)],
-                rival: None,
-                scatter: 1.0,
-                is_scattered,
-                is_refuted: false,
-                unconfirmed: None,
-                shares,
-                left_of_references: None,
-                share_of_noise: 0.0,
-            };
+            let mut said = Said { retuned: vec![estimate(retuned)], is_scattered, ..named(shares) };
+            said.named.truncate(usize::from(is_named));
             said.decide(rules, |e| e.name == "length");
             said.answer
         };
@@ -357,30 +363,7 @@ mod tests {
             placebo: None,
         };
         let judged_where = |is_shown: bool, errors: [f64; 3], left: f64| {
-            let cause = NamedCause {
-                spec: &catalogue::odometry::STEERING_ZERO,
-                label: "steering_zero".to_owned(),
-                probability: 0.9,
-                alike: Vec::new(),
-                estimates: Vec::new(),
-                intervals: Vec::new(),
-                onset: None,
-            };
-            let mut said = Said {
-                answer: Answer::Named,
-                named: vec![cause],
-                others: vec![("gyro_bias".to_owned(), 0.1)],
-                constants: Vec::new(),
-                retuned: Vec::new(),
-                rival: None,
-                scatter: 1.0,
-                is_scattered: false,
-                is_refuted: false,
-                unconfirmed: None,
-                shares: [1.0, 0.09, left],
-                left_of_references: None,
-                share_of_noise: 0.0,
-            };
+            let mut said = Said { others: vec![("gyro_bias".to_owned(), 0.1)], ..named([1.0, 0.09, left]) };
             let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4 };
             let is_taken_back = said.judge(&[free_run(errors)], rules, |_| true, |_| is_shown);
             assert_eq!((is_taken_back, is_taken_back), (said.unconfirmed.is_some(), said.named.is_empty()));

@@ -59,7 +59,7 @@ impl Found<'_> {
             let changes: Vec<String> = most.map(Retuned::change).collect();
             let [stated, _, leaves] = words.right();
             out.push(format!(
-                "Re-tuned beside that, within what {stated} {leaves} open, those that moved most first: {}.",
+                "Constants that were re-tuned as well, within what {stated} {leaves} open, the farthest first: {}.",
                 changes.join("; ")
             ));
         }
@@ -124,7 +124,7 @@ impl Found<'_> {
         let Unconfirmed { labels, standing } = self.unconfirmed?;
         let names: Vec<String> = labels.iter().map(|label| for_people(label)).collect();
         Some(format!(
-            "Not part of the answer, because forecasts do not confirm it: {}. Drives left out of the fit are forecast with {:.2} times the error of the simulation \
+            "Not part of the answer, because forecasts do not confirm it: {}. With it, drives left out of the fit are forecast with {:.2} times the error of the simulation \
              as stated, and {:.2} times that of the re-tuned one. Record more drives, and longer ones, to decide.",
             names.join("; "),
             standing.over_nominal,
@@ -252,25 +252,27 @@ mod tests {
     use super::*;
     use catalogue::answer::UNKNOWN;
 
+    /// An answer of which all else is yet to be told.
+    fn found<'a>(answer: Answer) -> Found<'a> {
+        Found {
+            answer,
+            named: &[],
+            others: &[],
+            constants: &[],
+            retuned: &[],
+            rival: None,
+            shares: [0.3, 0.2, 0.1],
+            beside_references: None,
+            unconfirmed: None,
+            unknown: Unaccounted::Left { of_references: None },
+        }
+    }
+
     #[test]
     fn a_cause_that_is_likelier_than_none_and_not_named_leads() {
         let told = |answer, probability| {
             let others = [("pose_origin".to_owned(), probability)];
-            let shares = [0.3, 0.2, 0.2];
-            let beside_references = None;
-            Found {
-                answer,
-                named: &[],
-                others: &others,
-                constants: &[],
-                retuned: &[],
-                rival: None,
-                shares,
-                beside_references,
-                unconfirmed: None,
-                unknown: Unaccounted::Refuted,
-            }
-            .undecided()
+            Found { others: &others, ..found(answer) }.undecided()
         };
         let leads = told(Answer::Retune, 0.7).expect("a sentence");
         assert!(
@@ -283,23 +285,7 @@ mod tests {
     #[test]
     fn what_is_likelier_than_not_and_too_little_to_be_named_is_told_beside_what_is_named() {
         let others = [("pose_origin".to_owned(), 0.6), ("steering_zero (front)".to_owned(), 0.2)];
-        let told = |answer| {
-            let (shares, beside_references) = ([0.3, 0.2, 0.1], None);
-            let (named, constants): (&[NamedCause], &[Estimate]) = (&[], &[]);
-            Found {
-                answer,
-                named,
-                others: &others,
-                constants,
-                retuned: &[],
-                rival: None,
-                shares,
-                beside_references,
-                unconfirmed: None,
-                unknown: Unaccounted::Refuted,
-            }
-            .perhaps()
-        };
+        let told = |answer| Found { others: &others, ..found(answer) }.perhaps();
         let named = told(Answer::Named).expect("a sentence");
         assert!(named.ends_with("named: place of the pose's origin in the robot (0.60)."), "{named}");
         assert_eq!(told(Answer::Nothing), None);
@@ -314,21 +300,9 @@ mod tests {
 
     #[test]
     fn what_leaves_more_than_references_do_is_doubted_and_told() {
-        let found = |answer, left: f64, usual: Option<f64>| {
-            let shares = [left; 3];
-            let (named, others): (&[NamedCause], &[(String, f64)]) = (&[], &[]);
-            let told = Found {
-                answer,
-                named,
-                others,
-                constants: &[],
-                retuned: &[],
-                rival: None,
-                shares,
-                beside_references: usual.map(|usual| [left, usual]),
-                unconfirmed: None,
-                unknown: Unaccounted::Refuted,
-            };
+        let doubted = |left: f64, usual: Option<f64>| {
+            let beside_references = usual.map(|usual| [left, usual]);
+            let told = Found { shares: [left; 3], beside_references, ..found(Answer::Nothing) };
             let ranked = told.verdict(Vec::new()).ranked;
             let total: f64 = ranked.iter().map(|c| c.probability).sum();
             approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
@@ -336,14 +310,14 @@ mod tests {
             assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
             (unknown.map_or(0.0, |c| c.probability), told.doubted())
         };
-        let (unknown, told) = found(Answer::Nothing, 0.02, Some(0.006));
+        let (unknown, told) = doubted(0.02, Some(0.006));
         approx::assert_relative_eq!(unknown, 0.45 * (0.02 / 0.006 - 2.0) / 2.0, epsilon = 1e-12);
         assert!(told.is_some_and(|t| {
             t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
         }));
-        assert_eq!(found(Answer::Nothing, 0.02, Some(0.012)), (0.0, None), "it is usual");
-        assert_eq!(found(Answer::Nothing, 0.003, Some(0.001)), (0.0, None), "it is next to nothing");
-        assert_eq!(found(Answer::Nothing, 0.02, None), (0.0, None));
+        assert_eq!(doubted(0.02, Some(0.012)), (0.0, None), "it is usual");
+        assert_eq!(doubted(0.003, Some(0.001)), (0.0, None), "it is next to nothing");
+        assert_eq!(doubted(0.02, None), (0.0, None));
     }
 
     #[test]
@@ -377,18 +351,7 @@ mod tests {
             has_references: false,
         };
         let told = |answer| {
-            let found = Found {
-                answer,
-                named: &named,
-                others: &[],
-                constants: &constants,
-                retuned: &[],
-                rival: None,
-                shares: [0.3, 0.2, 0.1],
-                beside_references: None,
-                unconfirmed: None,
-                unknown: Unaccounted::Left { of_references: None },
-            };
+            let found = Found { named: &named, constants: &constants, ..found(answer) };
             found.sentences(&words, &found.verdict(Vec::new()))
         };
         assert_eq!(
@@ -397,7 +360,7 @@ mod tests {
                 "Both disagree by more than the robot file leaves open: zero of the steering (front) (errors: 30.0 % of the motion, \
                  20.0 % re-tuned, 10.0 % with what is named).",
                 "Zero of the steering (front): zero 1.900 ± 0.050 m (90 %), given as 1.0000.",
-                "Re-tuned beside that, within what the robot file leaves open, those that moved most first: far from 1.000 m to 1.200 ± 0.050 m \
+                "Constants that were re-tuned as well, within what the robot file leaves open, the farthest first: far from 1.000 m to 1.200 ± 0.050 m \
                  (90 %); near from 1.000 m to 1.100 ± 0.050 m (90 %)."
             ]
         );

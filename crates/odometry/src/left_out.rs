@@ -8,7 +8,6 @@ use crate::error::OdometryError;
 use crate::forecast::{Errors, LENGTHS, forecast};
 use crate::motion::Laws;
 use crate::rivals::{RIVALS, Rival};
-use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::laws;
 use hierarchical_fit::telling::free_runs;
@@ -81,7 +80,7 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         }
     }
     let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
-    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < SETTINGS.doubt.little);
+    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < 1.0);
     Ok(if is_better { table } else { plainer })
 }
 
