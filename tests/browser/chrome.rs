@@ -194,8 +194,11 @@ impl Shown {
         self.tab.press_key(key).unwrap_or_else(|e| panic!("key {key}: {e}"));
     }
 
-    /// Keeps a picture of the whole page, to be looked at.
+    /// Keeps a picture of the whole page, to be looked at, where the variable `PICTURES` is set: drawing it takes longer than the tests.
     pub(crate) fn screenshot(&self, name: &str) {
+        if std::env::var_os("PICTURES").is_none() {
+            return;
+        }
         let height = self.json("document.documentElement.scrollHeight").as_f64().expect("a height");
         let clip = Page::Viewport { x: 0.0, y: 0.0, width: f64::from(self.width), height, scale: 1.0 };
         let shot = Page::CaptureScreenshot {

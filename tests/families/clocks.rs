@@ -33,7 +33,6 @@ fn a_pose_that_is_always_late_is_not_taken_for_physics_nor_for_a_fault_of_the_gy
 
 #[test]
 fn a_gyro_that_is_always_late_is_not_taken_for_physics() {
-    shifted(306, &[], true, |runs| on_gyro(runs, |c| late(c, GYRO)));
     shifted(406, &[EffectId::ViscousFriction], true, |runs| on_gyro(runs, |c| late(c, GYRO)));
 }
 

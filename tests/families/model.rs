@@ -30,11 +30,9 @@ fn a_constant_that_is_a_fifth_off_hides_no_effect() {
 
 #[test]
 fn another_tyre_law_changes_the_shape_and_not_the_name() {
-    for (seed, law) in [(116, TyreLaw::Brush), (116, TyreLaw::Pacejka)] {
-        for effect in [EffectId::TurningResistance, EffectId::AdhesionPatch] {
-            let (_, d) = diagnosed(seed, &Settings { law: Some(law), ..strong(&[effect]) });
-            is_named(&d, effect);
-            nothing_is_claimed_but(&d, &[effect]);
-        }
+    for (law, effect) in [(TyreLaw::Brush, EffectId::TurningResistance), (TyreLaw::Pacejka, EffectId::AdhesionPatch)] {
+        let (_, d) = diagnosed(116, &Settings { law: Some(law), ..strong(&[effect]) });
+        is_named(&d, effect);
+        nothing_is_claimed_but(&d, &[effect]);
     }
 }

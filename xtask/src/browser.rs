@@ -1,4 +1,4 @@
-//! `cargo xtask browser`: the tests that open the pages in Chromium, whose driver nothing else builds.
+//! `cargo xtask browser`: the tests that open the pages in Chromium, whose driver nothing else builds, with pictures of the pages.
 
 use std::process::Command;
 
@@ -10,6 +10,7 @@ pub(crate) fn run() -> Result<bool> {
     // As part of the workspace: with the features of all its packages, what its other tests built is used again.
     let status = Command::new(cargo)
         .args(["test", "--workspace", "--locked", "--features", "lacuna-workspace/browser", "--test", "browser"])
+        .env("PICTURES", "1")
         .status()
         .context("cannot start cargo, which builds the tests")?;
     Ok(status.success())

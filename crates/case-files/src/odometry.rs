@@ -88,7 +88,7 @@ impl OdometryCase {
     /// Drives that do not determine an answer.
     pub fn diagnose(&self, next: Option<f64>, progress: &dyn Fn(&str)) -> Result<Diagnosis> {
         let findings = odometry::examine(&self.case, next, progress)?;
-        let table = left_out(&self.case, progress)?;
+        let table = left_out(&self.case, &findings, progress)?;
         let findings = findings.after(&table);
         let mut out = diagnosis(&findings, &table, !self.case.references.is_empty());
         out.predicted_paths = self.held_out.iter().map(|d| findings.predict(&self.case.robot, d)).collect();

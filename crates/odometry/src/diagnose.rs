@@ -1,5 +1,7 @@
 //! From a case to what was found.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::case::Case;
@@ -18,19 +20,20 @@ use crate::settings::SETTINGS;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
-use catalogue::odometry::LOST_COUNTS;
 use hierarchical_fit::of_recordings;
 use hierarchical_fit::{
     Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Rehearsable, Weighed, covariance,
     is_beyond_references, name_from, of_class,
 };
-use inference::evidence::logistic;
 use inference::robust::{NINETY, rms};
 use verdict::Trace;
 
 /// Drives with the constants fitted to them, and what was named.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub(crate) struct Solved {
+    /// Constants as the robot has them before any drive.
+    stated: Vec<Constant>,
+    /// The same, with what stands far off taken as usual.
     pub(crate) constants: Vec<Constant>,
     pub(crate) causes: Vec<Cause>,
     pub(crate) prior: Prior,
@@ -84,7 +87,7 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     progress("fitting the pose to the wheels' motion");
     let (case, clock) = clock::joined(case);
     let drives: Vec<&Drive> = case.recordings.iter().collect();
-    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
+    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, of: None })?;
     let data = data(&case.robot, &solved.constants, case.recordings.iter().collect(), &solved.lost)?;
     progress("naming what would make them agree");
     let of = |solved: &Solved| {
@@ -96,7 +99,9 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
         Findings { next, ..findings(&case, &data, solved) }
     };
     let plainer = solved.plainer().map(|plainer| Box::new(of(&plainer)));
-    Ok(Findings { plainer, ..of(&solved) })
+    let found = of(&solved);
+    drop(data);
+    Ok(Findings { plainer, solved: Some(Arc::new(solved)), ..found })
 }
 
 /// What the drives of a case could say, whatever they say.
@@ -111,7 +116,7 @@ pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, 
     progress("fitting the pose to the wheels' motion");
     let (case, clock) = clock::joined(case);
     let drives: Vec<&Drive> = case.recordings.iter().collect();
-    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, fit: None })?;
+    let solved = solve(&case.robot, &case.references, &drives, &Start { clock, of: None })?;
     let data = data(&case.robot, &solved.constants, drives, &solved.lost)?;
     Ok(crate::rehearsable::rehearsable(&case, &data, &solved))
 }
@@ -154,11 +159,11 @@ fn data<'a>(
 }
 
 /// Where a fit starts: at what is known before, where neither is given.
-pub(crate) struct Start {
+pub(crate) struct Start<'a> {
     /// Usual offset and rate of the clocks, from the first row on, where speeds showed them.
     pub(crate) clock: Option<[f64; 2]>,
-    /// Where another fit of nearly the same drives ended.
-    pub(crate) fit: Option<Vec<f64>>,
+    /// What was found of nearly the same drives, with the same references.
+    pub(crate) of: Option<&'a Solved>,
 }
 
 /// Fits drives and names causes.
@@ -166,7 +171,7 @@ pub(crate) fn solve(
     robot: &WheeledRobot,
     references: &[Drive],
     drives: &[&Drive],
-    start: &Start,
+    start: &Start<'_>,
 ) -> Result<Solved, OdometryError> {
     let mut constants = constants(robot, Measured::by(references.iter().chain(drives.iter().copied())));
     if start.clock.is_some() {
@@ -177,13 +182,18 @@ pub(crate) fn solve(
             }
         }
     }
-    let (prior, left_of_references) = prior(robot, &constants, references)?;
+    let stated = constants.clone();
+    // What references say does not depend on the drives beside them.
+    let (prior, left_of_references) = match start.of.filter(|other| other.stated == stated) {
+        Some(other) => (other.prior.clone(), other.left_of_references),
+        None => prior(robot, &constants, references)?,
+    };
     let seen = |quantity: Quantity| match (quantity, start.clock) {
         (Quantity::ClockOffset, Some([offset, _])) => Some(offset),
         (Quantity::ClockRate(_), Some([_, rate])) => Some(rate),
         _ => None,
     };
-    let start = start.fit.clone().unwrap_or_else(|| {
+    let start = start.of.map(|other| other.fit.theta.clone()).unwrap_or_else(|| {
         constants.iter().zip(&prior.mean).map(|(c, known)| seen(c.quantity).unwrap_or(*known)).collect()
     });
     take_as_usual(&mut constants, &prior, &start);
@@ -217,7 +227,7 @@ pub(crate) fn solve(
         named = plainer.take().unwrap_or(named);
     }
     drop(data);
-    Ok(Solved { constants, causes, prior, fit, named, plainer, lost, left_of_references })
+    Ok(Solved { stated, constants, causes, prior, fit, named, plainer, lost, left_of_references })
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -309,7 +319,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         }
     };
     let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
-    named_causes.extend(dropouts(case, data, lost));
+    named_causes.extend(dropout::named(case, data, lost));
 
     let rules = SETTINGS.unexplained;
     let floor = data.pose_noise().max(SETTINGS.windows.floor);
@@ -339,7 +349,7 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         retuned,
         noise: fit.scale,
         unconfirmed: None,
-        scatter: fit.factors[0],
+        scatter: fit.factors.others,
         shares: [given.1, tuned.1, best.1],
         left_of_references: solved.left_of_references,
         measured: Measured::by(case.recordings.iter()),
@@ -348,43 +358,9 @@ fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
         traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
         laws: solved.laws(&case.robot),
         plainer: None,
+        solved: None,
         next: None,
     }
-}
-
-fn dropouts(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
-    let measured = case.robot.measured();
-    let mut out: Vec<NamedCause> = Vec::new();
-    let odds = dropout::log_odds(lost);
-    let label_of = |wheel: usize| format!("{} ({})", LOST_COUNTS.id, case.robot.wheels[measured[wheel]].name);
-    for found in lost {
-        let wheel = &case.robot.wheels[measured[found.wheel]].name;
-        let label = label_of(found.wheel);
-        let own = odds.iter().find(|(w, _)| *w == found.wheel).map_or(f64::NEG_INFINITY, |(_, odds)| *odds);
-        let intervals = found.joined().into_iter().map(|span| (data.drives[found.drive].name.clone(), span));
-        let share = inference::robust::mean(found.spans.iter().map(|(_, s)| *s)).unwrap_or(0.0);
-        let spread = rms(found.spans.iter().map(|(_, s)| s - share)).unwrap_or(0.0);
-        match out.iter_mut().find(|n| n.label == label) {
-            Some(same) => same.intervals.extend(intervals),
-            None => out.push(NamedCause {
-                spec: &LOST_COUNTS,
-                label,
-                probability: logistic(own),
-                alike: dropout::alike(lost, found.wheel).into_iter().map(label_of).collect(),
-                estimates: vec![Estimate {
-                    name: format!("share of the counts of {wheel} that is lost"),
-                    unit: "1",
-                    given: 0.0,
-                    value: share,
-                    half_width: NINETY * spread,
-                    sigmas: 0.0,
-                }],
-                intervals: intervals.collect(),
-                onset: None,
-            }),
-        }
-    }
-    out
 }
 
 /// A constant in the words of the robot file: factors become lengths.

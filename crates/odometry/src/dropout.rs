@@ -5,11 +5,15 @@
 //! that it might have had, `ln(|column| / (σ √2π))`. All wheels and none compete for the same windows, and so does an instant that
 //! is off: counts that come late in one drive are missing where it stops, and nowhere in steady motion.
 
+use crate::case::Case;
 use crate::constants::Quantity;
 use crate::fit::{Fit, columns};
 use crate::settings::{Dropout, SETTINGS};
 use crate::windows::Data;
-use hierarchical_fit::{ALIKE, NAMED, ODDS};
+use catalogue::odometry::LOST_COUNTS;
+use hierarchical_fit::{ALIKE, Estimate, NAMED, NamedCause, ODDS};
+use inference::evidence::logistic;
+use inference::robust::{NINETY, mean, rms};
 
 const RULES: Dropout = SETTINGS.dropout;
 
@@ -220,6 +224,42 @@ pub(crate) fn alike(lost: &[Lost], wheel: usize) -> Vec<usize> {
     let odds = log_odds(lost);
     let Some((_, own)) = odds.iter().find(|(w, _)| *w == wheel).copied() else { return Vec::new() };
     odds.iter().filter(|(w, o)| *w != wheel && own - o < ALIKE).map(|(w, _)| *w).collect()
+}
+
+/// Encoders that lost counts, as causes that are named.
+pub(crate) fn named(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCause> {
+    let measured = case.robot.measured();
+    let mut out: Vec<NamedCause> = Vec::new();
+    let odds = log_odds(lost);
+    let label_of = |wheel: usize| format!("{} ({})", LOST_COUNTS.id, case.robot.wheels[measured[wheel]].name);
+    for found in lost {
+        let wheel = &case.robot.wheels[measured[found.wheel]].name;
+        let label = label_of(found.wheel);
+        let own = odds.iter().find(|(w, _)| *w == found.wheel).map_or(f64::NEG_INFINITY, |(_, odds)| *odds);
+        let intervals = found.joined().into_iter().map(|span| (data.drives[found.drive].name.clone(), span));
+        let share = mean(found.spans.iter().map(|(_, s)| *s)).unwrap_or(0.0);
+        let spread = rms(found.spans.iter().map(|(_, s)| s - share)).unwrap_or(0.0);
+        match out.iter_mut().find(|n| n.label == label) {
+            Some(same) => same.intervals.extend(intervals),
+            None => out.push(NamedCause {
+                spec: &LOST_COUNTS,
+                label,
+                probability: logistic(own),
+                alike: alike(lost, found.wheel).into_iter().map(label_of).collect(),
+                estimates: vec![Estimate {
+                    name: format!("share of the counts of {wheel} that is lost"),
+                    unit: "1",
+                    given: 0.0,
+                    value: share,
+                    half_width: NINETY * spread,
+                    sigmas: 0.0,
+                }],
+                intervals: intervals.collect(),
+                onset: None,
+            }),
+        }
+    }
+    out
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! What the drives of a case say, as plain data.
 
+use std::sync::Arc;
+
 use crate::constants::Measured;
+use crate::diagnose::Solved;
 use crate::drive::Drive;
 use crate::left_out::Table;
 use crate::motion::Laws;
@@ -52,6 +55,8 @@ pub struct Findings {
     pub(crate) laws: [Laws; 3],
     /// The same without causes that little shows, where there are some.
     pub(crate) plainer: Option<Box<Self>>,
+    /// The fit that says all this, from which those start that leave sessions out; `None` of a plainer answer.
+    pub(crate) solved: Option<Arc<Solved>>,
 }
 
 impl Findings {

@@ -4,6 +4,7 @@
 //! are those of the robot plus a deviation of its own, as of [`hierarchical_fit`].
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::constants::Quantity;
 use crate::motion::implied;
@@ -32,6 +33,49 @@ pub(crate) struct Point {
     pub(crate) sessions: Vec<Session>,
 }
 
+/// Factors on the usual scatter of constants from session to session. Clocks that start at unlike times need not run at unlike rates, nor
+/// the other way round.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Factors {
+    /// On that of all constants but the clocks'.
+    pub(crate) others: f64,
+    /// On that of the offset of the clocks.
+    pub(crate) offset: f64,
+    /// On that of their rate.
+    pub(crate) rate: f64,
+}
+
+impl Factors {
+    const USUAL: Self = Self { others: 1.0, offset: 1.0, rate: 1.0 };
+
+    /// All that are tried.
+    fn tried() -> impl Iterator<Item = Self> {
+        let rules = SETTINGS.scatter;
+        let of_clocks = move |others: f64| {
+            let with_rate = move |offset: f64| rules.clocks.into_iter().map(move |rate| Self { others, offset, rate });
+            rules.clocks.into_iter().flat_map(with_rate)
+        };
+        rules.factors.into_iter().flat_map(of_clocks)
+    }
+
+    fn of(self, quantity: &Quantity) -> f64 {
+        match quantity {
+            Quantity::ClockOffset => self.offset,
+            Quantity::ClockRate(_) => self.rate,
+            _ => self.others,
+        }
+    }
+
+    /// What it costs that they are not usual, nats.
+    fn price(self) -> f64 {
+        let rules = SETTINGS.scatter;
+        let [others, offset, rate] =
+            [(self.others, rules.width), (self.offset, rules.clock_width), (self.rate, rules.clock_width)]
+                .map(|(factor, width)| factor.ln() / width);
+        0.5 * (others * others + offset * offset + rate * rate)
+    }
+}
+
 /// Fitted constants with the equations about them.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
@@ -39,8 +83,8 @@ pub(crate) struct Fit {
     pub(crate) sessions: Vec<Session>,
     /// Sigma of a window's errors, m.
     pub(crate) scale: f64,
-    /// Factors on the scatter of all constants, and on that of the clocks.
-    pub(crate) factors: [f64; 2],
+    /// Factors on the usual scatter of sessions.
+    pub(crate) factors: Factors,
 }
 
 /// A least-squares problem of the shared solver.
@@ -137,17 +181,12 @@ pub(crate) fn columns(data: &Data<'_>, theta: &[f64], drive: usize) -> Vec<Vec<[
         };
         data.windows[drive].iter().map(difference).collect()
     };
-    (0..theta.len()).map(of).collect()
+    (0..theta.len()).into_par_iter().map(of).collect()
 }
 
 /// Sigmas of the deviations of sessions.
-///
-/// `factors` are those on the usual scatter: of all constants, and of the clocks.
-pub(crate) fn scatter(data: &Data<'_>, [others, clocks]: [f64; 2]) -> DVector<f64> {
-    let of = |c: &crate::Constant| {
-        let is_clock = matches!(c.quantity, Quantity::ClockOffset | Quantity::ClockRate(_));
-        c.scatter * if is_clock { clocks } else { others }
-    };
+pub(crate) fn scatter(data: &Data<'_>, factors: Factors) -> DVector<f64> {
+    let of = |c: &crate::Constant| c.scatter * factors.of(&c.quantity);
     DVector::from_iterator(data.constants.len(), data.constants.iter().map(of))
 }
 
@@ -157,7 +196,7 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
     let settings = Settings { iterations: 20, least_relative_fall: 1e-6, ..Settings::gauss_newton() };
     let mut theta = start;
     let mut scale = data.scale(&data.errors(&theta));
-    let mut factors = [1.0; 2];
+    let mut factors = Factors::USUAL;
     let mut sessions = Vec::new();
     for _ in 0..SETTINGS.fitting.rounds {
         let problem =
@@ -184,16 +223,14 @@ pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit
 }
 
 /// The factors on the scatter of sessions under which they are most probable together.
-fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Session]) -> [f64; 2] {
-    let rules = SETTINGS.scatter;
-    let score = |factors: [f64; 2]| {
+fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Session]) -> Factors {
+    let score = |factors: Factors| {
         let scatter = scatter(data, factors);
         let evidence =
             Evidence::new(theta, sessions, &scatter, &prior.mean).and_then(|e| Some(e.of(&prior.covariance)? - e.base));
-        let [others, clocks] = [factors[0].ln() / rules.width, factors[1].ln() / rules.clock_width];
-        evidence.unwrap_or(f64::NEG_INFINITY) - 0.5 * (others * others + clocks * clocks)
+        evidence.unwrap_or(f64::NEG_INFINITY) - factors.price()
     };
-    let pairs = rules.factors.iter().flat_map(|a| rules.clocks.iter().map(move |b| [*a, *b]));
-    let best = pairs.map(|pair| (score(pair), pair)).max_by(|a, b| a.0.total_cmp(&b.0));
-    best.map_or([1.0; 2], |(_, pair)| pair)
+    let scored: Vec<(f64, Factors)> = Factors::tried().map(|factors| (score(factors), factors)).collect();
+    let best = scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(Factors::USUAL, |(_, factors)| factors)
 }

@@ -5,6 +5,7 @@ use crate::clock;
 use crate::diagnose::{Solved, Start, solve};
 use crate::drive::Drive;
 use crate::error::OdometryError;
+use crate::findings::Findings;
 use crate::forecast::{Errors, LENGTHS, forecast};
 use crate::motion::Laws;
 use crate::rivals::{RIVALS, Rival};
@@ -12,6 +13,7 @@ use crate::wheel::WheeledRobot;
 use crate::windows::laws;
 use hierarchical_fit::telling::free_runs;
 use inference::robust::geometric_mean;
+use rayon::prelude::*;
 use verdict::{FreeRun, Trace};
 
 /// Errors of forecasts of left-out sessions, by calibration.
@@ -37,11 +39,11 @@ const OURS: [&str; 4] = ["as stated", "re-tuned", "corrected", "placebo"];
 const CORRECTED: usize = 2;
 
 /// Leaves out each session of the recordings in turn, or each drive where there is one session, fits and names anew without
-/// it, and forecasts it.
+/// it, and forecasts it. `found`: what all drives of the case say.
 ///
 /// # Errors
 /// When the robot cannot be, or a fold leaves too few windows.
-pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryError> {
+pub fn left_out(case: &Case, found: &Findings, progress: &dyn Fn(&str)) -> Result<Table, OdometryError> {
     case.robot.checked()?;
     let (case, clock) = clock::joined(case);
     let mut sessions: Vec<&str> = case.recordings.iter().map(|d| d.session.as_str()).collect();
@@ -57,21 +59,19 @@ pub fn left_out(case: &Case, progress: &dyn Fn(&str)) -> Result<Table, OdometryE
         return Ok(Table { sessions: keys.len(), is_plainer: true, ..Table::default() });
     }
 
-    let all: Vec<&Drive> = case.recordings.iter().collect();
-    let of_all = solve(&case.robot, &case.references, &all, &Start { clock, fit: None })?;
-    let start = Start { clock, fit: Some(of_all.fit.theta) };
-    let mut folds = Vec::with_capacity(keys.len());
-    for left in keys {
-        progress(&format!("forecasting {left}"));
-        let (of_fold, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
+    progress("forecasting what is left out in turn");
+    let start = Start { clock, of: found.solved.as_deref() };
+    let fold = |left: String| -> Result<Fold<'_>, OdometryError> {
+        let (drives, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
         let solved = solve(&case.robot, &case.references, &rest, &start)?;
         let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
         let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
         let rivals = RIVALS.iter().map(|(_, rival)| calibrated(rival)).collect();
-        folds.push(Fold { left, drives: of_fold, rivals, solved });
-    }
+        Ok(Fold { left, drives, rivals, solved })
+    };
+    let mut folds = keys.into_par_iter().map(fold).collect::<Result<Vec<Fold<'_>>, OdometryError>>()?;
     let table = of_folds(&case.robot, &folds);
-    if of_all.plainer.is_none() {
+    if found.plainer.is_none() {
         return Ok(table);
     }
     for fold in &mut folds {

@@ -235,9 +235,9 @@
         gyro_bias: f64 = 2e-3, "rad/s", "guess; a tenth of a degree per second from start to start";
         /// Factors on all of these that are tried.
         factors: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0], "1", "guess";
-        /// Factors on the scatter of the clocks that are tried: logs that are matched by hand differ in both offset and rate.
+        /// Factors on the scatter of the clocks' offset, and on that of their rate, that are tried: logs that are matched by hand differ in both.
         clocks: [f64; 4] = [1.0, 5.0, 25.0, 125.0], "1", "guess; up to a tenth of a per cent";
-        /// Sigma of the logarithm of the factor of the clocks.
+        /// Sigma of the logarithms of these two factors.
         clock_width: f64 = 2.0, "1", "guess; by hand or by wire";
         /// Sigma of the logarithm of that factor.
         width: f64 = 1.0, "1", "guess; a factor of e";

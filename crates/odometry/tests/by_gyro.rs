@@ -116,7 +116,8 @@ fn a_slip_by_turning_alone_is_named_where_it_takes_much_of_the_error_away_and_li
 #[test]
 fn forecasts_are_of_headings_and_no_place_is_told() {
     let case = by_gyro(Kind::Differential, Hidden::OneRadius, [1.0, 0.0], 11);
-    let told = diagnosis(&found(&case), &left_out(&case, &|_| {}).expect("forecasts"), false);
+    let findings = found(&case);
+    let told = diagnosis(&findings, &left_out(&case, &findings, &|_| {}).expect("forecasts"), false);
     let forecast = told.sentences.last().expect("a sentence");
     assert!(forecast.starts_with("Heading 30 s ahead") && !forecast.contains(" cm"), "{forecast}");
     assert!(!forecast.contains("UMBmark"), "{forecast}");

@@ -58,7 +58,7 @@ fn what_leaves_many_times_as_much_as_the_references_is_unknown_whatever_fits_bes
     let (left, usual) = (found.shares[2], found.left_of_references.expect("references"));
     assert!(left > 4.0 * usual && left > 0.02, "{left} of {usual}");
     assert_eq!(found.answer, Answer::Unknown);
-    let table = odometry::left_out(&case, &|_| {}).expect("forecasts");
+    let table = odometry::left_out(&case, &found, &|_| {}).expect("forecasts");
     let told = odometry::diagnosis(&found.after(&table), &table, true);
     assert!(told.sentences[0].contains("of the motion of the references, so that"), "{:?}", told.sentences);
 }

@@ -255,7 +255,7 @@ fn a_little_slip_stands_only_where_drives_that_are_left_out_confirm_it() {
     let named = |findings: &Findings| findings.named.iter().map(|c| c.spec.id).collect::<Vec<_>>();
     let after = |case: &Case| {
         let findings = diagnose(case, &|_| {}).expect("findings");
-        let table = left_out(case, &|_| {}).expect("forecasts");
+        let table = left_out(case, &findings, &|_| {}).expect("forecasts");
         (named(&findings), named(&findings.after(&table)))
     };
     let slip = vec!["slip_with_turning"];

@@ -80,7 +80,7 @@ fn examine(data: &Path, kind: &'static str, robot: &str) -> Result<Examined> {
     let read = case_files::odometry::read(None, Some(robot), [&[], &[data.join(kind)], &[]])?;
     let case: Case = read.with_context(|| format!("'{robot}' is no built-in robot of kind odometry"))?.case;
     let findings = diagnose(&case, &|_| {})?;
-    let table = left_out(&case, &|_| {})?;
+    let table = left_out(&case, &findings, &|_| {})?;
     Ok(Examined { kind, drives: case.recordings.len(), findings: findings.after(&table), table })
 }
 

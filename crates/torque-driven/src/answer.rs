@@ -7,6 +7,7 @@ use catalogue::answer::{NONE, UNKNOWN};
 use faer::Mat;
 use robot_model::tunable::{COUNT as NUISANCES, tunables};
 
+use crate::confirmed::Unconfirmed;
 use crate::decide::fault_free_cost;
 use crate::decision::Scored;
 use crate::fit::{Fitted, Hypothesis};
@@ -260,6 +261,7 @@ impl Judged<'_> {
         limits.extend(retuned::moved_by_visit(p, fitted, &self.case.recordings));
         limits.extend(own_effects::beyond_range(p, retuned, &ranked));
         limits.extend(located.contradiction);
+        limits.extend(self.decision.unconfirmed.iter().map(Unconfirmed::sentence));
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
         limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
         if verdict == Verdict::NoMismatch {

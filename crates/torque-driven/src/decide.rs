@@ -189,7 +189,7 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
     let named: f64 = scored.iter().map(|s| s.probability).sum();
     let told = scored.first().filter(|_| named > nothing).map_or(base, |s| &s.trial.fitted);
     let level = Level { as_it_is: found.as_it_is, fitted: told.cost, fault_free, is_unknown: by_level };
-    Decision { scored, none: nothing, unknown, level, form, moved }
+    Decision { scored, none: nothing, unknown, level, form, moved, unconfirmed: Vec::new() }
 }
 
 /// A hypothesis in which a constant that moved since the references stands for one of the effects of a fit.

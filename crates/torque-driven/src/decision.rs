@@ -1,5 +1,6 @@
 //! A decision: hypotheses with their probabilities, beside "nothing is missing" and "not in the catalogue".
 
+use crate::confirmed::Unconfirmed;
 use crate::fit::Problem;
 use crate::level::Level;
 use crate::stand_in;
@@ -29,6 +30,8 @@ pub(crate) struct Decision {
     /// The fit whose only effect is likeliest a constant that moved since the references, where that is likelier than that
     /// nothing moved.
     pub(crate) moved: Option<Trial>,
+    /// Effects that are not named since left-out recordings do not need them.
+    pub(crate) unconfirmed: Vec<Unconfirmed>,
 }
 
 impl Decision {

@@ -185,6 +185,9 @@ impl Calibrated {
         // What is likeliest a constant that moved is told as that constant, and as no other.
         let before = problem(&robot, case, &recordings, &calibration, largest, options);
         decision = self.judged(case, options, &sensors, (&before, &calibration), &decision).without_sizes_of_zero();
+        decision = self
+            .judged(case, options, &sensors, (&before, &calibration), &decision)
+            .without_unconfirmed(&found.retuned);
         let moved = decision.moved.as_ref().filter(|_| decision.finds_nothing());
         if let Some((place, usual, point)) = moved.and_then(|trial| stand_in::as_constant(&before, trial)) {
             calibration = calibration.with_free(place, usual);

@@ -1,5 +1,7 @@
 //! Effects that are missing together, with the onsets of those that begin at an instant.
 
+use std::collections::BTreeSet;
+
 use crate::unnamed::Acting;
 use inference::hypothesis::{Dose, Free, Onsets, Sizes, Variant};
 
@@ -38,6 +40,12 @@ impl Hypothesis {
             (Self { parts: vec![part.clone()], acting: None }, own.to_vec())
         };
         if self.parts.len() > 1 { self.parts.iter().map(alone).collect() } else { Vec::new() }
+    }
+
+    /// Whether its effects are those of another hypothesis, whichever was found first.
+    pub(crate) fn is_of_the_effects_of(&self, other: &Self) -> bool {
+        let labels = |h: &Self| h.variants().map(Variant::label).collect::<BTreeSet<String>>();
+        labels(self) == labels(other)
     }
 
     /// The values that this hypothesis' effects have in it, in the order of a hypothesis that holds some of them; `None` where

@@ -11,10 +11,8 @@ use crate::simulator::Simulator;
 use crate::visit::Visit;
 use crate::windows::Cut;
 use inference::Options;
-use inference::hypothesis::Variant;
 use inference::robust::NINETY;
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
 
 /// All that an answer is made of.
 pub(crate) struct Judged<'a> {
@@ -60,20 +58,28 @@ impl Judged<'_> {
             }
 
             has_fallen = true;
-            out.scored[i].probability = 0.0;
-            match out.scored.iter().position(|other| labels(&other.trial.hypothesis) == labels(&rest)) {
-                _ if rest.parts.is_empty() => out.none += s.probability,
-                Some(heir) => out.scored[heir].probability += s.probability,
-                None => {
-                    let heir = refits::keeping(self.problem, &s.trial, rest);
-                    out.scored.extend(heir.map(|trial| Scored { trial, ..s }));
-                }
-            }
+            self.hand_on(&mut out, i, rest, 1.0);
         }
         if has_fallen {
             out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         }
         out
+    }
+
+    /// Hands a share of the probability of a hypothesis on to that with these of its effects alone, which is fitted where nobody has;
+    /// without any, to "nothing is missing".
+    pub(crate) fn hand_on(&self, decision: &mut Decision, from: usize, rest: Hypothesis, share: f64) {
+        let s = decision.scored[from].clone();
+        let handed = share * s.probability;
+        decision.scored[from].probability -= handed;
+        match decision.scored.iter().position(|other| other.trial.hypothesis.is_of_the_effects_of(&rest)) {
+            _ if rest.parts.is_empty() => decision.none += handed,
+            Some(heir) => decision.scored[heir].probability += handed,
+            None => {
+                let heir = refits::keeping(self.problem, &s.trial, rest);
+                decision.scored.extend(heir.map(|trial| Scored { trial, probability: handed, ..s }));
+            }
+        }
     }
 
     /// Whether the 90 % interval of an effect holds no effect at all.
@@ -83,11 +89,6 @@ impl Judged<'_> {
     }
 }
 
-/// The effects of a hypothesis, whichever was found first.
-fn labels(h: &Hypothesis) -> BTreeSet<String> {
-    h.variants().map(Variant::label).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,7 +96,7 @@ mod tests {
     use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
-    use inference::hypothesis::Place;
+    use inference::hypothesis::{Place, Variant};
     use testing::robot;
 
     /// An effect in all places.

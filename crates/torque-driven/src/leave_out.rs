@@ -70,19 +70,9 @@ impl Experiment for LeftOut<'_> {
             return None;
         }
 
-        let cuts: Vec<Cut> = (0..p.cuts.len()).filter(|&r| r != run).map(|r| p.cuts[r].clone()).collect();
+        let cuts = all_but(p, run);
         let others = problem(p.robot, answer.case, &cuts, answer.calibration, p.largest_torque, answer.options);
-        // The robot file may be too far away for a fit to arrive: then it begins where that of all recordings ended, too. Which of the
-        // two counts is told by the other recordings alone; only the start has seen the one that is left out.
-        let fitted = |h: &Hypothesis, of_all: &Point| {
-            let from = |theta| {
-                let start = Point { theta, effects: of_all.effects.clone(), ..others.origin() };
-                others.refine(h, others.begin(h, start, None), LEAVE_OUT.steps, None)
-            };
-            let first = from(others.centre);
-            let again = p.constants_are_loose.then(|| from(of_all.theta));
-            again.filter(|again| again.cost < first.cost).unwrap_or(first)
-        };
+        let fitted = |h: &Hypothesis, of_all: &Point| fitted_on_others(&others, h, of_all, p.constants_are_loose);
         // What a recording has to itself is not known beforehand: its deviations are zero.
         let elsewhere = |f: &Fitted| Point { run: p.origin().run, ..f.point.clone() };
         let model =
@@ -139,6 +129,25 @@ impl LeftOut<'_> {
         let point = Point { theta: [0.0; NUISANCES], ..self.answer.problem.origin() };
         Model { hypothesis: Hypothesis::default(), point }
     }
+}
+
+/// All recordings but one.
+pub(crate) fn all_but(p: &Problem<'_>, run: usize) -> Vec<Cut> {
+    (0..p.cuts.len()).filter(|&r| r != run).map(|r| p.cuts[r].clone()).collect()
+}
+
+/// A hypothesis fitted on the recordings of `others`; `of_all`: its fit on all.
+///
+/// The robot file may be so far away (`may_be_far`) that no fit arrives: then it begins where that of all recordings ended, too. Which of the
+/// two counts is told by the other recordings alone; only the start has seen the one that is left out.
+pub(crate) fn fitted_on_others(others: &Problem<'_>, h: &Hypothesis, of_all: &Point, may_be_far: bool) -> Fitted {
+    let from = |theta| {
+        let start = Point { theta, effects: of_all.effects.clone(), ..others.origin() };
+        others.refine(h, others.begin(h, start, None), LEAVE_OUT.steps, None)
+    };
+    let first = from(others.centre);
+    let again = may_be_far.then(|| from(of_all.theta));
+    again.filter(|again| again.cost < first.cost).unwrap_or(first)
 }
 
 /// Free run of a recording, each segment with onsets that the other segments of the recording tell.
@@ -222,7 +231,7 @@ pub(crate) fn is_worthwhile(p: &Problem<'_>, calibrated: &Response, runs: &[Free
 }
 
 /// The hypothesis for all recordings but one.
-fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
+pub(crate) fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
     let mut h = h.clone();
     for (_, onsets) in h.parts.iter_mut().filter(|(_, o)| !o.is_empty()) {
         onsets.remove(left_out);

@@ -37,6 +37,7 @@ mod calibrate;
 mod candidate;
 mod case;
 mod channel;
+mod confirmed;
 mod decide;
 mod decision;
 mod diagnose;

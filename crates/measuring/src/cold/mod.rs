@@ -76,7 +76,7 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let (mut steps, mut figures) = (Vec::new(), Vec::new());
     if wanted(Part::Reproduce) {
         let fresh = Fresh::new("reproduce")?;
-        let step = fresh.cargo(&["run", "--release", "--package", "xtask", "--", "reproduce"])?;
+        let step = fresh.cargo(&["run", "--package", "xtask", "--", "reproduce"])?;
         goal(&mut figures, "first command, `cargo xtask reproduce`", &[&step], FIRST_COMMAND);
         steps.push(step);
     }

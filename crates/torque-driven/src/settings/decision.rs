@@ -91,6 +91,16 @@
         least_mismatch: f64 = 60.0, "nats", "guess";
     }
 
+    /// Without references: whether left-out recordings need an effect that a constant may stand for.
+    confirmation: Confirmation {
+        /// Standard errors by which they have to be forecast better with it.
+        errors: f64 = 2.0, "1", "definition: what 95 of 100 normal errors do not reach";
+        /// Share of its probability that an effect keeps that they do not need.
+        doubted: f64 = 0.3, "1", "equal to that of cars and any wheels";
+        /// Effects that are judged at most, one after the other.
+        rounds: usize = 3, "1", "equal to the effects that an answer holds";
+    }
+
     /// The answer in numbers and words.
     answer: Answer {
         /// Probability above which something is said to be so.
