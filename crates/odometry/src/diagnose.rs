@@ -193,9 +193,10 @@ pub(crate) fn solve(
         (Quantity::ClockRate(_), Some([_, rate])) => Some(rate),
         _ => None,
     };
-    let start = start.of.map(|other| other.fit.theta.clone()).unwrap_or_else(|| {
-        constants.iter().zip(&prior.mean).map(|(c, known)| seen(c.quantity).unwrap_or(*known)).collect()
-    });
+    let start: Vec<f64> = match start.of {
+        Some(other) => other.fit.theta.clone(),
+        None => constants.iter().zip(&prior.mean).map(|(c, known)| seen(c.quantity).unwrap_or(*known)).collect(),
+    };
     take_as_usual(&mut constants, &prior, &start);
     let mut causes = causes(robot, &constants);
     let mut data = Data::new(robot, &constants, drives.to_vec())?;

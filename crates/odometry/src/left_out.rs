@@ -67,7 +67,7 @@ pub fn left_out(case: &Case, found: &Findings, progress: &dyn Fn(&str)) -> Resul
         let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
         let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
         let rivals = RIVALS.iter().map(|(_, rival)| calibrated(rival)).collect();
-        Ok(Fold { left, drives, rivals, solved })
+        Ok(Fold { left, drives, solved, rivals })
     };
     let mut folds = keys.into_par_iter().map(fold).collect::<Result<Vec<Fold<'_>>, OdometryError>>()?;
     let table = of_folds(&case.robot, &folds);
