@@ -269,9 +269,15 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
         let covariance = covariance(&prior.covariance, causes, &set);
         theta = self::fit(data, &Prior { mean: prior.mean.clone(), covariance }, theta)?.theta;
     }
-    fit.sessions = equations(data, &theta, fit.scale);
-    fit.theta = theta;
-    let named = weighed(&fit, if is_astray { &set } else { &[] })?;
+    let about = Fit { sessions: equations(data, &theta, fit.scale), theta, ..fit.clone() };
+    // Equations about the answer may determine nothing, as those of slip that sets in all at once; then those about the fit stand.
+    let named = match weighed(&about, if is_astray { &set } else { &[] }) {
+        Some(named) => {
+            fit = about;
+            named
+        }
+        None => first,
+    };
     // By turning alone radii, track and scale of the gyro share their odds.
     let by_turning = named.chosen.is_empty() && data.drives.iter().all(|drive| drive.heading_only);
     let class = if by_turning {

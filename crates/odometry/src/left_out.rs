@@ -9,10 +9,11 @@ use crate::findings::Findings;
 use crate::forecast::{Errors, LENGTHS, forecast};
 use crate::motion::Laws;
 use crate::rivals::{RIVALS, Rival};
+use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::laws;
 use hierarchical_fit::telling::free_runs;
-use inference::robust::geometric_mean;
+use inference::robust::{geometric_mean, mean_with_error};
 use rayon::prelude::*;
 use verdict::{FreeRun, Trace};
 
@@ -80,8 +81,7 @@ pub fn left_out(case: &Case, found: &Findings, progress: &dyn Fn(&str)) -> Resul
         }
     }
     let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
-    let is_better = table.over(&plainer).is_some_and(|ratio| ratio < 1.0);
-    Ok(if is_better { table } else { plainer })
+    Ok(if table.is_better_than(&plainer) { table } else { plainer })
 }
 
 /// A session that is left out, and the fit of the others.
@@ -135,14 +135,19 @@ impl Table {
         self.by_session.iter().flat_map(of_session).collect()
     }
 
-    /// Errors of the corrected forecasts over those of another table, the geometric mean of all sessions, lengths and quantities.
-    fn over(&self, other: &Self) -> Option<f64> {
+    /// Whether corrected forecasts are better than those of another table beyond what sessions differ by: by the logarithms of the errors'
+    /// ratios, one of each session, the mean over all lengths and quantities, with the standard error of their mean.
+    fn is_better_than(&self, other: &Self) -> bool {
         let medians = |(_, rows): &(String, Vec<[Errors; 3]>)| -> Vec<f64> {
             let of_length = |errors: &Errors| errors.medians().into_iter().flatten().flatten().collect::<Vec<f64>>();
             rows.get(CORRECTED).iter().flat_map(|row| row.iter().flat_map(of_length)).collect()
         };
-        let pairs = self.by_session.iter().zip(&other.by_session);
-        let ratios = pairs.flat_map(|(own, other)| medians(own).into_iter().zip(medians(other)).map(|(a, b)| a / b));
-        geometric_mean(ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0))
+        let of_session = |(own, other): (&(String, Vec<[Errors; 3]>), &(String, Vec<[Errors; 3]>))| {
+            let ratios = medians(own).into_iter().zip(medians(other)).map(|(a, b)| a / b);
+            geometric_mean(ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0)).map(f64::ln)
+        };
+        let logarithms: Vec<f64> = self.by_session.iter().zip(&other.by_session).filter_map(of_session).collect();
+        let (mean, error) = mean_with_error(&logarithms);
+        mean < -SETTINGS.doubt.errors * error
     }
 }

@@ -89,6 +89,8 @@
         least: f64 = 0.003, "share", "guess; 3 mm of a metre; after a look at seven robots of another hand, of which a real slip that takes less was told beside larger causes";
         /// Probability at which such a cause is then listed at most.
         listed: f64 = 0.3, "1", "guess";
+        /// Standard errors of the mean over sessions by which left-out sessions have to be forecast better with such a cause than without.
+        errors: f64 = 2.0, "1", "equal to that of robots under torque";
         /// Error of forecasts of left-out sessions with the named causes over that of the robot as stated, from which on they are refuted
         /// where they leave most of the error.
         refuted: f64 = 1.25, "1", "equal to that of cars and robots under torque";

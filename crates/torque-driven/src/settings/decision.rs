@@ -120,6 +120,8 @@
         model_error_without: f64 = 0.04, "1", "the same 15 effects";
         /// Causes below this probability are not listed.
         listed: f64 = 1e-4, "1", "guess";
+        /// Cost of the calibrated simulation over that of a fault-free drive from which on it is not said to explain recordings.
+        left_as_calibrated: f64 = 3.0, "1", "guess; fault-free robots of another hand 1.5 to 2.4, on another visit 5.0";
         /// A rival this likely, relative to the best, cannot be told from it.
         rival: f64 = 0.1, "1", "guess";
         /// Parts of a window in which the path is straight enough to tell which wheels are inside a disc.
