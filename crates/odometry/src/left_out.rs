@@ -138,15 +138,16 @@ impl Table {
     /// Whether corrected forecasts are better than those of another table beyond what sessions differ by: by the logarithms of the errors'
     /// ratios, one of each session, the mean over all lengths and quantities, with the standard error of their mean.
     fn is_better_than(&self, other: &Self) -> bool {
-        let medians = |(_, rows): &(String, Vec<[Errors; 3]>)| -> Vec<f64> {
+        let medians = |table: &Self, session: usize| -> Vec<f64> {
             let of_length = |errors: &Errors| errors.medians().into_iter().flatten().flatten().collect::<Vec<f64>>();
-            rows.get(CORRECTED).iter().flat_map(|row| row.iter().flat_map(of_length)).collect()
+            let rows = table.by_session.get(session).map(|(_, rows)| rows);
+            rows.and_then(|rows| rows.get(CORRECTED)).iter().flat_map(|row| row.iter().flat_map(of_length)).collect()
         };
-        let of_session = |(own, other): (&(String, Vec<[Errors; 3]>), &(String, Vec<[Errors; 3]>))| {
-            let ratios = medians(own).into_iter().zip(medians(other)).map(|(a, b)| a / b);
+        let of_session = |session: usize| {
+            let ratios = medians(self, session).into_iter().zip(medians(other, session)).map(|(a, b)| a / b);
             geometric_mean(ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0)).map(f64::ln)
         };
-        let logarithms: Vec<f64> = self.by_session.iter().zip(&other.by_session).filter_map(of_session).collect();
+        let logarithms: Vec<f64> = (0..self.by_session.len()).filter_map(of_session).collect();
         let (mean, error) = mean_with_error(&logarithms);
         mean < -SETTINGS.doubt.errors * error
     }

@@ -70,16 +70,16 @@ impl Judged<'_> {
     /// The effect of a hypothesis that left-out recordings need least, if they do not need it, and the hypothesis without it.
     fn least_needed(&self, best: &Scored, all: &Decision, retuned: &Fitted) -> Option<(Hypothesis, Unconfirmed)> {
         let parts = best.trial.hypothesis.parts.iter().enumerate();
-        let may_be_constants: Vec<usize> = parts
-            .filter(|(_, (variant, _))| StandIn::of(variant, self.problem.robot).is_some())
+        let may_be_of_tyres: Vec<usize> = parts
+            .filter(|(_, (variant, _))| StandIn::of(variant, self.problem.robot).is_some_and(StandIn::may_be_of_tyres))
             .map(|(i, _)| i)
             .collect();
-        if may_be_constants.is_empty() {
+        if may_be_of_tyres.is_empty() {
             return None;
         }
 
         let with = left_out_costs(self, &best.trial);
-        let judged = may_be_constants.into_iter().filter_map(|part| {
+        let judged = may_be_of_tyres.into_iter().filter_map(|part| {
             let mut rest = best.trial.hypothesis.clone();
             let (variant, _) = rest.parts.remove(part);
             let without = left_out_costs(self, &self.fit_of(&rest, best, all, retuned)?);
@@ -169,26 +169,29 @@ mod tests {
 
     #[test]
     fn without_references_an_effect_that_left_out_drives_do_not_need_keeps_little_of_its_probability() {
-        let (viscous, drag) = (of("viscous_friction"), of("quadratic_drag"));
+        let (gain, drag, viscous) = (of("torque_constant"), of("quadratic_drag"), of("viscous_friction"));
         let drives = |doses: &[inference::hypothesis::Dose]| {
             [8.0, 10.0, 12.0].map(|s| cut(&driven(&robot(), doses, s), &cutting()))
         };
         let fault_free = drives(&[]);
-        let alone = judged(&fault_free, &[(viscous, 0.01)], false);
+        let alone = judged(&fault_free, &[(gain, 0.01)], false);
         approx::assert_relative_eq!(alone.none, 0.1 + (1.0 - RULES.doubted) * 0.9, epsilon = 1e-12);
         assert_eq!(alone.unconfirmed.len(), 1);
 
-        let with_references = judged(&fault_free, &[(viscous, 0.01)], true);
+        let of_drives = judged(&fault_free, &[(viscous, 0.01)], false);
+        assert_eq!(of_drives.none, 0.1, "no tyre looks like friction of the drives");
+
+        let with_references = judged(&fault_free, &[(gain, 0.01)], true);
         assert_eq!(
             (with_references.none, with_references.unconfirmed.len()),
             (0.1, 0),
             "references show what is usual"
         );
-        let lone = judged(&fault_free[..1], &[(viscous, 0.01)], false);
+        let lone = judged(&fault_free[..1], &[(gain, 0.01)], false);
         assert_eq!(lone.none, 0.1, "nothing is left out of one recording");
 
         let dragged = drives(&[drag.dose(&[20.0], None)]);
-        let both = judged(&dragged, &[(drag, 20.0), (viscous, 0.01)], false);
+        let both = judged(&dragged, &[(drag, 20.0), (gain, 0.01)], false);
         assert_eq!(both.scored[0].trial.hypothesis.ids(), ["quadratic_drag"], "no constant is a drag");
         assert_eq!(both.none, 0.1);
     }

@@ -54,6 +54,13 @@ impl StandIn {
         }
     }
 
+    /// Whether tyres of another law than the plant's look as if it had moved: how much of a torque reaches the ground, and scrub.
+    pub(crate) fn may_be_of_tyres(self) -> bool {
+        const OF_TYRES: [usize; 4] =
+            [constant("torque_constant"), constant("lateral_factor"), constant("slip_at_peak"), constant("adhesion")];
+        OF_TYRES.contains(&self.place)
+    }
+
     /// How far it would have moved; `None` where it cannot move so far.
     pub(crate) fn moved(self, size: f64) -> Option<f64> {
         match self.relation {

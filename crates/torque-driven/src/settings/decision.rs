@@ -91,7 +91,7 @@
         least_mismatch: f64 = 60.0, "nats", "guess";
     }
 
-    /// Without references: whether left-out recordings need an effect that a constant may stand for.
+    /// Without references: whether left-out recordings need an effect that the form of the tyres' law may look like.
     confirmation: Confirmation {
         /// Standard errors by which they have to be forecast better with it.
         errors: f64 = 2.0, "1", "definition: what 95 of 100 normal errors do not reach";
