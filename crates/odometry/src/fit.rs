@@ -234,3 +234,20 @@ fn scatter_factors(data: &Data<'_>, prior: &Prior, theta: &[f64], sessions: &[Se
     let best = scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(Factors::USUAL, |(_, factors)| factors)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constants::ClockZero;
+
+    #[test]
+    fn offset_and_rate_of_the_clocks_scatter_apart() {
+        let apart = Factors { rate: 5.0, ..Factors::USUAL };
+        assert!(Factors::tried().any(|factors| factors == apart));
+        let of =
+            [Quantity::ClockOffset, Quantity::ClockRate(ClockZero::Middle), Quantity::Across].map(|q| apart.of(&q));
+        assert_eq!(of, [1.0, 5.0, 1.0]);
+        assert!(apart.price() > 0.0);
+        approx::assert_relative_eq!(Factors::USUAL.price(), 0.0);
+    }
+}

@@ -48,7 +48,7 @@ impl Unconfirmed {
 }
 
 impl Judged<'_> {
-    /// The decision in which no effect is named that a constant may stand for and that left-out recordings do not need: most of its
+    /// The decision in which no effect is named that tyres of another law may look like and that left-out recordings do not need: most of its
     /// probability is that of the hypothesis without it. With references such effects are weighed against what these show, and of a lone
     /// recording nothing is left out.
     pub(crate) fn without_unconfirmed(&self, retuned: &Fitted) -> Decision {
