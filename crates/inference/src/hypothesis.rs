@@ -114,6 +114,11 @@ impl Variant {
         self.effect.spec()
     }
 
+    /// The side that it is on, 0 left, 1 right; `None` of an effect of both.
+    pub fn side(&self) -> Option<usize> {
+        if let Place::Side(side) = self.place { Some(side) } else { None }
+    }
+
     /// Name for people and files: effect, side, axis, place.
     pub fn label(&self) -> String {
         let mut out = self.spec().id.to_owned();

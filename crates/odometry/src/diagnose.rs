@@ -17,6 +17,7 @@ use crate::fit::{Fit, Prior, equations, fit, scatter};
 use crate::motion::Laws;
 use crate::next_drive::{self, Found};
 use crate::settings::SETTINGS;
+use crate::standing;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
@@ -209,15 +210,18 @@ pub(crate) fn solve(
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
     }
     // Lost counts are found beside the best answer, and then left out of it.
-    let wide = wide(&prior, &causes);
-    let often = dropout::often(&data, &fit, prior.mean.as_slice(), |rest, start| self::fit(rest, &wide, start));
-    let lost = match often.filter(|(_, lost)| !lost.is_empty()) {
-        Some((theta, lost)) => {
-            fit.theta = theta;
-            lost
-        }
-        None => dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale, SETTINGS.dropout.linear_most),
-    };
+    let mut lost = standing::lost(&data, named.posterior.mean.as_slice());
+    if lost.is_empty() {
+        let wide = wide(&prior, &causes);
+        let often = dropout::often(&data, &fit, prior.mean.as_slice(), |rest, start| self::fit(rest, &wide, start));
+        lost = match often.filter(|(_, lost)| !lost.is_empty()) {
+            Some((theta, lost)) => {
+                fit.theta = theta;
+                lost
+            }
+            None => dropout::lost(&data, named.posterior.mean.as_slice(), fit.scale, SETTINGS.dropout.linear_most),
+        };
+    }
     if !lost.is_empty() {
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;

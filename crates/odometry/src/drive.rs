@@ -251,10 +251,7 @@ impl Drive {
         [offset, rate]: [f64; 2],
         zero: ClockZero,
     ) -> Vec<[f64; 3]> {
-        let start = match zero {
-            ClockZero::Start => self.time[0],
-            ClockZero::Middle => 0.5 * (self.time[0] + self.time[self.time.len() - 1]),
-        };
+        let start = self.zero(zero);
         let mut k = 0;
         let at = |t: f64| {
             let t = t - offset - rate * (t - start);
@@ -269,6 +266,20 @@ impl Drive {
             [0, 1, 2].map(|axis| path[k][axis] + share * (path[k + 1][axis] - path[k][axis]))
         };
         self.time.iter().copied().map(at).collect()
+    }
+
+    /// Where clocks agree, s.
+    fn zero(&self, zero: ClockZero) -> f64 {
+        match zero {
+            ClockZero::Start => self.time[0],
+            ClockZero::Middle => 0.5 * (self.time[0] + self.time[self.time.len() - 1]),
+        }
+    }
+
+    /// When the pose shows what the counts have at an instant: the inverse of [`at_shifted_clock`](Self::at_shifted_clock).
+    pub(crate) fn time_of_pose(&self, counts: f64, [offset, rate]: [f64; 2], zero: ClockZero) -> f64 {
+        let start = self.zero(zero);
+        start + (counts - start + offset) / (1.0 - rate)
     }
 
     /// Moves counts and steering to `by` seconds later; where none were recorded the wheels stand.

@@ -99,13 +99,10 @@ pub(crate) fn often(
     (first.scale > RULES.falls * left).then_some((theta, lost))
 }
 
-/// Leaves out the windows in which counts were lost.
+/// Leaves out the spans in which counts were lost.
 pub(crate) fn leave_out(data: &mut Data<'_>, lost: &[Lost]) {
     for found in lost {
-        for window in 0..data.windows[found.drive].len() {
-            let [from, until] = data.span(found.drive, window);
-            data.dropped[found.drive][window] |= found.spans.iter().any(|([a, b], _)| from < *b && *a < until);
-        }
+        data.leave_out(found.drive, &found.joined());
     }
 }
 
@@ -251,7 +248,7 @@ pub(crate) fn named(case: &Case, data: &Data<'_>, lost: &[Lost]) -> Vec<NamedCau
                     unit: "1",
                     given: 0.0,
                     value: share,
-                    half_width: NINETY * spread,
+                    half_width: (NINETY * spread).max(RULES.least_width),
                     sigmas: 0.0,
                 }],
                 intervals: intervals.collect(),

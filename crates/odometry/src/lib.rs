@@ -10,7 +10,7 @@
 //! * `cause`: what may be wrong.
 //! * `rates`, `held`: velocities from poses, and signals as integrals, on a grid of steps.
 //! * `alignment`: offset and rate of two devices' clocks by the speeds that both measure.
-//! * `clock`, `dropout`: clocks that start or run apart, counts that were lost.
+//! * `clock`, `dropout`, `standing`: clocks that start or run apart, counts that were lost, columns that stand still.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `findings`: what the drives of a case say, as plain data.
@@ -49,6 +49,7 @@ mod rehearsable;
 mod rivals;
 mod settings;
 mod simulate;
+mod standing;
 mod traces;
 mod units;
 mod wheel;

@@ -192,6 +192,13 @@ fn framed(laws: &Laws, [x, y, t]: [f64; 3]) -> [f64; 3] {
     [cos * x + sin * y, cos * y - sin * x, t]
 }
 
+/// A motion that the frame of the pose sees, as the robot's: the inverse of [`framed`].
+pub(crate) fn of_robot(laws: &Laws, [x, y, t]: [f64; 3]) -> [f64; 3] {
+    let (sin, cos) = laws.mounting.sin_cos();
+    let [x, y] = [cos * x - sin * y, cos * y + sin * x];
+    [x + laws.origin[1] * t, y - laws.origin[0] * t, t]
+}
+
 /// A pose after a motion in its own frame on a circle: `x, y` are lengths along the arc.
 fn moved([px, py, yaw]: [f64; 3], [x, y, t]: [f64; 3]) -> [f64; 3] {
     let half = 0.5 * t;

@@ -267,6 +267,8 @@
         lost: f64 = 0.1, "1", "guess";
         /// Windows that show it at least.
         windows: usize = 2, "1", "guess";
+        /// Least half width of the 90 % interval of that share.
+        least_width: f64 = 0.01, "1", "guess; where a span begins and ends is known to a row";
         /// Share of a drive's windows that show it at most: what shows in all is no dropout.
         most: f64 = 0.5, "1", "guess";
         /// Share of a loss that its linearisation gets wrong in a window.
@@ -284,6 +286,24 @@
             "8 and 46 in two drawn robots that lost counts often, 0.8 to 1.04 in real drives of four robots where any were suspected";
         /// Times that such a fit is made anew.
         rounds: usize = 3, "1", "guess";
+    }
+
+    /// Encoders whose column stands still while their wheel rolls.
+    standing: Standing {
+        /// Least time that it stands.
+        least: f64 = 0.4, "s", "guess; counts of a slow wheel come more often";
+        /// What is left off at both ends, for the clock of the pose is not known better.
+        edge: f64 = 0.1, "s", "guess";
+        /// Time between rows of the pose whose motions are added.
+        step: f64 = 0.1, "s", "guess; a body hardly turns meanwhile";
+        /// Ways over the pose's noise from which on the wheel rolled.
+        noises: f64 = 8.0, "1", "guess";
+        /// Ways in counts from which on some are missing.
+        counts: f64 = 4.0, "1", "guess";
+        /// Share that its way has at least of that of the wheel that rolls farthest, and that the others' counts have of its way.
+        share: f64 = 0.3, "1", "guess; what a distance between wheels may be off by is less";
+        /// Evidence of each span that counts were lost.
+        nats: f64 = 3.0, "nats", "guess; a wheel that is blocked and slides stands still as well";
     }
 
     /// Clocks of counts and pose before any fit.

@@ -63,12 +63,17 @@ impl Window {
 
 /// Windows of `length` that begin every `every` seconds, between rows in which the pose was seen.
 pub(crate) fn windows(drive: &Drive, length: f64, every: f64) -> Vec<Window> {
+    windows_within(drive, length, every, [drive.time[0], drive.time[drive.time.len() - 1]])
+}
+
+/// The same from one instant to another.
+fn windows_within(drive: &Drive, length: f64, every: f64, [first, last]: [f64; 2]) -> Vec<Window> {
     let time = &drive.time;
     let mut out = Vec::new();
-    let mut begin = time[0];
+    let mut begin = first;
     let (mut from, mut to) = (0, 0);
     let slack = SETTINGS.drive.rate;
-    while begin + length <= time[time.len() - 1] + f64::EPSILON {
+    while begin + length <= last + f64::EPSILON {
         while from < time.len() && (time[from] < begin || !drive.is_seen(from)) {
             from += 1;
         }
@@ -78,7 +83,11 @@ pub(crate) fn windows(drive: &Drive, length: f64, every: f64) -> Vec<Window> {
             to += 1;
         }
         // A pose that was not seen for a while makes no window of another length.
-        if to < time.len() && time[to] - start <= length + slack && start - begin <= slack {
+        if to < time.len()
+            && time[to] <= last + f64::EPSILON
+            && time[to] - start <= length + slack
+            && start - begin <= slack
+        {
             let rolls = drive.heading_only && is_rolling(drive.rolled(from, to));
             out.push(Window { from, to, moved: relative(drive.pose[from], drive.pose[to]), rolls });
         }
@@ -149,6 +158,21 @@ impl<'a> Data<'a> {
         let windows: Vec<Vec<Window>> = self.drives.iter().map(|d| windows(d, length, length)).collect();
         let dropped = windows.iter().map(|w| vec![false; w.len()]).collect();
         Self { windows, dropped, ..self.clone() }
+    }
+
+    /// Leaves spans of a drive out, s, in their order: windows begin anew after each.
+    pub(crate) fn leave_out(&mut self, drive: usize, spans: &[[f64; 2]]) {
+        let of = self.drives[drive];
+        let mut free: Vec<[f64; 2]> = Vec::new();
+        let mut first = of.time[0];
+        for [from, until] in spans {
+            free.push([first, *from]);
+            first = *until;
+        }
+        free.push([first, of.time[of.time.len() - 1]]);
+        let within = |ends| windows_within(of, RULES.length, RULES.length, ends);
+        self.windows[drive] = free.into_iter().flat_map(within).collect();
+        self.dropped[drive] = vec![false; self.windows[drive].len()];
     }
 
     /// From when to when a window of a drive lasts, s.

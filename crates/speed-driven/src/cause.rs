@@ -1,7 +1,7 @@
 //! A fitted effect as a cause of a verdict.
 
 use catalogue::speed_driven::SOFT_GROUND;
-use inference::hypothesis::{Place, Sizes};
+use inference::hypothesis::Sizes;
 use verdict::{Cause, Estimate};
 
 use crate::name::Named;
@@ -36,7 +36,7 @@ pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
         sigma: sigma.first().copied().filter(|s| s.is_finite()),
         unit: inference::words::unit(spec).into(),
         parameters,
-        side: if let Place::Side(s) = variant.place { Some(inference::words::side(s).into()) } else { None },
+        side: variant.side().map(|s| inference::words::side(s).into()),
         ..Cause::plain(spec.id, &inference::words::variant(variant), probability)
     }
 }

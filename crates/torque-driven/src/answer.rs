@@ -55,10 +55,12 @@ impl Judged<'_> {
     }
 
     fn causes(&self) -> Vec<Cause> {
-        let mut by_effect: BTreeMap<&str, (f64, &Scored, usize)> = BTreeMap::new();
+        let either = self.decision.on_either_side();
+        let mut by_effect: BTreeMap<(&str, Option<usize>), (f64, &Scored, usize)> = BTreeMap::new();
         for s in &self.decision.scored {
             for (i, (v, _)) in s.trial.hypothesis.parts.iter().enumerate() {
-                let slot = by_effect.entry(v.spec().id).or_insert((0.0, s, i));
+                let id = v.spec().id;
+                let slot = by_effect.entry((id, v.side().filter(|_| either.contains(id)))).or_insert((0.0, s, i));
                 slot.0 += s.probability;
             }
         }
@@ -111,7 +113,7 @@ impl Judged<'_> {
             Place::Onset => Some(self.after(onsets)),
             _ => None,
         };
-        let side = if let Place::Side(s) = variant.place { Some(s) } else { None };
+        let side = variant.side();
         let sigma = sigmas.as_ref().map(|s| {
             let norm: f64 = e[..strengths].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
             let of_fit: f64 = s[before..before + strengths].iter().zip(e).map(|(s, x)| (s * x / norm).powi(2)).sum();

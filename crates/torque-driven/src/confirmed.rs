@@ -83,10 +83,7 @@ impl Judged<'_> {
             let mut rest = best.trial.hypothesis.clone();
             let (variant, _) = rest.parts.remove(part);
             let without = left_out_costs(self, &self.fit_of(&rest, best, all, retuned)?);
-            let gains: Vec<f64> = without.iter().zip(&with).map(|(without, with)| without - with).collect();
-            let (mean, error) = mean_with_error(&gains);
-            let gain = [mean, error].map(|of_segment| of_segment * gains.len() as f64);
-            Some((rest, Unconfirmed { name: inference::words::variant(&variant), gain }))
+            Some((rest, Unconfirmed { name: inference::words::variant(&variant), gain: gain(&without, &with) }))
         });
         judged.filter(|(_, effect)| !effect.is_needed()).min_by(|(_, a), (_, b)| a.gain[0].total_cmp(&b.gain[0]))
     }
@@ -101,8 +98,15 @@ impl Judged<'_> {
     }
 }
 
+/// What left-out segments gain by a hypothesis over another one, by their costs under both, and its standard error, nats.
+pub(crate) fn gain(without: &[f64], with: &[f64]) -> [f64; 2] {
+    let of_segments: Vec<f64> = without.iter().zip(with).map(|(without, with)| without - with).collect();
+    let (mean, error) = mean_with_error(&of_segments);
+    [mean, error].map(|of_segment| of_segment * of_segments.len() as f64)
+}
+
 /// What each segment of a recording costs that was left out of the fit of a hypothesis, nats, recordings one after the other.
-fn left_out_costs(answer: &Judged<'_>, trial: &Trial) -> Vec<f64> {
+pub(crate) fn left_out_costs(answer: &Judged<'_>, trial: &Trial) -> Vec<f64> {
     let p = answer.problem;
     let of_run = |run: usize| -> Vec<f64> {
         let cuts = all_but(p, run);

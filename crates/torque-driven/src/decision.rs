@@ -1,8 +1,11 @@
 //! A decision: hypotheses with their probabilities, beside "nothing is missing" and "not in the catalogue".
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::confirmed::Unconfirmed;
 use crate::fit::Problem;
 use crate::level::Level;
+use crate::settings::decision::SETTINGS;
 use crate::stand_in;
 use crate::structure::Structure;
 use crate::trial::Trial;
@@ -38,6 +41,20 @@ impl Decision {
     /// Whether nothing is likelier to be missing than something.
     pub(crate) fn finds_nothing(&self) -> bool {
         self.none >= self.unknown + self.scored.iter().map(|s| s.probability).sum::<f64>()
+    }
+
+    /// Effects of which either side is likely: the recordings do not tell which it is.
+    pub(crate) fn on_either_side(&self) -> BTreeSet<&'static str> {
+        let mut of_sides: BTreeMap<&str, [f64; 2]> = BTreeMap::new();
+        for s in &self.scored {
+            for v in s.trial.hypothesis.variants() {
+                if let Some(side) = v.side() {
+                    of_sides.entry(v.spec().id).or_default()[side] += s.probability;
+                }
+            }
+        }
+        let is_open = |[left, right]: [f64; 2]| left.min(right) > SETTINGS.answer.rival * left.max(right);
+        of_sides.into_iter().filter(|(_, sides)| is_open(*sides)).map(|(id, _)| id).collect()
     }
 
     /// Probability that the cause is not in the catalogue by the form of what is left.

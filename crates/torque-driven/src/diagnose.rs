@@ -6,7 +6,7 @@ use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
 use crate::decide::{decide, evidence};
 use crate::decision::Decision;
-use crate::fit::{Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::nothing::{retune, without_effect};
 use crate::own_effects::Runaway;
@@ -184,10 +184,8 @@ impl Calibrated {
         }
         // What is likeliest a constant that moved is told as that constant, and as no other.
         let before = problem(&robot, case, &recordings, &calibration, largest, options);
-        decision = self.judged(case, options, &sensors, (&before, &calibration), &decision).without_sizes_of_zero();
-        decision = self
-            .judged(case, options, &sensors, (&before, &calibration), &decision)
-            .without_unconfirmed(&found.retuned);
+        let made_of = (&before, &calibration);
+        decision = self.weighed_again(case, options, &sensors, made_of, &decision, &found.retuned);
         let moved = decision.moved.as_ref().filter(|_| decision.finds_nothing());
         if let Some((place, usual, point)) = moved.and_then(|trial| stand_in::as_constant(&before, trial)) {
             calibration = calibration.with_free(place, usual);
@@ -222,6 +220,21 @@ impl Calibrated {
             out.next = Some(next::advise(&answer, &found.retuned, length));
         }
         Ok((out, turns.iter().any(|turn| *turn != 0.0)))
+    }
+
+    /// A decision without effects that may be nothing or that left-out recordings do not need, and on the side that these tell.
+    fn weighed_again(
+        &self,
+        case: &Case,
+        options: &Options,
+        sensors: &Redundant,
+        made_of: (&Problem<'_>, &Calibration),
+        decision: &Decision,
+        retuned: &Fitted,
+    ) -> Decision {
+        let decision = self.judged(case, options, sensors, made_of, decision).without_sizes_of_zero();
+        let decision = self.judged(case, options, sensors, made_of, &decision).without_unconfirmed(retuned);
+        self.judged(case, options, sensors, made_of, &decision).with_either_side()
     }
 
     /// What an answer is made of.

@@ -15,10 +15,11 @@
 //!   runs.
 //! * `hypothesis`: effects that are missing together.
 //! * `headings`: where recordings without a pose head, by the slope that each shows.
-//! * `search`, `several`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
+//! * `search`, `several`, `other_side`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
 //!   pairs and threes; `nothing`: re-tuned constants alone; `disc`, `onset`: place and time; `handed_over`: effects that hide
 //!   in a constant.
-//! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities.
+//! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities; `confirmed`, `which_side`:
+//!   what left-out recordings say of them.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `answer`, `limits`, `words`: causes with sizes and intervals; what limits them; sentences.
@@ -63,6 +64,7 @@ mod normal;
 mod nothing;
 mod null_scores;
 mod onset;
+mod other_side;
 pub mod output_error;
 mod own_effects;
 mod predict;
@@ -87,6 +89,7 @@ mod trial;
 mod unnamed;
 mod visit;
 mod visits;
+mod which_side;
 mod windows;
 mod words;
 

@@ -7,6 +7,7 @@ use law::OwnEffect;
 use crate::candidate::Candidate;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::nothing::{is_far, without_effect};
+use crate::other_side;
 use crate::refits::{
     Places, Starts, best_first, better, by_id, converge_members, converge_wholes, include_handed_over, polish,
     refit_from,
@@ -15,7 +16,6 @@ use crate::screen::screen;
 use crate::settings::search::{Finalists, Retuning, SETTINGS};
 use crate::several::{pairs, thirds};
 use crate::trial::{SearchResult, Trial, include};
-use inference::hypothesis::{Place, Variant};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const RETUNING: Retuning = SETTINGS.retuning;
@@ -94,7 +94,7 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
     }
     best_first(&mut singles);
 
-    include_other_side(problem, &mut singles);
+    other_side::include(problem, &mut singles);
 
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning. Where only
     // the robot file holds the constants, an effect can spare "nothing" a long way: it starts from several.
@@ -138,58 +138,4 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
         }
     }
     SearchResult { as_it_is: origin.cost, retuned, singles, several, screened }
-}
-
-/// Adds the best single effect on the other side, where it is a share of one side: less on the left is about more on the right, and a
-/// fit that began at the robot file may have come to rest beside either.
-fn include_other_side(problem: &Problem<'_>, singles: &mut Vec<Trial>) {
-    let Some(best) = singles.first() else { return };
-    let [(variant, onsets)] = best.hypothesis.parts.as_slice() else { return };
-    let (Place::Side(side), [parameter]) = (variant.place, variant.spec().parameters) else { return };
-    let value = best.fitted.point.effects[0];
-    let mirrored = -value / (1.0 + value);
-    let [least, most] = parameter.bounds;
-    if parameter.unit != "-" || !(least..=most).contains(&mirrored) {
-        return;
-    }
-
-    let other = Variant { place: Place::Side(1 - side), ..*variant };
-    let hypothesis = Hypothesis::single(other, onsets.clone());
-    let trial = refit_from(problem, &hypothesis, &[mirrored], &best.fitted);
-    include(singles, polish(problem, &trial, FINALISTS.more_steps));
-    best_first(singles);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::testing::{cutting, driven, problem};
-    use crate::windows::cut;
-    use testing::robot;
-
-    #[test]
-    fn less_on_the_left_is_tried_where_more_on_the_right_was_found() {
-        let robot = robot();
-        let blank = problem(&robot, &[]);
-        let of = |side: usize| {
-            let is_it = |v: &Variant| v.spec().id == "torque_constant_side" && v.place == Place::Side(side);
-            blank.variants().into_iter().find(is_it).expect("in the catalogue")
-        };
-        let doses = [of(0).dose(&[-0.2], None)];
-        let cuts = [16.0, 20.0].map(|seconds| cut(&driven(&robot, &doses, seconds), &cutting()));
-        let loose = Problem { has_references: false, constants_are_loose: true, ..problem(&robot, &cuts) };
-        let right = Hypothesis::single(of(1), Vec::new());
-        let origin = loose.begin(&Hypothesis::default(), loose.origin(), None);
-        let mut singles = vec![refit_from(&loose, &right, &[0.25], &origin)];
-        include_other_side(&loose, &mut singles);
-
-        let best = &singles[0];
-        assert_eq!(best.hypothesis.variants().map(Variant::label).collect::<Vec<_>>(), [of(0).label()]);
-        assert!((best.fitted.point.effects[0] + 0.2).abs() < 0.02, "{:?}", best.fitted.point.effects);
-        // A brake of one side is no share: the other side has nothing to give.
-        let brake = blank.variants().into_iter().find(|v| v.spec().id == "coulomb_side").expect("in the catalogue");
-        let mut singles = vec![refit_from(&loose, &Hypothesis::single(brake, Vec::new()), &[0.3], &origin)];
-        include_other_side(&loose, &mut singles);
-        assert_eq!(singles.len(), 1);
-    }
 }

@@ -89,6 +89,11 @@ impl StandIn {
     }
 }
 
+/// The constant that scales both sides, of an effect that scales one of them.
+pub(crate) fn of_both_sides(variant: &Variant) -> Option<usize> {
+    (variant.spec().id == "torque_constant_side").then_some(const { constant("torque_constant") })
+}
+
 /// Price of a constant that moved instead of an effect: `½ z² + ln K` with its move `z`, in standard deviations of what it
 /// moves by between visits, and the number `K` of constants of which one moved. `None` where no constant stands for it.
 fn price(variant: &Variant, size: f64, problem: &Problem<'_>) -> Option<f64> {

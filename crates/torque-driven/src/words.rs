@@ -30,6 +30,35 @@ fn without_a_cause([calibrated, _, fault_free]: [f64; 3]) -> String {
     )
 }
 
+/// What is missing, a sentence for each likely effect. Of one that either side may have, both are told.
+fn missing(causes: &[&Cause]) -> Vec<String> {
+    let mut told: Vec<&str> = Vec::new();
+    let mut out = Vec::new();
+    for c in causes {
+        let sides: Vec<&&Cause> = causes.iter().filter(|other| other.effect == c.effect).collect();
+        let together = sides.iter().map(|s| s.probability).sum::<f64>().min(1.0);
+        if together <= SETTINGS.answer.likely || told.contains(&c.effect.as_str()) {
+            continue;
+        }
+
+        told.push(&c.effect);
+        let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
+        let p = probability(together);
+        let [first, second] = sides[..] else {
+            out.push(format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)));
+            continue;
+        };
+        out.push(format!(
+            "Missing: {}, {}, or {}, {}: these recordings do not tell which side (either: probability {p}).",
+            first.name,
+            quantity(first),
+            second.name,
+            quantity(second)
+        ));
+    }
+    out
+}
+
 /// The answer in sentences, the most important one first.
 pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
     let mut out = Vec::new();
@@ -62,12 +91,7 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
             out.push(judged.decision.why_unknown(what, calibrated));
         }
         Verdict::Explained => {
-            for c in causes.iter().filter(|c| c.probability > SETTINGS.answer.likely) {
-                let place =
-                    c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
-                let p = probability(c.probability);
-                out.push(format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)));
-            }
+            out.extend(missing(&causes));
             if out.is_empty()
                 && let Some(c) = causes.first()
             {
@@ -126,7 +150,34 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::without_a_cause;
+    use super::{missing, without_a_cause};
+    use verdict::Cause;
+
+    #[test]
+    fn an_effect_that_either_side_may_have_is_told_once_with_both_sides() {
+        let of = |effect: &str, name: &str, probability: f64, size: f64| Cause {
+            magnitude: Some(size),
+            sigma: Some(0.01),
+            unit: "-".into(),
+            ..Cause::plain(effect, name, probability)
+        };
+        let right = of("torque_constant_side", "torque constant of one side: right", 0.5, -0.13);
+        let left = of("torque_constant_side", "torque constant of one side: left", 0.49, 0.15);
+        let drag = of("quadratic_drag", "quadratic drag", 0.7, 3.0);
+        let told = missing(&[&drag, &right, &left]);
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(
+            told[0].starts_with("Missing: quadratic drag, ") && told[0].ends_with("(probability 0.70)."),
+            "{told:?}"
+        );
+        let both = &told[1];
+        assert!(
+            both.contains("right, -0.130") && both.contains("or torque constant of one side: left, 0.150"),
+            "{both}"
+        );
+        assert!(both.ends_with("do not tell which side (either: probability 0.99)."), "{both}");
+        assert!(missing(&[&of("grade", "sloping ground", 0.4, 0.1)]).is_empty());
+    }
 
     #[test]
     fn what_leaves_many_times_as_much_as_the_references_is_not_said_to_explain_recordings() {
