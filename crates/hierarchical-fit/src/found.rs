@@ -47,6 +47,8 @@ pub struct Began {
     pub drive: String,
     /// When, s from its start, with a 90 % interval; `None` between two drives.
     pub at: Option<(f64, [f64; 2])>,
+    /// The other drives in which it does so anew, and when.
+    pub anew: Vec<(String, (f64, [f64; 2]))>,
     /// Whether it ends there.
     pub ends: bool,
     /// Whether there are drives after it, or before it where it ends.
@@ -55,12 +57,20 @@ pub struct Began {
 
 impl std::fmt::Display for Began {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { drive, at, ends, others } = self;
+        let Self { drive, at, anew, ends, others } = self;
         let [to, rest] = if *ends { ["until", "before"] } else { ["from", "after"] };
+        let of = |drive: &str, at: f64, [least, most]: [f64; 2]| {
+            format!("{to} {at:.0} s of drive '{drive}' (90 %: {least:.0} to {most:.0} s)")
+        };
         match at {
-            Some((at, [least, most])) => {
-                write!(f, "it is there {to} {at:.0} s of drive '{drive}' (90 %: {least:.0} to {most:.0} s)")?;
-                if *others {
+            Some((at, interval)) => {
+                write!(f, "it is there {}", of(drive, *at, *interval))?;
+                for (drive, (at, interval)) in anew {
+                    write!(f, ", {}", of(drive, *at, *interval))?;
+                }
+                if !anew.is_empty() {
+                    f.write_str(", in each anew")?;
+                } else if *others {
                     write!(f, ", and in all drives {rest} it in the order of their names")?;
                 }
             }

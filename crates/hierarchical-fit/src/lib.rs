@@ -61,7 +61,7 @@ pub use rehearsable::{Hideable, Rehearsable, Told};
 pub use said::{Said, Unconfirmed, Unexplained, Valued, is_beyond_references};
 pub use sentences::{Wording, of_recordings};
 pub use session::{Marginal, Session, joint};
-pub use solve::{Solved, solve};
+pub use solve::{Solved, begun, solve};
 pub use table::{Column, Table, or_nan};
 pub use weigh::{Evidence, Posterior};
 

@@ -125,16 +125,13 @@ impl<D: Observed> Solved<D> {
     /// When a cause is there, by drive; nothing where it is there all the time.
     fn spans(&self, cause: usize) -> Vec<(String, [f64; 2])> {
         let Some(onset) = self.onset.as_ref().filter(|onset| onset.cause == cause) else { return Vec::new() };
-        let drives = self.data.drives.iter().enumerate();
-        drives.filter_map(|(k, d)| Some((d.name().to_owned(), onset.span(k, d.seconds())?))).collect()
+        onset.spans(self.data.drives.iter().map(|d| (d.name(), d.seconds())))
     }
 
     fn began(&self, cause: usize) -> Option<Began> {
         let onset = self.onset.as_ref().filter(|onset| onset.cause == cause)?;
-        let at = (onset.time > 0.0).then_some((onset.time, onset.interval));
-        let (drives, drive, ends) = (&self.data.drives, onset.drive(), onset.ends());
-        let others = if ends { drive > 0 } else { drive + 1 < drives.len() };
-        Some(Began { drive: drives.get(drive)?.name().to_owned(), at, ends, others })
+        let names: Vec<&str> = self.data.drives.iter().map(Observed::name).collect();
+        onset.began(&names)
     }
 
     /// Constants at an instant of a drive, s from its start, with what is named.

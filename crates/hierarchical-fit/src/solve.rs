@@ -135,6 +135,15 @@ fn with_onset<D: Observed>(
     }
 }
 
+/// A cause that begins or ends while drives go on, where that says more of them than what was named of them, and the answer with it.
+pub fn begun<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], named: &Named) -> Option<(Onset, Named)> {
+    let set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
+    let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+    let fit = fit(data, &wide, named.posterior.mean.as_slice().to_vec())?;
+    let (onset, named) = with_onset(data, prior, causes, (&fit, named.clone()));
+    Some((onset?, named))
+}
+
 /// What is told of an answer.
 fn told<D: Observed>(
     (data, prior, has_references): (&Data<D>, &Prior, bool),

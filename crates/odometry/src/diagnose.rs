@@ -12,21 +12,18 @@ use crate::doubt::without_what_little_shows;
 use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
-use crate::findings::{Findings, is_nothing_that_slips};
+use crate::findings::Findings;
 use crate::fit::{Fit, Prior, equations, fit, scatter};
-use crate::motion::Laws;
+use crate::motion::{Laws, implied};
 use crate::next_drive::{self, Found};
+use crate::onset;
+use crate::said::{findings, share};
 use crate::settings::SETTINGS;
 use crate::standing;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
-use hierarchical_fit::of_recordings;
-use hierarchical_fit::{
-    Answer, CaseError, Cause, Estimate, Evidence, Named, NamedCause, Posterior, Rehearsable, Weighed, covariance,
-    is_beyond_references, name_from, of_class,
-};
-use inference::robust::{NINETY, rms};
+use hierarchical_fit::{CaseError, Cause, Evidence, Named, Onset, Rehearsable, covariance, name_from, of_class};
 use verdict::Trace;
 
 /// Drives with the constants fitted to them, and what was named.
@@ -43,6 +40,8 @@ pub(crate) struct Solved {
     /// The answer without causes that little shows, where there are some.
     pub(crate) plainer: Option<Named>,
     pub(crate) lost: Vec<Lost>,
+    /// When one of the causes begins or ends, where it is not there all the time.
+    pub(crate) onset: Option<Onset>,
     /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
     pub(crate) left_of_references: Option<f64>,
 }
@@ -54,17 +53,46 @@ impl Solved {
         Some(Self { named, plainer: None, ..self.clone() })
     }
 
-    /// The laws as stated or as the references have them, re-tuned, and with the named causes.
-    pub(crate) fn laws(&self, robot: &WheeledRobot) -> [Laws; 3] {
+    /// The laws as stated or as the references have them, re-tuned, and with the named causes, as of a drive that was left out, from its place
+    /// among all.
+    pub(crate) fn laws_of_left_out(&self, robot: &WheeledRobot, place: usize) -> [Laws; 3] {
         let of = |theta: &DVector<f64>| laws(robot, &self.constants, theta.as_slice());
-        [of(&self.prior.mean), of(&self.named.retuned.mean), of(&self.named.posterior.mean)]
+        let is_off = |onset: &&Onset| !onset.acts_in_left_out(place);
+        let corrected = self.onset.as_ref().filter(is_off).map_or(&self.named.posterior.mean, |onset| &onset.off);
+        [of(&self.prior.mean), of(&self.named.retuned.mean), of(corrected)]
     }
 
-    /// A drive beside these simulations; the last only where a cause is named.
-    pub(crate) fn trace(&self, robot: &WheeledRobot, drive: &Drive, left_out: bool) -> Trace {
-        let [stated, retuned, corrected] = &self.laws(robot);
-        let corrected = (!self.named.chosen.is_empty()).then_some(corrected);
-        trace(robot, drive, [Some(stated), Some(retuned), corrected], left_out)
+    /// What counts alone say of a drive that was left out, by its place among all, as stated, re-tuned, and with the named causes. Of one that
+    /// begins or ends `when` says in which rows it is there, where a fit to all drives found it: how much is known of the others.
+    pub(crate) fn paths_of_left_out(
+        &self,
+        robot: &WheeledRobot,
+        (drive, place): (&Drive, usize),
+        when: Option<(&Onset, usize)>,
+    ) -> [Vec<[f64; 3]>; 3] {
+        let [stated, retuned, corrected] = self.laws_of_left_out(robot, place);
+        let own = self.onset.as_ref().zip(when).filter(|(own, (of_all, _))| own.cause == of_all.cause);
+        let with_causes = match own {
+            Some((own, (of_all, index))) => {
+                let of = |theta: &DVector<f64>| laws(robot, &self.constants, theta.as_slice());
+                let both = [&of(&self.named.posterior.mean), &of(&own.off)];
+                onset::path(robot, drive, both, |time| of_all.acts(index, time))
+            }
+            None => implied(robot, drive, &corrected),
+        };
+        [implied(robot, drive, &stated), implied(robot, drive, &retuned), with_causes]
+    }
+
+    /// A drive that it was fitted to beside these simulations; the last only where a cause is named.
+    pub(crate) fn trace(&self, robot: &WheeledRobot, drive: &Drive, index: usize) -> Trace {
+        let of = |theta: &DVector<f64>| laws(robot, &self.constants, theta.as_slice());
+        let path = |theta: &DVector<f64>| implied(robot, drive, &of(theta));
+        let named = &self.named.posterior.mean;
+        let corrected = (!self.named.chosen.is_empty()).then(|| match &self.onset {
+            Some(onset) => onset::path(robot, drive, [&of(named), &of(&onset.off)], |time| onset.acts(index, time)),
+            None => path(named),
+        });
+        trace(drive, [Some(path(&self.prior.mean)), Some(path(&self.named.retuned.mean)), corrected], false)
     }
 }
 
@@ -231,8 +259,12 @@ pub(crate) fn solve(
     if drives.iter().all(|drive| drive.heading_only) {
         named = plainer.take().unwrap_or(named);
     }
+    let mut begun = None;
+    if let Some((onset, with_it)) = onset::onset(&data, &prior, &causes, (fit.factors, &named)) {
+        (begun, named, plainer) = (Some(onset), with_it, None);
+    }
     drop(data);
-    Ok(Solved { stated, constants, causes, prior, fit, named, plainer, lost, left_of_references })
+    Ok(Solved { stated, constants, causes, prior, fit, named, plainer, lost, onset: begun, left_of_references })
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -291,101 +323,4 @@ fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> O
         None
     };
     Some((fit, class.unwrap_or(named)))
-}
-
-/// Root mean square error of the windows over the root mean square of their way and turning.
-pub(crate) fn share(data: &Data<'_>, theta: &DVector<f64>) -> (f64, f64) {
-    let errors = data.errors(theta.as_slice());
-    let used = |drive: usize| {
-        let all = data.windows[drive].iter().zip(&errors[drive]).zip(&data.dropped[drive]);
-        all.filter(|((w, _), dropped)| w.is_moving() && !**dropped).map(|(both, _)| both)
-    };
-    let all = || (0..errors.len()).flat_map(used);
-    let error = rms(all().flat_map(|(w, e)| w.measured(*e))).unwrap_or(0.0);
-    let way = rms(all().flat_map(|(w, _)| w.way())).unwrap_or(0.0);
-    (error, error / way.max(f64::MIN_POSITIVE))
-}
-
-fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Findings {
-    let Solved { constants, causes, prior, fit, named, lost, .. } = solved;
-    let estimates = |posterior: &Posterior| -> Vec<Estimate> {
-        (0..constants.len()).map(|k| estimate(&case.robot, &constants[k], prior, posterior, k)).collect()
-    };
-    let all = estimates(&named.posterior);
-    let retuned = estimates(&named.retuned);
-    let given = share(data, &prior.mean);
-    let tuned = share(data, &named.retuned.mean);
-    let best = share(data, &named.posterior.mean);
-
-    let of_cause = |weighed: &Weighed| {
-        let cause = &causes[weighed.cause];
-        NamedCause {
-            spec: cause.spec,
-            label: cause.label(),
-            probability: weighed.probability,
-            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
-            estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
-            intervals: Vec::new(),
-            onset: None,
-        }
-    };
-    let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
-    named_causes.extend(dropout::named(case, data, lost));
-
-    let rules = SETTINGS.unexplained;
-    let floor = data.pose_noise().max(SETTINGS.windows.floor);
-    let is_much = best.1 > rules.most || best.0 > rules.of_retuned * tuned.0;
-    let is_left = (best.1 > rules.share && is_much || is_beyond_references(best.1, solved.left_of_references))
-        && best.0 > rules.noise * floor;
-    let moved = retuned.iter().any(Estimate::is_moved);
-    let answer = if is_left || is_nothing_that_slips(&named_causes) {
-        Answer::Unknown
-    } else if !named_causes.is_empty() {
-        Answer::Named
-    } else if moved {
-        Answer::Retune
-    } else {
-        Answer::Nothing
-    };
-    let mut told: Vec<String> =
-        case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
-    told.sort();
-    let told = of_recordings(told);
-    Findings {
-        answer,
-        named: named_causes,
-        others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
-        constants: all,
-        rival: named.rival.map(|c| causes[c].label()),
-        retuned,
-        noise: fit.scale,
-        unconfirmed: None,
-        scatter: fit.factors.others,
-        shares: [given.1, tuned.1, best.1],
-        left_of_references: solved.left_of_references,
-        measured: Measured::by(case.recordings.iter()),
-        counts: [data.sessions.len(), data.drives.len(), data.windows.iter().map(Vec::len).sum()],
-        told,
-        traces: case.recordings.iter().map(|drive| solved.trace(&case.robot, drive, false)).collect(),
-        laws: solved.laws(&case.robot),
-        plainer: None,
-        solved: None,
-        next: None,
-    }
-}
-
-/// A constant in the words of the robot file: factors become lengths.
-fn estimate(robot: &WheeledRobot, constant: &Constant, prior: &Prior, posterior: &Posterior, k: usize) -> Estimate {
-    let sd = posterior.covariance[(k, k)].max(0.0).sqrt();
-    let sigmas = (posterior.mean[k] - prior.mean[k]) / prior.covariance[(k, k)].sqrt();
-    let (given, value, half_width) = match constant.quantity.multiplied(robot) {
-        Some(of) => {
-            let value = of * posterior.mean[k].exp();
-            let is_shape = matches!(constant.quantity, Quantity::TurnSlipRate | Quantity::TurnSlipPower);
-            let form = if is_shape { SETTINGS.slip.form } else { 0.0 };
-            (of * prior.mean[k].exp(), value, NINETY * sd.hypot(form) * value.abs())
-        }
-        None => (prior.mean[k], posterior.mean[k], NINETY * sd),
-    };
-    Estimate { name: constant.name.clone(), unit: constant.unit, given, value, half_width, sigmas }
 }

@@ -4,8 +4,8 @@ use catalogue::odometry::{CORNERING_SLIP, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
 use hierarchical_fit::{Cause, Evidence, Named, named_as};
 use nalgebra::DVector;
 
-use crate::diagnose::share;
 use crate::fit::{Fit, Prior, scatter};
+use crate::said::share;
 use crate::settings::SETTINGS;
 use crate::windows::Data;
 

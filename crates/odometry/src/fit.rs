@@ -6,10 +6,12 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::constants::Quantity;
+use crate::constants::{Constant, Quantity};
+use crate::drive::Drive;
 use crate::motion::implied;
 use crate::settings::SETTINGS;
-use crate::windows::Data;
+use crate::wheel::WheeledRobot;
+use crate::windows::{Data, Window, laws};
 use hierarchical_fit::{Evidence, Session, joint};
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
 
@@ -118,7 +120,7 @@ impl Problem for Windowed<'_, '_> {
     }
 
     fn parameters(&self, at: &Point) -> Vec<Parameter> {
-        let of = |(value, constant): (&f64, &crate::Constant)| Parameter {
+        let of = |(value, constant): (&f64, &Constant)| Parameter {
             longest: 2.0,
             ..Parameter::unbounded(*value, constant.usual)
         };
@@ -151,8 +153,7 @@ pub(crate) fn equations(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Sessi
                 continue;
             }
             let error = window.error(&path).map(|e| e / scale);
-            let square: f64 = error.iter().map(|e| e * e).sum::<f64>() / rules.outlier.powi(2);
-            let root = (1.0 + square).sqrt();
+            let root = root(error);
             session.cost += rules.outlier.powi(2) * (root - 1.0);
             let weight = 1.0 / root;
             for axis in 0..3 {
@@ -165,28 +166,48 @@ pub(crate) fn equations(data: &Data<'_>, theta: &[f64], scale: f64) -> Vec<Sessi
     out
 }
 
-/// Change of the errors of a drive's windows with each constant, by central differences.
+/// `√(1 + |e|²/k²)` of an error in sigmas.
+fn root(error: [f64; 3]) -> f64 {
+    let square: f64 = error.iter().map(|e| e * e).sum::<f64>() / SETTINGS.windows.outlier.powi(2);
+    (1.0 + square).sqrt()
+}
+
+/// What an error costs whose sigma is `scale`, nats.
+pub(crate) fn loss(error: [f64; 3], scale: f64) -> f64 {
+    SETTINGS.windows.outlier.powi(2) * (root(error.map(|e| e / scale)) - 1.0)
+}
+
+/// Change of the errors of a drive's windows with each constant.
 pub(crate) fn columns(data: &Data<'_>, theta: &[f64], drive: usize) -> Vec<Vec<[f64; 3]>> {
+    columns_of((data.robot, data.constants), (data.drives[drive], &data.windows[drive]), theta)
+}
+
+/// The same of any windows, by central differences.
+pub(crate) fn columns_of(
+    (robot, constants): (&WheeledRobot, &[Constant]),
+    (drive, windows): (&Drive, &[Window]),
+    theta: &[f64],
+) -> Vec<Vec<[f64; 3]>> {
     let of = |k: usize| {
-        let step = SETTINGS.windows.difference * data.constants[k].usual;
+        let step = SETTINGS.windows.difference * constants[k].usual;
         let at = |sign: f64| {
             let mut moved = theta.to_vec();
             moved[k] += sign * step;
-            implied(data.robot, data.drives[drive], &data.laws(&moved))
+            implied(robot, drive, &laws(robot, constants, &moved))
         };
         let (below, above) = (at(-1.0), at(1.0));
-        let difference = |w: &crate::windows::Window| {
+        let difference = |w: &Window| {
             let (a, b) = (w.error(&above), w.error(&below));
             [0, 1, 2].map(|axis| (a[axis] - b[axis]) / (2.0 * step))
         };
-        data.windows[drive].iter().map(difference).collect()
+        windows.iter().map(difference).collect()
     };
     (0..theta.len()).into_par_iter().map(of).collect()
 }
 
 /// Sigmas of the deviations of sessions.
 pub(crate) fn scatter(data: &Data<'_>, factors: Factors) -> DVector<f64> {
-    let of = |c: &crate::Constant| c.scatter * factors.of(&c.quantity);
+    let of = |c: &Constant| c.scatter * factors.of(&c.quantity);
     DVector::from_iterator(data.constants.len(), data.constants.iter().map(of))
 }
 

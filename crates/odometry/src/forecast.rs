@@ -1,9 +1,8 @@
 //! Pose from counts alone on drives that no fit has seen.
 
 use crate::drive::Drive;
-use crate::motion::{Laws, implied, relative};
+use crate::motion::relative;
 use crate::settings::SETTINGS;
-use crate::wheel::WheeledRobot;
 use crate::windows::windows;
 use inference::robust::median;
 
@@ -33,9 +32,8 @@ impl Errors {
 /// Lengths of forecasts, s.
 pub const LENGTHS: [f64; 3] = SETTINGS.forecast.lengths;
 
-/// Errors of forecasts of each of [`LENGTHS`], beginning every second.
-pub(crate) fn forecast(robot: &WheeledRobot, drive: &Drive, laws: &Laws) -> [Errors; 3] {
-    let path = implied(robot, drive, laws);
+/// Errors of forecasts of each of [`LENGTHS`], beginning every second, by what counts alone say of a drive.
+pub(crate) fn forecast(drive: &Drive, path: &[[f64; 3]]) -> [Errors; 3] {
     LENGTHS.map(|length| {
         let mut out = Errors::default();
         for window in windows(drive, length, SETTINGS.forecast.every) {

@@ -7,9 +7,10 @@ use crate::drive::Drive;
 use crate::error::OdometryError;
 use crate::findings::Findings;
 use crate::forecast::{Errors, LENGTHS, forecast};
-use crate::motion::Laws;
+use crate::motion::{Laws, implied};
 use crate::rivals::{RIVALS, Rival};
 use crate::settings::SETTINGS;
+use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::laws;
 use hierarchical_fit::telling::free_runs;
@@ -63,15 +64,17 @@ pub fn left_out(case: &Case, found: &Findings, progress: &dyn Fn(&str)) -> Resul
     progress("forecasting what is left out in turn");
     let start = Start { clock, of: found.solved.as_deref() };
     let fold = |left: String| -> Result<Fold<'_>, OdometryError> {
-        let (drives, rest): (Vec<&Drive>, Vec<&Drive>) = case.recordings.iter().partition(|d| key(d) == left);
+        let (drives, rest): (Vec<_>, Vec<_>) = case.recordings.iter().enumerate().partition(|(_, d)| key(d) == left);
+        let rest: Vec<&Drive> = rest.into_iter().map(|(_, drive)| drive).collect();
         let solved = solve(&case.robot, &case.references, &rest, &start)?;
         let placed: Vec<&Drive> = rest.iter().copied().filter(|drive| !drive.heading_only).collect();
         let calibrated = |rival: &Rival| if placed.is_empty() { None } else { rival(&case.robot, &placed) };
         let rivals = RIVALS.iter().map(|(_, rival)| calibrated(rival)).collect();
-        Ok(Fold { left, drives, solved, rivals })
+        let place = drives.first().map_or(0, |(place, _)| *place);
+        Ok(Fold { left, drives, place, solved, rivals })
     };
     let mut folds = keys.into_par_iter().map(fold).collect::<Result<Vec<Fold<'_>>, OdometryError>>()?;
-    let table = of_folds(&case.robot, &folds);
+    let table = of_folds(&case.robot, &folds, start.of);
     if found.plainer.is_none() {
         return Ok(table);
     }
@@ -80,47 +83,53 @@ pub fn left_out(case: &Case, found: &Findings, progress: &dyn Fn(&str)) -> Resul
             fold.solved = plainer;
         }
     }
-    let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds) };
+    let plainer = Table { is_plainer: true, ..of_folds(&case.robot, &folds, start.of) };
     Ok(if table.is_better_than(&plainer) { table } else { plainer })
 }
 
 /// A session that is left out, and the fit of the others.
 struct Fold<'a> {
     left: String,
-    drives: Vec<&'a Drive>,
+    /// The drives of it, with their places among all.
+    drives: Vec<(usize, &'a Drive)>,
+    /// How many of the others come before it.
+    place: usize,
     solved: Solved,
     /// Classical calibrations on the others.
     rivals: Vec<Option<Laws>>,
 }
 
-/// Forecasts of what folds leave out.
-fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>]) -> Table {
+/// Forecasts of what folds leave out; `whole`: the fit to all drives.
+fn of_folds(robot: &WheeledRobot, folds: &[Fold<'_>], whole: Option<&Solved>) -> Table {
     let mut out = Table { sessions: folds.len(), ..Table::default() };
     let mut names: Vec<String> = OURS.iter().map(|n| (*n).to_owned()).collect();
     names.extend(RIVALS.iter().map(|(name, _)| (*name).to_owned()));
     let mut sums: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
-    for Fold { left, drives, solved, rivals } in folds {
+    for Fold { left, drives, place, solved, rivals } in folds {
         let labels = solved.named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect();
         let placebo = solved.named.placebo.as_ref();
         let placebo = placebo.map(|(_, p)| laws(robot, &solved.constants, p.mean.as_slice()));
-        let mut models: Vec<Option<Laws>> = solved.laws(robot).into_iter().map(Some).chain([placebo]).collect();
-        models.extend(rivals.iter().cloned());
-        let errors: Vec<[Errors; 3]> = models
-            .iter()
-            .map(|model| {
-                let mut sum: [Errors; 3] = Default::default();
-                for (drive, laws) in drives.iter().filter_map(|d| Some((d, model.as_ref()?))) {
-                    sum.iter_mut().zip(forecast(robot, drive, laws)).for_each(|(s, e)| s.extend(e));
-                }
-                sum
-            })
-            .collect();
+        let others: Vec<Option<&Laws>> =
+            std::iter::once(placebo.as_ref()).chain(rivals.iter().map(Option::as_ref)).collect();
+        let mut errors: Vec<[Errors; 3]> = vec![Default::default(); names.len()];
+        for (index, drive) in drives {
+            let when = whole.and_then(|whole| whole.onset.as_ref()).map(|onset| (onset, *index));
+            let ours = solved.paths_of_left_out(robot, (drive, *place), when);
+            let of_others = others.iter().map(|laws| laws.map(|laws| implied(robot, drive, laws)));
+            let paths = { ours.iter().cloned() }.map(Some).chain(of_others);
+            for (sum, path) in errors.iter_mut().zip(paths) {
+                let Some(path) = path else { continue };
+                sum.iter_mut().zip(forecast(drive, &path)).for_each(|(s, e)| s.extend(e));
+            }
+            let [stated, retuned, corrected] = ours;
+            let corrected = (!solved.named.chosen.is_empty()).then_some(corrected);
+            out.traces.push(trace(drive, [Some(stated), Some(retuned), corrected], true));
+        }
         for (sum, e) in sums.iter_mut().zip(&errors) {
             sum.iter_mut().zip(e.clone()).for_each(|(s, e)| s.extend(e));
         }
         out.by_session.push((left.clone(), errors));
         out.named.push(labels);
-        out.traces.extend(drives.iter().map(|drive| solved.trace(robot, drive, true)));
     }
     out.rows = names.into_iter().zip(sums).collect();
     out

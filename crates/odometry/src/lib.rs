@@ -13,7 +13,8 @@
 //! * `clock`, `dropout`, `standing`: clocks that start or run apart, counts that were lost, columns that stand still.
 //! * `forecast`, `rivals/*`: pose from counts alone on drives left out, beside the classical calibrations.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
-//! * `findings`: what the drives of a case say, as plain data.
+//! * `findings`, `said`: what the drives of a case say, as plain data, and how it follows from a fit.
+//! * `onset`: a cause that begins or ends while the drives go on.
 //! * `doubt`: causes that evidence names and that explain little.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `next_drive`: drives of the menu as the robot would drive them, and what they would say.
@@ -44,9 +45,11 @@ mod left_out;
 mod lost_pose;
 mod motion;
 mod next_drive;
+mod onset;
 pub mod rates;
 mod rehearsable;
 mod rivals;
+mod said;
 mod settings;
 mod simulate;
 mod standing;

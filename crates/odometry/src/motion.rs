@@ -214,6 +214,11 @@ pub(crate) fn relative(from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
     [cos * dx + sin * dy, cos * dy - sin * dx, to[2] - from[2]]
 }
 
+/// A pose after the motion between two others.
+pub(crate) fn moved_on(pose: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+    placed(pose, relative(from, to))
+}
+
 /// The pose that is seen from pose `from` as `seen`: the inverse of [`relative`].
 pub(crate) fn placed([x, y, yaw]: [f64; 3], seen: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = yaw.sin_cos();

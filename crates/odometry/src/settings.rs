@@ -306,6 +306,14 @@
         nats: f64 = 3.0, "nats", "guess; a wheel that is blocked and slides stands still as well";
     }
 
+    /// When a cause begins or ends.
+    onset: Onsets {
+        /// How far about an instant that is known to a window others are tried.
+        reach: f64 = 8.0, "s", "two windows";
+        /// Step of these.
+        step: f64 = 0.25, "s", "guess; a body hardly moves in less";
+    }
+
     /// Clocks of counts and pose before any fit.
     clock: Clock {
         /// Largest rate that is tried, and its step.

@@ -4,7 +4,7 @@ use verdict::{ErrorAhead, SimulatedPath};
 
 use crate::drive::Drive;
 use crate::forecast::{LENGTHS, forecast};
-use crate::motion::Laws;
+use crate::motion::{Laws, implied};
 use crate::traces::predicted;
 use crate::wheel::WheeledRobot;
 
@@ -17,6 +17,6 @@ pub fn simulate(robot: &WheeledRobot, drive: &Drive) -> SimulatedPath {
         name: drive.name.clone(),
         time: drive.time.clone(),
         pose: predicted(robot, drive, &laws),
-        ahead: ErrorAhead::of(LENGTHS, forecast(robot, drive, &laws).map(|e| e.medians())),
+        ahead: ErrorAhead::of(LENGTHS, forecast(drive, &implied(robot, drive, &laws)).map(|e| e.medians())),
     }
 }

@@ -35,11 +35,10 @@ fn begun(drive: &Drive, row: usize) -> [f64; 3] {
     if drive.heading_only { [0.0, 0.0, yaw] } else { [x, y, yaw] }
 }
 
-/// A drive beside what counts alone say under each of these laws: as stated, re-tuned, corrected.
-pub(crate) fn trace(robot: &WheeledRobot, drive: &Drive, laws: [Option<&Laws>; 3], left_out: bool) -> Trace {
+/// A drive beside these paths from its counts alone: as stated, re-tuned, corrected.
+pub(crate) fn trace(drive: &Drive, paths: [Option<Vec<[f64; 3]>>; 3], left_out: bool) -> Trace {
     let starts = starts(drive);
-    let of = |laws: &Laws| -> Vec<[f64; 3]> {
-        let path = implied(robot, drive, laws);
+    let of = |path: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
         let mut out = vec![[f64::NAN; 3]; path.len()];
         for (k, &start) in starts.iter().enumerate() {
             let end = starts.get(k + 1).copied().unwrap_or(path.len());
@@ -49,7 +48,7 @@ pub(crate) fn trace(robot: &WheeledRobot, drive: &Drive, laws: [Option<&Laws>; 3
         }
         out
     };
-    let simulated = laws.map(|laws| laws.map(of).unwrap_or_default());
+    let simulated = paths.map(|path| path.map(of).unwrap_or_default());
     Beside { recording: &drive.name, left_out, time: drive.time.clone(), measured: &drive.pose, starts, simulated }
         .trace()
 }

@@ -271,3 +271,46 @@ fn a_little_slip_stands_only_where_drives_that_are_left_out_confirm_it() {
     assert_eq!(after(&case), (slip.clone(), vec![]));
     assert_eq!(after(&behind_in_fast_turns(0.06, 0.04)), (slip, vec![]), "with it nothing is forecast better");
 }
+
+/// A differential drive whose left wheel is so many times as large from an instant of each drive on, s from its start, where there is one.
+fn smaller_from(factor: f64, from: &[Option<f64>]) -> Case {
+    let mut case = drawn(Kind::Differential, Hidden::Nothing, from.len(), 60.0, 21).case;
+    for (drive, from) in case.recordings.iter_mut().zip(from) {
+        let start = drive.time[0];
+        for (time, turns) in drive.time.iter().zip(&mut drive.turns) {
+            if from.is_some_and(|from| time - start >= from) {
+                turns[0] /= factor;
+            }
+        }
+    }
+    case
+}
+
+#[test]
+fn a_wheel_that_shrinks_while_the_robot_drives_is_told_with_its_instants() {
+    let told = |from: &[Option<f64>]| {
+        let case = smaller_from(0.94, from);
+        let findings = diagnose(&case, &|_| {}).expect("findings");
+        let table = left_out(&case, &findings, &|_| {}).expect("forecasts");
+        let out = findings.after(&table).named;
+        assert_eq!(out.iter().map(|c| c.label.as_str()).collect::<Vec<_>>(), ["radius_of_one_wheel (left)"]);
+        out.into_iter().next().expect("a cause")
+    };
+    let lost = |cause: &hierarchical_fit::NamedCause| 1.0 - cause.estimates[0].value / cause.estimates[0].given;
+
+    let once = told(&[None, Some(31.0), Some(0.0), Some(0.0)]);
+    assert!((lost(&once) - 0.06).abs() < 0.006, "{:?}", once.estimates);
+    assert_eq!(once.intervals.len(), 3, "{:?}", once.intervals);
+    let began = once.onset.as_ref().expect("an onset");
+    let (at, [least, most]) = began.at.expect("within the second drive");
+    assert!((at - 31.0).abs() < 1.5 && least < 31.5 && most > 30.5, "{at} [{least}, {most}]");
+
+    let anew = told(&[Some(31.0), Some(22.0), Some(31.0), Some(40.0)]);
+    assert!((lost(&anew) - 0.06).abs() < 0.006, "{:?}", anew.estimates);
+    let starts: Vec<f64> = anew.intervals.iter().map(|(_, [from, _])| *from).collect();
+    assert_eq!(starts.len(), 4, "{:?}", anew.intervals);
+    for (start, truth) in starts.iter().zip([31.0, 22.0, 31.0, 40.0]) {
+        assert!((start - truth).abs() < 1.5, "{starts:?}");
+    }
+    assert_eq!(anew.onset.map(|began| began.anew.len()), Some(3));
+}

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::cause::Cause;
 use crate::name::less;
 use crate::onset::Instants;
+use crate::onset::courses::Course;
 use crate::settings::SETTINGS;
-use crate::stretches::Stretch;
 
 /// What may be: causes that are always there, and one that begins, or ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,10 +14,13 @@ pub(crate) struct Hypothesis {
     pub(crate) always: Vec<usize>,
     pub(crate) cause: usize,
     pub(crate) ends: bool,
+    /// Whether it does so in each drive anew.
+    pub(crate) anew: bool,
 }
 
-/// What may be in the place of a set of causes, or beside it.
-pub(crate) fn hypotheses(causes: usize, set: &[usize]) -> Vec<Hypothesis> {
+/// What may be in the place of a set of causes, or beside it, in so many drives.
+pub(crate) fn hypotheses(causes: usize, set: &[usize], drives: usize) -> Vec<Hypothesis> {
+    let once_or_anew = if drives > 1 { vec![false, true] } else { vec![false] };
     let mut out = Vec::new();
     for cause in 0..causes {
         let mut rests = vec![Vec::new(), less(set, cause)];
@@ -25,27 +28,20 @@ pub(crate) fn hypotheses(causes: usize, set: &[usize]) -> Vec<Hypothesis> {
         rests.sort();
         rests.dedup();
         for always in rests {
-            out.extend([false, true].map(|ends| Hypothesis { always: always.clone(), cause, ends }));
+            let forms = once_or_anew.iter().flat_map(|&anew| [false, true].map(|ends| (anew, ends)));
+            out.extend(forms.map(|(anew, ends)| Hypothesis { always: always.clone(), cause, ends, anew }));
         }
     }
     out
 }
 
-/// Where a cause may begin or end in these drives.
-pub(crate) fn borders(drives: &[Vec<Stretch>]) -> Vec<[usize; 2]> {
-    let rules = SETTINGS.onset;
-    let all = drives.iter().enumerate().flat_map(|(k, d)| (0..d.len()).map(move |from| [k, from]));
-    let all: Vec<[usize; 2]> = all.collect();
-    let least = (rules.least / rules.coarse).round() as usize;
-    let until = all.len().saturating_sub(least);
-    all.get(least..until).map(<[[usize; 2]]>::to_vec).unwrap_or_default()
-}
-
-/// Instants beside which the others hardly count.
-pub(crate) fn likely(instants: &Instants) -> Vec<[usize; 2]> {
+/// Courses beside which the others hardly count, the best first.
+pub(crate) fn likely(instants: &Instants) -> Vec<Course> {
     let most = instants.iter().map(|(score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
-    let is_likely = |(score, _): &&(f64, [usize; 2])| *score > most - SETTINGS.onset.likely;
-    instants.iter().filter(is_likely).map(|(_, at)| *at).collect()
+    let mut kept: Vec<&(f64, Course)> =
+        instants.iter().filter(|(score, _)| *score > most - SETTINGS.onset.likely).collect();
+    kept.sort_by(|a, b| b.0.total_cmp(&a.0));
+    kept.into_iter().map(|(_, course)| course.clone()).collect()
 }
 
 /// Directions of a cause, one in each column, and the variances along them.

@@ -1,5 +1,6 @@
 //! When a cause is there that begins or ends while the drives go on.
 
+mod courses;
 mod hypotheses;
 mod scan;
 pub(crate) mod search;
@@ -7,56 +8,55 @@ mod told;
 
 use nalgebra::DVector;
 
+use crate::found::Began;
 use crate::observed::Row;
+use courses::Course;
 
-/// Evidence of instants, nats: of a drive, and the stretch of it from which on all is otherwise.
-pub(crate) type Instants = Vec<(f64, [usize; 2])>;
+/// Evidence of courses, nats.
+pub(crate) type Instants = Vec<(f64, Course)>;
 
-/// The border from which on a cause is there, or no longer is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The borders from which on a cause is there, or no longer is.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Gate {
-    /// The drive, by its place among the drives.
-    pub(crate) drive: usize,
-    /// When rows become known, s from the start of that drive, whose windows hold nothing of before.
-    pub(crate) known: f64,
+    /// Of each drive when rows become known, s from its start, whose windows hold nothing of before: 0 where all of it comes after, and
+    /// infinity where nothing does.
+    pub(crate) known: Vec<f64>,
     /// Whether the cause ends there.
     pub(crate) ends: bool,
 }
 
 impl Gate {
     /// Whether the cause is there in the window of a row that became known at an instant of a drive.
-    pub(crate) fn acts(self, drive: usize, known: f64) -> bool {
-        ((drive, known) >= (self.drive, self.known)) != self.ends
+    pub(crate) fn acts(&self, drive: usize, known: f64) -> bool {
+        (known >= self.known[drive]) != self.ends
     }
 
     /// Numbers of the rows of a drive where the cause is there, and of the others where it is not.
-    pub(crate) fn chosen(self, drive: usize, rows: &[Row], on: &[f64], off: &[f64]) -> Vec<f64> {
+    pub(crate) fn chosen(&self, drive: usize, rows: &[Row], on: &[f64], off: &[f64]) -> Vec<f64> {
         let of = |((row, on), off): ((&Row, &f64), &f64)| if self.acts(drive, row.time) { *on } else { *off };
         rows.iter().zip(on).zip(off).map(of).collect()
     }
 }
 
-/// When a cause begins, or ends.
+/// When a cause begins, or ends: once, or in several drives anew.
 #[derive(Debug, Clone)]
 pub struct Onset {
     /// Index among the causes.
     pub cause: usize,
-    /// When, s from the start of its drive; 0 where it is between two drives.
-    pub time: f64,
-    /// 90 % interval of it, as far as it lies within that drive.
-    pub interval: [f64; 2],
+    /// Of each drive when it does so within it, s from its start, with a 90 % interval.
+    pub changes: Vec<Option<(f64, [f64; 2])>>,
     /// Constants where it is not there.
     pub off: DVector<f64>,
     /// Factor on the usual scatter of constants between drives.
     pub factor: f64,
-    /// In which drive it begins or ends, and in which row.
+    /// In which rows it does.
     pub(crate) gate: Gate,
 }
 
 impl Onset {
-    /// The drive in which it begins, or ends, by its place among the drives.
+    /// The first drive in which it begins, or ends, by its place among the drives.
     pub fn drive(&self) -> usize {
-        self.gate.drive
+        self.gate.known.iter().position(|known| known.is_finite()).unwrap_or(self.gate.known.len())
     }
 
     /// Whether it ends there.
@@ -64,25 +64,45 @@ impl Onset {
         self.gate.ends
     }
 
-    /// Whether the cause is there at an instant of a drive.
-    pub fn acts(&self, drive: usize, time: f64) -> bool {
-        Gate { known: self.time, ..self.gate }.acts(drive, time)
+    /// Whether it does so in several drives anew.
+    pub fn is_anew(&self) -> bool {
+        self.changes.iter().flatten().count() > 1
     }
 
-    /// Whether it is there in a drive that was left out, from whose place on the others follow it.
+    /// Whether the cause is there at an instant of a drive.
+    pub fn acts(&self, drive: usize, time: f64) -> bool {
+        let changed = self.changes[drive].map_or(self.gate.known[drive] <= 0.0, |(at, _)| time >= at);
+        changed != self.ends()
+    }
+
+    /// Whether it is there in a drive that was left out, from whose place on the others follow it. Of one that begins anew in each drive
+    /// it is not known when: it is taken to have begun.
     pub fn acts_in_left_out(&self, place: usize) -> bool {
-        (place > self.drive()) != self.ends()
+        (self.is_anew() || place > self.drive()) != self.ends()
     }
 
     /// From when to when it is there in a drive that is so long, s.
     pub fn span(&self, drive: usize, length: f64) -> Option<[f64; 2]> {
-        let is_inside = drive == self.drive() && self.time > 0.0;
-        match (self.acts(drive, 0.0), is_inside) {
-            (true, true) => Some([0.0, self.time.min(length)]),
-            (true, false) => Some([0.0, length]),
-            (false, true) => Some([self.time.min(length), length]),
-            (false, false) => None,
+        match (self.acts(drive, 0.0), self.changes[drive]) {
+            (true, Some((at, _))) => Some([0.0, at.min(length)]),
+            (true, None) => Some([0.0, length]),
+            (false, Some((at, _))) => Some([at.min(length), length]),
+            (false, None) => None,
         }
+    }
+
+    /// The same of all drives, by their names and lengths, s.
+    pub fn spans<'a>(&self, drives: impl Iterator<Item = (&'a str, f64)>) -> Vec<(String, [f64; 2])> {
+        drives.enumerate().filter_map(|(k, (name, length))| Some((name.to_owned(), self.span(k, length)?))).collect()
+    }
+
+    /// The same for people, of drives of these names.
+    pub fn began(&self, names: &[&str]) -> Option<Began> {
+        let first = self.drive();
+        let inside = self.changes.iter().zip(names).enumerate().filter(|(k, _)| *k != first);
+        let anew = inside.filter_map(|(_, (change, name))| Some(((*name).to_owned(), (*change)?))).collect();
+        let others = if self.ends() { first > 0 } else { first + 1 < names.len() };
+        Some(Began { drive: (*names.get(first)?).to_owned(), at: self.changes[first], anew, ends: self.ends(), others })
     }
 }
 
@@ -118,17 +138,18 @@ mod tests {
             let solved = solved([[before; 2], [before, after], [after; 2]].map(|s| Scaled::changing(s, 12.0)).into());
             let onset = solved.onset.as_ref().expect("an onset");
             // The first row with it became known after 12 s, and tells of a window before.
-            assert_eq!((onset.drive(), onset.ends()), (1, ends));
-            assert_relative_eq!(onset.time, 11.4, epsilon = 1e-9);
-            assert!(onset.interval[0] < 11.0 && onset.interval[1] > 12.0, "{:?}", onset.interval);
+            assert_eq!((onset.drive(), onset.ends(), onset.is_anew()), (1, ends, false));
+            let (time, interval) = onset.changes[1].expect("within the second drive");
+            assert_relative_eq!(time, 11.4, epsilon = 1e-9);
+            assert!(interval[0] < 11.0 && interval[1] > 12.0, "{interval:?}");
             assert_relative_eq!(onset.off[0], 0.0, epsilon = 0.01);
             assert_relative_eq!(solved.named.posterior.mean[0], 1.5_f64.ln(), epsilon = 0.01);
 
             let spans = [0, 1, 2].map(|drive| onset.span(drive, 20.0));
             let expected = if ends {
-                [Some([0.0, 20.0]), Some([0.0, onset.time]), None]
+                [Some([0.0, 20.0]), Some([0.0, time]), None]
             } else {
-                [None, Some([onset.time, 20.0]), Some([0.0, 20.0])]
+                [None, Some([time, 20.0]), Some([0.0, 20.0])]
             };
             assert_eq!(spans, expected);
             let is_on = |drive: usize, time: f64| solved.corrected(drive, time)[0] > 0.2;
@@ -137,7 +158,7 @@ mod tests {
             let without = solved.without(1).expect("a fold");
             let of_left_out = |s: &Solved<Scaled>, place: usize| s.corrected_of_left_out(place)[0] > 0.2;
             // Between two drives it is not known when.
-            assert!(without.onset.as_ref().is_some_and(|onset| onset.time == 0.0 && onset.drive() == 1));
+            assert!(without.onset.as_ref().is_some_and(|onset| onset.changes == [None, None] && onset.drive() == 1));
             assert_eq!([of_left_out(&without, 0), of_left_out(&without, 2)], [ends, !ends]);
         }
     }
@@ -149,6 +170,21 @@ mod tests {
             assert!(solved.onset.is_none(), "{:?}", solved.onset);
             assert_eq!(solved.named.chosen.len(), usize::from(scale > 1.0));
         }
+    }
+
+    #[test]
+    fn a_cause_that_begins_in_each_drive_anew_is_found_in_each() {
+        let at = [6.0, 12.0, 9.0];
+        let solved = solved(at.map(|from| Scaled::changing([1.0, 1.5], from)).into());
+        let onset = solved.onset.as_ref().expect("an onset");
+        assert!(onset.is_anew() && !onset.ends());
+        for (drive, from) in at.into_iter().enumerate() {
+            let (time, _) = onset.changes[drive].expect("within each drive");
+            assert_relative_eq!(time, from - 0.6, epsilon = 1e-9);
+            assert_eq!(onset.span(drive, 20.0), Some([time, 20.0]));
+        }
+        assert_relative_eq!(solved.named.posterior.mean[0], 1.5_f64.ln(), epsilon = 0.01);
+        assert!(solved.corrected_of_left_out(1)[0] > 0.2);
     }
 
     #[test]
@@ -169,7 +205,10 @@ mod tests {
 
     #[test]
     fn what_is_told_of_an_onset_names_drive_and_instant() {
-        let began = |at, ends, others| crate::found::Began { drive: "b".to_owned(), at, ends, others }.to_string();
+        let began = |at, ends, others| {
+            let anew = Vec::new();
+            crate::found::Began { drive: "b".to_owned(), at, anew, ends, others }.to_string()
+        };
         let at = Some((12.0, [11.4, 12.6]));
         assert_eq!(began(at, false, false), "it is there from 12 s of drive 'b' (90 %: 11 to 13 s)");
         assert!(began(at, false, true).ends_with(", and in all drives after it in the order of their names"));

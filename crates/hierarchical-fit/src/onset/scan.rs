@@ -8,6 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::onset::Instants;
+use crate::onset::courses::{self, Course};
 use crate::session::Session;
 use crate::stretches::{Stretch, difference, sums};
 use crate::weigh::Evidence;
@@ -106,28 +107,28 @@ impl Scan {
         Some(Always { evidence, covariance: self.evidence.posterior(known)?.covariance })
     }
 
-    /// Evidence of each of these instants, with the drive and the stretch from which on all is otherwise, of a cause of these directions
-    /// and variances that begins, or ends, there.
+    /// Evidence of each of these courses, or of those that change anew in each drive, of a cause of these directions and variances that
+    /// begins, or ends, there.
     pub(crate) fn instants(
         &self,
-        borders: &[[usize; 2]],
+        series: &[Course],
         (directions, variances): &(DMatrix<f64>, DVector<f64>),
         always: &Always,
-        ends: bool,
+        (ends, anew): (bool, bool),
     ) -> Option<Instants> {
         let (n, m) = directions.shape();
-        let whole: Vec<Acting> = self.drives.iter().map(|d| d.acting(d.whole(), directions)).collect();
+        // What each drive adds where all is otherwise from each of its stretches on.
+        let of_drive = |drive: &Drive| -> Vec<Acting> {
+            let rows = |sum: &Session| if ends { sum.clone() } else { difference(drive.whole(), sum) };
+            drive.sums.iter().map(|sum| drive.acting(&rows(sum), directions)).collect()
+        };
+        let added: Vec<Vec<Acting>> = self.drives.iter().map(of_drive).collect();
         // By how much the slope of the constants pulls at the cause.
         let pulls = &always.covariance * self.evidence.slope();
         let known = DMatrix::from_diagonal(&variances.map(|v| 1.0 / v));
-        let of = |&[drive, from]: &[usize; 2]| {
-            let own = &self.drives[drive];
-            let rows = if ends { own.sums[from].clone() } else { difference(own.whole(), &own.sums[from]) };
+        let score = |course: &Course| {
             let mut acting = Acting::of_nothing(n, m);
-            acting.add(&own.acting(&rows, directions));
-            let others = if ends { 0..drive } else { drive + 1..whole.len() };
-            whole[others].iter().for_each(|other| acting.add(other));
-
+            course.iter().zip(&added).for_each(|(from, added)| acting.add(&added[*from]));
             let held = &always.covariance * &acting.coupling;
             let curvature = &known + acting.curvature - acting.coupling.transpose() * held;
             let slope = acting.slope + acting.coupling.transpose() * (&self.back - &pulls);
@@ -136,8 +137,18 @@ impl Scan {
             let slope = scaled * slope;
             let half_log_determinant: f64 = cholesky.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
             let gain = 0.5 * slope.dot(&cholesky.solve(&slope)) - half_log_determinant;
-            Some((always.evidence + gain, [drive, from]))
+            Some(always.evidence + gain)
         };
-        borders.iter().map(of).collect()
+        let once = series.iter().map(|course| Some((score(course)?, course.clone()))).collect::<Option<Instants>>()?;
+        if !anew {
+            return Some(once);
+        }
+        let (_, best) = once.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        courses::anew(&self.lengths(), &best, score)
+    }
+
+    /// Number of stretches of each drive.
+    fn lengths(&self) -> Vec<usize> {
+        self.drives.iter().map(|drive| drive.sums.len() - 1).collect()
     }
 }

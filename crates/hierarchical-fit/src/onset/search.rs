@@ -4,6 +4,9 @@
 //! its directions and `u ~ N(0, usual²)`, the equations of stretches about both give the evidence of every instant at which it may begin
 //! or end; the instant is summed over.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -13,7 +16,8 @@ use crate::descent::sessions;
 use crate::fit::Fit;
 use crate::name::{Named, covariance, score};
 use crate::observed::Observed;
-use crate::onset::hypotheses::{Hypothesis, borders, directions, hypotheses, likely};
+use crate::onset::courses::{self, Course, in_series, sum_anew};
+use crate::onset::hypotheses::{Hypothesis, directions, hypotheses, likely};
 use crate::onset::scan::Scan;
 use crate::onset::told::when;
 use crate::onset::{Instants, Onset};
@@ -60,8 +64,10 @@ pub(super) struct Sought<'a, D: Observed> {
     pub(super) prior: &'a Prior,
     pub(super) causes: &'a [Cause],
     fit: &'a Fit,
-    /// Where a cause may begin or end: a drive, and its stretch from which on all is otherwise.
-    borders: Vec<[usize; 2]>,
+    /// Number of stretches of each drive.
+    lengths: Vec<usize>,
+    /// Where a cause may begin or end once.
+    series: Vec<Course>,
 }
 
 /// Looks for a cause that begins or ends, where that says more of the drives than what was named; the answer with it.
@@ -73,13 +79,14 @@ pub(crate) fn onset<D: Observed>(
 ) -> Option<(Onset, Named)> {
     let rules = SETTINGS.onset;
     let own = stretches(data, &fit.theta, &fit.own, (fit.noise, rules.coarse));
-    let sought = Sought { data, prior, causes, fit, borders: borders(&own) };
+    let lengths: Vec<usize> = own.iter().map(Vec::len).collect();
+    let sought = Sought { data, prior, causes, fit, series: in_series(&lengths), lengths };
     let set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
     let always = sought.always(&set, &fit.sessions)?;
 
     // By the equations about the fit first, then each of the best by its own.
     let about = Equations { off: own.clone(), on: own, theta: DVector::from_column_slice(&fit.theta), moved: None };
-    let found = sought.scanned(&hypotheses(causes.len(), &set), &about, always)?;
+    let found = sought.scanned(&hypotheses(causes.len(), &set, data.drives.len()), &about, always)?;
     let refined: Vec<(Weighted, Noise)> =
         found.into_par_iter().filter_map(|weighted| sought.refined(weighted)).collect();
 
@@ -115,8 +122,8 @@ fn of_factor(factor: f64) -> f64 {
 
 impl<D: Observed> Sought<'_, D> {
     /// Evidence of a hypothesis by these equations, under the more probable of the fitted scatter of drives and the usual one.
-    fn weighed(&self, hypothesis: &Hypothesis, about: &Equations, borders: &[[usize; 2]]) -> Option<Weighted> {
-        let of = |factor: f64| self.weighed_under(hypothesis.clone(), about, borders, factor);
+    fn weighed(&self, hypothesis: &Hypothesis, about: &Equations, courses: &[Course]) -> Option<Weighted> {
+        let of = |factor: f64| self.weighed_under(hypothesis.clone(), about, courses, factor);
         let fitted = of(self.fit.factor);
         let usual = if self.fit.factor > 1.0 { of(1.0) } else { None };
         [fitted, usual].into_iter().flatten().max_by(|a, b| a.score.total_cmp(&b.score))
@@ -126,7 +133,7 @@ impl<D: Observed> Sought<'_, D> {
         &self,
         hypothesis: Hypothesis,
         about: &Equations,
-        borders: &[[usize; 2]],
+        courses: &[Course],
         factor: f64,
     ) -> Option<Weighted> {
         let n = self.prior.mean.len();
@@ -151,40 +158,41 @@ impl<D: Observed> Sought<'_, D> {
         let nothing = Session::of_nothing(n);
         let [off, on] =
             [&about.off, &about.on].map(|of| of.iter().map(|s| sums(nothing.clone(), s)).collect::<Vec<_>>());
-        let whole = |of: &[Vec<Session>], is_on: bool| -> Option<Vec<Evidence>> {
-            let of_drive = |sums: &Vec<Session>| {
-                let all = &sums[sums.len() - 1];
-                if is_on { evidence(&nothing, all) } else { evidence(all, &nothing) }
-            };
-            of.iter().map(of_drive).collect()
-        };
-        // Of what comes before and after, whole drives.
-        let (before, after) = if hypothesis.ends {
-            (whole(&on, true)?, whole(&off, false)?)
-        } else {
-            (whole(&off, false)?, whole(&on, true)?)
-        };
-        let mut instants = Vec::new();
-        let mut best: Option<(f64, Posterior)> = None;
-        for &[drive, from] in borders {
-            let mut all = Evidence::of_nothing(&mean);
-            before[..drive].iter().chain(&after[drive + 1..]).for_each(|e| all += e);
-            let late = |sums: &[Session]| difference(&sums[sums.len() - 1], &sums[from]);
-            let own = if hypothesis.ends {
-                evidence(&late(&off[drive]), &on[drive][from])
-            } else {
-                evidence(&off[drive][from], &late(&on[drive]))
-            };
-            all += &own?;
-            let Some(gaussian) = all.of(&known) else { continue };
-            let score = gaussian - all.base;
-            instants.push((score, [drive, from]));
-            if best.as_ref().is_none_or(|(other, _)| score > *other) {
-                best = Some((score, all.posterior(&known)?));
+        let late = |sums: &[Session], from: usize| difference(&sums[sums.len() - 1], &sums[from]);
+        // What a drive says in which all is otherwise from a stretch on.
+        let known_of_drives = RefCell::new(BTreeMap::new());
+        let of_drive = |drive: usize, from: usize| -> Option<Evidence> {
+            if let Some(known) = known_of_drives.borrow().get(&(drive, from)) {
+                return Some(Evidence::clone(known));
             }
-        }
+            let own = if hypothesis.ends {
+                evidence(&late(&off[drive], from), &on[drive][from])
+            } else {
+                evidence(&off[drive][from], &late(&on[drive], from))
+            }?;
+            known_of_drives.borrow_mut().insert((drive, from), own.clone());
+            Some(own)
+        };
+        let all = |course: &Course| -> Option<Evidence> {
+            let mut out = Evidence::of_nothing(&mean);
+            for (drive, from) in course.iter().enumerate() {
+                out += &of_drive(drive, *from)?;
+            }
+            Some(out)
+        };
+        let score = |course: &Course| {
+            let all = all(course)?;
+            Some(all.of(&known)? - all.base)
+        };
+        let instants: Instants = if hypothesis.anew {
+            courses::anew(&self.lengths, courses.first()?, score)?
+        } else {
+            courses.iter().filter_map(|course| Some((score(course)?, course.clone()))).collect()
+        };
+        let (_, best) = instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let posterior = all(best)?.posterior(&known)?;
         let score = self.claimed(&hypothesis, &instants, factor);
-        let out = Weighted { hypothesis, score, instants, factor, posterior: best?.1 };
+        let out = Weighted { hypothesis, score, instants, factor, posterior };
         self.is_possible(&out).then_some(out)
     }
 
@@ -197,11 +205,15 @@ impl<D: Observed> Sought<'_, D> {
 
     /// Evidence of a hypothesis whose instants have these, with the odds of what is claimed, nats.
     fn claimed(&self, hypothesis: &Hypothesis, instants: &Instants, factor: f64) -> f64 {
-        let scores: Vec<f64> = instants.iter().map(|(score, _)| *score).collect();
         // An onset is one of so many, and begins or ends.
-        let of_instant = SETTINGS.onset.odds - (2.0 * self.borders.len() as f64).ln();
+        let of_instants = if hypothesis.anew {
+            sum_anew(instants, &self.lengths) - 2.0_f64.ln()
+        } else {
+            let scores: Vec<f64> = instants.iter().map(|(score, _)| *score).collect();
+            log_sum_exp(&scores) - (2.0 * self.series.len() as f64).ln()
+        };
         let causes = (hypothesis.always.len() + 1) as f64 * SETTINGS.naming.odds;
-        log_sum_exp(&scores) + causes + of_instant + of_factor(factor)
+        of_instants + causes + SETTINGS.onset.odds + of_factor(factor)
     }
 
     /// Every hypothesis by the equations about the fit: those that lack little of what is always there, the best first.
@@ -216,7 +228,7 @@ impl<D: Observed> Sought<'_, D> {
             let of = |hypothesis: &Hypothesis| {
                 let always = scan.always(&covariance(&self.prior.covariance, self.causes, &hypothesis.always))?;
                 let moves = directions(&self.causes[hypothesis.cause], n);
-                let instants = scan.instants(&self.borders, &moves, &always, hypothesis.ends)?;
+                let instants = scan.instants(&self.series, &moves, &always, (hypothesis.ends, hypothesis.anew))?;
                 Some((self.claimed(hypothesis, &instants, factor), hypothesis.clone(), instants))
             };
             found.par_extend(hypotheses.par_iter().filter_map(of));
@@ -330,15 +342,20 @@ mod tests {
         let causes = [Cause { spec, of: None, directions, possible: None }];
         let fit = fit(&data, &prior, vec![0.0]).expect("a fit");
         let own = stretches(&data, &fit.theta, &fit.own, (fit.noise, SETTINGS.onset.coarse));
-        let sought = Sought { data: &data, prior: &prior, causes: &causes, fit: &fit, borders: borders(&own) };
+        let lengths: Vec<usize> = own.iter().map(Vec::len).collect();
+        let series = in_series(&lengths);
+        let sought = Sought { data: &data, prior: &prior, causes: &causes, fit: &fit, series, lengths };
         let theta = DVector::from_column_slice(&fit.theta);
         let about = Equations { off: own.clone(), on: own.clone(), theta: theta.clone(), moved: None };
         let scan = Scan::new(&own, &theta, &data.scatter(fit.factor), &prior.mean).expect("a scan");
         let always = scan.always(&prior.covariance).expect("an answer");
-        for ends in [false, true] {
-            let hypothesis = Hypothesis { always: Vec::new(), cause: 0, ends };
-            let scanned = scan.instants(&sought.borders, &super::directions(&causes[0], 1), &always, ends);
-            let slow = sought.weighed_under(hypothesis, &about, &sought.borders, fit.factor).expect("an answer");
+        for (ends, anew) in [(false, false), (true, false), (false, true)] {
+            let hypothesis = Hypothesis { always: Vec::new(), cause: 0, ends, anew };
+            let scanned = scan.instants(&sought.series, &super::directions(&causes[0], 1), &always, (ends, anew));
+            let Some(slow) = sought.weighed_under(hypothesis, &about, &sought.series, fit.factor) else {
+                assert!(anew && scanned.is_none(), "nothing changes anew in these drives");
+                continue;
+            };
             let scanned = scanned.expect("instants");
             assert_eq!(scanned.len(), slow.instants.len());
             for (a, b) in scanned.iter().zip(&slow.instants) {

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::courses::differing;
 use super::hypotheses::directions;
 use super::search::{Equations, Sought, Weighted};
 use super::{Gate, Onset};
@@ -47,21 +48,18 @@ impl<D: Observed> Sought<'_, D> {
             return None;
         }
 
-        let (gate, interval) = when(weighted, &about.off)?;
+        let (gate, intervals) = when(weighted, &about.off)?;
         // A row tells of the window before it, and is half of the one and half of the other where a part of that has passed.
         let rules = SETTINGS.onset;
         let before = |at: f64, share: f64| (at - share * D::WINDOW).max(0.0);
-        let time = before(gate.known, rules.passed);
-        let interval =
-            [before(interval[0], rules.passed + rules.unsure), before(interval[1], rules.passed - rules.unsure)];
-        let onset = Onset {
-            cause: hypothesis.cause,
-            time,
-            interval,
-            gate,
-            factor: weighted.factor,
-            off: self.data.bounded(&off),
+        let change = |(known, interval): (&f64, Option<[f64; 2]>)| {
+            let [least, most] = interval?;
+            let interval = [before(least, rules.passed + rules.unsure), before(most, rules.passed - rules.unsure)];
+            Some((before(*known, rules.passed), interval)).filter(|(time, _)| *time > 0.0)
         };
+        let changes = gate.known.iter().zip(intervals).map(change).collect();
+        let onset =
+            Onset { cause: hypothesis.cause, changes, gate, factor: weighted.factor, off: self.data.bounded(&off) };
         // What it explains must be more than laws that are not quite those of the robot get wrong.
         let left = self.data.share_with(mean.as_slice(), &onset);
         let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.share(p.mean.as_slice()));
@@ -91,27 +89,42 @@ impl<D: Observed> Sought<'_, D> {
     }
 }
 
-/// Where it changes, and a 90 % interval of when rows become known that tell so, within that drive.
-pub(super) fn when(weighted: &Weighted, drives: &[Vec<Stretch>]) -> Option<(Gate, [f64; 2])> {
+/// Where it changes, and by drive a 90 % interval of when rows become known that tell so, where it changes within it.
+pub(super) fn when(weighted: &Weighted, drives: &[Vec<Stretch>]) -> Option<(Gate, Vec<Option<[f64; 2]>>)> {
     let instants = &weighted.instants;
-    let (_, [drive, from]) = *instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let at = |from: usize| if from == 0 { 0.0 } else { drives[drive].get(from).map_or(0.0, |s| s.from) };
-    let of_drive: Vec<(f64, usize)> =
-        instants.iter().filter(|(_, [d, _])| *d == drive).map(|(score, [_, k])| (*score, *k)).collect();
+    let (_, best) = instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let at = |drive: usize, from: usize| match from {
+        0 => 0.0,
+        _ => drives[drive].get(from).map_or(f64::INFINITY, |stretch| stretch.from),
+    };
+    let interval = |(drive, from): (usize, &usize)| {
+        let is_inside = *from > 0 && *from < drives[drive].len();
+        let inside = differing(instants, best, drive).map(|(score, course)| (*score, course[drive]));
+        let inside: Vec<(f64, usize)> = inside.filter(|(_, from)| *from < drives[drive].len()).collect();
+        is_inside.then(|| ninety(inside, |from| at(drive, from)))
+    };
+    let known = best.iter().enumerate().map(|(drive, from)| at(drive, *from)).collect();
+    let intervals = best.iter().enumerate().map(interval).collect();
+    Some((Gate { known, ends: weighted.hypothesis.ends }, intervals))
+}
+
+/// A 90 % interval of instants by their evidence, nats, half a stretch wider on either side.
+fn ninety(mut of_drive: Vec<(f64, usize)>, at: impl Fn(usize) -> f64) -> [f64; 2] {
+    of_drive.sort_by_key(|(_, from)| *from);
     let whole = log_sum_exp(&of_drive.iter().map(|(score, _)| *score).collect::<Vec<f64>>());
     let half = 0.5 * SETTINGS.onset.coarse;
     let most = normal_cdf(NINETY);
-    let mut interval = [at(from); 2];
+    let mut interval = [0.0; 2];
     let mut passed = 0.0;
-    for (score, k) in of_drive {
+    for (score, from) in of_drive {
         let before = passed;
         passed += (score - whole).exp();
         if before < 1.0 - most && passed >= 1.0 - most {
-            interval[0] = at(k) - half;
+            interval[0] = at(from) - half;
         }
         if before < most && passed >= most {
-            interval[1] = at(k) + half;
+            interval[1] = at(from) + half;
         }
     }
-    Some((Gate { drive, known: at(from), ends: weighted.hypothesis.ends }, interval))
+    interval
 }
