@@ -59,6 +59,10 @@ pub trait Observed: Clone + Send + Sync {
     /// Error with causes over that of constants re-tuned within what is known, from which on the causes are not needed.
     const HARDLY: f64;
 
+    /// Whether a cause may begin or end in each drive anew. So free a hypothesis takes what laws that are not quite the robot's leave, too,
+    /// where the motion depends on more than the counts do: of a drawn car whose clock was 2 s apart it made a delay that begins.
+    const ANEW: bool = false;
+
     /// Its name.
     fn name(&self) -> &str;
 

@@ -45,6 +45,7 @@ impl Observed for Scaled {
     const FLOOR: [f64; 3] = [1e-3; 3];
     const NEAR: f64 = 0.04;
     const HARDLY: f64 = 0.7;
+    const ANEW: bool = true;
 
     fn name(&self) -> &'static str {
         "scaled"

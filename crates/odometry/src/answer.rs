@@ -90,6 +90,13 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
     if findings.counts[0] == 1 {
         out.push("one session cannot tell by how much constants differ from session to session".to_owned());
     }
+    if findings.named.iter().any(|cause| cause.onset.is_some()) {
+        out.push(
+            "drives left out are forecast with what the others say of how large a cause is that begins or ends; when it does is taken from \
+             the drive itself"
+                .to_owned(),
+        );
+    }
     if !has_references {
         out.push("no references were given: the robot file, as sure as it states, stands in their place".to_owned());
     }

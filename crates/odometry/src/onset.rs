@@ -45,6 +45,7 @@ impl Observed for Windowed<'_> {
     const FLOOR: [f64; 3] = [SETTINGS.windows.floor; 3];
     const NEAR: f64 = SETTINGS.unexplained.share;
     const HARDLY: f64 = SETTINGS.unexplained.of_retuned;
+    const ANEW: bool = true;
 
     fn name(&self) -> &str {
         &self.drive.name

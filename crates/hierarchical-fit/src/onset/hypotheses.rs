@@ -18,9 +18,9 @@ pub(crate) struct Hypothesis {
     pub(crate) anew: bool,
 }
 
-/// What may be in the place of a set of causes, or beside it, in so many drives.
-pub(crate) fn hypotheses(causes: usize, set: &[usize], drives: usize) -> Vec<Hypothesis> {
-    let once_or_anew = if drives > 1 { vec![false, true] } else { vec![false] };
+/// What may be in the place of a set of causes, or beside it, once or in each drive anew.
+pub(crate) fn hypotheses(causes: usize, set: &[usize], may_be_anew: bool) -> Vec<Hypothesis> {
+    let once_or_anew = if may_be_anew { vec![false, true] } else { vec![false] };
     let mut out = Vec::new();
     for cause in 0..causes {
         let mut rests = vec![Vec::new(), less(set, cause)];

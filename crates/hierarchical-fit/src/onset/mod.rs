@@ -98,7 +98,8 @@ impl Onset {
 
     /// The same for people, of drives of these names.
     pub fn began(&self, names: &[&str]) -> Option<Began> {
-        let first = self.drive();
+        // Of one that begins anew, the first drive within which it does.
+        let first = if self.is_anew() { self.changes.iter().position(Option::is_some)? } else { self.drive() };
         let inside = self.changes.iter().zip(names).enumerate().filter(|(k, _)| *k != first);
         let anew = inside.filter_map(|(_, (change, name))| Some(((*name).to_owned(), (*change)?))).collect();
         let others = if self.ends() { first > 0 } else { first + 1 < names.len() };

@@ -86,7 +86,7 @@ pub(crate) fn onset<D: Observed>(
 
     // By the equations about the fit first, then each of the best by its own.
     let about = Equations { off: own.clone(), on: own, theta: DVector::from_column_slice(&fit.theta), moved: None };
-    let found = sought.scanned(&hypotheses(causes.len(), &set, data.drives.len()), &about, always)?;
+    let found = sought.scanned(&hypotheses(causes.len(), &set, D::ANEW && data.drives.len() > 1), &about, always)?;
     let refined: Vec<(Weighted, Noise)> =
         found.into_par_iter().filter_map(|weighted| sought.refined(weighted)).collect();
 
