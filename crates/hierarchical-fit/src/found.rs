@@ -1,5 +1,7 @@
 //! What the drives of a case say, as plain data.
 
+use crate::cause::Cause;
+use crate::name::Weighed;
 use crate::settings::SETTINGS;
 use catalogue::CauseSpec;
 
@@ -69,7 +71,7 @@ impl std::fmt::Display for Began {
                     write!(f, ", {}", of(drive, *at, *interval))?;
                 }
                 if !anew.is_empty() {
-                    f.write_str(", in each anew")?;
+                    write!(f, ": it {} in each of these drives anew", if *ends { "ends" } else { "begins" })?;
                 } else if *others {
                     write!(f, ", and in all drives {rest} it in the order of their names")?;
                 }
@@ -101,4 +103,25 @@ pub struct NamedCause {
     pub intervals: Vec<(String, [f64; 2])>,
     /// When it begins or ends, where it does while the drives go on.
     pub onset: Option<Began>,
+}
+
+impl NamedCause {
+    /// A cause as it was weighed, with estimates of all constants, when it was there, and when it begins or ends.
+    pub fn new(
+        weighed: &Weighed,
+        causes: &[Cause],
+        constants: &[Estimate],
+        (intervals, onset): (Vec<(String, [f64; 2])>, Option<Began>),
+    ) -> Self {
+        let cause = &causes[weighed.cause];
+        Self {
+            spec: cause.spec,
+            label: cause.label(),
+            probability: weighed.probability,
+            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
+            estimates: cause.moves().into_iter().map(|k| constants[k].clone()).collect(),
+            intervals,
+            onset,
+        }
+    }
 }

@@ -56,7 +56,7 @@ pub use fit::Fit;
 pub use found::{Answer, Began, Estimate, NamedCause};
 pub use name::{Named, Weighed, covariance, name, name_from, named_as, of_class, stand_ins};
 pub use observed::{Kind, Observed, Row, Spread};
-pub use onset::Onset;
+pub use onset::{Onset, interval_of_instants};
 pub use rehearsable::{Hideable, Rehearsable, Told};
 pub use said::{Said, Unconfirmed, Unexplained, Valued, is_beyond_references};
 pub use sentences::{Wording, of_recordings};

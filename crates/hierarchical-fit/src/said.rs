@@ -89,16 +89,7 @@ impl<D: Observed> Solved<D> {
         };
         let all = estimates(&named.posterior);
         let of_cause = |weighed: &Weighed| {
-            let cause = &causes[weighed.cause];
-            NamedCause {
-                spec: cause.spec,
-                label: cause.label(),
-                probability: weighed.probability,
-                alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
-                estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
-                intervals: self.spans(weighed.cause),
-                onset: self.began(weighed.cause),
-            }
+            NamedCause::new(weighed, causes, &all, (self.spans(weighed.cause), self.began(weighed.cause)))
         };
         let factor = self.onset.as_ref().map_or(fit.factor, |onset| onset.factor);
         Said {

@@ -92,8 +92,8 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
     }
     if findings.named.iter().any(|cause| cause.onset.is_some()) {
         out.push(
-            "drives left out are forecast with what the others say of how large a cause is that begins or ends; when it does is taken from \
-             the drive itself"
+            "forecasts of left-out drives take the size of a cause that begins or ends from the other drives, and its instant from the \
+             left-out drive itself"
                 .to_owned(),
         );
     }

@@ -9,9 +9,7 @@ use crate::motion::{Laws, implied, moved_on};
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, Window, laws};
-use hierarchical_fit::{Cause, Kind, Named, Observed, Onset, Row, Spread, begun};
-use inference::evidence::log_sum_exp;
-use inference::robust::{NINETY, normal_cdf};
+use hierarchical_fit::{Cause, Kind, Named, Observed, Onset, Row, Spread, begun, interval_of_instants};
 
 /// A drive by its windows.
 #[derive(Clone)]
@@ -128,24 +126,9 @@ fn instant(
     let steps = (rules.reach / rules.step).round() as i32;
     let times = (-steps..=steps).map(|k| at + rules.step * f64::from(k));
     let tried = times.filter(|time| (0.0..=drive.duration()).contains(time));
-    let weighed: Vec<(f64, f64)> = tried.map(|time| (time, evidence(time))).collect();
-
-    let whole = log_sum_exp(&weighed.iter().map(|(_, evidence)| *evidence).collect::<Vec<f64>>());
-    let best = weighed.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(at, |(time, _)| *time);
-    let outside = normal_cdf(-NINETY);
-    let mut interval = [best; 2];
-    let mut passed = 0.0;
-    for (time, evidence) in weighed {
-        let before = passed;
-        passed += (evidence - whole).exp();
-        if before < outside && passed >= outside {
-            interval[0] = time - rules.step;
-        }
-        if before < 1.0 - outside && passed >= 1.0 - outside {
-            interval[1] = time + rules.step;
-        }
-    }
-    (best, interval)
+    let weighed: Vec<(f64, f64)> = tried.map(|time| (evidence(time), time)).collect();
+    let best = weighed.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or(at, |(_, time)| *time);
+    (best, interval_of_instants(weighed, rules.step))
 }
 
 /// Errors of all windows of these drives with a cause that is not always there, whose constants are `on` where it is.

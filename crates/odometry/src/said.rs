@@ -47,19 +47,10 @@ pub(crate) fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Finding
     let names: Vec<&str> = data.drives.iter().map(|drive| drive.name.as_str()).collect();
 
     let of_cause = |weighed: &Weighed| {
-        let cause = &causes[weighed.cause];
         let begun = onset.as_ref().filter(|onset| onset.cause == weighed.cause);
-        NamedCause {
-            spec: cause.spec,
-            label: cause.label(),
-            probability: weighed.probability,
-            alike: weighed.class[1..].iter().map(|&c| causes[c].label()).collect(),
-            estimates: cause.moves().into_iter().map(|k| all[k].clone()).collect(),
-            intervals: begun.map_or_else(Vec::new, |onset| {
-                onset.spans(data.drives.iter().map(|drive| (drive.name.as_str(), drive.duration())))
-            }),
-            onset: begun.and_then(|onset| onset.began(&names)),
-        }
+        let lengths = data.drives.iter().map(|drive| (drive.name.as_str(), drive.duration()));
+        let spans = begun.map_or_else(Vec::new, |onset| onset.spans(lengths));
+        NamedCause::new(weighed, causes, &all, (spans, begun.and_then(|onset| onset.began(&names))))
     };
     let mut named_causes: Vec<NamedCause> = named.chosen.iter().map(of_cause).collect();
     named_causes.extend(dropout::named(case, data, lost));

@@ -22,8 +22,7 @@ pub(crate) fn lost(data: &Data<'_>, theta: &[f64]) -> Vec<Lost> {
         let kinematics = Kinematics::new(data.robot, &laws.geometry);
         for (wheel, spans) in of_drive(data, drive, (&laws, &kinematics), least).into_iter().enumerate() {
             let stood: f64 = spans.iter().map(|[from, until]| until - from).sum();
-            let lasts = drive.time[drive.time.len() - 1] - drive.time[0];
-            if spans.is_empty() || stood > SETTINGS.dropout.most * lasts {
+            if spans.is_empty() || stood > SETTINGS.dropout.most * drive.duration() {
                 continue;
             }
             let evidence = vec![(wheel, RULES.nats * spans.len() as f64)];
@@ -184,5 +183,23 @@ mod tests {
         // Both encoders at once are no encoder, and one span alone may be a wheel that was blocked.
         assert!(found(0.0, |_, t| (t - 20.0).rem_euclid(18.0) < 0.8).is_empty());
         assert!(found(0.0, |wheel, t| wheel == 0 && (t - 21.0).abs() < 0.5).is_empty());
+        // Nor is a body that is pushed while the other wheel hardly counts.
+        let is_rare = |t: f64| (t / 0.02).round() as i64 % 15 == 0;
+        assert!(found(0.0, |wheel, t| (t - 20.0).rem_euclid(18.0) < 0.8 && (wheel == 1 || !is_rare(t))).is_empty());
+    }
+
+    #[test]
+    fn windows_begin_anew_after_what_is_left_out() {
+        let robot = WheeledRobot::differential(0.05, 0.3);
+        let constants = constants(&robot, Measured::POSE);
+        let drive = drive(&robot, 0.0, |_, _| false);
+        let mut data = Data::new(&robot, &constants, vec![&drive]).expect("windows");
+        let all = data.windows[0].len();
+        let spans = [[10.0, 11.0], [30.0, 30.5]];
+        data.leave_out(0, &spans);
+        let windows: Vec<[f64; 2]> = (0..data.windows[0].len()).map(|window| data.span(0, window)).collect();
+        assert!(windows.iter().all(|[from, until]| spans.iter().all(|[a, b]| until <= a || from >= b)), "{windows:?}");
+        assert!(windows.iter().any(|[from, _]| *from == 11.0), "one begins where the first span ends: {windows:?}");
+        assert!(windows.len() >= all - 3 && data.dropped[0].len() == windows.len());
     }
 }

@@ -123,11 +123,8 @@ pub(crate) fn left_out_costs(answer: &Judged<'_>, trial: &Trial) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
-    use crate::redundancy::Redundant;
-    use crate::testing::{calibration, cutting, driven, problem};
+    use crate::testing::{Asked, cutting, driven, problem};
     use crate::windows::{Cut, cut};
-    use inference::Options;
     use inference::hypothesis::{Place, Variant, variants};
     use testing::robot;
 
@@ -157,18 +154,7 @@ mod tests {
         let decision = Decision { scored: vec![scored], none: 0.1, ..Decision::default() };
         let none = Hypothesis::default();
         let retuned = p.refine(&none, p.begin(&none, p.origin(), None), 4, None);
-        crate::judged::Judged {
-            case: &Case { pose_sigma: 1e-4, ..Case::new(robot) },
-            options: &Options::default(),
-            problem: &p,
-            references: &[],
-            visits: &[],
-            calibration: &calibration(&p),
-            sensors: &Redundant::default(),
-            simulator: None,
-            decision: &decision,
-        }
-        .without_unconfirmed(&retuned)
+        Asked::new(&p, decision).judged().without_unconfirmed(&retuned)
     }
 
     #[test]

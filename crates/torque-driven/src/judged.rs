@@ -93,7 +93,7 @@ impl Judged<'_> {
 mod tests {
     use super::*;
     use crate::fit::Point;
-    use crate::testing::{calibration, cutting, driven, problem};
+    use crate::testing::{Asked, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
     use inference::hypothesis::{Place, Variant};
@@ -116,18 +116,7 @@ mod tests {
 
     fn told(p: &Problem<'_>, scored: Vec<Scored>, none: f64) -> Decision {
         let decision = Decision { scored, none, ..Decision::default() };
-        Judged {
-            case: &Case::new(*p.robot),
-            options: &Options::default(),
-            problem: p,
-            references: &[],
-            visits: &[],
-            calibration: &calibration(p),
-            sensors: &Redundant::default(),
-            simulator: None,
-            decision: &decision,
-        }
-        .without_sizes_of_zero()
+        Asked::new(p, decision).judged().without_sizes_of_zero()
     }
 
     #[test]

@@ -11,17 +11,58 @@ use testing::{PERIOD, robot};
 
 use crate::between_visits::Moves;
 use crate::calibrate::{Calibration, Regimes};
+use crate::case::Case;
 use crate::channel::Channels;
+use crate::decision::Decision;
 use crate::drives::Drives;
 use crate::fit::Problem;
+use crate::judged::Judged;
 use crate::motion::GyroError;
 use crate::null_scores::NullScores;
+use crate::redundancy::Redundant;
 use crate::run::Run;
 use crate::settings::fit::SETTINGS;
 use crate::windows::{Cut, CutOptions};
 use inference::Options;
 use inference::hypothesis::Dose;
 use robot_model::tunable::usual_sigma;
+
+/// What steps of a decision are asked with: a case without references, what its calibration says, and the decision itself.
+pub(crate) struct Asked<'a> {
+    case: Case,
+    options: Options,
+    calibration: Calibration,
+    sensors: Redundant,
+    problem: &'a Problem<'a>,
+    decision: Decision,
+}
+
+impl<'a> Asked<'a> {
+    pub(crate) fn new(problem: &'a Problem<'a>, decision: Decision) -> Self {
+        Self {
+            case: Case { pose_sigma: 1e-4, ..Case::new(*problem.robot) },
+            options: Options::default(),
+            calibration: calibration(problem),
+            sensors: Redundant::default(),
+            problem,
+            decision,
+        }
+    }
+
+    pub(crate) fn judged(&self) -> Judged<'_> {
+        Judged {
+            case: &self.case,
+            options: &self.options,
+            problem: self.problem,
+            references: &[],
+            visits: &[],
+            calibration: &self.calibration,
+            sensors: &self.sensors,
+            simulator: None,
+            decision: &self.decision,
+        }
+    }
+}
 
 /// Segments of 2 s of this robot.
 pub(crate) fn cutting() -> CutOptions {

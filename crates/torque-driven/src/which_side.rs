@@ -27,8 +27,8 @@ impl Judged<'_> {
         for (part, _) in shared {
             let fits = other_side::fits(self.problem, &best.trial, part).into_iter();
             let Some(mirrored) = fits.min_by(|a, b| a.fitted.cost.total_cmp(&b.fitted.cost)) else { continue };
-            let [more, error] = gain(&left_out_costs(self, &mirrored), &left_out_costs(self, &best.trial));
-            if more > RULES.errors * error {
+            let share = share(gain(&left_out_costs(self, &mirrored), &left_out_costs(self, &best.trial)));
+            if share == 1.0 {
                 continue;
             }
 
@@ -37,8 +37,6 @@ impl Judged<'_> {
                 out.scored.push(Scored { trial: mirrored.clone(), probability: 0.0, ..best.clone() });
                 out.scored.len() - 1
             });
-            // What is better beyond its errors takes all.
-            let share = if more < -RULES.errors * error { 0.0 } else { 0.5 };
             let of_both = out.scored[0].probability + out.scored[at].probability;
             out.scored[0].probability = share * of_both;
             out.scored[at].probability = (1.0 - share) * of_both;
@@ -49,16 +47,23 @@ impl Judged<'_> {
     }
 }
 
+/// Share of the probability of both sides that the first keeps where left-out recordings cost so much more with the other, with this
+/// standard error, nats: what is better beyond the errors takes all.
+fn share([more, error]: [f64; 2]) -> f64 {
+    match more / (RULES.errors * error) {
+        beyond if beyond > 1.0 => 1.0,
+        beyond if beyond < -1.0 => 0.0,
+        _ => 0.5,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
     use crate::fit::{Hypothesis, Point, Problem};
-    use crate::redundancy::Redundant;
-    use crate::testing::{calibration, cutting, driven, problem};
+    use crate::testing::{Asked, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
-    use inference::Options;
     use inference::hypothesis::{Place, Variant};
     use testing::robot;
 
@@ -78,19 +83,14 @@ mod tests {
         let fitted = p.refine(&hypothesis, p.begin(&hypothesis, point, None), 6, None);
         let scored = vec![Scored { trial: Trial { hypothesis, fitted }, visits: None, score: 20.0, probability: 0.9 }];
         let decision = Decision { scored, none: 0.1, ..Decision::default() };
-        let judged = Judged {
-            case: &Case { pose_sigma: 1e-4, ..Case::new(robot) },
-            options: &Options::default(),
-            problem: &p,
-            references: &[],
-            visits: &[],
-            calibration: &calibration(&p),
-            sensors: &Redundant::default(),
-            simulator: None,
-            decision: &decision,
-        };
-        let told = judged.with_either_side().scored.into_iter();
+        let told = Asked::new(&p, decision).judged().with_either_side().scored.into_iter();
         told.map(|s| (s.trial.hypothesis.parts[0].0.side(), s.probability)).collect()
+    }
+
+    #[test]
+    fn sides_within_two_standard_errors_are_as_likely() {
+        // The first is what a robot of another hand gave, whose left motor was told as its right.
+        assert_eq!([[73.4, 59.8], [-73.4, 59.8], [200.0, 59.8], [-200.0, 59.8]].map(share), [0.5, 0.5, 1.0, 0.0]);
     }
 
     #[test]

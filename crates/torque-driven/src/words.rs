@@ -32,29 +32,31 @@ fn without_a_cause([calibrated, _, fault_free]: [f64; 3]) -> String {
 
 /// What is missing, a sentence for each likely effect. Of one that either side may have, both are told.
 fn missing(causes: &[&Cause]) -> Vec<String> {
-    let mut told: Vec<&str> = Vec::new();
+    let is_other_side =
+        |a: &Cause, b: &Cause| a.effect == b.effect && a.side.is_some() && b.side.is_some() && a.side != b.side;
     let mut out = Vec::new();
-    for c in causes {
-        let sides: Vec<&&Cause> = causes.iter().filter(|other| other.effect == c.effect).collect();
-        let together = sides.iter().map(|s| s.probability).sum::<f64>().min(1.0);
-        if together <= SETTINGS.answer.likely || told.contains(&c.effect.as_str()) {
+    for (k, c) in causes.iter().enumerate() {
+        if causes[..k].iter().any(|before| is_other_side(before, c)) {
+            continue;
+        }
+        let other = causes[k..].iter().find(|other| is_other_side(other, c));
+        let together = (c.probability + other.map_or(0.0, |other| other.probability)).min(1.0);
+        if together <= SETTINGS.answer.likely {
             continue;
         }
 
-        told.push(&c.effect);
-        let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
         let p = probability(together);
-        let [first, second] = sides[..] else {
-            out.push(format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)));
-            continue;
-        };
-        out.push(format!(
-            "Missing: {}, {}, or {}, {}: these recordings do not tell which side (either: probability {p}).",
-            first.name,
-            quantity(first),
-            second.name,
-            quantity(second)
-        ));
+        let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
+        out.push(match other {
+            Some(other) => format!(
+                "Missing: {}, {}, or {}, {}: these recordings do not tell which side (either: probability {p}).",
+                c.name,
+                quantity(c),
+                other.name,
+                quantity(other)
+            ),
+            None => format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)),
+        });
     }
     out
 }
@@ -156,6 +158,7 @@ mod tests {
     #[test]
     fn an_effect_that_either_side_may_have_is_told_once_with_both_sides() {
         let of = |effect: &str, name: &str, probability: f64, size: f64| Cause {
+            side: name.rsplit_once(": ").map(|(_, side)| side.to_owned().into()),
             magnitude: Some(size),
             sigma: Some(0.01),
             unit: "-".into(),

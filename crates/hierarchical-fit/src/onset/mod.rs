@@ -12,6 +12,8 @@ use crate::found::Began;
 use crate::observed::Row;
 use courses::Course;
 
+pub use told::interval_of_instants;
+
 /// Evidence of courses, nats.
 pub(crate) type Instants = Vec<(f64, Course)>;
 

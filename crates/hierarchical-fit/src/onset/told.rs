@@ -99,31 +99,30 @@ pub(super) fn when(weighted: &Weighted, drives: &[Vec<Stretch>]) -> Option<(Gate
     };
     let interval = |(drive, from): (usize, &usize)| {
         let is_inside = *from > 0 && *from < drives[drive].len();
-        let inside = differing(instants, best, drive).map(|(score, course)| (*score, course[drive]));
-        let inside: Vec<(f64, usize)> = inside.filter(|(_, from)| *from < drives[drive].len()).collect();
-        is_inside.then(|| ninety(inside, |from| at(drive, from)))
+        let inside = differing(instants, best, drive).map(|(score, course)| (*score, at(drive, course[drive])));
+        let inside = inside.filter(|(_, at)| at.is_finite()).collect();
+        is_inside.then(|| interval_of_instants(inside, 0.5 * SETTINGS.onset.coarse))
     };
     let known = best.iter().enumerate().map(|(drive, from)| at(drive, *from)).collect();
     let intervals = best.iter().enumerate().map(interval).collect();
     Some((Gate { known, ends: weighted.hypothesis.ends }, intervals))
 }
 
-/// A 90 % interval of instants by their evidence, nats, half a stretch wider on either side.
-fn ninety(mut of_drive: Vec<(f64, usize)>, at: impl Fn(usize) -> f64) -> [f64; 2] {
-    of_drive.sort_by_key(|(_, from)| *from);
-    let whole = log_sum_exp(&of_drive.iter().map(|(score, _)| *score).collect::<Vec<f64>>());
-    let half = 0.5 * SETTINGS.onset.coarse;
+/// A 90 % interval of instants by the evidence of each, nats, wider by half a step on either side.
+pub fn interval_of_instants(mut instants: Vec<(f64, f64)>, half_step: f64) -> [f64; 2] {
+    instants.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+    let whole = log_sum_exp(&instants.iter().map(|(evidence, _)| *evidence).collect::<Vec<f64>>());
     let most = normal_cdf(NINETY);
     let mut interval = [0.0; 2];
     let mut passed = 0.0;
-    for (score, from) in of_drive {
+    for (evidence, at) in instants {
         let before = passed;
-        passed += (score - whole).exp();
+        passed += (evidence - whole).exp();
         if before < 1.0 - most && passed >= 1.0 - most {
-            interval[0] = at(from) - half;
+            interval[0] = at - half_step;
         }
         if before < most && passed >= most {
-            interval[1] = at(from) + half;
+            interval[1] = at + half_step;
         }
     }
     interval
