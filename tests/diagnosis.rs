@@ -5,8 +5,8 @@ mod common;
 use std::path::Path;
 
 use common::{answer, case_of, draw, settings, told};
-use examiner::{Content, DrawnCase, EffectId, Outsider};
-use inference::{Options, SearchForLaw};
+use examiner::{Content, DrawnCase, EffectId};
+use inference::Options;
 use torque_driven::diagnose;
 use verdict::{Diagnosis, Prediction, Verdict};
 
@@ -103,14 +103,6 @@ fn a_gyro_bias_is_a_fault_of_the_sensor_and_not_of_the_physics() {
     let (corrected, plain) = &d.predictions[0];
     let (corrected, plain) = (errors(&drawn, corrected), errors(&drawn, plain));
     assert!(corrected[1] < plain[1], "yaw rate: corrected {corrected:?}, plain {plain:?}");
-}
-
-#[test]
-fn what_is_not_in_the_catalogue_is_unknown() {
-    // Laws that have no name have tests of their own.
-    let options = Options { law: SearchForLaw::Never, ..Options::default() };
-    let d = answer(&case_of(&draw(&settings(Content::Outsider(Outsider::Cogging), 24.0, 1), 13)), &options);
-    assert_eq!(d.verdict, Verdict::Unknown, "{}", told(&d));
 }
 
 #[test]

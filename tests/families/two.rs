@@ -8,7 +8,7 @@ use crate::rules::{are_in_the_first_three, diagnosed, nothing_is_claimed_but, st
 
 #[test]
 fn what_is_outside_the_library_is_unknown() {
-    for (seed, outsider) in [(102, Outsider::Ratchet), (202, Outsider::Gusts), (302, Outsider::ContactLoss)] {
+    for (seed, outsider) in [(102, Outsider::Cogging), (202, Outsider::Gusts), (302, Outsider::ContactLoss)] {
         let (_, d) = diagnosed(seed, &settings(Content::Outsider(outsider), 16.0, 0));
         assert_eq!(d.verdict, Verdict::Unknown, "{outsider:?}: {}", told(&d));
     }
