@@ -12,7 +12,7 @@ use robot_model::{Chassis, Robot};
 use crate::grid::slope;
 use crate::settings::{Columns, SETTINGS};
 use inference::DiagnosisError;
-use inference::robust::median;
+use inference::robust::{mean, median};
 
 mod motion;
 mod sides;
@@ -98,6 +98,10 @@ fn opposed_gyro(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> O
         None => format!("{shows}; write `sign = -1` for the wrong one in the mapping"),
     })
 }
+
+/// What else to do where not all recordings are so.
+pub(crate) const OF_THEIR_OWN: &str = " (where other recordings are right as they are, in an entry of its own whose pattern \
+                                       fits the names of these)";
 
 /// What to do about columns of speeds in another unit.
 const UNITS_OF_SPEED: &str = "write the unit of these columns in the mapping (1 rad/s is 9.549 rpm, 57.30 deg/s and 0.1592 \
@@ -223,30 +227,69 @@ fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
     let forward = combined(robot.wheel_radius / 2.0, &speeds[0], robot.wheel_radius / 2.0, &speeds[1]);
     let aside: Vec<f64> = forward.iter().zip(turn).map(|(v, w)| v * w).collect();
     let [along, left] = [0, 1].map(|axis| likeness_of_changes(&shown[axis], &aside, COLUMNS.pushed));
-    let (along, left) = (along?, left?);
+    let [x, y] = [Signal::AccelX, Signal::AccelY].map(|signal| named(recording, signal));
+    let hidden = || {
+        let share = only_along(shown, &aside)?;
+        Some(format!(
+            "{x} shows {share:.2} times the push of turns in its means, by the speed of the wheels times the yaw rate, and {y} shows \
+             none; {}",
+            turned_by_a_right_angle(share)
+        ))
+    };
+    let (Some(along), Some(left)) = (along, left) else { return hidden() };
     let speeding_up = likeness_of_changes(&shown[0], &slope(&forward, COLUMNS.step), COLUMNS.pushed);
     let turned = speeding_up.is_some_and(|l| l.cosine < -COLUMNS.unlike);
-    let [x, y] = [Signal::AccelX, Signal::AccelY].map(|signal| named(recording, signal));
-
     let (shows, remedy) = if left.cosine < -COLUMNS.alike {
         let also = if turned { " and for accel_x" } else { "" };
         (format!("{y} pushes inward in turns"), format!("write `sign = -1` for it{also} in the mapping"))
     } else if along.cosine.abs() > COLUMNS.alike && left.cosine.abs() < COLUMNS.unlike {
-        let sign = if along.cosine < 0.0 { ", with `sign = -1` for accel_y" } else { "" };
-        (
-            format!("{x} shows the push of turns, and {y} does not"),
-            format!("the sensor is mounted turned by a right angle: exchange the two in the mapping{sign}"),
-        )
+        (format!("{x} shows the push of turns, and {y} does not"), turned_by_a_right_angle(along.cosine))
     } else if left.cosine > COLUMNS.alike && is_in_g(recording, left.ratio) {
         let remedy = "it may be in g: if so, write `unit = \"g\"` for all accelerations in the mapping";
         (format!("{y} shows {:.3} times the push of turns", left.ratio), remedy.to_owned())
     } else {
-        return None;
+        return hidden();
     };
     Some(format!(
         "{shows}, by the speed of the wheels times the yaw rate (cosine {:.2} for accel_x, {:.2} for accel_y); {remedy}",
         along.cosine, left.cosine
     ))
+}
+
+/// What to do where the forward axis shows this share of the push of turns, and the other one none.
+fn turned_by_a_right_angle(share: f64) -> String {
+    let sign = if share < 0.0 { ", with `sign = -1` for accel_y" } else { "" };
+    format!("the sensor is mounted turned by a right angle: exchange the two in the mapping{sign}{OF_THEIR_OWN}")
+}
+
+/// The share of the push of turns that the forward axis shows, where its means show it clearly and those of the other axis clearly do
+/// not: vibration, which hides it from row to row, is none of a mean.
+fn only_along(shown: &Sides, aside: &[f64]) -> Option<f64> {
+    let [along, left] = [&shown[0], &shown[1]].map(|axis| share_of(axis, aside));
+    let ([along, error], [left, left_error]) = (along?, left?);
+    let half = 0.5;
+    let is_along = along.abs() - COLUMNS.clear * error > 0.0 && along.abs() > half && along.abs() < 1.0 / half;
+    (is_along && left.abs() + 2.0 * left_error < half).then_some(along)
+}
+
+/// The share of what is expected that a signal shows, and its error: least squares over means.
+fn share_of(shown: &[f64], expected: &[f64]) -> Option<[f64; 2]> {
+    let rows = (COLUMNS.mean / COLUMNS.step).round() as usize;
+    let means = |values: &[f64]| -> Vec<f64> {
+        values.chunks_exact(rows).map(|chunk| mean(chunk.iter().copied()).unwrap_or(f64::NAN)).collect()
+    };
+    let pairs: Vec<[f64; 2]> = means(expected).into_iter().zip(means(shown)).map(|(a, b)| [a, b]).collect();
+    let pairs: Vec<[f64; 2]> = pairs.into_iter().filter(|[a, b]| a.is_finite() && b.is_finite()).collect();
+    let [x, y] = [0, 1].map(|k| mean(pairs.iter().map(|pair| pair[k])));
+    let (x, y) = (x?, y?);
+    let sums = pairs.iter().map(|[a, b]| [(a - x).powi(2), (a - x) * (b - y), (b - y).powi(2)]);
+    let [square, product, of_shown] = sums.fold([0.0; 3], |s, d| [s[0] + d[0], s[1] + d[1], s[2] + d[2]]);
+    if pairs.len() < COLUMNS.rows || square <= 0.0 {
+        return None;
+    }
+    let share = product / square;
+    let left = (of_shown - share * product).max(0.0) / (pairs.len() - 2) as f64;
+    Some([share, (left / square).sqrt()])
 }
 
 /// Whether a specific force that is too small by this ratio is in units of gravity: an upward accelerometer does not show otherwise.

@@ -3,7 +3,7 @@
 use recordings::{Channel, Recording, Signal, Unit, parse_unit};
 use robot_model::Robot;
 
-use crate::columns::consistent;
+use crate::columns::{OF_THEIR_OWN, consistent};
 use crate::settings::{Possible, SETTINGS};
 use inference::DiagnosisError;
 use inference::robust::{median, rms};
@@ -219,8 +219,10 @@ fn contradictions(recording: &Recording, robot: &Robot<f64>) -> Result<Option<St
             }
         }
     }
+    // A sensor that hangs upside down also turns to the other side than the wheels: first what explains both.
+    let told = gravity(recording)?;
     consistent(recording, robot)?;
-    gravity(recording)
+    Ok(told)
 }
 
 /// Typical speed (m/s) and yaw rate (rad/s, root mean square) that the wheels give the body if they roll.
@@ -294,7 +296,7 @@ fn gravity(recording: &Recording) -> Result<Option<String>, DiagnosisError> {
     if is_gravity(shown) {
         let what = format!(
             "{shows}: the inertial sensor hangs upside down; write `sign = -1` for accel_z, gyro_z and one of accel_x and \
-             accel_y in the mapping (which of the two depends on the axis that it was turned about)"
+             accel_y in the mapping (which of the two depends on the axis that it was turned about){OF_THEIR_OWN}"
         );
         return Err(unusable(recording, what));
     }

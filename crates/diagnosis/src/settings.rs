@@ -73,6 +73,10 @@
         moving: f64 = 0.05, "m/s", "guess; noise of a pose over two rows";
         /// Specific force below which, in the root mean square, nothing is said of accelerometers.
         pushed: f64 = 0.1, "m/s²", "guess; noise of an accelerometer over a row";
+        /// Length of the means in which vibration is none.
+        mean: f64 = 1.0, "s", "guess; shorter than a turn";
+        /// Errors by which a share has to differ from zero.
+        clear: f64 = 5.0, "1", "guess; ten recordings of three axes are looked at";
         /// How much more the sum of the sides would turn the body than it turns, where one side has the wrong sign.
         turned: f64 = 3.0, "1", "guess; wheels that are pushed aside turn up to twice as much as the body";
         /// Factor from which a column is in another unit.

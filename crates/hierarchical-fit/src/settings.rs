@@ -106,6 +106,8 @@
         coarse: f64 = 1.0, "s", "guess; a window of usual length";
         /// Time on either side that has to be compared.
         least: f64 = 4.0, "s", "guess; a manoeuvre";
+        /// Stretches on either side at least, where rows become known farther apart.
+        least_stretches: usize = 2, "1", "guess; one may be an outlier";
         /// Log odds that a cause begins or ends in these drives.
         odds: f64 = -2.0, "nat", "guess; one in eight";
         /// Log odds over causes that are always there from which on it is told.

@@ -1,7 +1,6 @@
 //! A fitted effect as a cause of a verdict.
 
 use catalogue::speed_driven::SOFT_GROUND;
-use inference::hypothesis::Sizes;
 use verdict::{Cause, Estimate};
 
 use crate::name::Named;
@@ -21,8 +20,7 @@ pub(crate) fn cause(e: &Named, part: usize, probability: f64) -> Cause {
     let variant = &e.parts[part];
     let spec = variant.spec();
     let (values, sigma) = e.of(part);
-    let parameters = variant
-        .free(&Sizes::default())
+    let parameters = e.free[part]
         .iter()
         .zip(values.iter().zip(sigma))
         .filter_map(|(f, (&value, &sigma))| {

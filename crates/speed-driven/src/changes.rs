@@ -129,7 +129,15 @@ fn against_something(run: &mut SpeedRun, change: &LoadChange) -> Standstill {
         }
     }
     let load = sum[0].max(sum[1]) / rows.max(1) as f64;
-    Standstill { recording: run.name.clone(), interval: [from, until], share: None, wheels: None, load }
+    Standstill {
+        recording: run.name.clone(),
+        interval: [from, until],
+        share: None,
+        wheels: None,
+        side: None,
+        load,
+        straight: None,
+    }
 }
 
 /// Driving that shows no straight load for a while.

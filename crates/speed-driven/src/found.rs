@@ -8,7 +8,7 @@ use catalogue::command_driven::EFFECTIVE_TRACK;
 use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
-use robot_model::effects::coulomb_side;
+use robot_model::effects::{coulomb_side, gyro_scale};
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, TurningChange, Verdict};
 
@@ -78,7 +78,7 @@ fn differs(r: &Ratio) -> f64 {
     1.0 - 2.0 * Normal::standard().cdf(-sigmas(r))
 }
 
-/// Another effective track; a longer one may be soft ground.
+/// Another effective track; a longer one may be soft ground, and either a gyro that reads another share of the turning.
 pub(crate) fn tracks(r: &Ratio) -> Vec<Cause> {
     let spec = EFFECTIVE_TRACK;
     let soft = (r.ratio > 1.0).then(|| Cause::plain(SOFT_GROUND.id, SOFT_GROUND.name, ANSWER.soft * differs(r)));
@@ -88,7 +88,13 @@ pub(crate) fn tracks(r: &Ratio) -> Vec<Cause> {
         unit: spec.unit.into(),
         ..Cause::plain(spec.id, spec.name, differs(r))
     };
-    std::iter::once(measured).chain(soft).collect()
+    let gyro = Cause {
+        magnitude: Some(1.0 / r.ratio - 1.0),
+        sigma: Some(r.half / r.value / r.ratio / NINETY),
+        unit: gyro_scale::SPEC.parameters[0].unit.into(),
+        ..Cause::plain(gyro_scale::SPEC.id, gyro_scale::SPEC.name, ANSWER.gyro * differs(r))
+    };
+    std::iter::once(measured).chain(soft).chain([gyro]).collect()
 }
 
 /// "Nothing is missing" becomes at most as probable as it is that this ratio, whose interval excludes no difference, does not
@@ -197,7 +203,9 @@ fn standing(all: &[Standstill]) -> Option<Cause> {
     let longest = longest(all)?;
     let intervals = by_recording(all.iter().map(|s| (s.recording.as_str(), s.interval)));
     Some(Cause {
-        magnitude: longest.wheels.or(longest.share),
+        // A body that is dragged along may turn a little the other way.
+        magnitude: longest.wheels.or(longest.share).map(f64::abs),
+        side: longest.side.clone(),
         intervals: Some(intervals),
         ..Cause::plain(STANDING.id, STANDING.name, ANSWER.standing)
     })

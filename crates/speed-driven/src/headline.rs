@@ -111,7 +111,9 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
         _ if loads.standstills.is_empty() => warmth.clone().unwrap_or_else(|| {
             "Apart from that slope the simulation explains the loads; nothing else needs to be added to it.".to_owned()
         }),
-        _ => "The other rows show no mismatch: the simulation explains their loads.".to_owned(),
+        _ => warmth
+            .clone()
+            .unwrap_or_else(|| "The other rows show no mismatch: the simulation explains their loads.".to_owned()),
     };
     let rest = match (of_loads, warmth) {
         (Verdict::Withheld, _) => "No load of a whole recording can be compared: too little steady driving.".to_owned(),
@@ -199,7 +201,9 @@ fn slips(r: &Ratio) -> String {
     let how = if r.ratio > 1.0 { "less" } else { "more" };
     format!(
         "The body turns by {percent:.0} % {how} than the same wheel speeds turned it before: ground that gives way or holds \
-         otherwise, or other tyres. Give the simulation this track, and spin both ways on both grounds to be sure."
+         otherwise, other tyres, or a gyro that reads {reads} of what it read. Spin both ways on both grounds, or record a pose, to be \
+         sure; if it is the ground or the tyres, give the simulation this track.",
+        reads = format_args!("{:.0} %", 100.0 / r.ratio)
     )
 }
 
@@ -234,19 +238,25 @@ fn standing(all: &[Standstill]) -> Vec<String> {
         1 => ", and once more".to_owned(),
         n => format!(", and {n} times more"),
     };
+    // Wheels that find hold take more than a side takes straight ahead.
+    let is_light = s.straight.is_some_and(|straight| s.load < ANSWER.light * straight);
     let because = match (s.wheels, s.share) {
         (Some(_), _) => "something holds the wheels: an obstacle, a brake, or too little torque",
+        (None, Some(_)) if is_light => {
+            "that is no more than straight driving takes, so its wheels turn in the air or find no grip"
+        }
         (None, Some(_)) => "it is dug in, or its wheels spin",
         (None, None) => "it pushes against something that does not give way, or is dug in",
     };
     vec![
         format!(
-            "Standing: in {} from {from:.1} s to {until:.1} s {}{more}.",
+            "{}: in {} from {from:.1} s to {until:.1} s {}{more}.",
+            if s.side.is_some() { "Held wheels" } else { "Standing" },
             recordings(&s.recording),
-            if s.wheels.is_some() {
-                "the wheels are commanded to turn and hardly do"
-            } else {
-                "the wheels turn and the body hardly moves"
+            match (&s.side, s.wheels) {
+                (Some(side), _) => format!("the wheels of the {side} side are commanded to turn and hardly do"),
+                (None, Some(_)) => "the wheels are commanded to turn and hardly do".to_owned(),
+                (None, None) => "the wheels turn and the body hardly moves".to_owned(),
             }
         ),
         format!(

@@ -54,6 +54,7 @@ mod next;
 mod pieces;
 mod plane;
 mod power;
+mod rows;
 mod run;
 mod scrub;
 mod sentences;

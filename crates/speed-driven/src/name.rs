@@ -55,6 +55,8 @@ pub(crate) struct Named {
     pub(crate) is_soft_ground: bool,
     /// Free values of each effect in turn.
     pub(crate) values: Vec<f64>,
+    /// What of each effect may change, in the sizes of this robot.
+    pub(crate) free: Vec<Vec<Free>>,
     /// One sigma of each free value.
     pub(crate) sigma: Vec<f64>,
     /// Log evidence over "nothing is missing", nats.
@@ -217,19 +219,6 @@ impl Comparison {
         (0..a.len()).map(|i| (0..b.len()).map(|k| a[i] * self.weight[(i, k)] * b[k]).sum::<f64>()).sum()
     }
 
-    /// One sigma of a strength before anything is measured.
-    fn plausible(&self, v: &Variant, f: &Free) -> f64 {
-        let r = &self.model;
-        let torque = r.mass * r.gravity * r.wheel_radius / PRIORS.medium_torque;
-        let size = match f.parameter.map_or("-", |i| v.spec().parameters[i].unit) {
-            "kg" | "N" => r.mass / PRIORS.medium_mass,
-            "m" => 2.0 * r.half_wheelbase / PRIORS.medium_wheelbase,
-            unit if unit.starts_with("N m") => torque,
-            _ => 1.0,
-        };
-        PRIORS.plausible * f.unit * size
-    }
-
     /// Whether a medium size of any of these effects shows in the loads at `values`.
     fn shows(&self, parts: &[Variant], free: &[(&Variant, Free)], values: &[f64]) -> bool {
         let r = self.residual(&doses(parts, values));
@@ -272,12 +261,14 @@ impl Comparison {
 
     /// Fits the free values of one or two effects from their neutral values (or from `start`).
     pub(crate) fn fit(&self, parts: &[Variant], start: Option<&[f64]>) -> Option<Named> {
+        let sizes = Sizes { robot: Some(self.model), ..Sizes::default() };
+        let of_parts: Vec<Vec<Free>> = parts.iter().map(|v| v.free(&sizes)).collect();
         let free: Vec<(&Variant, Free)> =
-            parts.iter().flat_map(|v| v.free(&Sizes::default()).into_iter().map(move |f| (v, f))).collect();
+            parts.iter().zip(&of_parts).flat_map(|(v, free)| free.iter().map(move |f| (v, *f))).collect();
         let constant = |(i, (v, f)): (usize, &(&Variant, Free))| {
             let neutral = f.parameter.map_or(f.usual, |i| v.spec().parameters[i].neutral);
             let begin = start.and_then(|s| s.get(i)).copied().unwrap_or(neutral);
-            let width = self.plausible(v, f);
+            let width = PRIORS.plausible * f.unit;
             let constant = Constant::new(begin.clamp(f.bounds[0], f.bounds[1]), f.unit);
             let (longest, difference, ridge) = (width / f.unit, EFFECTS.shift, EFFECTS.ridge);
             Constant { longest, difference, ridge, ..constant.within(f.bounds[0], f.bounds[1]).known(neutral, width) }
@@ -306,7 +297,7 @@ impl Comparison {
         let gain = 0.5 * self.quadratic(&self.plain, &self.plain) - fitted.cost + self.plain_track() - of_track;
         let sigma = (0..fitted.values.len()).map(|i| fitted.sigma(i)).collect();
         let (parts, values, score) = (parts.to_vec(), fitted.values, gain - paid);
-        Some(Named { parts, is_soft_ground: false, values, sigma, score, gain })
+        Some(Named { parts, is_soft_ground: false, values, free: of_parts, sigma, score, gain })
     }
 
     /// Residuals of unit variance that do not go together.

@@ -5,7 +5,6 @@
 
 use faer::Mat;
 use inference::expected_information::{Forecast, expected_bits, widest_pair};
-use inference::hypothesis::Sizes;
 use inference::robust::NINETY;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
@@ -155,7 +154,7 @@ fn loads(model: &Robot<f64>, at: &[Operating], named: Option<&Named>) -> Vec<f64
 
 /// Columns of a rival's sizes times how well each is known.
 fn by_sizes(model: &Robot<f64>, at: &[Operating], named: &Named, base: &[f64]) -> Mat<f64> {
-    let free: Vec<_> = named.parts.iter().flat_map(|v| v.free(&Sizes::default())).collect();
+    let free: Vec<_> = named.free.iter().flatten().collect();
     let columns: Vec<Vec<f64>> = free
         .iter()
         .enumerate()
@@ -221,14 +220,16 @@ fn why(at: &[Operating], model: &Robot<f64>, k: &Rival<'_>, l: &Rival<'_>) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inference::hypothesis::{Place, variants};
+    use inference::hypothesis::{Place, Sizes, variants};
     use robot_model::tunable::usual_sigma;
     use testing::robot;
 
     fn named(id: &str, value: f64, score: f64) -> Named {
         let form = variants(true).into_iter().find(|v| v.spec().id == id && v.place == Place::Whole);
+        let form = form.expect("in the catalogue");
         Named {
-            parts: vec![form.expect("in the catalogue")],
+            free: vec![form.free(&Sizes { robot: Some(robot()), ..Sizes::default() })],
+            parts: vec![form],
             is_soft_ground: false,
             values: vec![value],
             sigma: vec![0.1 * value],

@@ -27,6 +27,9 @@ fn wrong(run: &SpeedRun) -> Option<String> {
     if run.magnitude_only {
         return None;
     }
+    if let Some(what) = magnitudes(run) {
+        return Some(what);
+    }
     let drives = |i: usize| (0..2).all(|j| run.speed[j][i].abs() > POWER.turning && run.reads(i, j));
     let steady = |i: &usize| drives(*i) && run.held(*i, MEASURING.turns.steady, POWER.held);
     let (spins, straight): (Vec<usize>, Vec<usize>) = (0..run.time.len()).filter(steady).partition(|&i| run.spins(i));
@@ -64,6 +67,24 @@ fn wrong(run: &SpeedRun) -> Option<String> {
     }
 }
 
+/// Torques that have no sign though they are mapped with one: they are never negative where a side pushes backward.
+fn magnitudes(run: &SpeedRun) -> Option<String> {
+    let backward = |side: usize| {
+        let torque = &run.torque[side];
+        let largest = torque.iter().map(|t| t.abs()).fold(0.0, f64::max);
+        let noise = MEASURING.guesses.noise * largest;
+        let is_negative = torque.iter().any(|t| *t < -noise);
+        let pushes = |i: &usize| run.speed[side][*i] < -POWER.turning && torque[*i] > noise;
+        let seconds = (0..torque.len()).filter(pushes).count() as f64 * run.period();
+        (!is_negative && seconds > POWER.backward).then_some(seconds)
+    };
+    let (left, right) = (backward(0)?, backward(1)?);
+    Some(format!(
+        "the currents or torques are mapped with their signs, and are never negative, though the left side turns backward for \
+         {left:.0} s and the right one for {right:.0} s: they are magnitudes; write `magnitude_only = true` for them in the mapping"
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,6 +117,10 @@ mod tests {
         let mut right = signed();
         right.torque[1].iter_mut().for_each(|t| *t = -*t);
         assert!(refused(right).contains("the sign of the right current"));
+
+        let mut unsigned = signed();
+        unsigned.torque.iter_mut().flatten().for_each(|t| *t = t.abs());
+        assert!(refused(unsigned).contains("write `magnitude_only = true`"));
 
         // Spins one way on a slope may make one side brake.
         let mut sloping = signed();

@@ -6,6 +6,7 @@ use recordings::{Channel, Recording, Signal};
 use crate::body_rates::{BodyRates, level};
 use crate::clock::{self, Alignment};
 use crate::pieces::pieces;
+use crate::rows::joined;
 use crate::settings::{MEASURING, measuring::Rows};
 use crate::speeds::{held_at, steadied};
 use crate::stamps::{origin, samples};
@@ -73,25 +74,19 @@ impl SpeedRun {
         let (load, load_left, load_right) = pair(loads, "current or torque of both sides")?;
         let factor = if load == 1 { torque_per_current } else { 1.0 };
 
-        // Rows at which all four were recorded.
-        let common: Vec<i64> = left
-            .t_ns()
-            .iter()
-            .copied()
-            .filter(|t| has(right, *t) && has(load_left, *t) && has(load_right, *t))
-            .collect();
+        let set_points = kind == 1 || left.attributes().set_point;
+        let rows = joined([left, right], set_points, [load_left, load_right]);
+        let common = rows.stamps;
         if common.len() < ROWS.least {
             return Err(DiagnosisError::TooShort { recording: name, rows: common.len(), needed: ROWS.least });
         }
-        let take = |c: &Channel, f: f64| common.iter().map(|t| at(c, *t) * f).collect::<Vec<f64>>();
-        let speed = [take(left, radius), take(right, radius)];
+        let speed = rows.speed.map(|z| z.into_iter().map(|v| v * radius).collect::<Vec<f64>>());
         if speed.iter().flatten().all(|v| v.abs() < 1e-9) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
 
         let origin = origin(recording);
         let time: Vec<f64> = common.iter().map(|t| (*t - origin) as f64 * 1e-9).collect();
-        let set_points = kind == 1 || left.attributes().set_point;
         let (speed, averaged) = if set_points { (speed, None) } else { steadied(&time, speed) };
         let commands = speeds[1].map(|signal| recording.get(signal));
         let commanded = match commands {
@@ -101,7 +96,7 @@ impl SpeedRun {
         let attributes = load_left.attributes();
         let dead_band = attributes.dead_band.map_or(0.0, |d| (d + ROWS.dead_band_slack) * factor);
         let mut run = Self {
-            torque: [take(load_left, factor), take(load_right, factor)],
+            torque: rows.load.map(|z| z.into_iter().map(|v| v * factor).collect()),
             dead_band,
             hidden: dead_band,
             set_points,
@@ -242,14 +237,6 @@ impl SpeedRun {
         }
         self.time[k] - self.time[i] >= seconds - 1e-9
     }
-}
-
-fn has(c: &Channel, t: i64) -> bool {
-    c.t_ns().binary_search(&t).is_ok()
-}
-
-fn at(c: &Channel, t: i64) -> f64 {
-    c.t_ns().binary_search(&t).map_or(0.0, |i| c.values()[i])
 }
 
 #[cfg(test)]

@@ -66,23 +66,37 @@ pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
             interval: [run.time[first], run.time[last]],
             share: Some(mean(&share)),
             wheels: None,
+            side: None,
+            straight: straight(run),
             load: mean(&|i| run.torque[0][i].abs().max(run.torque[1][i].abs())),
         }
     };
     found.into_iter().map(told).collect()
 }
 
-/// Stretches in which both sides hardly turn although they are commanded to, at torques above those of driving: motors that are
-/// switched off hold nothing.
+/// Stretches in which wheels hardly turn although they are commanded to, those of both sides or of one, at torques above those of
+/// driving: motors that are switched off hold nothing.
 fn held_wheels(run: &SpeedRun) -> Vec<Standstill> {
+    let mut out = held_of(run, &[0, 1]);
+    for side in 0..2 {
+        let is_new =
+            |s: &Standstill| out.iter().all(|o| o.interval[1] < s.interval[0] || s.interval[1] < o.interval[0]);
+        let found: Vec<Standstill> = held_of(run, &[side]).into_iter().filter(is_new).collect();
+        out.extend(found.into_iter().map(|s| Standstill { side: Some(["left", "right"][side].into()), ..s }));
+    }
+    out
+}
+
+/// The same where all of these sides are held.
+fn held_of(run: &SpeedRun, sides: &[usize]) -> Vec<Standstill> {
     let Some(commanded) = &run.commanded else { return Vec::new() };
-    let asked = |i: usize| (0..2).map(|j| commanded[j][i].abs()).fold(0.0, f64::max) > STUCK.commanded;
+    let most = |of: &[Vec<f64>; 2], i: usize| sides.iter().map(|&j| of[j][i].abs()).fold(0.0, f64::max);
+    let asked = |i: usize| most(commanded, i) > STUCK.commanded;
     let share = |i: usize| {
-        let sum = |of: &[Vec<f64>; 2]| of[0][i].abs() + of[1][i].abs();
+        let sum = |of: &[Vec<f64>; 2]| sides.iter().map(|&j| of[j][i].abs()).sum::<f64>();
         sum(&run.speed) / sum(commanded)
     };
-    let torque = |i: usize| run.torque[0][i].abs().max(run.torque[1][i].abs());
-    let driving = (0..run.time.len()).filter(|&i| asked(i) && share(i) > STUCK.follows).map(torque);
+    let driving = (0..run.time.len()).filter(|&i| asked(i) && share(i) > STUCK.follows).map(|i| most(&run.torque, i));
     let Some(usual) = median(driving) else { return Vec::new() };
 
     let held = (0..run.time.len()).filter(|&i| asked(i) && share(i) < STUCK.wheels);
@@ -90,17 +104,28 @@ fn held_wheels(run: &SpeedRun) -> Vec<Standstill> {
     let stretches = pieces(&run.time, held, STUCK.mean);
     let told = |rows: Vec<usize>| {
         let interval = [run.time[*rows.first()?], run.time[*rows.last()?]];
-        let [load, wheels] = [mean(rows.iter().map(|&i| torque(i)))?, mean(rows.iter().map(|&i| share(i)))?];
+        let load = mean(rows.iter().map(|&i| most(&run.torque, i)))?;
+        let wheels = mean(rows.iter().map(|&i| share(i)))?;
         let lasts = rows.len() as f64 * run.period() >= STUCK.least_seconds;
         (lasts && load > usual).then(|| Standstill {
             recording: run.name.clone(),
             interval,
             share: None,
             wheels: Some(wheels),
+            side: None,
             load,
+            straight: straight(run),
         })
     };
     stretches.into_iter().filter_map(told).collect()
+}
+
+/// Torque of a side in straight driving, median, N m.
+fn straight(run: &SpeedRun) -> Option<f64> {
+    let is_straight =
+        |i: &usize| run.forward(*i).abs() > CHANGES.pieces.driving && run.difference(*i).abs() < MEASURING.turns.steady;
+    let rows = (0..run.time.len()).filter(is_straight);
+    median(rows.flat_map(|i| [run.torque[0][i].abs(), run.torque[1][i].abs()]))
 }
 
 /// Finds where the bodies of these recordings stand, and marks the rows: they leave all else.
@@ -171,6 +196,15 @@ mod tests {
         let marked = &mut [run.clone()];
         assert_eq!(mark(marked, GROUND.track).len(), 1);
         assert!(marked[0].standing.iter().zip(&marked[0].time).all(|(stands, t)| !still(*t) || *stands));
+
+        // Wheels of one side that are held are told with that side.
+        let mut one = run.clone();
+        if let Some(commanded) = &one.commanded {
+            one.speed[0].clone_from(&commanded[0]);
+        }
+        let found = held_wheels(&one);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].side.as_deref(), Some("right"), "{found:?}");
 
         let mut off = run.clone();
         for i in 0..off.time.len() {

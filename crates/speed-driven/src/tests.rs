@@ -59,7 +59,7 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
     assert!(d.sentences[0].starts_with("Difference: in recording 0 the effective track is 0.9"), "{:?}", d.sentences);
     assert!(d.sentences.iter().any(|s| s.starts_with("The body turns by 20 % less")), "{:?}", d.sentences);
     assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
-    assert_eq!(d.indistinguishable, [["effective_track", "soft_ground"]]);
+    assert_eq!(d.indistinguishable, [["effective_track", "soft_ground", "gyro_scale"]]);
     agrees_with_itself(&d);
 }
 

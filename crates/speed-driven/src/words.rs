@@ -72,7 +72,9 @@ pub(crate) fn load(r: &Ratio, theirs: &str) -> String {
         Judgement::Alike => {
             format!("no difference is shown, since the interval contains {}", no_difference(r.quantity))
         }
-        Judgement::Unnamed => "it differs, but a cold drive train varies as much, so no cause is named".to_owned(),
+        Judgement::Unnamed => {
+            "it differs, but a cold drive train varies as much, so this load alone names no cause".to_owned()
+        }
         Judgement::Differs => "it differs".to_owned(),
     };
     let firm = if r.firm { String::new() } else { format!(" (tentative: less than {:.0} s)", MEASURING.ratios.firm) };
@@ -91,17 +93,21 @@ fn titled(names: &str) -> String {
 
 pub(crate) fn standstill(s: &Standstill) -> String {
     let [from, until] = s.interval;
-    format!("{}, from {from:.1} s to {until:.1} s: the robot stands: {}.", titled(&s.recording), how_it_stands(s))
+    let what = if s.side.is_some() { "wheels are held" } else { "the robot stands" };
+    format!("{}, from {from:.1} s to {until:.1} s: {what}: {}.", titled(&s.recording), how_it_stands(s))
 }
 
 /// By what a body is seen to stand.
 pub(crate) fn how_it_stands(s: &Standstill) -> String {
     if let Some(wheels) = s.wheels {
-        return format!(
-            "its wheels turn at {:.0} % of the speed that is commanded, with {:.0} N m on the more loaded side",
-            100.0 * wheels,
-            s.load
-        );
+        let whose = match &s.side {
+            Some(side) => {
+                format!("the wheels of the {side} side turn at {:.0} % of the speed that is commanded", 100.0 * wheels)
+            }
+            None => format!("its wheels turn at {:.0} % of the speed that is commanded", 100.0 * wheels),
+        };
+        let on = if s.side.is_some() { "them" } else { "the more loaded side" };
+        return format!("{whose}, with {:.0} N m on {on}", s.load);
     }
     match s.share {
         Some(share) => format!(

@@ -326,8 +326,14 @@ pub struct Standstill {
     /// Speed of the wheels over what is commanded, where something holds them; `None` where they turn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wheels: Option<f64>,
+    /// The side whose wheels are held, where only one is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<Word>,
     /// Mean torque of the more loaded side, N m.
     pub load: f64,
+    /// Torque of a side in straight driving of this recording, median, N m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub straight: Option<f64>,
 }
 
 /// Errors of the forecast of a recording's last third, rms.

@@ -175,6 +175,21 @@ fn accelerometers_are_held_against_the_push_of_turns() {
 }
 
 #[test]
+fn a_right_angle_shows_in_the_means_where_vibration_hides_the_push() {
+    let shaken = |columns: Channels| -> Channels {
+        let shake = |(signal, samples): (Signal, Vec<(f64, f64)>)| {
+            let by = if FORCES.contains(&signal) { 1.5 } else { 0.0 };
+            // Whole periods in a second.
+            let at = |(t, v): (f64, f64)| (t, v + by * (std::f64::consts::TAU * 2.0 * t).sin());
+            (signal, samples.into_iter().map(at).collect())
+        };
+        columns.into_iter().map(shake).collect()
+    };
+    tells(&shaken(exchanged(without(&[]), FORCES)), "in its means", "exchange the two");
+    assert_eq!(told(&shaken(without(&[]))), None);
+}
+
+#[test]
 fn a_state_every_two_seconds_contradicts_nothing() {
     let mut sparse = scaled(without(&TORQUES), &[Signal::GyroZ], -1.0);
     for (_, samples) in &mut sparse {

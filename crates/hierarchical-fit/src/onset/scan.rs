@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::onset::Instants;
-use crate::onset::courses::{self, Course};
+use crate::onset::courses::{Course, Grid};
 use crate::session::Session;
 use crate::stretches::{Stretch, difference, sums};
 use crate::weigh::Evidence;
@@ -111,7 +111,7 @@ impl Scan {
     /// begins, or ends, there.
     pub(crate) fn instants(
         &self,
-        series: &[Course],
+        (series, grid): (&[Course], &Grid),
         (directions, variances): &(DMatrix<f64>, DVector<f64>),
         always: &Always,
         (ends, anew): (bool, bool),
@@ -144,11 +144,6 @@ impl Scan {
             return Some(once);
         }
         let (_, best) = once.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        courses::anew(&self.lengths(), &best, score)
-    }
-
-    /// Number of stretches of each drive.
-    fn lengths(&self) -> Vec<usize> {
-        self.drives.iter().map(|drive| drive.sums.len() - 1).collect()
+        grid.anew(&best, score)
     }
 }

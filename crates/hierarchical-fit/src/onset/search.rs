@@ -16,7 +16,7 @@ use crate::descent::sessions;
 use crate::fit::Fit;
 use crate::name::{Named, covariance, score};
 use crate::observed::Observed;
-use crate::onset::courses::{self, Course, in_series, sum_anew};
+use crate::onset::courses::{Course, Grid};
 use crate::onset::hypotheses::{Hypothesis, directions, hypotheses, likely};
 use crate::onset::scan::Scan;
 use crate::onset::told::when;
@@ -64,8 +64,7 @@ pub(super) struct Sought<'a, D: Observed> {
     pub(super) prior: &'a Prior,
     pub(super) causes: &'a [Cause],
     fit: &'a Fit,
-    /// Number of stretches of each drive.
-    lengths: Vec<usize>,
+    grid: Grid,
     /// Where a cause may begin or end once.
     series: Vec<Course>,
 }
@@ -79,8 +78,8 @@ pub(crate) fn onset<D: Observed>(
 ) -> Option<(Onset, Named)> {
     let rules = SETTINGS.onset;
     let own = stretches(data, &fit.theta, &fit.own, (fit.noise, rules.coarse));
-    let lengths: Vec<usize> = own.iter().map(Vec::len).collect();
-    let sought = Sought { data, prior, causes, fit, series: in_series(&lengths), lengths };
+    let grid = Grid::new(&own);
+    let sought = Sought { data, prior, causes, fit, series: grid.in_series(), grid };
     let set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
     let always = sought.always(&set, &fit.sessions)?;
 
@@ -185,7 +184,7 @@ impl<D: Observed> Sought<'_, D> {
             Some(all.of(&known)? - all.base)
         };
         let instants: Instants = if hypothesis.anew {
-            courses::anew(&self.lengths, courses.first()?, score)?
+            self.grid.anew(courses.first()?, score)?
         } else {
             courses.iter().filter_map(|course| Some((score(course)?, course.clone()))).collect()
         };
@@ -207,7 +206,7 @@ impl<D: Observed> Sought<'_, D> {
     fn claimed(&self, hypothesis: &Hypothesis, instants: &Instants, factor: f64) -> f64 {
         // An onset is one of so many, and begins or ends.
         let of_instants = if hypothesis.anew {
-            sum_anew(instants, &self.lengths) - 2.0_f64.ln()
+            self.grid.sum_anew(instants) - 2.0_f64.ln()
         } else {
             let scores: Vec<f64> = instants.iter().map(|(score, _)| *score).collect();
             log_sum_exp(&scores) - (2.0 * self.series.len() as f64).ln()
@@ -228,7 +227,8 @@ impl<D: Observed> Sought<'_, D> {
             let of = |hypothesis: &Hypothesis| {
                 let always = scan.always(&covariance(&self.prior.covariance, self.causes, &hypothesis.always))?;
                 let moves = directions(&self.causes[hypothesis.cause], n);
-                let instants = scan.instants(&self.series, &moves, &always, (hypothesis.ends, hypothesis.anew))?;
+                let instants =
+                    scan.instants((&self.series, &self.grid), &moves, &always, (hypothesis.ends, hypothesis.anew))?;
                 Some((self.claimed(hypothesis, &instants, factor), hypothesis.clone(), instants))
             };
             found.par_extend(hypotheses.par_iter().filter_map(of));
@@ -342,16 +342,17 @@ mod tests {
         let causes = [Cause { spec, of: None, directions, possible: None }];
         let fit = fit(&data, &prior, vec![0.0]).expect("a fit");
         let own = stretches(&data, &fit.theta, &fit.own, (fit.noise, SETTINGS.onset.coarse));
-        let lengths: Vec<usize> = own.iter().map(Vec::len).collect();
-        let series = in_series(&lengths);
-        let sought = Sought { data: &data, prior: &prior, causes: &causes, fit: &fit, series, lengths };
+        let grid = Grid::new(&own);
+        let series = grid.in_series();
+        let sought = Sought { data: &data, prior: &prior, causes: &causes, fit: &fit, series, grid };
         let theta = DVector::from_column_slice(&fit.theta);
         let about = Equations { off: own.clone(), on: own.clone(), theta: theta.clone(), moved: None };
         let scan = Scan::new(&own, &theta, &data.scatter(fit.factor), &prior.mean).expect("a scan");
         let always = scan.always(&prior.covariance).expect("an answer");
         for (ends, anew) in [(false, false), (true, false), (false, true)] {
             let hypothesis = Hypothesis { always: Vec::new(), cause: 0, ends, anew };
-            let scanned = scan.instants(&sought.series, &super::directions(&causes[0], 1), &always, (ends, anew));
+            let scanned =
+                scan.instants((&sought.series, &sought.grid), &super::directions(&causes[0], 1), &always, (ends, anew));
             let Some(slow) = sought.weighed_under(hypothesis, &about, &sought.series, fit.factor) else {
                 assert!(anew && scanned.is_none(), "nothing changes anew in these drives");
                 continue;

@@ -8,6 +8,10 @@
     rows: Rows {
         /// Shortest recording that is taken, rows.
         least: usize = 20, "1", "rows of three seconds of steady driving";
+        /// Share of the rows of the slowest channel whose stamps all channels have, below which these are joined in time.
+        shared: f64 = 0.5, "share", "guess; sensors with stamps of their own share hardly any";
+        /// Joined readings may be so many times their usual distance apart.
+        join_gap: f64 = 3.5, "1", "guess; a reading or two may be lost";
         /// A yaw rate is averaged over this long: wheel vibration is no turning.
         gyro_mean: f64 = 0.31, "s", "guess";
         /// The first and the last value of a gyro count this much longer.
@@ -50,6 +54,8 @@
         acts: f64 = 0.5, "1", "guess";
         /// Share of the rows in which a side brakes from which its sign is wrong.
         share: f64 = 0.8, "1", "guess: sides that push brake in no row but for noise";
+        /// Pushing backward with torques that are never negative, from which on they are magnitudes.
+        backward: f64 = 5.0, "s", "guess: of each side";
     }
 
     /// How the inertial unit leans in the body.

@@ -33,12 +33,6 @@
         unnamed_straight: f64 = 1.45, "1", "given, for cold drive trains (docs/evidence.md)";
         /// A strength is taken to be within so many medium sizes, one sigma; medium sizes grow with the robot.
         plausible: f64 = 3.0, "1", "guess";
-        /// Mass of the robot for which the effects' medium sizes are meant.
-        medium_mass: f64 = 20.0, "kg", "guess";
-        /// Torque m g r of the robot for which the effects' medium sizes are meant.
-        medium_torque: f64 = 20.0, "N m", "guess";
-        /// Wheelbase of the robot for which the effects' medium sizes are meant.
-        medium_wheelbase: f64 = 0.36, "m", "guess";
         /// Price of naming an effect.
         per_effect: f64 = 3.0, "nats", "guess";
         /// What an effect costs more that needs a hand on the robot: its mass, motors, torque constant, wheels.
@@ -86,8 +80,12 @@
         least_plausible: f64 = 2.0, "nats", "guess";
         /// Probability of a body that was seen to stand: a gyro that is off looks alike.
         standing: f64 = 0.99, "1", "guess";
+        /// Wheels that spin with less than so many times what a side takes straight ahead find no hold.
+        light: f64 = 1.5, "1", "guess: turns on the spot take two times as much and more";
         /// Probability that a longer effective track alone, without a load that differs, is soft ground.
         soft: f64 = 0.5, "1", "guess: or another surface, or other tyres";
+        /// Probability that another effective track is an error of the gyro's scale.
+        gyro: f64 = 0.25, "1", "guess: gyros are exchanged less often than grounds";
         /// Probability that a change inside a recording is one: it is reported where its 90 % interval shows it.
         changed: f64 = 0.9, "1", "definition of the interval";
         /// Members of a class at most, the likeliest; the table of causes has all.
