@@ -10,7 +10,9 @@ use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
 use robot_model::effects::{coulomb_side, gyro_scale};
 use statrs::distribution::{ContinuousCDF, Normal};
-use verdict::{Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, TurningChange, Verdict};
+use verdict::{
+    Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, Standstill, TurningChange, Verdict,
+};
 
 use crate::cause::cause;
 use crate::compare::{Judgement, judgement, reported, sigmas};
@@ -142,7 +144,24 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         let name = catalogue::find(id).map_or(id, |entry| entry.label());
         Cause::plain(id, name, ANSWER.changed / of as f64)
     };
-    let mut classes: Vec<Vec<Cause>> = Vec::new();
+    let of_side = |c: &SideChange| -> Vec<Cause> {
+        let intervals = by_recording([(c.recording.as_str(), [c.onset[1], c.until])].into_iter());
+        let cause = |id: &verdict::Word| {
+            // A brake takes what the side takes more; the torque for a current is its share.
+            let [before, after] = c.torque;
+            let is_brake = *id == coulomb_side::SPEC.id;
+            Cause {
+                magnitude: Some(if is_brake { after - before } else { before / after - 1.0 }),
+                sigma: Some(c.half / NINETY / if is_brake { 1.0 } else { after.abs() }),
+                unit: if is_brake { "N m".into() } else { "-".into() },
+                side: Some(c.side.clone()),
+                intervals: Some(intervals.clone()),
+                ..known(id, c.causes.len())
+            }
+        };
+        c.causes.iter().map(cause).collect()
+    };
+    let mut classes: Vec<Vec<Cause>> = loads.side_changes.iter().map(of_side).collect();
     for (k, ground) in loads.grounds.iter().enumerate() {
         let alike = |other: &&OtherGround| other.causes == ground.causes;
         if ground.causes.is_empty() || loads.grounds[..k].iter().any(|other| alike(&other)) {

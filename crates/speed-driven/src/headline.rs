@@ -13,7 +13,9 @@ use crate::found::{longest, strongest};
 use crate::groups::{Disagreement, disagreements};
 use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
-use crate::words::{any_of, change, compared, group, how_it_stands, other_ground, recordings, turning_change};
+use crate::words::{
+    any_of, change, compared, group, how_it_stands, other_ground, recordings, side_change, turning_change,
+};
 
 const SENTENCES: Sentences = NAMING.sentences;
 const ANSWER: Answer = NAMING.answer;
@@ -121,6 +123,10 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
         _ => "Apart from what changes inside recordings the simulation explains the loads; nothing else needs to be added \
               to it.".to_owned(),
     };
+    if let Some(largest) = loads.side_changes.first() {
+        let first = format!("One side changes inside a recording. {}", side_change(largest));
+        return [Some(first), apart(&largest.causes), Some(rest)].into_iter().flatten().collect();
+    }
     if let Some(longest) = loads.grounds.first() {
         let how_many = match loads.grounds.len() {
             1 => String::new(),
@@ -294,9 +300,9 @@ fn names(d: &Diagnosis, class: &[String]) -> Vec<String> {
 }
 
 /// The drives that reveal the members of a class split it; the first ones are enough to begin with.
-fn apart(class: &[String]) -> Option<String> {
+fn apart<S: AsRef<str>>(class: &[S]) -> Option<String> {
     let mut drives: Vec<&str> = Vec::new();
-    for drive in class.iter().filter_map(|id| revealed_by(id)) {
+    for drive in class.iter().filter_map(|id| revealed_by(id.as_ref())) {
         if !drives.contains(&drive) && drives.len() < SENTENCES.drives {
             drives.push(drive);
         }

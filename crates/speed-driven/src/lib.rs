@@ -51,6 +51,7 @@ mod model;
 mod mounting;
 mod name;
 mod next;
+mod one_side;
 mod pieces;
 mod plane;
 mod power;
@@ -167,6 +168,8 @@ pub fn diagnose_steady(
     let scale_sigma = case.torque_sigma.hypot(place_of("mass").map_or(0.0, |place| case.sigma[place]));
     let slope = plane::take_off(&mut marked.recordings, &usual, (weight, scale_sigma));
     let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight);
+    let side_changes = one_side::changes(&marked.recordings);
+    one_side::mark(&mut marked.recordings, &side_changes);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
@@ -181,9 +184,11 @@ pub fn diagnose_steady(
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
 
     progress("looking into the recordings");
-    let mut loads = Loads { standstills, changes, slope, ..within(&marked, &robot, &refs, reference_loads.clone()) };
+    let mut loads =
+        Loads { standstills, changes, slope, side_changes, ..within(&marked, &robot, &refs, reference_loads.clone()) };
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
+    one_side::drop_what_shows_it(&mut loads);
     // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
     let measured = grounds::leave_out(&mut marked.recordings, &loads, &refs);
     loads.on_grounds = measured == Measured::Grounds;
@@ -314,6 +319,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         withheld: Vec::new(),
         changes: Changes::default(),
         slope: None,
+        side_changes: Vec::new(),
         turning_changes: Vec::new(),
         grounds: Vec::new(),
         on_grounds: false,

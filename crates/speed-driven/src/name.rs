@@ -244,9 +244,11 @@ impl Comparison {
     /// Soft ground: harder rolling, and turning that costs no more beyond that.
     fn soft_ground(&self) -> Option<Named> {
         let both = ground::parts()?;
+        // Rolling that its own error may be is no ground that gives way.
+        let rolls = |named: &Named| named.values[0] > named.sigma[0];
         let gives_way = |named: &Named| match named.values[..] {
-            [rolling, turning] => rolling > 0.0 && turning <= 0.0,
-            [rolling] => rolling > 0.0,
+            [_, turning] => rolls(named) && turning <= 0.0,
+            [_] => rolls(named),
             _ => false,
         };
         let fitted =

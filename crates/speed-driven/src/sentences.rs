@@ -5,7 +5,9 @@ use verdict::{Diagnosis, Loads, Ratio, Verdict};
 use crate::compare::reported;
 use crate::headline::headline;
 use crate::pieces::GRADE;
-use crate::words::{change, hidden, load, other_ground, recordings, standstill, tentative, turning, turning_change};
+use crate::words::{
+    change, hidden, load, other_ground, recordings, side_change, standstill, tentative, turning, turning_change,
+};
 
 /// The answer of a speed-driven case in sentences; `of_loads` is the verdict of the loads alone.
 pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_points: bool) -> Vec<String> {
@@ -22,7 +24,8 @@ pub(crate) fn sentences(d: &Diagnosis, of_loads: Verdict, loads: &Loads, set_poi
     if loads.standstills.len() > 1 {
         out.extend(loads.standstills.iter().map(standstill));
     }
-    let grounds = loads.grounds.iter().map(|g| other_ground(g, theirs));
+    let sides = loads.side_changes.iter().map(side_change);
+    let grounds = sides.chain(loads.grounds.iter().map(|g| other_ground(g, theirs)));
     // What shows a ground is told with it.
     let of_ground = |recording: &str, interval| loads.grounds.iter().any(|g| g.holds(recording, interval));
     let straight = loads.changes.found.iter().filter(|c| c.causes == [GRADE] || !of_ground(&c.recording, c.interval));

@@ -5,8 +5,8 @@ use crate::compare::{Judgement, judgement, no_difference};
 use crate::settings::{MEASURING, NAMING, naming::Sentences};
 use robot_model::effect::LoadTerm;
 use verdict::{
-    ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, RecordingGroup, Standstill, Turning, TurningChange,
-    Way, sentence_case,
+    ClockError, Hidden, LoadChange, OtherGround, Quantity, Ratio, RecordingGroup, SideChange, Standstill, Turning,
+    TurningChange, Way, sentence_case,
 };
 
 const SENTENCES: Sentences = NAMING.sentences;
@@ -121,6 +121,23 @@ pub(crate) fn how_it_stands(s: &Standstill) -> String {
             s.load
         ),
     }
+}
+
+/// A side that takes another torque from an instant on.
+pub(crate) fn side_change(c: &SideChange) -> String {
+    let ([before, after], SideChange { side, half, .. }) = (c.torque, c);
+    let (more, what) = if after > before {
+        ("more", "something drags on that side, or its motor gives less torque for its current")
+    } else {
+        ("less", "something that dragged on that side let go, or its motor gives more torque for its current")
+    };
+    format!(
+        "{}, from {} until the end: the {side} side takes {:.1} ± {half:.1} N m {more} in straight driving than before ({after:.1} \
+         after {before:.1} N m; 90 %), and the other side does not: {what}. Ground would change both sides.",
+        titled(&c.recording),
+        moment(c.onset),
+        (after - before).abs()
+    )
 }
 
 /// What a reference that stands does to the answer.

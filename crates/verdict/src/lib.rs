@@ -52,7 +52,7 @@ pub use law::{
 };
 pub use loads::{
     Changes, ClockError, Forecast, GroundSlope, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio,
-    RecordingGroup, Standstill, Turning, TurningChange, Way, Withheld,
+    RecordingGroup, SideChange, Standstill, Turning, TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use prediction::{ErrorAhead, PredictedPath, Prediction, SimulatedPath};

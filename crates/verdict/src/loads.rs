@@ -20,6 +20,9 @@ pub struct Loads {
     /// One slope under all driving, by loads and directions of travel; its pull is taken off all other loads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slope: Option<GroundSlope>,
+    /// Sides that take another torque from an instant on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub side_changes: Vec<SideChange>,
     /// When inside a recording turning begins or ceases to cost another torque.
     pub turning_changes: Vec<TurningChange>,
     /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
@@ -275,6 +278,25 @@ pub struct TurningChange {
     /// The one way in which the robot turned there; `None` if it turned both ways.
     #[serde(default)]
     pub one_way: Option<Way>,
+}
+
+/// A side that takes another torque in straight driving from an instant on until the recording ends, while the other one does not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SideChange {
+    /// Name of the recording.
+    pub recording: String,
+    /// Left or right.
+    pub side: Word,
+    /// Between these it begins, s; apart where the robot did not drive straight.
+    pub onset: [f64; 2],
+    /// The last straight driving that shows it, s.
+    pub until: f64,
+    /// Torque of the side before and after, N m.
+    pub torque: [f64; 2],
+    /// Half of the 90 % interval of their difference, N m.
+    pub half: f64,
+    /// What does this.
+    pub causes: Vec<Word>,
 }
 
 /// Which way a robot turns.

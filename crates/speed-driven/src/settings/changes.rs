@@ -22,6 +22,22 @@ const fn degrees(x: f64) -> f64 {
         alike: f64 = 1.25, "1", "guess, as for turning";
     }
 
+    /// A side that takes another torque from an instant on.
+    one_side: OneSide {
+        /// Length of the stretches of straight driving that are compared.
+        stretch: f64 = 2.0, "s", "guess: longer than what a current is filtered by";
+        /// Straight driving before and after at least.
+        least: f64 = 8.0, "s", "guess: four of these stretches";
+        /// Scatters of the difference of both sides by which it has to change.
+        clear: f64 = 5.0, "1", "guess: a steady drift of the same size has 3.5";
+        /// Least scatter, as a share of the straight load.
+        floor: f64 = 0.02, "1", "guess";
+        /// The same in shares of the straight load.
+        share: f64 = 0.2, "1", "guess: less is a matter of the ground";
+        /// Share of that by which the other side may change.
+        other: f64 = 0.4, "1", "guess: other speeds change both";
+    }
+
     /// The slope under the robot from its turning rates and loads.
     attitude: Filter {
         /// Tilt at the beginning, one sigma.
