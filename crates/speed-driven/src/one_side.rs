@@ -1,0 +1,161 @@
+//! A side that takes another torque from an instant on, until the recording ends: something drags on it, or its motor changed. Ground
+//! lies under both sides, and drive trains warm up on both.
+
+use inference::robust::{NINETY, mean, median};
+use robot_model::effects::{coulomb_side, torque_constant_side};
+use verdict::{LoadChange, Loads, SideChange};
+
+use crate::pieces::{GRADE, pieces};
+use crate::run::SpeedRun;
+use crate::settings::{CHANGES, MEASURING, changes::OneSide};
+use crate::straight::is_straight;
+
+const ONE_SIDE: OneSide = CHANGES.one_side;
+
+/// A short stretch of straight driving: from, until, s, and the torque of each side in the direction of travel, N m.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    interval: [f64; 2],
+    torque: [f64; 2],
+}
+
+impl Stretch {
+    fn difference(&self) -> f64 {
+        self.torque[1] - self.torque[0]
+    }
+}
+
+/// Finds it in these recordings.
+pub(crate) fn changes(runs: &[SpeedRun]) -> Vec<SideChange> {
+    runs.iter().filter_map(change).collect()
+}
+
+/// Marks the rows from there on, whose straight load is that of the change.
+pub(crate) fn mark(runs: &mut [SpeedRun], found: &[SideChange]) {
+    for change in found {
+        for run in runs.iter_mut().filter(|run| run.name == change.recording) {
+            let is_after = run.time.iter().map(|t| *t >= change.onset[0]);
+            run.changed.iter_mut().zip(is_after).for_each(|(changed, after)| *changed |= after);
+        }
+    }
+}
+
+/// Drops what was found in the same rows by their loads alone.
+pub(crate) fn drop_what_shows_it(loads: &mut Loads) {
+    let sides = loads.side_changes.clone();
+    let is_in = |recording: &str, from: f64| {
+        sides.iter().any(|s| s.recording == recording && from >= s.onset[0] - ONE_SIDE.stretch)
+    };
+    loads.grounds.retain(|g| !is_in(&g.recording, g.interval[0]));
+    let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
+    loads.changes.found.retain(|c| is_slope(c) || !is_in(&c.recording, c.interval[0]));
+}
+
+fn change(run: &SpeedRun) -> Option<SideChange> {
+    let all = stretches(run);
+    let least = (ONE_SIDE.least / ONE_SIDE.stretch).ceil() as usize;
+    let candidates = least..(all.len() + 1).saturating_sub(least);
+    let scatter = |part: &[Stretch]| -> f64 {
+        let middle = mean(part.iter().map(Stretch::difference)).unwrap_or(0.0);
+        part.iter().map(|s| (s.difference() - middle).powi(2)).sum()
+    };
+    let left = |k: &usize| scatter(&all[..*k]) + scatter(&all[*k..]);
+    let at = candidates.min_by(|a, b| left(a).total_cmp(&left(b)))?;
+
+    // By how much each side changes; what both do is another speed, or the ground.
+    let [before, after] = [&all[..at], &all[at..]];
+    let of = |part: &[Stretch], side: usize| mean(part.iter().map(|s| s.torque[side])).unwrap_or(0.0);
+    let by = [0, 1].map(|side| of(after, side) - of(before, side));
+    let difference = by[1] - by[0];
+    let usual = median(before.iter().map(|s| s.torque[0] + s.torque[1]))?;
+    let sigma = (left(&at) / (all.len() - 2) as f64).sqrt().max(ONE_SIDE.floor * usual);
+    if difference.abs() < (ONE_SIDE.clear * sigma).max(ONE_SIDE.share * usual) {
+        return None;
+    }
+    let side = usize::from(by[1].abs() > by[0].abs());
+    if by[1 - side].abs() > ONE_SIDE.other * by[side].abs() {
+        return None;
+    }
+    let error = sigma * (1.0 / before.len() as f64 + 1.0 / after.len() as f64).sqrt();
+    Some(SideChange {
+        recording: run.name.clone(),
+        side: ["left", "right"][side].into(),
+        onset: [before.last()?.interval[1], after.first()?.interval[0]],
+        until: after.last()?.interval[1],
+        torque: [of(before, side), of(after, side)],
+        half: NINETY * error,
+        causes: vec![coulomb_side::SPEC.id.into(), torque_constant_side::SPEC.id.into()],
+    })
+}
+
+/// Straight driving in which both sides read, cut into short stretches.
+fn stretches(run: &SpeedRun) -> Vec<Stretch> {
+    let reads = |i: &usize| {
+        !run.standing[*i]
+            && (0..2).all(|side| run.reads(*i, side))
+            && is_straight(run, *i, MEASURING.straight.hold_of_means)
+    };
+    let period = run.period();
+    let rows = ((ONE_SIDE.stretch / period.max(1e-3)).round() as usize).max(1);
+    let torque = |i: usize, side: usize| {
+        let torque = run.torque[side][i];
+        if run.magnitude_only { torque.abs() } else { torque * run.speed[side][i].signum() }
+    };
+    let all = pieces(&run.time, (0..run.time.len()).filter(reads), MEASURING.stretches.gap);
+    let of = |rows: &[usize]| -> Option<Stretch> {
+        let torque = [0, 1].map(|side| mean(rows.iter().map(|&i| torque(i, side))));
+        Some(Stretch {
+            interval: [run.time[*rows.first()?], run.time[*rows.last()?]],
+            torque: [torque[0]?, torque[1]?],
+        })
+    };
+    all.iter().flat_map(|piece| piece.chunks_exact(rows)).filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Leg, drive};
+
+    /// Straight driving, turns between it; the right side takes more from 100 s on.
+    fn dragged(by: f64, until: f64) -> SpeedRun {
+        let turn = Leg { speed: [0.15, 0.3], ..Leg::straight(8.0) };
+        let legs = [Leg::straight(22.0), turn].repeat(6);
+        let mut run = drive(&legs, false);
+        for i in 0..run.time.len() {
+            if (100.0..until).contains(&run.time[i]) {
+                run.torque[1][i] += by;
+            }
+        }
+        run
+    }
+
+    #[test]
+    fn a_side_that_drags_until_the_end_is_found_with_its_instant_and_torque() {
+        let found = change(&dragged(6.0, 1e9)).expect("a change");
+        assert_eq!((found.side.as_ref(), found.until > 170.0), ("right", true));
+        assert!(found.onset[0] > 96.0 && found.onset[1] < 104.0, "{found:?}");
+        let by = found.torque[1] - found.torque[0];
+        assert!((by - 6.0).abs() < 0.5, "{found:?}");
+
+        let mut runs = [dragged(6.0, 1e9)];
+        mark(&mut runs, &[found]);
+        assert!(
+            runs[0]
+                .changed
+                .iter()
+                .zip(&runs[0].time)
+                .all(|(changed, t)| *changed == (*t > 98.0) || (96.0..104.0).contains(t))
+        );
+    }
+
+    #[test]
+    fn nothing_is_found_where_nothing_changes_or_both_sides_do_or_it_passes() {
+        assert_eq!(change(&dragged(0.0, 1e9)), None);
+        assert_eq!(change(&dragged(6.0, 130.0)), None);
+        let mut both = dragged(6.0, 1e9);
+        let right = both.torque[1].clone();
+        both.torque[0] = right;
+        assert_eq!(change(&both), None);
+    }
+}
