@@ -125,7 +125,14 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     let motion = squares.motion;
     let known = |s: usize| motion[s] > 0.0;
     let floor: BySignal = std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f[s] * motion[s])));
-    let level = |of: &[BySignal], s: usize| without_the_worst(&windows.by_block(|w| of[w][s]));
+    // What lasts is no jump, though it may last for one command only: a wheel that is held.
+    let lasts: [bool; SIGNALS.len()] = std::array::from_fn(|s| {
+        s < HEADING && lasts(windows, |w| squares.corrected[w][s] > LEFT.large.powi(2) * motion[s])
+    });
+    let level = |of: &[BySignal], s: usize| {
+        let blocks = windows.by_block(|w| of[w][s]);
+        if lasts[s] { mean(blocks).unwrap_or(0.0) } else { without_the_worst(&blocks) }
+    };
     let corrected: BySignal = std::array::from_fn(|s| level(&squares.corrected, s));
     let beyond = |square: f64, s: usize| if known(s) { (square - floor[s]).max(0.0) / motion[s] } else { 0.0 };
     let left: BySignal = std::array::from_fn(|s| beyond(corrected[s], s));
@@ -164,6 +171,14 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     out.spans.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     out.spans.truncate(LEFT.spans);
     out
+}
+
+/// Whether windows that follow each other are so for long.
+fn lasts(windows: &Windows, is_so: impl Fn(usize) -> bool) -> bool {
+    let least = (LEFT.lasting / (WINDOW as f64 * STEP)).ceil() as usize;
+    let all: Vec<usize> = (0..windows.list.len()).filter(|w| is_so(*w)).collect();
+    let follows = |a: &usize, b: &usize| *b == a + 1 && windows.list[*a].piece == windows.list[*b].piece;
+    all.chunk_by(follows).any(|stretch| stretch.len() >= least)
 }
 
 /// Mean without the largest value: one jump of a sensor, or one command step, decides nothing.
@@ -313,6 +328,15 @@ mod tests {
         assert!(remainder(&d).share > 0.8 && remainder(&d).by_signal[0].0 == "left wheel speed", "{:?}", remainder(&d));
         assert!(d.located.spans.iter().all(|s| s.side.as_deref() == Some("left") && s.interval[0] > 37.0));
         assert!(d.sentences[0].starts_with("Unknown: no cause"), "{:?}", d.sentences);
+    }
+
+    #[test]
+    fn a_wheel_that_is_held_during_one_command_is_unknown_with_side_and_time() {
+        // Pushes back what a command asks, for eight seconds.
+        let held = |t: f64, side: usize| if side == 1 && (40.0..48.0).contains(&t) { -3.0 } else { 0.0 };
+        let d = diagnosed(&Truth { wheel_push: held, ..Truth::perfect() }, None);
+        assert_eq!(d.verdict, Verdict::Unknown, "{:?} {:?}", d.ranked, remainder(&d));
+        assert_eq!(remainder(&d).place.as_deref(), Some("on the right side"));
     }
 
     #[test]

@@ -187,6 +187,10 @@
         stands_out: f64 = 4.0, "1", "guess; twice the rms of noise";
         /// Stretches that are told at most.
         spans: usize = 8, "1", "guess";
+        /// An error of this share of the motion, rms, is large.
+        large: f64 = 0.5, "1", "guess";
+        /// For so long it is no jump.
+        lasting: f64 = 4.0, "s", "guess: two windows";
     }
 
     /// Responses among which the next drive is to decide.
