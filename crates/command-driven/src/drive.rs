@@ -108,6 +108,11 @@ impl Part for DrivePart<'_> {
         (constant == DEAD_TIME && !model.law.second_order && model.x[LAG] < STEP).then_some(STEP)
     }
 
+    /// A command is known from the row after it on.
+    fn between_rows(&self, constant: usize) -> f64 {
+        if constant == DEAD_TIME { STEP } else { 0.0 }
+    }
+
     /// A law with the parts of `base` where an element is not fitted.
     fn restrict(&self, law: Law, base: Law, elements: &[Element]) -> Law {
         let has = |e| elements.contains(&e);

@@ -50,7 +50,9 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
 /// the cost is as low: derivatives say nothing there, or say that nothing is known at all.
 fn told<P: Part>(part: &P, t: &Trial<P::Law>, k: usize, half: Option<f64>) -> (f64, Option<f64>) {
     let Some(([from, until], reach)) = open_range(part, t, k).zip(part.flat_over(&t.model, k)) else {
-        return (t.model.x[k], half);
+        // Evenly distributed over its width.
+        let between = NINETY * part.between_rows(k) / 12.0_f64.sqrt();
+        return (t.model.x[k], half.map(|half| half.hypot(between)));
     };
     // The range is looked up at points.
     let open = (0.5 * (until - from)).max(reach / SETTINGS.fit.profile as f64);

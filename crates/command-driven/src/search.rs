@@ -30,6 +30,11 @@ pub(crate) trait Part: Sync {
     fn flat_over(&self, _model: &Model<Self::Law>, _constant: usize) -> Option<f64> {
         None
     }
+
+    /// Over how much of a constant rows say nothing because what they show may have come at any time since the row before.
+    fn between_rows(&self, _constant: usize) -> f64 {
+        0.0
+    }
     /// A constant in which the cost has several valleys, and where to start in it.
     fn starts(&self) -> (usize, &'static [f64]);
 }
