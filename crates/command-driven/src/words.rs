@@ -197,8 +197,8 @@ fn controller(r: &Response) -> String {
             .scaling
             .as_deref()
             .filter(|_| r.scaling_is_told)
-            .unwrap_or("both sides are limited, in a way that these recordings do not determine");
-        parts.push(format!("at {} of a wheel {how}", value(p)));
+            .unwrap_or("speeds are limited (these recordings do not tell whether each side is clipped alone or both are slowed together)");
+        parts.push(format!("from a wheel speed of {} on, {how}", value(p)));
     }
     parts.extend(list(
         r,

@@ -54,7 +54,7 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
 /// "straight load at 0.52 m/s".
 fn named_at(r: &Ratio) -> String {
     let ([slow, fast], name) = (r.range, r.quantity.name());
-    let sign = if r.quantity.is_difference() { " (right less left)" } else { "" };
+    let sign = if r.quantity.is_difference() { " (right less left, as a share of both)" } else { "" };
     match r.quantity {
         Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
             format!("{name}{sign} at {slow:.2} to {fast:.2} m/s")
