@@ -7,7 +7,7 @@ use crate::identified::Identified;
 use crate::identify::{Base, Identify};
 use crate::left::Remains;
 use crate::moved::Moved;
-use crate::run::ResponseRun;
+use crate::run::{ResponseRun, STEP};
 use crate::search::{Evidence, Part, Trial, open_range, sigmas};
 use crate::settings::{Answer, SETTINGS};
 use crate::windows::Windows;
@@ -49,17 +49,15 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
 /// Value and half of the 90 % interval of a constant. What rows leave open is told by its middle, with the range over which
 /// the cost is as low: derivatives say nothing there, or say that nothing is known at all.
 fn told<P: Part>(part: &P, t: &Trial<P::Law>, k: usize, half: Option<f64>) -> (f64, Option<f64>) {
+    // Evenly distributed over its width.
+    let between = NINETY * part.between_rows(k) / 12.0_f64.sqrt();
     let Some(([from, until], reach)) = open_range(part, t, k).zip(part.flat_over(&t.model, k)) else {
-        // Evenly distributed over its width.
-        let between = NINETY * part.between_rows(k) / 12.0_f64.sqrt();
         return (t.model.x[k], half.map(|half| half.hypot(between)));
     };
     // The range is looked up at points.
     let open = (0.5 * (until - from)).max(reach / SETTINGS.fit.profile as f64);
-    (
-        0.5 * (from + until),
-        Some(half.filter(|h| *h < reach).map_or(open, |h| if until > from { h.max(open) } else { h })),
-    )
+    let half = half.filter(|h| *h < reach).map_or(open, |h| if until > from { h.max(open) } else { h });
+    (0.5 * (from + until), Some(half.hypot(between)))
 }
 
 /// Fitted constants of a part, those from before it began included where they did not change.
@@ -224,9 +222,9 @@ pub(crate) fn ranked(
     out
 }
 
-/// Probability that a delay of so many seconds, known to one sigma, is one that matters.
+/// Probability that a delay of so many seconds, known to one sigma and to the rows between which it ends, is one that matters.
 fn matters(size: f64, sigma: f64) -> f64 {
-    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.max(f64::MIN_POSITIVE))
+    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.hypot(STEP / 12.0_f64.sqrt()))
 }
 
 fn estimate(p: &Parameter) -> Estimate {

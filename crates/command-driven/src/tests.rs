@@ -6,6 +6,7 @@ use super::controller::{DAMPING, DEAD_TIME, FREQUENCY, TURN_LIMIT};
 use super::ground::TRACK;
 use super::testing::{Truth, diagnosed, robot};
 use super::*;
+use crate::run::STEP;
 
 fn parameter<'a>(d: &'a Diagnosis, id: &str) -> &'a Parameter {
     let all = &d.response.as_ref().expect("a response").parameters;
@@ -17,7 +18,8 @@ fn holds(d: &Diagnosis, id: &str, truth: f64) {
     let p = parameter(d, id);
     let half = p.half_width.expect("an interval");
     assert!((p.value - truth).abs() < 2.0 * half, "{id}: {} ± {half}, not {truth}", p.value);
-    assert!(half < 0.1 * truth.abs().max(0.1), "{id}: ± {half} is no answer");
+    // Half a row where rows tell no better.
+    assert!(half < (0.1 * truth.abs()).max(0.5 * STEP), "{id}: ± {half} is no answer");
 }
 
 fn run<'a>(d: &'a Diagnosis, quantity: &str) -> &'a FreeRun {

@@ -168,8 +168,7 @@ pub fn diagnose_steady(
     let scale_sigma = case.torque_sigma.hypot(place_of("mass").map_or(0.0, |place| case.sigma[place]));
     let slope = plane::take_off(&mut marked.recordings, &usual, (weight, scale_sigma));
     let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight);
-    let side_changes = one_side::changes(&marked.recordings);
-    one_side::mark(&mut marked.recordings, &side_changes);
+    let side_changes = one_side::mark(&mut marked.recordings);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
@@ -201,13 +200,7 @@ pub fn diagnose_steady(
 
     progress("weighing the effects");
     let differences = differences(&of_recordings, &refs);
-    // Drives at several places, or in several headings, share no slope.
-    let mut straight =
-        differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad).map(|d| &d.recording);
-    let first = straight.next();
-    let one_place = straight.all(|name| Some(name) == first);
-    let one_way = case.recordings.iter().filter(|run| Some(&run.name) == first).all(heading::goes_one_way);
-    let open = Open { same_robot: options.same_robot, one_slope: one_place && one_way };
+    let open = Open { same_robot: options.same_robot, one_slope: may_be_one_slope(&differences, &case.recordings) };
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
     let naming = comparison.as_ref().and_then(|c| name(c, open));
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
@@ -251,6 +244,15 @@ pub fn diagnose_steady(
         out.next = Some(advise_steady(fastest(&case.recordings), &robot, &case.sigma, &calibrated, naming.as_ref()));
     }
     Ok(out)
+}
+
+/// Whether all straight driving may be on one slope: drives at several places, or in several headings, share none.
+fn may_be_one_slope(differences: &[Difference], runs: &[SpeedRun]) -> bool {
+    let mut straight =
+        differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad).map(|d| &d.recording);
+    let first = straight.next();
+    let one_place = straight.all(|name| Some(name) == first);
+    one_place && runs.iter().filter(|run| Some(&run.name) == first).all(heading::goes_one_way)
 }
 
 /// The largest speed of a side, m/s.

@@ -25,19 +25,17 @@ impl Stretch {
     }
 }
 
-/// Finds it in these recordings.
-pub(crate) fn changes(runs: &[SpeedRun]) -> Vec<SideChange> {
-    runs.iter().filter_map(change).collect()
-}
-
-/// Marks the rows from there on, whose straight load is that of the change.
-pub(crate) fn mark(runs: &mut [SpeedRun], found: &[SideChange]) {
-    for change in found {
-        for run in runs.iter_mut().filter(|run| run.name == change.recording) {
-            let is_after = run.time.iter().map(|t| *t >= change.onset[0]);
-            run.changed.iter_mut().zip(is_after).for_each(|(changed, after)| *changed |= after);
+/// Finds it in these recordings, and marks the rows from there on, whose straight load is that of the change.
+pub(crate) fn mark(runs: &mut [SpeedRun]) -> Vec<SideChange> {
+    let mut out = Vec::new();
+    for run in runs {
+        let Some(found) = change(run) else { continue };
+        for (changed, t) in run.changed.iter_mut().zip(&run.time) {
+            *changed |= *t >= found.onset[0];
         }
+        out.push(found);
     }
+    out
 }
 
 /// Drops what was found in the same rows by their loads alone.
@@ -139,7 +137,7 @@ mod tests {
         assert!((by - 6.0).abs() < 0.5, "{found:?}");
 
         let mut runs = [dragged(6.0, 1e9)];
-        mark(&mut runs, &[found]);
+        assert_eq!(mark(&mut runs), [found]);
         assert!(
             runs[0]
                 .changed

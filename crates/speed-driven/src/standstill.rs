@@ -199,8 +199,8 @@ mod tests {
 
         // Wheels of one side that are held are told with that side.
         let mut one = run.clone();
-        if let Some(commanded) = &one.commanded {
-            one.speed[0].clone_from(&commanded[0]);
+        if let Some([left, _]) = &one.commanded {
+            one.speed[0].clone_from(left);
         }
         let found = held_wheels(&one);
         assert_eq!(found.len(), 1, "{found:?}");
