@@ -28,7 +28,7 @@ const FORMULAS: [f64; 12] = [0.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 60.0, 180.0, 10
 const GUARD: f64 = 1e-6;
 
 /// File, literal, and why it is no setting.
-const NO_SETTINGS: [(&str, &str, &str); 16] = [
+const NO_SETTINGS: [(&str, &str, &str); 17] = [
     ("inference/src/robust.rs", "1.645", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.96", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.353", "mathematics: half a quantile of chi-squared"),
@@ -39,6 +39,11 @@ const NO_SETTINGS: [(&str, &str, &str); 16] = [
     ("torque-driven/src/redundancy/pool.rs", "1.25", "mathematics: from the sigma of a mean to that of a median"),
     ("torque-driven/src/locate/change.rs", "6.0", "mathematics: the mean of a sum of twelve uniform numbers"),
     ("torque-driven/src/unnamed/shared.rs", "12.0", "mathematics: the variance of Mann and Whitney's statistic"),
+    (
+        "command-driven/src/name.rs",
+        "12.0_f64",
+        "mathematics: the variance of a uniform distribution over its width squared, inverted",
+    ),
     ("wheeled/src/noise.rs", "20.0", "mathematics: 1 + 9 + 9 + 1, the variance of third differences"),
     ("odometry/src/file/robot.rs", "1e-3", "unit: seconds in a millisecond"),
     ("torque-driven/src/fit.rs", "1e300", "structure: the cost of a run that is not finite, which can be added"),

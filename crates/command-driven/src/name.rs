@@ -49,8 +49,7 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
 /// Value and half of the 90 % interval of a constant. What rows leave open is told by its middle, with the range over which
 /// the cost is as low: derivatives say nothing there, or say that nothing is known at all.
 fn told<P: Part>(part: &P, t: &Trial<P::Law>, k: usize, half: Option<f64>) -> (f64, Option<f64>) {
-    // Evenly distributed over its width.
-    let between = NINETY * part.between_rows(k) / 12.0_f64.sqrt();
+    let between = NINETY * sigma_of_uniform(part.between_rows(k));
     let Some(([from, until], reach)) = open_range(part, t, k).zip(part.flat_over(&t.model, k)) else {
         return (t.model.x[k], half.map(|half| half.hypot(between)));
     };
@@ -222,9 +221,14 @@ pub(crate) fn ranked(
     out
 }
 
+/// Standard deviation of a uniform distribution of this width.
+fn sigma_of_uniform(width: f64) -> f64 {
+    width / 12.0_f64.sqrt()
+}
+
 /// Probability that a delay of so many seconds, known to one sigma and to the rows between which it ends, is one that matters.
 fn matters(size: f64, sigma: f64) -> f64 {
-    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.hypot(STEP / 12.0_f64.sqrt()))
+    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.hypot(sigma_of_uniform(STEP)))
 }
 
 fn estimate(p: &Parameter) -> Estimate {

@@ -94,7 +94,7 @@ fn stretches(run: &SpeedRun) -> Vec<Stretch> {
             && is_straight(run, *i, MEASURING.straight.hold_of_means)
     };
     let period = run.period();
-    let rows = ((ONE_SIDE.stretch / period.max(1e-3)).round() as usize).max(1);
+    let rows = ((ONE_SIDE.stretch / period.max(f64::EPSILON)).round() as usize).max(1);
     let torque = |i: usize, side: usize| {
         let torque = run.torque[side][i];
         if run.magnitude_only { torque.abs() } else { torque * run.speed[side][i].signum() }
