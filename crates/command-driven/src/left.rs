@@ -332,11 +332,13 @@ mod tests {
 
     #[test]
     fn a_wheel_that_is_held_during_one_command_is_unknown_with_side_and_time() {
-        // Pushes back what a command asks, for eight seconds.
-        let held = |t: f64, side: usize| if side == 1 && (40.0..48.0).contains(&t) { -3.0 } else { 0.0 };
+        // Pushes back what a command asks, for seven seconds.
+        let held = |t: f64, side: usize| if side == 1 && (41.0..48.0).contains(&t) { -3.0 } else { 0.0 };
         let d = diagnosed(&Truth { wheel_push: held, ..Truth::perfect() }, None);
         assert_eq!(d.verdict, Verdict::Unknown, "{:?} {:?}", d.ranked, remainder(&d));
         assert_eq!(remainder(&d).place.as_deref(), Some("on the right side"));
+        let [from, until] = d.located.spans[0].interval;
+        assert!((38.0..43.0).contains(&from) && (45.0..51.0).contains(&until), "{from} {until}");
     }
 
     #[test]

@@ -228,7 +228,7 @@ fn sigma_of_uniform(width: f64) -> f64 {
 
 /// Probability that a delay of so many seconds, known to one sigma and to the rows between which it ends, is one that matters.
 fn matters(size: f64, sigma: f64) -> f64 {
-    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.hypot(sigma_of_uniform(STEP)))
+    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.max(sigma_of_uniform(STEP)))
 }
 
 fn estimate(p: &Parameter) -> Estimate {

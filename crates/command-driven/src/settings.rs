@@ -125,7 +125,7 @@
         between_visits: f64 = 0.6, "1", "equal to that of torque-driven robots";
         /// A dead time or lag below this is no finding.
         least_delay: f64 = 0.04, "s",
-            "rows of 0.05 s tell no better than to half of that when a wheel changed; chosen after a look at 120 drawn cases";
+            "rows of 0.05 s tell no better when a wheel changed; chosen after a look at 120 drawn cases";
         /// Error of forecasts of what was left out over that with re-tuned constants, from which on it confirms no cause.
         confirmed: f64 = 0.95, "1",
             "guess: 5 % are as little as nothing; of 40 robots of another hand true causes left 0.04 to 0.74, and false ones 0.89 and more";

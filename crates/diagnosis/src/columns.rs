@@ -231,8 +231,8 @@ fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
     let hidden = || {
         let share = only_along(shown, &aside)?;
         Some(format!(
-            "{x} shows {share:.2} times the push of turns in its means, by the speed of the wheels times the yaw rate, and {y} shows \
-             none; {}",
+            "{x}, averaged over a second, shows {share:.2} times the push of turns, by the speed of the wheels times the yaw \
+             rate, and {y} less than half of it; {}",
             turned_by_a_right_angle(share)
         ))
     };
@@ -258,7 +258,11 @@ fn forces(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option<
 
 /// What to do where the forward axis shows this share of the push of turns, and the other one none.
 fn turned_by_a_right_angle(share: f64) -> String {
-    let sign = if share < 0.0 { ", with `sign = -1` for accel_y" } else { "" };
+    let sign = if share < 0.0 {
+        ", with `sign = -1` for accel_y, and gyro_x and gyro_y likewise"
+    } else {
+        ", and where the sensor was turned, and not only its columns, with `sign = -1` for accel_x, and gyro_x and gyro_y likewise"
+    };
     format!("the sensor is mounted turned by a right angle: exchange the two in the mapping{sign}{OF_THEIR_OWN}")
 }
 

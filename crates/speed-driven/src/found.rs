@@ -138,30 +138,43 @@ fn insert_fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
     insert(out, class);
 }
 
+/// The side whose torque changes most.
+pub(crate) fn largest_side_change(loads: &Loads) -> Option<&SideChange> {
+    let by = |c: &SideChange| (c.torque[1] - c.torque[0]).abs();
+    loads.side_changes.iter().max_by(|a, b| by(a).total_cmp(&by(b)))
+}
+
 /// Classes of causes of what changes inside recordings.
 fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     let known = |id: &str, of: usize| {
         let name = catalogue::find(id).map_or(id, |entry| entry.label());
         Cause::plain(id, name, ANSWER.changed / of as f64)
     };
-    let of_side = |c: &SideChange| -> Vec<Cause> {
-        let intervals = by_recording([(c.recording.as_str(), [c.onset[1], c.until])].into_iter());
+    let mut classes: Vec<Vec<Cause>> = Vec::new();
+    if let Some(largest) = largest_side_change(loads) {
+        // One class: the same causes of another side would take its place.
+        let all = loads.side_changes.iter().filter(|c| c.side == largest.side);
+        let intervals = by_recording(all.map(|c| (c.recording.as_str(), [c.onset[1], c.until])));
+        let [before, after] = largest.torque;
+        let sigma = largest.half / NINETY;
         let cause = |id: &verdict::Word| {
-            // A brake takes what the side takes more; the torque for a current is its share.
-            let [before, after] = c.torque;
-            let is_brake = *id == coulomb_side::SPEC.id;
+            // A brake takes what the side takes more; the torque for a current falls as the current grows.
+            let (size, sigma, unit) = if *id == coulomb_side::SPEC.id {
+                (after - before, sigma, "N m")
+            } else {
+                (before / after - 1.0, sigma * (before / after.powi(2)).abs(), "-")
+            };
             Cause {
-                magnitude: Some(if is_brake { after - before } else { before / after - 1.0 }),
-                sigma: Some(c.half / NINETY / if is_brake { 1.0 } else { after.abs() }),
-                unit: if is_brake { "N m".into() } else { "-".into() },
-                side: Some(c.side.clone()),
+                magnitude: Some(size),
+                sigma: Some(sigma),
+                unit: unit.into(),
+                side: Some(largest.side.clone()),
                 intervals: Some(intervals.clone()),
-                ..known(id, c.causes.len())
+                ..known(id, largest.causes.len())
             }
         };
-        c.causes.iter().map(cause).collect()
-    };
-    let mut classes: Vec<Vec<Cause>> = loads.side_changes.iter().map(of_side).collect();
+        classes.push(largest.causes.iter().map(cause).collect());
+    }
     for (k, ground) in loads.grounds.iter().enumerate() {
         let alike = |other: &&OtherGround| other.causes == ground.causes;
         if ground.causes.is_empty() || loads.grounds[..k].iter().any(|other| alike(&other)) {
@@ -203,7 +216,7 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
     if !turning.is_empty() {
         let intervals = by_recording(turning.iter().map(|c| (c.recording.as_str(), c.interval)));
         // Turns one way only do not tell the ground from a side that drags.
-        let one_way = turning.iter().all(|c| c.one_way.is_some());
+        let one_way = turning.iter().all(|c| c.one_way.is_some()) && loads.side_changes.is_empty();
         let ids = [catalogue::of_load_term(LoadTerm::Turning), coulomb_side::SPEC.id];
         let ids = if one_way { &ids[..] } else { &ids[..1] };
         let cause = |id: &&str| Cause { intervals: Some(intervals.clone()), ..known(id, ids.len()) };
@@ -224,7 +237,7 @@ fn standing(all: &[Standstill]) -> Option<Cause> {
     Some(Cause {
         // A body that is dragged along may turn a little the other way.
         magnitude: longest.wheels.or(longest.share).map(f64::abs),
-        side: longest.side.clone(),
+        side: longest.side.clone().filter(|_| all.iter().all(|s| s.side == longest.side)),
         intervals: Some(intervals),
         ..Cause::plain(STANDING.id, STANDING.name, ANSWER.standing)
     })

@@ -10,18 +10,27 @@ pub(crate) fn guesses(run: &SpeedRun) -> Vec<String> {
     ["left", "right"].into_iter().enumerate().filter_map(|(j, side)| sign(run, j, side)).chain(speeds(run)).collect()
 }
 
-/// Currents that are mapped as magnitudes and have a sign.
+/// Currents without a sign that have one, or the other way round.
 fn sign(run: &SpeedRun, j: usize, side: &str) -> Option<String> {
     let torque = &run.torque[j];
     let largest = torque.iter().map(|t| t.abs()).fold(0.0, f64::max);
     let negative = torque.iter().filter(|t| **t < -GUESSES.noise * largest).count();
+    let backward = (0..torque.len()).filter(|&i| run.speed[j][i] < 0.0 && torque[i].abs() > run.dead_band).count();
     let seconds = |rows: usize| rows as f64 * run.period();
-    (run.magnitude_only && seconds(negative) > GUESSES.seconds).then(|| {
-        format!(
+    if run.magnitude_only && seconds(negative) > GUESSES.seconds {
+        return Some(format!(
             "recording {}: the {side} current is mapped as a magnitude, and is negative for {:.0} s: it may have a sign; if \
              so, write `magnitude_only = false` for it in the mapping",
             run.name,
             seconds(negative)
+        ));
+    }
+    (!run.magnitude_only && negative == 0 && seconds(backward) > GUESSES.seconds).then(|| {
+        format!(
+            "recording {}: the {side} current or torque is mapped with its sign, and is never negative, though this side turns \
+             backward for {:.0} s: it may be a magnitude; if so, write `magnitude_only = true` for it in the mapping",
+            run.name,
+            seconds(backward)
         )
     })
 }
@@ -68,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn currents_that_look_signed_are_told() {
+    fn currents_that_look_signed_or_unsigned_are_told() {
         let mut signed = back_and_forth();
         for torque in &mut signed.torque {
             for (t, v) in torque.iter_mut().zip(&signed.speed[0]) {
@@ -82,6 +91,8 @@ mod tests {
         );
         signed.magnitude_only = false;
         assert_eq!(guesses(&signed), Vec::<String>::new());
+        let unsigned = SpeedRun { magnitude_only: false, ..back_and_forth() };
+        assert!(guesses(&unsigned).iter().all(|g| g.contains("magnitude_only = true")), "{:?}", guesses(&unsigned));
     }
 
     #[test]

@@ -123,8 +123,12 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
         _ => "Apart from what changes inside recordings the simulation explains the loads; nothing else needs to be added \
               to it.".to_owned(),
     };
-    if let Some(largest) = loads.side_changes.first() {
-        let first = format!("One side changes inside a recording. {}", side_change(largest));
+    if let Some(largest) = crate::found::largest_side_change(loads) {
+        let more = match loads.side_changes.len() {
+            1 => String::new(),
+            n => format!(", the largest of {n}"),
+        };
+        let first = format!("One side changes inside a recording{more}. {}", side_change(largest));
         return [Some(first), apart(&largest.causes), Some(rest)].into_iter().flatten().collect();
     }
     if let Some(longest) = loads.grounds.first() {
@@ -249,7 +253,7 @@ fn standing(all: &[Standstill]) -> Vec<String> {
     let because = match (s.wheels, s.share) {
         (Some(_), _) => "something holds the wheels: an obstacle, a brake, or too little torque",
         (None, Some(_)) if is_light => {
-            "that is no more than straight driving takes, so its wheels turn in the air or find no grip"
+            "that is little more than straight driving takes, so its wheels turn in the air or find no grip"
         }
         (None, Some(_)) => "it is dug in, or its wheels spin",
         (None, None) => "it pushes against something that does not give way, or is dug in",

@@ -3,7 +3,7 @@
 
 use inference::robust::{NINETY, mean, median};
 use robot_model::effects::{coulomb_side, torque_constant_side};
-use verdict::{LoadChange, Loads, SideChange};
+use verdict::{LoadChange, Loads, SideChange, Word};
 
 use crate::pieces::{GRADE, pieces};
 use crate::run::SpeedRun;
@@ -22,6 +22,10 @@ struct Stretch {
 impl Stretch {
     fn difference(&self) -> f64 {
         self.torque[1] - self.torque[0]
+    }
+
+    fn middle(&self) -> f64 {
+        f64::midpoint(self.interval[0], self.interval[1])
     }
 }
 
@@ -44,6 +48,7 @@ pub(crate) fn drop_what_shows_it(loads: &mut Loads) {
     let is_in = |recording: &str, from: f64| {
         sides.iter().any(|s| s.recording == recording && from >= s.onset[0] - ONE_SIDE.stretch)
     };
+    loads.turning_changes.retain(|c| !is_in(&c.recording, c.interval[0]));
     loads.grounds.retain(|g| !is_in(&g.recording, g.interval[0]));
     let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
     loads.changes.found.retain(|c| is_slope(c) || !is_in(&c.recording, c.interval[0]));
@@ -65,7 +70,7 @@ fn change(run: &SpeedRun) -> Option<SideChange> {
     let of = |part: &[Stretch], side: usize| mean(part.iter().map(|s| s.torque[side])).unwrap_or(0.0);
     let by = [0, 1].map(|side| of(after, side) - of(before, side));
     let difference = by[1] - by[0];
-    let usual = median(before.iter().map(|s| s.torque[0] + s.torque[1]))?;
+    let usual = median(before.iter().map(|s| s.torque[0].abs() + s.torque[1].abs()))?;
     let sigma = (left(&at) / (all.len() - 2) as f64).sqrt().max(ONE_SIDE.floor * usual);
     if difference.abs() < (ONE_SIDE.clear * sigma).max(ONE_SIDE.share * usual) {
         return None;
@@ -78,12 +83,24 @@ fn change(run: &SpeedRun) -> Option<SideChange> {
     Some(SideChange {
         recording: run.name.clone(),
         side: ["left", "right"][side].into(),
-        onset: [before.last()?.interval[1], after.first()?.interval[0]],
+        // A stretch in which it begins is counted before or after.
+        onset: [before.last()?.middle(), after.first()?.middle()],
         until: after.last()?.interval[1],
-        torque: [of(before, side), of(after, side)],
+        // What both sides do is another speed.
+        torque: [of(before, side), of(after, side) - by[1 - side]],
         half: NINETY * error,
-        causes: vec![coulomb_side::SPEC.id.into(), torque_constant_side::SPEC.id.into()],
+        causes: causes([of(before, side), of(after, side)]),
     })
+}
+
+/// What makes a side take another torque: a brake takes more, and a motor gives another torque for its current.
+fn causes([before, after]: [f64; 2]) -> Vec<Word> {
+    let [least, most] = torque_constant_side::SPEC.parameters[0].bounds;
+    let is_motor = before * after > 0.0 && (least..=most).contains(&(before / after - 1.0));
+    let brake = (after > before).then(|| coulomb_side::SPEC.id.into());
+    let all: Vec<Word> = brake.into_iter().chain(is_motor.then(|| torque_constant_side::SPEC.id.into())).collect();
+    // A brake that lets go takes less.
+    if all.is_empty() { vec![coulomb_side::SPEC.id.into()] } else { all }
 }
 
 /// Straight driving in which both sides read, cut into short stretches.
@@ -133,6 +150,7 @@ mod tests {
         let found = change(&dragged(6.0, 1e9)).expect("a change");
         assert_eq!((found.side.as_ref(), found.until > 170.0), ("right", true));
         assert!(found.onset[0] > 96.0 && found.onset[1] < 104.0, "{found:?}");
+        assert!(found.onset[0] <= 100.0 && 100.0 <= found.onset[1], "{found:?}");
         let by = found.torque[1] - found.torque[0];
         assert!((by - 6.0).abs() < 0.5, "{found:?}");
 
@@ -154,6 +172,8 @@ mod tests {
         let mut both = dragged(6.0, 1e9);
         let right = both.torque[1].clone();
         both.torque[0] = right;
+        // The other side a little less.
+        both.torque[0].iter_mut().for_each(|t| *t *= 0.9);
         assert_eq!(change(&both), None);
     }
 }

@@ -67,21 +67,23 @@ fn wrong(run: &SpeedRun) -> Option<String> {
     }
 }
 
-/// Torques that have no sign though they are mapped with one: they are never negative where a side pushes backward.
+/// Torques that have no sign though they are mapped with one: never negative, where a side turns backward in spins both ways. A slope
+/// may make both sides brake on the way down, but not a side in spins both ways.
 fn magnitudes(run: &SpeedRun) -> Option<String> {
     let backward = |side: usize| {
         let torque = &run.torque[side];
         let largest = torque.iter().map(|t| t.abs()).fold(0.0, f64::max);
         let noise = MEASURING.guesses.noise * largest;
-        let is_negative = torque.iter().any(|t| *t < -noise);
-        let pushes = |i: &usize| run.speed[side][*i] < -POWER.turning && torque[*i] > noise;
+        let negative = torque.iter().filter(|t| **t < -noise).count() as f64 * run.period();
+        let is_negative = negative > MEASURING.guesses.seconds;
+        let pushes = |i: &usize| run.spins(*i) && run.speed[side][*i] < -POWER.turning && torque[*i] > noise;
         let seconds = (0..torque.len()).filter(pushes).count() as f64 * run.period();
         (!is_negative && seconds > POWER.backward).then_some(seconds)
     };
     let (left, right) = (backward(0)?, backward(1)?);
     Some(format!(
-        "the currents or torques are mapped with their signs, and are never negative, though the left side turns backward for \
-         {left:.0} s and the right one for {right:.0} s: they are magnitudes; write `magnitude_only = true` for them in the mapping"
+        "the currents or torques are mapped with their signs, and are never negative, though in turns on the spot the left side \
+         turns backward for {left:.0} s and the right one for {right:.0} s: they are magnitudes; write `magnitude_only = true` for them in the mapping"
     ))
 }
 

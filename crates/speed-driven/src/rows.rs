@@ -24,7 +24,9 @@ pub(crate) fn joined(speed: [&Channel; 2], set: bool, load: [&Channel; 2]) -> Jo
     let slowest = all.into_iter().min_by_key(|c| c.t_ns().len()).unwrap_or(load[0]);
     let has = |c: &Channel, t: i64| c.t_ns().binary_search(&t).is_ok();
     let shared = slowest.t_ns().iter().filter(|t| all.iter().all(|c| has(c, **t))).count();
-    let is_shared = shared as f64 >= ROWS.shared * slowest.t_ns().len() as f64;
+    // Of clocks that differ nobody knows by how much.
+    let one_clock = all.iter().all(|c| c.clock() == all[0].clock());
+    let is_shared = !one_clock || shared as f64 >= ROWS.shared * slowest.t_ns().len() as f64;
 
     let gaps = all.map(|c| ROWS.join_gap * median(c.t_ns().windows(2).map(|w| (w[1] - w[0]) as f64)).unwrap_or(0.0));
     let value = |k: usize, t: i64| match all[k].t_ns().binary_search(&t) {
@@ -84,6 +86,16 @@ mod tests {
         // Speeds that are set are held, and not between two of them.
         let rows = joined(speed.each_ref(), true, load.each_ref());
         approx::assert_relative_eq!(rows.speed[0][1], 103.0, epsilon = 1e-9);
+    }
+
+    #[test]
+    fn sensors_of_different_clocks_are_not_joined() {
+        let speed = [Signal::WheelSpeedLeft, Signal::WheelSpeedRight].map(|s| channel(s, 3, 50, 100, |ms| ms as f64));
+        let load = [Signal::CurrentLeft, Signal::CurrentRight].map(|s| {
+            let own = channel(s, 10, 100, 60, |ms| ms as f64);
+            Channel::new(s, 1, own.t_ns().to_vec(), own.values().to_vec()).expect("a channel")
+        });
+        assert_eq!(joined(speed.each_ref(), false, load.each_ref()).stamps.len(), 0);
     }
 
     #[test]

@@ -127,13 +127,13 @@ pub(crate) fn how_it_stands(s: &Standstill) -> String {
 pub(crate) fn side_change(c: &SideChange) -> String {
     let ([before, after], SideChange { side, half, .. }) = (c.torque, c);
     let (more, what) = if after > before {
-        ("more", "something drags on that side, or its motor gives less torque for its current")
+        ("more", "something drags on that side, or its motor gives less torque than before")
     } else {
-        ("less", "something that dragged on that side let go, or its motor gives more torque for its current")
+        ("less", "something that dragged on that side let go, or its motor gives more torque than before")
     };
     format!(
         "{}, from {} until the end: the {side} side takes {:.1} ± {half:.1} N m {more} in straight driving than before ({after:.1} \
-         after {before:.1} N m; 90 %), and the other side does not: {what}. Ground would change both sides.",
+         after {before:.1} N m; 90 %), and the other side hardly changes: {what}. Ground would change both sides.",
         titled(&c.recording),
         moment(c.onset),
         (after - before).abs()
@@ -143,10 +143,11 @@ pub(crate) fn side_change(c: &SideChange) -> String {
 /// What a reference that stands does to the answer.
 pub(crate) fn standing_reference(s: &Standstill) -> String {
     let [from, until] = s.interval;
-    format!(
-        "reference {}: from {from:.1} s to {until:.1} s the robot stands although it is commanded to drive; these rows are not used",
-        s.recording
-    )
+    let what = match &s.side {
+        Some(side) => format!("the wheels of the {side} side are held although they are commanded to turn"),
+        None => "the robot stands although it is commanded to drive".to_owned(),
+    };
+    format!("reference {}: from {from:.1} s to {until:.1} s {what}; these rows are not used", s.recording)
 }
 
 /// "196.6 s", or "between 183.8 s and 200.9 s" where it is hidden.

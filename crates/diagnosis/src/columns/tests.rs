@@ -185,7 +185,7 @@ fn a_right_angle_shows_in_the_means_where_vibration_hides_the_push() {
         };
         columns.into_iter().map(shake).collect()
     };
-    tells(&shaken(exchanged(without(&[]), FORCES)), "in its means", "exchange the two");
+    tells(&shaken(exchanged(without(&[]), FORCES)), "averaged over a second", "exchange the two");
     assert_eq!(told(&shaken(without(&[]))), None);
 }
 
