@@ -9,7 +9,7 @@ use inference::words::quantity;
 use verdict::{Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Verdict};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
-use crate::found::{longest, strongest};
+use crate::found::{largest_side_change, longest, strongest};
 use crate::groups::{Disagreement, disagreements};
 use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
@@ -123,7 +123,7 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
         _ => "Apart from what changes inside recordings the simulation explains the loads; nothing else needs to be added \
               to it.".to_owned(),
     };
-    if let Some(largest) = crate::found::largest_side_change(loads) {
+    if let Some(largest) = largest_side_change(loads) {
         let more = match loads.side_changes.len() {
             1 => String::new(),
             n => format!(", the largest of {n}"),

@@ -4,6 +4,7 @@ use inference::robust::median;
 use recordings::Channel;
 
 use crate::settings::{MEASURING, measuring::Rows};
+use crate::speeds::held;
 
 const ROWS: Rows = MEASURING.rows;
 
@@ -32,7 +33,7 @@ pub(crate) fn joined(speed: [&Channel; 2], set: bool, load: [&Channel; 2]) -> Jo
     let value = |k: usize, t: i64| match all[k].t_ns().binary_search(&t) {
         Ok(i) => Some(all[k].values()[i]),
         Err(_) if is_shared => None,
-        Err(_) if set && k < 2 => held(all[k], t, ROWS.command_age * 1e9),
+        Err(_) if set && k < 2 => held(all[k], t),
         Err(_) => between(all[k], t, gaps[k]),
     };
     let mut out = Joined { stamps: Vec::new(), speed: [const { Vec::new() }; 2], load: [const { Vec::new() }; 2] };
@@ -44,12 +45,6 @@ pub(crate) fn joined(speed: [&Channel; 2], set: bool, load: [&Channel; 2]) -> Jo
         }
     }
     out
-}
-
-/// The last value, no older than so many ns.
-fn held(c: &Channel, t: i64, age: f64) -> Option<f64> {
-    let k = c.t_ns().partition_point(|own| *own <= t).checked_sub(1)?;
-    ((t - c.t_ns()[k]) as f64 <= age).then(|| c.values()[k])
 }
 
 /// Between the values before and after, no farther apart than so many ns.

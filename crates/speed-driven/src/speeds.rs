@@ -28,11 +28,15 @@ pub(crate) fn steadied(time: &[f64], speed: [Vec<f64>; 2]) -> ([Vec<f64>; 2], Op
     (speed.map(|z| clock::box_mean(time, &z, width)), Some(width))
 }
 
-/// What was commanded last at each of these stamps, m/s; 0 where the last command is too old to be still obeyed.
+/// What was commanded last at a stamp; `None` where that is too old to be still obeyed.
+pub(crate) fn held(c: &Channel, t: i64) -> Option<f64> {
+    let k = c.t_ns().partition_point(|own| *own <= t).checked_sub(1)?;
+    ((t - c.t_ns()[k]) as f64 * 1e-9 <= ROWS.command_age).then(|| c.values()[k])
+}
+
+/// The same at each of these stamps, m/s; 0 where nothing is obeyed.
 pub(crate) fn held_at(c: &Channel, stamps: &[i64], radius: f64) -> Vec<f64> {
-    let is_young = |t: i64, k: &usize| (t - c.t_ns()[*k]) as f64 * 1e-9 <= ROWS.command_age;
-    let last = |t: i64| c.t_ns().partition_point(|own| *own <= t).checked_sub(1).filter(|k| is_young(t, k));
-    stamps.iter().map(|t| last(*t).map_or(0.0, |k| radius * c.values()[k])).collect()
+    stamps.iter().map(|t| radius * held(c, *t).unwrap_or(0.0)).collect()
 }
 
 #[cfg(test)]
