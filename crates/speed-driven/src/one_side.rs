@@ -169,11 +169,9 @@ mod tests {
     fn nothing_is_found_where_nothing_changes_or_both_sides_do_or_it_passes() {
         assert_eq!(change(&dragged(0.0, 1e9)), None);
         assert_eq!(change(&dragged(6.0, 130.0)), None);
-        let mut both = dragged(6.0, 1e9);
-        let right = both.torque[1].clone();
-        both.torque[0] = right;
-        // The other side a little less.
-        both.torque[0].iter_mut().for_each(|t| *t *= 0.9);
+        // The other side by half as much.
+        let (mut both, half) = (dragged(12.0, 1e9), dragged(6.0, 1e9));
+        both.torque[0].clone_from(&half.torque[1]);
         assert_eq!(change(&both), None);
     }
 }
