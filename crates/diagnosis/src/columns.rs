@@ -271,12 +271,13 @@ fn turned_by_a_right_angle(share: f64) -> String {
 fn only_along(shown: &Sides, aside: &[f64]) -> Option<f64> {
     let [along, left] = [&shown[0], &shown[1]].map(|axis| share_of(axis, aside));
     let ([along, error], [left, left_error]) = (along?, left?);
-    let half = 0.5;
-    let is_along = along.abs() - COLUMNS.clear * error > 0.0 && along.abs() > half && along.abs() < 1.0 / half;
-    (is_along && left.abs() + 2.0 * left_error < half).then_some(along)
+    let (least, most) = (COLUMNS.little, 1.0 / COLUMNS.little);
+    let is_along = along.abs() - COLUMNS.clear * error > 0.0 && (least..most).contains(&along.abs());
+    (is_along && left.abs() + COLUMNS.clear_of_little * left_error < least).then_some(along)
 }
 
-/// The share of what is expected that a signal shows, and its error: least squares over means.
+/// The share of what is expected that a signal shows, and its error, by the line of least squares through their means; nothing where
+/// what is expected hardly changes.
 fn share_of(shown: &[f64], expected: &[f64]) -> Option<[f64; 2]> {
     let rows = (COLUMNS.mean / COLUMNS.step).round() as usize;
     let means = |values: &[f64]| -> Vec<f64> {
@@ -288,7 +289,7 @@ fn share_of(shown: &[f64], expected: &[f64]) -> Option<[f64; 2]> {
     let (x, y) = (x?, y?);
     let sums = pairs.iter().map(|[a, b]| [(a - x).powi(2), (a - x) * (b - y), (b - y).powi(2)]);
     let [square, product, of_shown] = sums.fold([0.0; 3], |s, d| [s[0] + d[0], s[1] + d[1], s[2] + d[2]]);
-    if pairs.len() < COLUMNS.rows || square <= 0.0 {
+    if pairs.len() < COLUMNS.rows || square < pairs.len() as f64 * COLUMNS.pushed.powi(2) {
         return None;
     }
     let share = product / square;

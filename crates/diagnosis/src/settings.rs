@@ -77,6 +77,10 @@
         mean: f64 = 1.0, "s", "guess; shorter than a turn";
         /// Errors by which a share has to differ from zero.
         clear: f64 = 5.0, "1", "guess; ten recordings of three axes are looked at";
+        /// Share of what is expected of an axis below which it shows none of it; one that shows it, shows more, and less than the inverse.
+        little: f64 = 0.5, "1", "guess; sensors aslant by 30 degrees show .5 and .87";
+        /// Errors by which a share has to lie below that.
+        clear_of_little: f64 = 2.0, "1", "guess";
         /// How much more the sum of the sides would turn the body than it turns, where one side has the wrong sign.
         turned: f64 = 3.0, "1", "guess; wheels that are pushed aside turn up to twice as much as the body";
         /// Factor from which a column is in another unit.

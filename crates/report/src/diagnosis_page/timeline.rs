@@ -46,14 +46,17 @@ fn load_changes<'a>(d: &'a Diagnosis, loads: &'a Loads) -> Vec<Stretch<'a>> {
         let what = format!("{:.2} ± {:.2} times that of the rest", c.ratio, c.half);
         (c.recording.as_str(), "turning load", c.interval, Role::Before, what)
     });
+    let sides = loads.side_changes.iter().map(|c| {
+        let [before, after] = c.torque;
+        let what = format!("the {} side takes {after:.1} N m after {before:.1} N m, ± {:.1}", c.side, c.half);
+        (c.recording.as_str(), "load of one side", [c.onset[0], c.until], Role::Before, what)
+    });
     let standing = loads.standstills.iter().map(|c| {
-        (
-            c.recording.as_str(),
-            "body stands",
-            c.interval,
-            Role::Before,
-            "the wheels turn and the body does not".to_owned(),
-        )
+        let (signal, what) = match &c.side {
+            Some(side) => ("wheels stand", format!("the wheels of the {side} side do not turn as commanded")),
+            None => ("body stands", "the wheels turn and the body does not".to_owned()),
+        };
+        (c.recording.as_str(), signal, c.interval, Role::Before, what)
     });
     let hidden = loads.changes.hidden.iter().map(|c| {
         let what = "turns or stops, in which no change could have been seen".to_owned();
@@ -65,7 +68,7 @@ fn load_changes<'a>(d: &'a Diagnosis, loads: &'a Loads) -> Vec<Stretch<'a>> {
         let what = if names.is_empty() { "no effect of the catalogue fits".to_owned() } else { names.join(" or ") };
         (g.recording.as_str(), "other ground", g.interval, Role::Before, what)
     });
-    let all = grounds.chain(straight).chain(turning).chain(standing).chain(hidden);
+    let all = grounds.chain(straight).chain(turning).chain(sides).chain(standing).chain(hidden);
     all.map(|(recording, signal, interval, role, what)| {
         (recording, signal, marked(interval, role, text(recording, interval, &what)))
     })
