@@ -343,8 +343,13 @@ mod tests {
             ResponseRun::new(&truth.driven(name, &commands, seed, 0.1)).expect("a run")
         };
         let recordings = vec![run(&truth, "a", 1), run(&Truth::perfect(), "b", 2)];
-        let case =
-            ResponseCase { robot: robot(), geometry_sigma: [0.01; 2], references: vec![], recordings, held_out: vec![] };
+        let case = ResponseCase {
+            robot: robot(),
+            geometry_sigma: [0.01; 2],
+            references: vec![],
+            recordings,
+            held_out: vec![],
+        };
         let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!(d.verdict, Verdict::Unknown, "{:?} {:?}", d.ranked, remainder(&d));
         assert_eq!(remainder(&d).place.as_deref(), Some("on the right side"));

@@ -1,10 +1,12 @@
 //! A case from a seed: files and truth.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::draw::{Draw, HiddenRuns};
 use crate::free::{error, predict, restarts, rms, shown};
+use crate::law::LawRow;
 use crate::measure::note_coverage;
 use crate::random::Stream;
 use crate::run::{Run, shown_rate};
@@ -25,6 +27,8 @@ pub struct DrawnCase {
     pub truth_files: Vec<(PathBuf, Vec<u8>)>,
     /// What was hidden.
     pub truth: Truth,
+    /// Rows of the recordings with a hidden law of another grammar, by recording.
+    pub law_rows: BTreeMap<String, Vec<LawRow>>,
 }
 
 impl Case {
@@ -60,7 +64,7 @@ impl Case {
             verdict: hidden.verdict().to_owned(),
             effects: hidden.effects.clone(),
             recordings: hidden.truths.clone(),
-            heldout: std::collections::BTreeMap::new(),
+            heldout: BTreeMap::new(),
             setting: draw.setting.name().to_owned(),
             robot: draw.robot.against(&draw.nominal).into_iter().map(|(name, x)| (name.to_owned(), x)).collect(),
             below_noise: hidden.below_noise,
@@ -92,7 +96,11 @@ impl Case {
             );
         }
         truth_files.push((PathBuf::from("truth.json"), truth.json()?.into_bytes()));
-        Ok(DrawnCase { files, truth_files, truth })
+        let of_law = hidden.in_heldout.foreign.law.map(|law| {
+            let rows = |(i, run): (usize, &Run)| (format!("run_{}", i + 1), law.rows(run, row));
+            hidden.recordings.iter().enumerate().map(rows).collect()
+        });
+        Ok(DrawnCase { files, truth_files, truth, law_rows: of_law.unwrap_or_default() })
     }
 }
 

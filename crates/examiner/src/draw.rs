@@ -7,6 +7,7 @@ use crate::drive::{Manoeuvre, kinds};
 use crate::effect::{self, EffectId, Sizing};
 use crate::events::Events;
 use crate::hidden::{Hidden, Laws};
+use crate::law::{self, LawKind};
 use crate::outsider::{self, Outsider};
 use crate::random::{Stream, key};
 use crate::robot::Constants;
@@ -51,6 +52,7 @@ pub(crate) struct HiddenRuns {
 pub(crate) enum Cause {
     Effect(EffectId),
     Outsider(Outsider),
+    Law(LawKind),
 }
 
 impl HiddenRuns {
@@ -228,6 +230,7 @@ impl<'a> Draw<'a> {
                 vec![Cause::Effect(first), Cause::Effect(second)]
             }
             Content::Outsider(kind) => vec![Cause::Outsider(*kind)],
+            Content::Law(kind) => vec![Cause::Law(*kind)],
             Content::AnyOutsider => {
                 let all = Outsider::of(self.settings.casters);
                 vec![Cause::Outsider(all[s.index(all.len())])]
@@ -256,6 +259,7 @@ impl<'a> Draw<'a> {
         for cause in causes {
             effects.push(match cause {
                 Cause::Effect(id) => effect::hide(*id, &sizing, &mut s, &mut hidden),
+                Cause::Law(kind) => law::hide(*kind, &sizing, &mut s, &mut hidden),
                 Cause::Outsider(kind) => outsider::hide(*kind, &sizing, &mut s, &mut hidden),
             });
         }

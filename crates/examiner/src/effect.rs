@@ -102,7 +102,7 @@ pub(crate) struct Sizing<'a> {
 
 impl Sizing<'_> {
     /// One of three sizes, spread by 15 %, for this setting.
-    fn draw(&self, s: &mut Stream, sizes: [f64; 3], weak: f64) -> f64 {
+    pub(crate) fn draw(&self, s: &mut Stream, sizes: [f64; 3], weak: f64) -> f64 {
         let setting = match self.setting {
             Setting::Normal => 1.0,
             Setting::Weak => weak,

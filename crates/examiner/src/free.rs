@@ -3,7 +3,7 @@
 use crate::hidden::Hidden;
 use crate::integrate::{STEP, Stepper};
 use crate::motor::Motors;
-use crate::plant::{ANGLE, Plant, SPEED, YAW_RATE};
+use crate::plant::{ANGLE, MEMORY, Plant, SPEED, YAW_RATE};
 use crate::random::Stream;
 use crate::robot::Constants;
 use crate::run::{Motion, Run, shown_rate};
@@ -48,7 +48,10 @@ pub(crate) fn predict(c: &Constants, hidden: &Hidden, run: &Run, starts: &[Motio
     for k in 0..commands.len() {
         if k % SEGMENT == 0 {
             let s = &starts[k / SEGMENT];
+            // What has warmed up, or is wound up, does not forget where a free run begins anew.
+            let memory = [state[MEMORY], state[MEMORY + 1]];
             state = plant.settled(s.body, s.speed, s.angle);
+            state[MEMORY..].copy_from_slice(&memory);
         }
         let rate = shown_rate(hidden, state[YAW_RATE]);
         out.push([state[SPEED + 1], state[SPEED + 3], rate]);

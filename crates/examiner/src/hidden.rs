@@ -1,5 +1,6 @@
 //! Everything a case may hide, as plain numbers; the neutral value hides nothing.
 
+use crate::law::ForeignLaw;
 use crate::random::Stream;
 
 /// A disc of the ground.
@@ -169,6 +170,8 @@ pub(crate) struct Foreign {
     pub cable: Option<(f64, [f64; 2], f64)>,
     /// Extra dry friction per side when rolling backwards.
     pub ratchet: f64,
+    /// A law of another grammar.
+    pub law: Option<ForeignLaw>,
     /// Length of the explicit steps of an artefact, seconds; zero for none.
     pub explicit_step: f64,
     /// Whether friction is bounded along and across apart.

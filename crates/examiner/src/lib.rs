@@ -7,6 +7,7 @@
 //! * `settings`: what a drawn case is to look like; `draw`: the robot, what it hides, its drives.
 //! * `effect`, `hidden`, `outsider`, `events`: what can be hidden, and what must be answered by
 //!   "unknown".
+//! * `law`: laws of a grammar of their own, which the search for laws does not hold.
 //! * `plant`, `tyre`, `contact`, `motor`, `integrate`: the true robot and its laws.
 //! * `drive`, `course`, `run`, `sensors`: closed-loop drives and what sensors show of them.
 //! * `robot`, `robot_json`: the robot as its user knows it.
@@ -34,6 +35,7 @@ mod events;
 mod free;
 mod hidden;
 mod integrate;
+mod law;
 mod measure;
 mod motor;
 mod outsider;
@@ -59,6 +61,7 @@ pub use drive::Manoeuvre;
 pub use effect::EffectId;
 pub use error::Error;
 pub use free::error as free_run_error;
+pub use law::{Acting, LawKind, LawRow};
 pub use outsider::Outsider;
 pub use set::{Mix, Plan, set};
 pub use settings::{Content, Place, RobotClass, Setting, Settings, Severity};

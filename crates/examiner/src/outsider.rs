@@ -9,6 +9,9 @@ use crate::robot::GRAVITY;
 use crate::truth::EffectTruth;
 use crate::{Setting, random};
 
+/// The id under which truths hold what is outside the vocabulary.
+pub(crate) const ID: &str = "out_of_library";
+
 /// Steps of the coarse integrator, seconds: 1.5 ms do not show in a medium robot, 2 ms may blow up.
 const EXPLICIT_STEP: f64 = 0.001_75;
 
@@ -115,7 +118,7 @@ pub(crate) fn hide(kind: Outsider, z: &Sizing<'_>, s: &mut Stream, h: &mut Hidde
         Outsider::FrictionBox => f.friction_box = true,
         Outsider::ExplicitSteps => f.explicit_step = EXPLICIT_STEP,
     }
-    let mut e = EffectTruth::new("out_of_library".to_owned(), z.severity.number());
+    let mut e = EffectTruth::new(ID.to_owned(), z.severity.number());
     e.kind = serde_json::to_value(kind).ok().and_then(|v| v.as_str().map(str::to_owned));
     e.magnitude = 1.0;
     e

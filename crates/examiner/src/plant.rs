@@ -4,13 +4,14 @@ use crate::casters::Casters;
 use crate::contact::Contact;
 use crate::events::{Events, inside};
 use crate::hidden::Hidden;
+use crate::law::Friction;
 use crate::robot::{Constants, GRAVITY};
 
 /// Numbers in a state.
-pub(crate) const N: usize = 31;
+pub(crate) const N: usize = 33;
 /// Places in a state: pose (3), velocity of the geometric centre in body axes and yaw rate (3),
 /// then by wheel (FL, RL, FR, RR) speed, angle, dry friction share, carcass deflection along and
-/// across, by side belt twist, and the lagged specific force (2) and the shifted cargo. On casters FL and FR are these,
+/// across, by side belt twist, the lagged specific force (2) and the shifted cargo, and by side the memory of a law. On casters FL and FR are these,
 /// and of them nothing but the angle counts.
 pub(crate) const VELOCITY: usize = 3;
 pub(crate) const YAW_RATE: usize = 5;
@@ -22,6 +23,7 @@ const ALONG: usize = 20;
 const ACROSS: usize = 24;
 const LOAD: usize = 28;
 const CARGO: usize = 30;
+pub(crate) const MEMORY: usize = 31;
 
 /// The state of the robot.
 pub(crate) type State = [f64; N];
@@ -137,6 +139,9 @@ impl Plant {
         if self.rough_ground {
             self.ground(s, [sin, cos], &mut grip, &mut rolling);
         }
+        if let Some(law) = &f.law {
+            grip = grip.map(|g| g * law.on_grip(w));
+        }
         if c.casters.is_some() {
             (grip[0], grip[2]) = (0.0, 0.0);
         }
@@ -176,15 +181,22 @@ impl Plant {
             }
             dry += part * m.touch[side];
             dry += rolling[i] * loads[i] * radius[i];
+            let taken = f.law.map_or_else(Friction::default, |law| law.friction(side, omega[i], s[MEMORY + side]));
+            dry += part * taken.dry;
             let share = s[DRY + i];
             d[DRY + i] = (omega[i] - omega[i].abs() * share) * self.per_presliding;
             let viscous = part * (c.viscous[side] + h.viscous);
-            let loss = dry * share + viscous * omega[i] + radius[i] * along[i];
+            let loss = dry * share + viscous * omega[i] + part * taken.smooth + radius[i] * along[i];
             d[SPEED + i] = (drive[i] - loss) * self.per_inertia[i % 2];
             d[ANGLE + i] = omega[i];
         }
         for axis in 0..2 {
             d[LOAD + axis] = (force[axis] / self.mass - s[LOAD + axis]) / c.load_lag;
+        }
+        if let Some(law) = &f.law {
+            for side in 0..2 {
+                d[MEMORY + side] = law.memory_rate(omega[2 * side + 1], s[MEMORY + side]);
+            }
         }
         self.add_body_forces(s, m, centre, [sin, cos], &mut force, &mut moment);
         let turn = moment / self.inertia;
@@ -296,6 +308,11 @@ impl Plant {
         }
         force[0] -= h.pull;
         *moment -= centre[1] * h.pull;
+        if let Some(law) = &h.foreign.law {
+            let (push, turn) = law.on_body(s[2], [vx, vy], s[YAW_RATE]);
+            (force[0], force[1]) = (force[0] + push[0], force[1] + push[1]);
+            *moment += turn + centre[0] * push[1] - centre[1] * push[0];
+        }
         let mut world = m.gust;
         if let Some((stiffness, anchor, slack)) = h.foreign.cable {
             let (x, y) = (s[0] - anchor[0], s[1] - anchor[1]);

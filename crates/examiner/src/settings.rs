@@ -1,6 +1,6 @@
 //! What a drawn case is to look like.
 
-use crate::{EffectId, Manoeuvre, Outsider, TyreLaw};
+use crate::{EffectId, LawKind, Manoeuvre, Outsider, TyreLaw};
 
 /// The size of the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -81,6 +81,8 @@ pub enum Content {
     Outsider(Outsider),
     /// The same, whichever the seed draws.
     AnyOutsider,
+    /// A law of another grammar.
+    Law(LawKind),
 }
 
 /// Everything about a case that is not drawn.

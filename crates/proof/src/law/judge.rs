@@ -4,6 +4,7 @@ use examiner::{EffectTruth, Outsider, Truth};
 use serde::Serialize;
 
 use super::events::{EventScore, score};
+use super::foreign::{ForeignScore, is_foreign, places};
 use verdict::{Claim, Diagnosis, LawFreeRun};
 
 /// Effects that are laws: id, symbols of right places, names of right factors (any of them).
@@ -67,6 +68,8 @@ pub(super) struct Judged {
     pub(super) is_outside: bool,
     /// Short events that are hidden, with what was told of them.
     pub(super) events: Option<EventScore>,
+    /// A law of another grammar that is hidden, with what the law that was told is worth beside it.
+    pub(super) foreign: Option<ForeignScore>,
 }
 
 /// Whether a truth is one of short events.
@@ -90,6 +93,7 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
         let places = OUTSIDE_PLACES.iter().find(|(id, _)| *id == kind).map_or(&[][..], |(_, places)| places);
         told.is_some_and(|told| places.iter().any(|p| told.starts_with(p)))
     };
+    let is_foreign_place = |e: &EffectTruth| told.is_some_and(|told| places(e).iter().any(|p| told.starts_with(p)));
     let is_known_place = || {
         known.is_some_and(|(_, places, _)| {
             let place = places.iter().any(|p| formula.starts_with(p));
@@ -98,10 +102,14 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
             place && side.is_none_or(own)
         })
     };
-    let place_right = outside.map_or_else(is_known_place, is_there);
+    let place_right = match hidden.filter(|e| is_foreign(e)) {
+        Some(e) => is_foreign_place(e),
+        None => outside.map_or_else(is_known_place, is_there),
+    };
     Judged {
         hidden: hidden.map(|e| e.kind.clone().filter(|_| e.id == OUTSIDE).unwrap_or_else(|| e.id.clone())),
         events: hidden.filter(|e| is_short(e)).map(|_| score(truth, d)),
+        foreign: None,
         is_outside: outside.is_some(),
         claim: d.law.as_ref().map(|l| l.claim),
         kind_right: place_right && known.is_some_and(|(.., factors)| factors.iter().any(|f| formula.contains(f))),

@@ -4,21 +4,24 @@
 //! drawn robot with a hidden effect --> diagnosis whose catalogue does not hold it --> law, place, or nothing
 //! drawn robot with short events    --> diagnosis                                  --> events, or anything else
 //! drawn robot with another outsider --> diagnosis                                  --> place, law, or nothing
+//! drawn robot with a foreign law   --> diagnosis                                  --> law, place, or nothing
 //! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
 //! ```
 
 use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use clap::Args as ClapArgs;
-use examiner::{Content, Mix, Outsider, Plan, Settings};
+use examiner::{Content, LawKind, Mix, Outsider, Plan, Settings};
 use inference::{Options, SearchForLaw};
 use rayon::prelude::*;
 use recordings::ReadOptions;
+use verdict::Claim;
 
 use crate::document::to_text;
 use crate::output;
 
 mod events;
+mod foreign;
 mod judge;
 mod tables;
 
@@ -40,6 +43,9 @@ pub(crate) struct Args {
     /// Number of robots with a cause outside the vocabulary, all kinds in turn.
     #[arg(long, default_value_t = 22)]
     outside: usize,
+    /// Number of robots with a law of another grammar, which the search does not hold as it stands, all kinds in turn.
+    #[arg(long, default_value_t = 20)]
+    foreign: usize,
     /// References of each robot; with none, a law is told only where the answer is that the cause is not in the catalogue.
     #[arg(long, value_name = "NUMBER", default_value_t = Settings::default().references)]
     references: usize,
@@ -63,7 +69,8 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     plans
         .extend(examiner::set(args.seed + 2, args.events, outside, &settings).into_iter().enumerate().map(with_events));
     plans.extend(examiner::set(args.seed + 3, args.outside, outside, &settings));
-    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events, --outside or --fault-free");
+    plans.extend(examiner::set(args.seed + 4, args.foreign, outside, &settings).into_iter().enumerate().map(with_law));
+    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events, --outside, --foreign or --fault-free");
 
     let bar = output::progress(plans.len() as u64, "robots")?;
     let one = |(i, plan): (usize, &Plan)| {
@@ -98,6 +105,12 @@ fn with_events((i, mut plan): (usize, Plan)) -> Plan {
     plan
 }
 
+/// The plan with a law of another grammar as what is hidden, their kinds in turn.
+fn with_law((i, mut plan): (usize, Plan)) -> Plan {
+    plan.settings.content = Content::Law(LawKind::ALL[i % LawKind::ALL.len()]);
+    plan
+}
+
 /// Draws and diagnoses a case; `None` where its effect is no law, or is not asked for.
 fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option<Judged>> {
     let drawn = plan.draw()?;
@@ -121,5 +134,10 @@ fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option
     let options = Options { without, law: SearchForLaw::Always, ..Options::default() };
     let diagnosis = torque_driven::diagnose(&case, &options, &|_| ())?;
     std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
-    Ok(Some(judged(&drawn.truth, &diagnosis)))
+    let mut judged = judged(&drawn.truth, &diagnosis);
+    if hidden.as_ref().is_some_and(foreign::is_foreign) {
+        let told = diagnosis.law.as_ref().filter(|l| l.claim == Claim::Law).and_then(|l| l.law.as_ref());
+        judged.foreign = Some(foreign::score(told, &drawn.law_rows, &case.robot, 1.0 / plan.settings.row_rate_hz));
+    }
+    Ok(Some(judged))
 }

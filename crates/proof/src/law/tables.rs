@@ -15,6 +15,14 @@ const PLACE: f64 = 0.85;
 const CLOSED: [f64; 2] = [0.90, 0.88];
 const FALSE_LAWS: f64 = 0.01;
 
+/// Of robots with a law of another grammar.
+const TOLD_FOREIGN: f64 = 0.5;
+const CLOSED_FOREIGN: f64 = 0.85;
+const OVER_NAME: f64 = 0.1;
+const ALIKE: f64 = 0.1;
+const CURVES: f64 = 0.3;
+const WRONG_FOREIGN: f64 = 0.03;
+
 const SIDE_OF_EVENTS: f64 = 0.95;
 const RECALL: f64 = 0.6;
 const PRECISION: f64 = 0.75;
@@ -64,7 +72,7 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
     );
     out.push(Figure::free("told events where a name was left out", share(hidden(all).map(are_events).collect()), ""));
 
-    let outside = || all.iter().filter(|j| j.is_outside && j.events.is_none());
+    let outside = || all.iter().filter(|j| j.is_outside && j.events.is_none() && j.foreign.is_none());
     let has_place = |j: &&Judged| j.place.is_some();
     out.extend([
         Figure::free("robots with another cause outside the vocabulary", outside().count() as f64, ""),
@@ -75,6 +83,7 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
             .asked(Asked::AtMost(FALSE_LAWS)),
     ]);
 
+    out.extend(of_foreign(all));
     let events: Vec<&EventScore> = all.iter().filter_map(|j| j.events.as_ref()).collect();
     let told = || events.iter().filter(|e| e.told);
     let sum = |k: usize| told().map(|e| e.windows[k]).sum::<usize>() as f64;
@@ -87,6 +96,47 @@ pub(super) fn figures(all: &[Judged]) -> Vec<Figure> {
         Figure::free("windows of 0.1 s told that have an event", sum(2) / sum(1).max(1.0), "")
             .asked(Asked::AtLeast(PRECISION)),
     ]);
+    out
+}
+
+/// What was found of laws of another grammar; nothing where none was hidden.
+fn of_foreign(all: &[Judged]) -> Vec<Figure> {
+    let of = |name: &str, rate: Rate| Figure::free(name, share(rate), "");
+    let robots: Vec<&Judged> = all.iter().filter(|j| j.foreign.is_some()).collect();
+    if robots.is_empty() {
+        return Vec::new();
+    }
+    let is_told = |j: &Judged| matches!(j.claim, Some(Claim::Law));
+    let told: Vec<&Judged> = robots.iter().copied().filter(|j| is_told(j)).collect();
+    let is_alike = |j: &&Judged| j.foreign.as_ref().and_then(|f| f.curve).is_some_and(|c| c <= ALIKE);
+    let is_worse = |j: &Judged| j.foreign.as_ref().is_some_and(|f| f.is_worse_than_name);
+    let closed =
+        |of: &dyn Fn([[f64; 2]; 3]) -> f64| median(told.iter().filter_map(|j| j.closed.map(of))).unwrap_or(0.0);
+    let wrong = robots.iter().map(|j| is_told(j) && (!j.place_right || is_worse(j))).collect();
+    let mut out = vec![
+        Figure::free("robots with a law of another grammar", robots.len() as f64, ""),
+        of("a law is told there", robots.iter().map(|j| is_told(j)).collect()).asked(Asked::AtLeast(TOLD_FOREIGN)),
+        of("place right, of laws told there", told.iter().map(|j| j.place_right).collect())
+            .asked(Asked::AtLeast(PLACE)),
+    ];
+    for (q, quantity) in ["wheel speed", "yaw rate"].into_iter().enumerate() {
+        out.push(
+            Figure::free(format!("median gap closed by the law there, {quantity}"), closed(&|c| c[0][q]), "")
+                .asked(Asked::AtLeast(CLOSED_FOREIGN)),
+        );
+        out.push(
+            Figure::free(format!("median beyond the best name there, {quantity}"), closed(&|c| c[0][q] - c[1][q]), "")
+                .asked(Asked::AtLeast(OVER_NAME)),
+        );
+    }
+    out.push(
+        of("law within 10 % of the hidden one, rms, of laws told there", told.iter().map(is_alike).collect())
+            .asked(Asked::AtLeast(CURVES)),
+    );
+    out.push(
+        of("a wrong law is told there: at another place, or worse than the best name", wrong)
+            .asked(Asked::AtMost(WRONG_FOREIGN)),
+    );
     out
 }
 
