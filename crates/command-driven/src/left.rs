@@ -306,8 +306,8 @@ mod tests {
 
     use super::*;
     use crate::controller::{DEAD_TIME, GAIN};
-    use crate::testing::{Truth, diagnosed, robot};
-    use crate::{ResponseCase, diagnose_response};
+    use crate::diagnose_response;
+    use crate::testing::{Truth, alone, diagnosed};
     use catalogue::answer::UNKNOWN;
     use inference::Options;
 
@@ -343,13 +343,7 @@ mod tests {
             ResponseRun::new(&truth.driven(name, &commands, seed, 0.1)).expect("a run")
         };
         let recordings = vec![run(&truth, "a", 1), run(&Truth::perfect(), "b", 2)];
-        let case = ResponseCase {
-            robot: robot(),
-            geometry_sigma: [0.01; 2],
-            references: vec![],
-            recordings,
-            held_out: vec![],
-        };
+        let case = alone(recordings);
         let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!(d.verdict, Verdict::Unknown, "{:?} {:?}", d.ranked, remainder(&d));
         assert_eq!(remainder(&d).place.as_deref(), Some("on the right side"));
@@ -379,13 +373,7 @@ mod tests {
         for (truth, verdict) in [(Truth::perfect(), Verdict::NoMismatch), (Truth::stock(), Verdict::Explained)] {
             for recordings in [[11, 12], [21, 22]] {
                 let recordings = recordings.map(|seed| truth.run("r", 25, seed)).to_vec();
-                let case = ResponseCase {
-                    robot: robot(),
-                    geometry_sigma: [0.01; 2],
-                    references: vec![],
-                    recordings,
-                    held_out: vec![],
-                };
+                let case = alone(recordings);
                 let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
                 assert_eq!(d.verdict, verdict, "{:?}", d.ranked);
                 assert!(probability(&d, UNKNOWN.id) < 0.01, "{:?}", d.ranked);

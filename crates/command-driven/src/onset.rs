@@ -262,7 +262,7 @@ mod tests {
     use super::*;
     use crate::controller::{DEAD_TIME, TURN_LIMIT};
     use crate::ground::TRACK;
-    use crate::testing::{Truth, diagnosed, robot};
+    use crate::testing::{Truth, alone, diagnosed, robot};
     use crate::{ResponseCase, ResponseRun, diagnose_response};
     use inference::Options;
 
@@ -325,13 +325,7 @@ mod tests {
     fn a_track_that_widens_in_one_recording_only_is_absent_in_the_other() {
         let truth = begins(90.0, Truth::perfect(), |t| t.ground[TRACK] = 1.5, Truth::perfect);
         let recordings = vec![truth.run("a", 30, 4), Truth::perfect().run("b", 20, 5)];
-        let case = ResponseCase {
-            robot: robot(),
-            geometry_sigma: [0.01; 2],
-            references: vec![],
-            recordings,
-            held_out: vec![],
-        };
+        let case = alone(recordings);
         let d = diagnose_response(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!(d.ranked[0].effect, "effective_track", "{:?}", d.ranked);
         began(&d, "effective_track", "a", 90.0);

@@ -149,6 +149,11 @@ impl Truth {
     }
 }
 
+/// A case of these recordings alone.
+pub(crate) fn alone(recordings: Vec<ResponseRun>) -> ResponseCase {
+    ResponseCase { robot: robot(), geometry_sigma: [0.01; 2], references: vec![], recordings, held_out: vec![] }
+}
+
 pub(crate) fn diagnosed(truth: &Truth, references: Option<&Truth>) -> Diagnosis {
     let case = ResponseCase {
         robot: robot(),

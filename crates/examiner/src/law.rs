@@ -89,7 +89,6 @@ pub(crate) struct ForeignLaw {
 
 /// What a law does at an instant: N m at the drives, N and N m on the body, shares of grip.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[non_exhaustive]
 pub struct Acting {
     /// Torque of each side.
     pub torque: [f64; 2],
@@ -102,8 +101,7 @@ pub struct Acting {
 }
 
 /// A row of a drive with a law: what moves, and what the law does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LawRow {
     /// Place, m, heading, rad, velocity in body axes, m/s, and yaw rate, rad/s.
     pub body: [f64; 6],
@@ -117,7 +115,7 @@ pub struct LawRow {
     pub acting: Acting,
 }
 
-/// Torques of friction and memory of a side's wheels: dry friction, which presliding smooths; torque that holds as it stands.
+/// What friction takes from a wheel, N m: dry friction, which presliding smooths, and a torque that holds as it stands.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Friction {
     pub dry: f64,
@@ -173,7 +171,7 @@ impl ForeignLaw {
         }
     }
 
-    /// What it does at each row of a drive.
+    /// The rows of a drive with what it does there.
     pub(crate) fn rows(&self, run: &Run, row: f64) -> Vec<LawRow> {
         let rows = run.seen.iter().zip(&run.rows).zip(self.along(&run.seen, row));
         let of = |((m, r), acting): ((&Motion, &Row), Acting)| LawRow {
@@ -186,6 +184,7 @@ impl ForeignLaw {
         rows.map(of).collect()
     }
 
+    /// What it does at each row of a motion.
     fn along(&self, seen: &[Motion], row: f64) -> Vec<Acting> {
         let mut memory = [0.0; 2];
         let at = |m: &Motion| {

@@ -11,8 +11,8 @@ use crate::robot::{Constants, GRAVITY};
 pub(crate) const N: usize = 33;
 /// Places in a state: pose (3), velocity of the geometric centre in body axes and yaw rate (3),
 /// then by wheel (FL, RL, FR, RR) speed, angle, dry friction share, carcass deflection along and
-/// across, by side belt twist, the lagged specific force (2) and the shifted cargo, and by side the memory of a law. On casters FL and FR are these,
-/// and of them nothing but the angle counts.
+/// across, by side belt twist, the lagged specific force (2) and the shifted cargo, and by side the
+/// memory of a law. On casters FL and FR are these, and of them nothing but the angle counts.
 pub(crate) const VELOCITY: usize = 3;
 pub(crate) const YAW_RATE: usize = 5;
 pub(crate) const SPEED: usize = 6;

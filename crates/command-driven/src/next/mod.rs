@@ -103,8 +103,8 @@ mod tests {
     use recordings::Recording;
 
     use super::*;
-    use crate::testing::{NOMINAL, Truth, robot};
-    use crate::{ResponseCase, ResponseRun, diagnose_response};
+    use crate::testing::{NOMINAL, Truth, alone};
+    use crate::{ResponseRun, diagnose_response};
 
     const LENGTH: f64 = 20.0;
     const NOISE: f64 = 0.3;
@@ -112,13 +112,7 @@ mod tests {
     /// Advice from these drives.
     fn advised(recordings: &[Recording]) -> Advice {
         let recordings = recordings.iter().map(|r| ResponseRun::new(r).expect("a run")).collect();
-        let case = ResponseCase {
-            robot: robot(),
-            geometry_sigma: [0.01; 2],
-            references: vec![],
-            recordings,
-            held_out: vec![],
-        };
+        let case = alone(recordings);
         let options = Options { next: Some(LENGTH), ..Options::default() };
         diagnose_response(&case, &options, &|_| {}).expect("a diagnosis").next.expect("advice")
     }

@@ -1,10 +1,11 @@
 //! What a told law is worth beside a hidden one of another grammar.
 
+use std::collections::BTreeMap;
+
 use examiner::{EffectTruth, LawKind, LawRow};
 use law::{Input, Law, Memory, Motion};
 use robot_model::Robot;
 use serde::Serialize;
-use std::collections::BTreeMap;
 use verdict::FoundLaw;
 
 /// A told law beside a hidden one.
@@ -18,8 +19,7 @@ pub(super) struct ForeignScore {
 
 /// Whether a truth is one of a law of another grammar.
 pub(super) fn is_foreign(e: &EffectTruth) -> bool {
-    let kind = |k: &LawKind| serde_json::to_value(k).ok().and_then(|v| v.as_str().map(str::to_owned));
-    LawKind::ALL.iter().any(|k| e.kind.is_some() && kind(k) == e.kind)
+    e.kind.as_deref().is_some_and(|kind| serde_json::from_value::<LawKind>(kind.into()).is_ok())
 }
 
 /// Beginnings of names of places where a law acts. Friction of both drives is a force as well.
@@ -102,5 +102,26 @@ fn motion(at: &LawRow, time: f64, robot: &Robot<f64>) -> Motion<f64> {
         wheel_angle: at.wheel_angle,
         torque: at.torque,
         slip: [slip(0), slip(1)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use examiner::Acting;
+
+    use super::*;
+
+    #[test]
+    fn a_law_is_as_far_from_another_as_its_amounts_are() {
+        let at = |v: f64| LawRow {
+            body: [0.0, 0.0, 0.0, v, 0.0, 0.0],
+            acting: Acting { force: [-2.0 * v, 0.0], ..Acting::default() },
+            ..LawRow::default()
+        };
+        let rows = BTreeMap::from([("run_1".to_owned(), vec![at(0.5), at(-1.0), at(0.2)])]);
+        let robot = Robot::from(&robot_model::paper::Parameters::SET_A);
+        let from = |formula: &str| distance(&formula.parse().expect("a law"), &rows, &robot, 0.01);
+        assert!(from("F_x = -2 [N s/m] * pow(v, 1)") < 1e-9);
+        assert!((from("F_x = -1 [N s/m] * pow(v, 1)") - 0.5).abs() < 1e-9);
     }
 }
