@@ -104,24 +104,3 @@ fn motion(at: &LawRow, time: f64, robot: &Robot<f64>) -> Motion<f64> {
         slip: [slip(0), slip(1)],
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use examiner::Acting;
-
-    use super::*;
-
-    #[test]
-    fn a_law_is_as_far_from_another_as_its_amounts_are() {
-        let at = |v: f64| LawRow {
-            body: [0.0, 0.0, 0.0, v, 0.0, 0.0],
-            acting: Acting { force: [-2.0 * v, 0.0], ..Acting::default() },
-            ..LawRow::default()
-        };
-        let rows = BTreeMap::from([("run_1".to_owned(), vec![at(0.5), at(-1.0), at(0.2)])]);
-        let robot = Robot::from(&robot_model::paper::Parameters::SET_A);
-        let from = |formula: &str| distance(&formula.parse().expect("a law"), &rows, &robot, 0.01);
-        assert!(from("F_x = -2 [N s/m] * pow(v, 1)") < 1e-9);
-        assert!((from("F_x = -1 [N s/m] * pow(v, 1)") - 0.5).abs() < 1e-9);
-    }
-}
