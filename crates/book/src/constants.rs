@@ -34,9 +34,9 @@ fn row(c: &Constant<f64>) -> String {
         None => format!("`{}`", c.id),
     };
     let of = match c.of {
-        Some(Chassis::Differential) => ", on casters",
-        Some(Chassis::SkidSteer) => ", on four wheels",
-        None => "",
+        [Chassis::Differential] => ", on casters",
+        [] => "",
+        _ => ", on four wheels",
     };
     let [sigma, moves] = match &c.tuning {
         Some(t) => {

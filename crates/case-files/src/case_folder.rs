@@ -249,6 +249,7 @@ impl CaseFolder {
             .collect::<Result<Vec<_>>>()?;
         Ok(torque_driven::Case {
             robot: self.robot.robot,
+            may_have_four_motors: !self.robot.is_chassis_stated,
             effects: self.given_effects()?,
             sigma: self.robot.sigma,
             pose_sigma: self.robot.pose_sigma,

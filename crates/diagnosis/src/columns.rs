@@ -197,7 +197,7 @@ fn torque_of_motion(robot: &Robot<f64>, speeds: &Sides) -> Sides {
     let of_wheels = robot.side_inertia();
     let weight = robot.mass * robot.gravity;
     let scrub = match robot.chassis {
-        Chassis::SkidSteer => {
+        Chassis::SkidSteer | Chassis::FourMotors => {
             robot.adhesion * robot.lateral_factor * weight * robot.half_wheelbase * r / (2.0 * robot.half_track)
         }
         Chassis::Differential => 0.0,

@@ -52,6 +52,8 @@ pub enum Place {
     Disc,
     /// From an instant of each recording on.
     Onset,
+    /// On one side from an instant of each recording on: 0 left, 1 right.
+    OnsetOfSide(usize),
 }
 
 /// One effect in one of its forms.
@@ -116,7 +118,12 @@ impl Variant {
 
     /// The side that it is on, 0 left, 1 right; `None` of an effect of both.
     pub fn side(&self) -> Option<usize> {
-        if let Place::Side(side) = self.place { Some(side) } else { None }
+        if let Place::Side(side) | Place::OnsetOfSide(side) = self.place { Some(side) } else { None }
+    }
+
+    /// Whether it begins at an instant of each recording.
+    pub fn begins(&self) -> bool {
+        matches!(self.place, Place::Onset | Place::OnsetOfSide(_))
     }
 
     /// Name for people and files: effect, side, axis, place.
@@ -130,6 +137,7 @@ impl Variant {
             Place::Side(s) => out += [" (left)", " (right)"][s.min(1)],
             Place::Disc => out += " (place)",
             Place::Onset => out += " (from an instant)",
+            Place::OnsetOfSide(s) => out += [" (left, from an instant)", " (right, from an instant)"][s.min(1)],
         }
         out
     }
@@ -188,11 +196,12 @@ impl Variant {
                 None => disc.push(v),
             }
         }
-        match self.place {
-            Place::Whole => {}
-            Place::Side(s) => presence.side = Some(s),
-            Place::Disc => presence.disc = Some(Disc { centre: [disc[0], disc[1]], radius: disc[2] }),
-            Place::Onset => presence.from = onset.unwrap_or(f64::MAX),
+        presence.side = self.side();
+        if self.place == Place::Disc {
+            presence.disc = Some(Disc { centre: [disc[0], disc[1]], radius: disc[2] });
+        }
+        if self.begins() {
+            presence.from = onset.unwrap_or(f64::MAX);
         }
         Dose { effect: self.effect, values, presence }
     }
@@ -210,17 +219,14 @@ impl Variant {
                 None => disc.push(v),
             }
         }
-        match self.place {
-            Place::Whole => {}
-            Place::Side(s) => out.side = Some(Side::of(s)),
-            Place::Disc => out.place = Some([disc[0], disc[1], disc[2]]),
-            Place::Onset => {
-                for (name, onset) in recordings.iter().zip(onsets) {
-                    match onset {
-                        Some(t) => _ = out.from.insert((*name).to_owned(), *t),
-                        None => out.absent.push((*name).to_owned()),
-                    }
-                }
+        out.side = self.side().map(Side::of);
+        if self.place == Place::Disc {
+            out.place = Some([disc[0], disc[1], disc[2]]);
+        }
+        for (name, onset) in recordings.iter().zip(onsets).filter(|_| self.begins()) {
+            match onset {
+                Some(t) => _ = out.from.insert((*name).to_owned(), *t),
+                None => out.absent.push((*name).to_owned()),
             }
         }
         out
@@ -260,7 +266,9 @@ pub fn variants_of(known: KnownEffects, chassis: Chassis, pose: bool) -> Vec<Var
             } else if scopes.everywhere {
                 out.push(Variant { effect, axis, place: Place::Whole });
             }
-            if scopes.onset {
+            if scopes.onset && scopes.side {
+                out.extend((0..2).map(|s| Variant { effect, axis, place: Place::OnsetOfSide(s) }));
+            } else if scopes.onset {
                 out.push(Variant { effect, axis, place: Place::Onset });
             }
             if scopes.disc {
@@ -288,6 +296,18 @@ mod tests {
         ] {
             assert_eq!((has(Chassis::SkidSteer, id), has(Chassis::Differential, id)), (four, on_casters), "{id}");
         }
+    }
+
+    #[test]
+    fn a_brake_may_begin_on_one_side() {
+        let all = variants_of(KnownEffects::default(), Chassis::SkidSteer, true);
+        let right = |v: &&Variant| v.spec().id == "coulomb_side" && v.place == Place::OnsetOfSide(1);
+        let brake = all.iter().find(right).expect("in the catalogue");
+        assert!(brake.begins() && brake.label() == "coulomb_side (right, from an instant)");
+        let presence = brake.dose(&[1.5], Some(4.0)).presence;
+        assert_eq!((presence.side, presence.from), (Some(1), 4.0));
+        let at = brake.at(&[1.5], &vec![Some(4.0), None], &["a", "b"]);
+        assert_eq!((at.side, at.from["a"], at.absent), (Some(Side::Right), 4.0, vec!["b".to_owned()]));
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub fn variant(v: &Variant) -> String {
         Place::Side(s) => named(&out, Some(s)),
         Place::Disc => out + ", at one place",
         Place::Onset => out + ", from an instant on",
+        Place::OnsetOfSide(s) => named(&out, Some(s)) + ", from an instant on",
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn python(name: &str, v: &Vehicle) -> Option<String> {
         .replace("NAME", &name.replace(['"', '\\', '\n'], "_"))
         .replace("CENTRE", &numbers(&v.robot.com).replace(' ', ", "))
         .replace("REST", &number(FRICTION_REST))
-        .replace("SIDES", &format!("{:?}", [0, 1].map(|side| driven(&v.robot, side))))
+        .replace("SIDES", &format!("{:?}", [0, 1].map(|side| driven(&v.robot, side).collect::<Vec<_>>())))
         .replace("BODIES", &format!("{:?}", bodies(v)))
         .replace("PAIRS", &format!("{:?}", &names(&v.robot)[wheels(&v.robot)]))
         .replace("# WORDS\n", &lines_of(&words.join("\n")))

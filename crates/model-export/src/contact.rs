@@ -67,7 +67,7 @@ pub(crate) fn grips(v: &Vehicle) -> [Grip; 4] {
 /// Which contacts are wheels: the others are casters.
 pub(crate) fn wheels(robot: &Robot<f64>) -> Range<usize> {
     match robot.chassis {
-        Chassis::SkidSteer => 0..4,
+        Chassis::SkidSteer | Chassis::FourMotors => 0..4,
         Chassis::Differential => 2..4,
     }
 }
@@ -75,30 +75,40 @@ pub(crate) fn wheels(robot: &Robot<f64>) -> Range<usize> {
 /// Which contacts are casters: one that counts as two stands once.
 pub(crate) fn casters(robot: &Robot<f64>) -> Range<usize> {
     match robot.chassis {
-        Chassis::SkidSteer => 0..0,
+        Chassis::SkidSteer | Chassis::FourMotors => 0..0,
         Chassis::Differential if robot.casters[0] == robot.casters[1] => 0..1,
         Chassis::Differential => 0..2,
     }
 }
 
-/// Names of the contacts; the last two turn with the motors of the sides.
+/// Names of the contacts; the last two are wheels on any chassis.
 pub(crate) const fn names(robot: &Robot<f64>) -> [&'static str; 4] {
     match robot.chassis {
-        Chassis::SkidSteer => ["front_left", "front_right", "rear_left", "rear_right"],
+        Chassis::SkidSteer | Chassis::FourMotors => ["front_left", "front_right", "rear_left", "rear_right"],
         Chassis::Differential => ["caster_1", "caster_2", "left_wheel", "right_wheel"],
     }
 }
 
-/// Name of the wheel that a side's motor turns.
-pub(crate) const fn driven(robot: &Robot<f64>, side: usize) -> &'static str {
-    names(robot)[2 + side]
+/// Share of its side's motors that turns each contact.
+pub(crate) const fn motors(robot: &Robot<f64>) -> [f64; 4] {
+    match robot.chassis {
+        Chassis::SkidSteer | Chassis::Differential => [0.0, 0.0, 1.0, 1.0],
+        Chassis::FourMotors => [0.5; 4],
+    }
 }
 
-/// Which wheels take the torque of a side, for people.
+/// Names of the wheels that the motors of a side turn, front to rear.
+pub(crate) fn driven(robot: &Robot<f64>, side: usize) -> impl Iterator<Item = &'static str> {
+    let (names, motors) = (names(robot), motors(robot));
+    [side, side + 2].into_iter().filter(move |i| motors[*i] > 0.0).map(move |i| names[i])
+}
+
+/// Which joints take the torque of a side, for people.
 pub(crate) const fn driven_wheels(robot: &Robot<f64>) -> &'static str {
     match robot.chassis {
-        Chassis::SkidSteer => "rear wheel",
-        Chassis::Differential => "wheel",
+        Chassis::SkidSteer => "The rear wheel joints take the torque of a side",
+        Chassis::FourMotors => "Each wheel joint takes half of the torque of its side",
+        Chassis::Differential => "The wheel joints take the torque of a side",
     }
 }
 /// Names of the sides.

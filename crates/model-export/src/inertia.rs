@@ -1,6 +1,6 @@
 //! Masses and inertias of the parts, which sum up to those of the robot.
 
-use crate::contact::wheels;
+use crate::contact::{motors, wheels};
 use crate::vehicle::Vehicle;
 
 /// Roll and pitch inertia over yaw inertia of chassis and load. A planar robot does not know them; they decide how fast
@@ -33,7 +33,7 @@ pub(crate) struct Parts {
 impl Parts {
     /// Wheels are solid discs by their inertia about the axle, unless that makes them too heavy for the robot.
     ///
-    /// Where joints have no rotor, the rear wheels turn with the motors' inertia: `rotor_in_wheel`.
+    /// Where joints have no rotor, the wheels that motors turn have these' inertia: `rotor_in_wheel`.
     pub(crate) fn new(v: &Vehicle, rotor_in_wheel: bool) -> Self {
         let r = &v.robot;
         let rotor = if rotor_in_wheel { r.motor_inertia } else { 0.0 };
@@ -58,7 +58,7 @@ impl Parts {
             if !turning.contains(&i) {
                 return Part { mass: 0.0, centre, inertia: [0.0; 3] };
             }
-            let spin = r.wheel_inertia + if i < 2 { 0.0 } else { rotor };
+            let spin = r.wheel_inertia + motors(r)[i] * rotor;
             let across = ACROSS * spin;
             Part { mass, centre, inertia: [across, spin, across] }
         });

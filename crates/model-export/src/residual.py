@@ -31,9 +31,9 @@ class Residual:
     def __init__(self, model, start=0.0):
         """`start` is the simulation's time at which the run began, s."""
         self.model, self.start = model, start
-        joints = [model.joint(name) for name in SIDES]
-        self.speed = [joint.dofadr[0] for joint in joints]
-        self.angle = [joint.qposadr[0] for joint in joints]
+        joints = [[model.joint(name) for name in side] for side in SIDES]
+        self.speed = np.array([[joint.dofadr[0] for joint in side] for side in joints])
+        self.angle = np.array([[joint.qposadr[0] for joint in side] for side in joints])
         self.drives = [model.actuator(name).id for name in ("left", "right")]
         self.chassis = model.body("chassis").id
         self.wheels = [model.body(name).id for name in WHEELS]
@@ -42,7 +42,9 @@ class Residual:
 
     def apply(self, data):
         """Sets the applied forces for the next step: everything in them is overwritten."""
-        w, angle, T = data.qvel[self.speed], data.qpos[self.angle], data.actuator_force[self.drives]
+        # What a side's encoders show is the mean of its driven wheels.
+        w, angle = data.qvel[self.speed].mean(axis=1), data.qpos[self.angle].mean(axis=1)
+        T = data.actuator_force[self.drives]
         t = data.time - self.start
         turn = data.xmat[self.chassis].reshape(3, 3)
         heading = np.arctan2(turn[1, 0], turn[0, 0])
@@ -69,7 +71,7 @@ class Residual:
         mujoco.mj_applyFT(
             self.model, data, push, np.array([0.0, 0.0, moment]), centre, self.chassis, data.qfrc_applied
         )
-        data.qfrc_applied[self.speed] += torque
+        data.qfrc_applied[self.speed] += np.array(torque)[:, None] / self.speed.shape[1]
 
 
 def shown(reading):

@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::{casters, driven, driven_wheels, grips, names, wheels};
+use crate::contact::{casters, driven_wheels, grips, motors, names, wheels};
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
@@ -29,7 +29,7 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
         .child(robot(model, v));
     added::comments(element("sdf").with("version", "1.11").child(world), v, Engine::Sdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
-         the middle of the wheels. The {} joints take the torque of a side.",
+         the middle of the wheels. {}.",
         model.name,
         driven_wheels(&v.robot)
     )])
@@ -153,9 +153,10 @@ fn axle(v: &Vehicle, i: usize) -> Element {
     let grip = &grips(v)[i];
     let dynamics = element("dynamics").value("damping", &[grip.viscous]).value("friction", &[grip.dry]);
     let mut axis = element("axis").leaf("xyz", "0 1 0").child(dynamics);
-    let limit = v.robot.drive.limit;
-    if i < 2 {
-        let rear = element("mimic").with("joint", format!("{}_joint", driven(&v.robot, i))).with("axis", "axis");
+    let share = motors(&v.robot)[i];
+    let limit = share * v.robot.drive.limit;
+    if share == 0.0 {
+        let rear = element("mimic").with("joint", format!("{}_joint", names(&v.robot)[i + 2])).with("axis", "axis");
         axis = axis.child(rear.leaf("multiplier", "1").leaf("offset", "0").leaf("reference", "0"));
     } else if limit < NO_LIMIT {
         axis = axis.child(element("limit").leaf("effort", number(limit)));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use inference::KnownEffects;
 use robot_model::effects::catalogue;
-use robot_model::{EffectSpec, Robot, paper};
+use robot_model::{Chassis, EffectSpec, Robot, paper};
 use testing::on_casters;
 use verdict::{EffectAt, Side};
 
@@ -35,7 +35,9 @@ fn export(robot: &Robot<f64>, effects: &[EffectAt], engine: Engine) -> Exported 
 
 #[test]
 fn every_effect_of_the_catalogue_is_translated_for_every_engine() {
-    for (effect, robot) in catalogue::<f64>().into_iter().flat_map(|e| [robot(), on_casters()].map(|r| (e, r))) {
+    let four_motors = Robot { chassis: Chassis::FourMotors, ..robot() };
+    let robots = [robot(), four_motors, on_casters()];
+    for (effect, robot) in catalogue::<f64>().into_iter().flat_map(|e| robots.map(|r| (e, r))) {
         let spec = effect.spec();
         for engine in Engine::ALL.into_iter().filter(|_| spec.is_of(robot.chassis)) {
             let plain = export(&robot, &[], engine);

@@ -1,6 +1,5 @@
 //! Effects into a vehicle: what an engine holds becomes a value, what it does not becomes a residual.
 
-use robot_model::Chassis;
 use robot_model::effect::export::{Carrier, Engine, Residual as Lines, Way};
 use robot_model::effects::catalogue;
 
@@ -81,7 +80,7 @@ fn carry(carrier: Carrier, at: &At<'_>, v: &mut Vehicle) {
             for side in sides() {
                 // A wheel that is alone on its side has nothing that another one lacks.
                 let [_, _, cosine, sine, ..] = *at.values();
-                let [cosine, sine] = if v.robot.chassis == Chassis::SkidSteer { [cosine, sine] } else { [0.0; 2] };
+                let [cosine, sine] = if v.robot.chassis.is_on_four_wheels() { [cosine, sine] } else { [0.0; 2] };
                 add([a + cosine, b + sine], &mut v.eccentric[side]);
                 add([a - cosine, b - sine], &mut v.eccentric[side + 2]);
             }

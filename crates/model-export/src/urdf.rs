@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::{casters, driven, driven_wheels, grips, names, wheels};
+use crate::contact::{casters, driven_wheels, grips, motors, names, wheels};
 use crate::gazebo::{LYING, NO_LIMIT, WIDTH, imu_angles, shape_place, slip_plugin};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
@@ -55,7 +55,7 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
     root = root.child(element("gazebo").child(slip_plugin(v, &all)));
     added::comments(root, v, Engine::Urdf).document(vec![format!(
         "{}: written by lacuna export. Units SI; x forward, y left, z up; the link chassis has its origin on the ground below \
-         the middle of the wheels. The {} joints take the torque of a side.",
+         the middle of the wheels. {}.",
         model.name,
         driven_wheels(&v.robot)
     )])
@@ -118,9 +118,10 @@ fn axle(v: &Vehicle, parts: &Parts, i: usize) -> Element {
         .child(origin(parts.wheels[i].centre, [0.0; 3]))
         .child(element("axis").with("xyz", "0 1 0"))
         .child(element("dynamics").num("damping", grip.viscous).num("friction", grip.dry));
-    let limit = v.robot.drive.limit;
-    if i < 2 {
-        let rear = format!("{}_joint", driven(&v.robot, i));
+    let share = motors(&v.robot)[i];
+    let limit = share * v.robot.drive.limit;
+    if share == 0.0 {
+        let rear = format!("{}_joint", names(&v.robot)[i + 2]);
         axle.child(element("mimic").with("joint", rear).num("multiplier", 1.0).num("offset", 0.0))
     } else if limit < NO_LIMIT {
         axle.child(element("limit").num("effort", limit).num("velocity", ANY_SPEED))

@@ -7,7 +7,7 @@ use std::process::Command;
 use inference::KnownEffects;
 use model_export::{Engine, Model};
 use robot_model::effects::catalogue;
-use robot_model::{Plant, Robot, State, paper};
+use robot_model::{Chassis, Plant, Robot, State, paper};
 use skipping::{Outcome, Skipped};
 use verdict::{EffectAt, Side};
 
@@ -90,10 +90,11 @@ fn every_effect_loads_and_drives_in_mujoco() -> Outcome {
 
 fn mujoco_drives_like_the_planar_plant() -> Outcome {
     let python = python()?;
-    let robot = robot();
-    for torque in [[3.0, 3.0], [8.0, 2.0], [8.0, -8.0]] {
-        let [_, left, right, yaw] = driven(&python, &robot, &[], torque);
-        let plant = Plant::new(&robot, &[], 1e-3);
+    let four_motors = Robot { chassis: Chassis::FourMotors, ..robot() };
+    let torques = [[3.0, 3.0], [8.0, 2.0], [8.0, -8.0]];
+    for (robot, torque) in [robot(), four_motors].iter().flat_map(|robot| torques.map(|torque| (robot, torque))) {
+        let [_, left, right, yaw] = driven(&python, robot, &[], torque);
+        let plant = Plant::new(robot, &[], 1e-3);
         let mut s = State::default();
         for _ in 0..2000 {
             plant.step(&mut s, torque);

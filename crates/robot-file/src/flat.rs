@@ -205,6 +205,7 @@ impl FlatRobot {
             description: self.description,
             causality: Causality::TorqueDriven,
             robot,
+            is_chassis_stated: self.chassis.is_some(),
             effects: Vec::new(),
             known,
             response: None,

@@ -39,7 +39,7 @@ pub(crate) struct File {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) description: Option<String>,
     pub(crate) causality: Causality,
-    /// What the robot stands on; four wheels if it says nothing.
+    /// What the robot stands on; four wheels if it says nothing, whether coupled by side or with a motor each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) chassis: Option<Chassis>,
     pub(crate) parameters: Parameters,
@@ -114,12 +114,14 @@ impl File {
                 message: nearest(&error, known),
             })?;
             let spec = known.find(&effect.effect).map(robot_model::Effect::spec);
-            if let Some(only) = spec.ok().and_then(|spec| spec.chassis).filter(|only| *only != robot.chassis) {
+            if let Some(spec) = spec.ok().filter(|spec| !spec.is_of(robot.chassis)) {
                 return Err(RobotFileError::Effect {
                     place: source.at_effect(n),
                     message: format!(
-                        "effect `{}` is of {only} robots, and this one is {}",
-                        effect.effect, robot.chassis
+                        "effect `{}` is of {}, and this one has chassis = \"{}\"",
+                        effect.effect,
+                        spec.on(),
+                        robot.chassis
                     ),
                 });
             }
@@ -133,6 +135,7 @@ impl File {
 
         Ok(RobotSpec {
             robot,
+            is_chassis_stated: self.chassis.is_some(),
             sigma: spreads(&given),
             pose_sigma: beside(POSE_NOISE).map_or(USUAL_POSE_SIGMA, |g| g.value),
             torque_per_current: beside(TORQUE_PER_CURRENT)

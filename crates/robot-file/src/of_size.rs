@@ -115,6 +115,7 @@ impl RobotSpec {
             description: None,
             causality: Causality::TorqueDriven,
             robot,
+            is_chassis_stated: false,
             effects: Vec::new(),
             known: KnownEffects::default(),
             response: None,

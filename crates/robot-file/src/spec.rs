@@ -42,6 +42,8 @@ pub struct RobotSpec {
     pub causality: Causality,
     /// The model.
     pub robot: Robot<f64>,
+    /// Whether the file says what it stands on: of four wheels, whether those of a side are coupled.
+    pub is_chassis_stated: bool,
     /// What its simulation is given beside these constants.
     pub effects: Vec<EffectAt>,
     /// The effects that may be among them: the catalogue's, and those of one's own.

@@ -21,7 +21,9 @@ impl RobotSpec {
     /// # Errors
     /// When the correction names what is not known, or makes a robot that cannot be.
     pub fn corrected(&self, correction: &Correction) -> Result<Self, DiagnosisError> {
-        let mut out = Self { robot: correction.robot(&self.robot)?, ..self.clone() };
+        let robot = correction.robot(&self.robot)?;
+        let is_chassis_stated = self.is_chassis_stated || correction.has_four_motors;
+        let mut out = Self { robot, is_chassis_stated, ..self.clone() };
         out.effects.extend(correction.effects.iter().cloned());
         out.response = correction.response.clone().or(out.response);
 
@@ -69,7 +71,7 @@ impl RobotSpec {
             name: self.name.clone(),
             description: self.description.clone(),
             causality: self.causality,
-            chassis: Some(self.robot.chassis).filter(|chassis| *chassis != Chassis::default()),
+            chassis: Some(self.robot.chassis).filter(|on| self.is_chassis_stated || *on != Chassis::default()),
             parameters: Parameters(KEYS.iter().filter_map(|key| Some((*key, quantity(key.name, key.unit)?))).collect()),
             effects: self.effects.clone(),
             response: self.response.clone(),
@@ -127,6 +129,7 @@ mod tests {
             ..EffectAt::default()
         };
         Correction {
+            has_four_motors: false,
             tuning: [("coulomb_right".to_owned(), 0.1), ("com_y".to_owned(), 0.002)].into(),
             effects: vec![brake],
             response: Some(ResponseModel {

@@ -1,4 +1,4 @@
-//! What a robot stands on: four wheels that turn by side, or two driven wheels and casters.
+//! What a robot stands on and what turns its wheels: four wheels that turn by side, or two driven wheels and casters.
 
 use core::fmt;
 
@@ -12,15 +12,26 @@ pub enum Chassis {
     /// Four wheels, those of a side coupled by a belt: turning makes them slide.
     #[default]
     SkidSteer,
+    /// Four wheels, each turned by a motor of its own: those of a side get half of its torque each and may turn unlike.
+    FourMotors,
     /// Two driven wheels on one axle, and one or two casters.
     Differential,
 }
 
 impl Chassis {
+    /// Those on four wheels.
+    pub const ON_FOUR_WHEELS: &'static [Self] = &[Self::SkidSteer, Self::FourMotors];
+
+    /// Whether it stands on four wheels that turn it by side.
+    pub const fn is_on_four_wheels(self) -> bool {
+        matches!(self, Self::SkidSteer | Self::FourMotors)
+    }
+
     /// As in a robot file.
     pub const fn name(self) -> &'static str {
         match self {
             Self::SkidSteer => "skid-steer",
+            Self::FourMotors => "four-motors",
             Self::Differential => "differential",
         }
     }
@@ -34,7 +45,7 @@ impl<T: Scalar> Robot<T> {
     /// Lever b on which the wheels' speeds turn the body about as `ω = r (w_right − w_left) / (2 b)`, m.
     pub fn turning_lever(&self) -> T {
         match self.chassis {
-            Chassis::SkidSteer => self.half_track * real(WIDENING),
+            Chassis::SkidSteer | Chassis::FourMotors => self.half_track * real(WIDENING),
             Chassis::Differential => self.half_track,
         }
     }

@@ -64,8 +64,8 @@ pub struct Constant<T: Scalar> {
     pub bounds: Bounds,
     /// What it is when nobody says it.
     pub usual: Usual,
-    /// The chassis that alone has it, or that alone derives it from others; `None` where every robot has it.
-    pub of: Option<Chassis>,
+    /// The chassis that alone has it, or that alone derives it from others; none where every robot has it.
+    pub of: &'static [Chassis],
     /// Where it acts, for people.
     pub acts: &'static str,
     /// How a diagnosis re-tunes it, with its usual spread; `None` for what a user measures well enough or what
@@ -85,14 +85,14 @@ impl<T: Scalar> Constant<T> {
     }
 
     /// A constant of this chassis alone.
-    const fn only_of(mut self, chassis: Chassis) -> Self {
-        self.of = Some(chassis);
+    const fn only_of(mut self, chassis: &'static [Chassis]) -> Self {
+        self.of = chassis;
         self
     }
 
     /// Whether a robot on this chassis is given it.
     pub fn is_of(&self, chassis: Chassis) -> bool {
-        self.of.is_none_or(|of| of == chassis)
+        self.of.is_empty() || self.of.contains(&chassis)
     }
 
     /// Re-tuned by `exp(δ)`; `sigma` is relative.
@@ -182,7 +182,7 @@ macro_rules! row {
             unit: $unit,
             bounds: $bounds,
             usual: $usual,
-            of: None,
+            of: &[],
             acts: $acts,
             tuning: None,
             get: $get,
@@ -224,15 +224,15 @@ impl<T: Scalar> Robot<T> {
             .factor(6, 0.06, GUESS, |r, d| r.yaw_inertia *= d.exp())
             .between_visits(LOAD),
         row!("caster_x", "m", Bounds::Finite, Usual::Needed, "where the casters stand", |r| r.casters[0][0])
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("caster_y", "m", Bounds::Finite, Usual::Value(0.0), "where the casters stand", |r| r.casters[0][1])
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("second_caster_x", "m", Bounds::Finite, Usual::As("caster_x"), "where the casters stand", |r| r.casters[1][0])
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("second_caster_y", "m", Bounds::Finite, Usual::As("caster_y"), "where the casters stand", |r| r.casters[1][1])
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("caster_trail", "m", Bounds::Positive, Usual::Value(USUAL_TRAIL), "casters", |r| r.caster_trail)
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("com_x", "m", Bounds::BetweenAxles, Usual::Value(0.0), "wheel loads", |r| r.com[0])
             .offset(7, 0.004, GUESS, |r, d| r.com[0] += d)
             .between_visits(LOAD),
@@ -244,7 +244,7 @@ impl<T: Scalar> Robot<T> {
             .between_visits(LOAD),
         row!("wheelbase", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
             |r| r.half_wheelbase + r.half_wheelbase, |r, x| r.half_wheelbase = x * real(0.5))
-            .only_of(Chassis::SkidSteer),
+            .only_of(Chassis::ON_FOUR_WHEELS),
         row!("track", "m", Bounds::Positive, Usual::Needed, "where the wheels stand",
             |r| r.half_track + r.half_track, |r, x| r.half_track = x * real(0.5)),
         row!("wheel_radius", "m", Bounds::Positive, Usual::Needed, "wheels", |r| r.wheel_radius),
@@ -272,7 +272,7 @@ impl<T: Scalar> Robot<T> {
             .factor(2, 0.13, GUESS, |r, d| r.rolling_resistance *= d.exp())
             .between_visits(WEATHER),
         row!("caster_rolling", "-", Bounds::NotNegative, Usual::As("rolling_resistance"), "casters", |r| r.caster_rolling)
-            .only_of(Chassis::Differential),
+            .only_of(&[Chassis::Differential]),
         row!("coulomb_left", "N m", Bounds::NotNegative, Usual::Value(0.0), "drivetrain", |r| r.coulomb[0])
             .of_side("coulomb")
             .factor(3, 0.14, GUESS, |r, d| r.coulomb[0] *= d.exp())

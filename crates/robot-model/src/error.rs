@@ -67,7 +67,7 @@ pub enum ModelError {
 /// What to do about a constant of another chassis.
 const fn why_foreign(chassis: Chassis) -> &'static str {
     match chassis {
-        Chassis::SkidSteer => {
+        Chassis::SkidSteer | Chassis::FourMotors => {
             "leave it out, or write chassis = \"differential\" if it stands on two wheels and casters"
         }
         Chassis::Differential => "leave it out: the places of its casters say where it stands",

@@ -84,7 +84,7 @@ impl<T: Scalar + RealField> Robot<T> {
                 (None, Usual::Value(usual)) => real(usual),
                 (None, Usual::Unlimited) => real(NO_LIMIT),
                 (None, Usual::RearAxle) => match chassis {
-                    Chassis::SkidSteer => -out.half_wheelbase,
+                    Chassis::SkidSteer | Chassis::FourMotors => -out.half_wheelbase,
                     Chassis::Differential => real(0.0),
                 },
                 (None, Usual::As(other)) => {

@@ -84,7 +84,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
 
     /// Turns the wheels that a belt couples to the driven ones with them.
     pub(crate) fn turn_passive(&self, s: &mut State<T>, speed: [T; 2]) {
-        if self.robot.chassis == Chassis::SkidSteer {
+        if self.robot.chassis.is_on_four_wheels() {
             s.passive = speed;
         }
     }
@@ -148,8 +148,13 @@ impl<'a, T: Scalar> Plant<'a, T> {
     }
 
     #[inline(always)]
-    fn speeds(s: &State<T>) -> [T; 4] {
-        [s.passive[0], s.passive[1], s.wheel_speed[0], s.wheel_speed[1]]
+    fn speeds(&self, s: &State<T>) -> [T; 4] {
+        let [front, mut rear] = [s.passive, s.wheel_speed];
+        if self.robot.chassis == Chassis::FourMotors {
+            // Their encoders are told as the mean of a side.
+            rear = [rear[0] + rear[0] - front[0], rear[1] + rear[1] - front[1]];
+        }
+        [front[0], front[1], rear[0], rear[1]]
     }
 
     /// Force per load of a wheel that turns at `speed`, and the stiffness of that along the wheel.
@@ -168,7 +173,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
     /// Contact forces, their stiffness `∂F_x/∂v_slip`, and the rolling resistance torque of each wheel.
     #[inline(always)]
     fn contacts(&self, s: &State<T>, c: &Coefficients<T>) -> Contacts<T> {
-        let speed = Self::speeds(s);
+        let speed = self.speeds(s);
         let mut k = [[T::zero(); 2]; 4];
         let mut stiffness = [T::zero(); 4];
         for i in 0..4 {
@@ -220,11 +225,15 @@ impl<'a, T: Scalar> Plant<'a, T> {
         }
         let Contacts { mut force, stiffness, rolling } = self.contacts(s, c);
         let (jw, jm) = (self.robot.wheel_inertia, self.robot.motor_inertia);
+        let is_coupled = self.robot.chassis == Chassis::SkidSteer;
+        let speeds = self.speeds(s);
+        // What the front wheel and the rear one have of a side's motors.
+        let share = if is_coupled { [T::zero(), T::one()] } else { [half; 2] };
         for j in 0..2 {
-            let mut inertia = [jw, jw + jm];
-            let mut impulse = [T::zero(), h * (torque[j] + c.torque[j])];
+            let mut inertia = share.map(|part| jw + part * jm);
+            let mut impulse = share.map(|part| part * h * (torque[j] + c.torque[j]));
             let mut ahead = [T::zero(); 2];
-            let speed = [s.passive[j], s.wheel_speed[j]];
+            let speed = [speeds[j], speeds[j + 2]];
             for n in 0..2 {
                 let i = j + 2 * n;
                 let radius = c.radius[i];
@@ -242,7 +251,7 @@ impl<'a, T: Scalar> Plant<'a, T> {
             let inverse = T::one() / (both * sum);
             let per_inertia = [inertia[1] * sum * inverse, inertia[0] * sum * inverse];
             let gap = speed[1] - speed[0] + impulse[1] * per_inertia[1] - impulse[0] * per_inertia[0];
-            let most = c.belt_limit[j] * h;
+            let most = if is_coupled { c.belt_limit[j] * h } else { T::zero() };
             let belt = (gap * both * both * inverse).max(-most).min(most);
             let change = [(impulse[0] + belt) * per_inertia[0], (impulse[1] - belt) * per_inertia[1]];
             for n in 0..2 {
@@ -250,7 +259,8 @@ impl<'a, T: Scalar> Plant<'a, T> {
                 force[i][0] += stiffness[i] * (c.radius[i] * change[n] - ahead[n]);
             }
             s.passive[j] = speed[0] + change[0];
-            s.wheel_speed[j] = speed[1] + change[1];
+            let rear = speed[1] + change[1];
+            s.wheel_speed[j] = if is_coupled { rear } else { half * (s.passive[j] + rear) };
             s.wheel_angle[j] += h * s.wheel_speed[j];
         }
         self.move_body(s, &force, c);

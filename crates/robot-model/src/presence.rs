@@ -79,7 +79,7 @@ impl<T: Scalar> Coefficients<T> {
     pub(crate) fn blend(&mut self, other: &Self, share: [T; 4], chassis: Chassis) {
         let half = real::<T>(0.5);
         let side = match chassis {
-            Chassis::SkidSteer => [half * (share[0] + share[2]), half * (share[1] + share[3])],
+            Chassis::SkidSteer | Chassis::FourMotors => [half * (share[0] + share[2]), half * (share[1] + share[3])],
             Chassis::Differential => [share[2], share[3]],
         };
         let body = half * (side[0] + side[1]);

@@ -26,7 +26,8 @@ pub struct Drive<T> {
     pub dead_band: T,
 }
 
-/// A robot with one motor per side: four wheels coupled by a belt on each side, or two driven wheels and casters.
+/// A robot that is commanded by side: four wheels, those of a side coupled by a belt or with a motor each, or two driven wheels and
+/// casters.
 ///
 /// Its geometric centre lies in the middle of its wheels, or of the driven axle where casters hold it up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +48,7 @@ pub struct Robot<T> {
     pub wheel_radius: T,
     /// Inertia of one wheel about its axle, kg m².
     pub wheel_inertia: T,
-    /// Inertia of one side's motor and gear, seen at the wheel, kg m².
+    /// Inertia of one side's motors and gears, seen at the wheel, kg m².
     pub motor_inertia: T,
     /// Peak adhesion μ of the ground.
     pub adhesion: T,
@@ -167,7 +168,9 @@ impl<T: Scalar> Robot<T> {
     /// Where the wheels stand and how they are loaded.
     pub fn stance(&self) -> Stance<T> {
         match self.chassis {
-            Chassis::SkidSteer => Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com),
+            Chassis::SkidSteer | Chassis::FourMotors => {
+                Stance::new(self.mass, self.gravity, self.half_wheelbase, self.half_track, self.com)
+            }
             Chassis::Differential => {
                 let from_com = self.contacts().map(|[x, y]| [x - self.com[0], y - self.com[1]]);
                 Stance::on(from_com, self.mass, self.gravity, self.com[2])
@@ -178,7 +181,7 @@ impl<T: Scalar> Robot<T> {
     /// Inertia of the wheels of a side and of its motor, seen at a wheel, kg m².
     pub fn side_inertia(&self) -> T {
         let wheels = match self.chassis {
-            Chassis::SkidSteer => 2.0,
+            Chassis::SkidSteer | Chassis::FourMotors => 2.0,
             Chassis::Differential => 1.0,
         };
         self.wheel_inertia * real(wheels) + self.motor_inertia
@@ -195,7 +198,7 @@ impl<T: Scalar> Robot<T> {
     pub fn contacts(&self) -> [[T; 2]; 4] {
         let (a, b) = (self.half_wheelbase, self.half_track);
         match self.chassis {
-            Chassis::SkidSteer => [[a, b], [a, -b], [-a, b], [-a, -b]],
+            Chassis::SkidSteer | Chassis::FourMotors => [[a, b], [a, -b], [-a, b], [-a, -b]],
             Chassis::Differential => [self.casters[0], self.casters[1], [T::zero(), b], [T::zero(), -b]],
         }
     }

@@ -138,7 +138,7 @@ impl<'a> Fits<'a> {
         Correction {
             tuning: tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect(),
             effects: effects.collect(),
-            response: None,
+            ..Correction::default()
         }
     }
 

@@ -110,7 +110,7 @@ impl Judged<'_> {
         }
         let intervals = match variant.place {
             Place::Disc => place.map(|d| self.inside(d)),
-            Place::Onset => Some(self.after(onsets)),
+            _ if variant.begins() => Some(self.after(onsets)),
             _ => None,
         };
         let side = variant.side();

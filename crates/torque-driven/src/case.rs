@@ -12,6 +12,8 @@ use inference::{DiagnosisError, GivenEffects};
 pub struct Case {
     /// The user's robot model.
     pub robot: Robot<f64>,
+    /// Whether the wheels of a side may have a motor each: the robot file does not say that they are coupled.
+    pub may_have_four_motors: bool,
     /// What the simulation is given beside these constants.
     pub effects: GivenEffects,
     /// One sigma of each tunable constant, in the order of [`robot_model::tunable::tunables`].
@@ -34,6 +36,7 @@ impl Case {
     pub fn new(robot: Robot<f64>) -> Self {
         Self {
             robot,
+            may_have_four_motors: false,
             effects: GivenEffects::default(),
             sigma: usual_sigma(),
             pose_sigma: USUAL_POSE_SIGMA,

@@ -1,10 +1,10 @@
 //! Whether recordings that were left out of the fit need the effects of an answer.
 //!
-//! Without references the laws of the plant are not quite the robot's, and what a fit gains by an effect that is a constant under
-//! another name may be what their form lacks. Recordings that were left out tell: `Δ = Σ (Fᵢ without − Fᵢ with)`, the gain in their
-//! segments' costs `F`, and its standard error from how it differs between segments (leave-one-out cross-validation: Vehtari, Gelman
-//! and Gabry 2017, Statistics and Computing 27, 1413, section 5).
+//! The laws of the plant are not quite the robot's, and what a fit gains by an effect may be what their form lacks. Recordings that
+//! were left out tell: `Δ = Σ (Fᵢ without − Fᵢ with)`, the gain in their segments' costs `F`, and its standard error from how it differs
+//! between segments (leave-one-out cross-validation: Vehtari, Gelman and Gabry 2017, Statistics and Computing 27, 1413, section 5).
 
+use inference::hypothesis::Variant;
 use inference::robust::mean_with_error;
 use rayon::prelude::*;
 
@@ -16,6 +16,7 @@ use crate::leave_out::{Model, all_but, fitted_on_others, forecast, without};
 use crate::refits;
 use crate::settings::decision::{Confirmation, Prices, SETTINGS};
 use crate::stand_in::StandIn;
+
 use crate::trial::Trial;
 
 const RULES: Confirmation = SETTINGS.confirmation;
@@ -42,18 +43,17 @@ impl Unconfirmed {
         let Self { name, gain: [gain, error] } = self;
         format!(
             "{name} is not named: recordings left out of the fit are forecast no better with it ({gain:.1} \u{b1} {error:.1} nats of \
-             log-likelihood, one standard error) than with constants within what the robot file states"
+             log-likelihood, one standard error) than without it"
         )
     }
 }
 
 impl Judged<'_> {
-    /// The decision in which no effect is named that tyres of another law may look like and that left-out recordings do not need: most of its
-    /// probability is that of the hypothesis without it. With references such effects are weighed against what these show, and of a lone
-    /// recording nothing is left out.
+    /// The decision in which no effect is named that left-out recordings do not need: most of its probability is that of the hypothesis
+    /// without it. Of a lone recording nothing is left out.
     pub(crate) fn without_unconfirmed(&self, retuned: &Fitted) -> Decision {
         let mut out = self.decision.clone();
-        if self.problem.has_references || self.problem.cuts.len() < 2 {
+        if self.problem.cuts.len() < 2 {
             return out;
         }
         for _ in 0..RULES.rounds {
@@ -70,22 +70,29 @@ impl Judged<'_> {
     /// The effect of a hypothesis that left-out recordings need least, if they do not need it, and the hypothesis without it.
     fn least_needed(&self, best: &Scored, all: &Decision, retuned: &Fitted) -> Option<(Hypothesis, Unconfirmed)> {
         let parts = best.trial.hypothesis.parts.iter().enumerate();
-        let may_be_of_tyres: Vec<usize> = parts
-            .filter(|(_, (variant, _))| StandIn::of(variant, self.problem.robot).is_some_and(StandIn::may_be_of_tyres))
-            .map(|(i, _)| i)
-            .collect();
-        if may_be_of_tyres.is_empty() {
+        let is_alone = best.trial.hypothesis.parts.len() == 1;
+        let asked: Vec<usize> =
+            parts.filter(|(_, (variant, _))| !is_alone || self.is_told_by_forecasts(variant)).map(|(i, _)| i).collect();
+        if asked.is_empty() {
             return None;
         }
 
         let with = left_out_costs(self, &best.trial);
-        let judged = may_be_of_tyres.into_iter().filter_map(|part| {
+        let judged = asked.into_iter().filter_map(|part| {
             let mut rest = best.trial.hypothesis.clone();
             let (variant, _) = rest.parts.remove(part);
             let without = left_out_costs(self, &self.fit_of(&rest, best, all, retuned)?);
             Some((rest, Unconfirmed { name: inference::words::variant(&variant), gain: gain(&without, &with) }))
         });
         judged.filter(|(_, effect)| !effect.is_needed()).min_by(|(_, a), (_, b)| a.gain[0].total_cmp(&b.gain[0]))
+    }
+
+    /// Whether forecasts can tell that an effect is not needed that is named alone. Without references a constant within what the robot file states forecasts as
+    /// well as an effect that is the same constant under another name: only of what tyres look like does that say anything. Beside another
+    /// effect each has to be needed.
+    fn is_told_by_forecasts(&self, variant: &Variant) -> bool {
+        let stands_in = StandIn::of(variant, self.problem.robot);
+        self.problem.has_references || stands_in.is_none_or(StandIn::may_be_of_tyres)
     }
 
     /// The fit of what is left of a hypothesis: one that was weighed, or a new one.
@@ -125,7 +132,7 @@ mod tests {
     use super::*;
     use crate::testing::{Asked, cutting, driven, problem};
     use crate::windows::{Cut, cut};
-    use inference::hypothesis::{Place, Variant, variants};
+    use inference::hypothesis::{Place, variants};
     use testing::robot;
 
     #[test]
@@ -158,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn without_references_an_effect_that_left_out_drives_do_not_need_keeps_little_of_its_probability() {
+    fn an_effect_that_left_out_drives_do_not_need_keeps_little_of_its_probability() {
         let (gain, drag, viscous) = (of("torque_constant"), of("quadratic_drag"), of("viscous_friction"));
         let drives = |doses: &[inference::hypothesis::Dose]| {
             [8.0, 10.0, 12.0].map(|s| cut(&driven(&robot(), doses, s), &cutting()))
@@ -169,20 +176,17 @@ mod tests {
         assert_eq!(alone.unconfirmed.len(), 1);
 
         let of_drives = judged(&fault_free, &[(viscous, 0.01)], false);
-        assert_eq!(of_drives.none, 0.1, "no tyre looks like friction of the drives");
-
-        let with_references = judged(&fault_free, &[(gain, 0.01)], true);
-        assert_eq!(
-            (with_references.none, with_references.unconfirmed.len()),
-            (0.1, 0),
-            "references show what is usual"
-        );
+        assert_eq!(of_drives.none, 0.1, "a constant of the file forecasts as well");
+        for effect in [viscous, gain] {
+            let told = judged(&fault_free, &[(effect, 0.01)], true);
+            assert_eq!((told.none, told.unconfirmed.len()), (alone.none, 1), "{} beside references", effect.label());
+        }
         let lone = judged(&fault_free[..1], &[(gain, 0.01)], false);
         assert_eq!(lone.none, 0.1, "nothing is left out of one recording");
 
         let dragged = drives(&[drag.dose(&[20.0], None)]);
         let both = judged(&dragged, &[(drag, 20.0), (gain, 0.01)], false);
-        assert_eq!(both.scored[0].trial.hypothesis.ids(), ["quadratic_drag"], "no constant is a drag");
+        assert_eq!(both.scored[0].trial.hypothesis.ids(), ["quadratic_drag"], "that is there");
         assert_eq!(both.none, 0.1);
     }
 }

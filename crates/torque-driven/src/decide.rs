@@ -7,6 +7,7 @@ use inference::evidence::{logistic, none_of, penalty_of_smallness, probabilities
 use crate::decision::{Decision, Scored};
 use crate::fit::{Columns, Fitted, Hypothesis, Problem};
 use crate::level::Level;
+use crate::null_scores::NullScores;
 use crate::settings::decision::{Prices, SETTINGS, Unknown};
 use crate::stand_in::StandIn;
 use crate::structure::Structure;
@@ -138,11 +139,17 @@ fn dispersion(best: f64, fault_free: f64) -> f64 {
 
 /// Weighs all hypotheses.
 ///
-/// `scatter`: of the references' segments about their regimes; `null_scores`: the highest score of a fault-free drive.
-pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64], null_score: f64) -> Decision {
+/// `scatter`: of the references' segments about their regimes; `null_scores`: what fault-free drives reach.
+pub(crate) fn decide(
+    problem: &Problem<'_>,
+    found: &SearchResult,
+    scatter: &[f64],
+    null_scores: &NullScores,
+) -> Decision {
     let base: &Fitted = &found.retuned;
     let fault_free = fault_free_cost(problem, scatter);
     let sizes = problem.sizes();
+    let segments = problem.cuts.iter().map(|cut| cut.segments.len()).sum();
     // What is not told explains nothing: it counts neither as a hypothesis nor for what the best of them leaves.
     let weighed = || {
         let fits = found.singles.iter().chain(&found.several);
@@ -157,12 +164,13 @@ pub(crate) fn decide(problem: &Problem<'_>, found: &SearchResult, scatter: &[f64
             let effects = &t.fitted.point.effects;
             let form = if problem.has_references { 0.0 } else { penalty_of_form(&t.hypothesis, effects, &sizes) };
             let price = penalty(&t.hypothesis, effects, &sizes) + once + form;
-            let score = (base.cost - t.fitted.cost) / dispersion - price + relief_counts(problem, found, t);
+            let usual = null_scores.gain(&t.hypothesis, segments);
+            let score = (base.cost - t.fitted.cost - usual) / dispersion - price + relief_counts(problem, found, t);
             Scored { trial: t.clone(), visits, score, probability: 0.0 }
         })
         .collect();
     scored.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let none = PRICES.none.max(null_score);
+    let none = PRICES.none.max(null_scores.highest());
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
@@ -249,7 +257,7 @@ mod tests {
             several: Vec::new(),
             screened: Vec::new(),
         };
-        let decision = decide(&problem, &found, &[1.0], 0.0);
+        let decision = decide(&problem, &found, &[1.0], &NullScores::default());
         assert!(decision.scored.is_empty());
         assert!(decision.none > 0.9, "none {}", decision.none);
         approx::assert_relative_eq!(decision.none + decision.unknown, 1.0, epsilon = 1e-12);
@@ -296,7 +304,13 @@ mod tests {
             retuned.cost = left + 24.0;
             let singles = vec![gained(&problem, &retuned, "quadratic_drag", 24.0)];
             let (as_it_is, several, screened) = (retuned.cost, Vec::new(), Vec::new());
-            decide(&problem, &SearchResult { as_it_is, retuned, singles, several, screened }, &[1.0], 0.0).scored[0]
+            decide(
+                &problem,
+                &SearchResult { as_it_is, retuned, singles, several, screened },
+                &[1.0],
+                &NullScores::default(),
+            )
+            .scored[0]
                 .score
         };
         approx::assert_relative_eq!(score(0.5 * usual), score(usual), epsilon = 1e-9);
@@ -319,7 +333,7 @@ mod tests {
             several: Vec::new(),
             screened: Vec::new(),
         };
-        let decision = decide(&problem, &found, &[1.0], 0.0);
+        let decision = decide(&problem, &found, &[1.0], &NullScores::default());
 
         let named: f64 = decision.scored.iter().map(|s| s.probability).sum();
         approx::assert_relative_eq!(named + decision.none + decision.unknown, 1.0, epsilon = 1e-12);
@@ -334,7 +348,8 @@ mod tests {
             (told.unknown - 0.8).abs() < 1e-12 && told.why_unknown("It", true).starts_with("It is off by 1.2 times")
         );
         // The score that fault-free drives reach is the least that names anything.
-        let strict = decide(&problem, &found, &[1.0], 100.0);
+        let reached = NullScores { of_references: vec![("payload".to_owned(), 100.0)], ..NullScores::default() };
+        let strict = decide(&problem, &found, &[1.0], &reached);
         assert!(strict.none > 0.99 * (1.0 - strict.unknown), "{}", strict.none);
     }
 
@@ -356,7 +371,7 @@ mod tests {
                 several,
                 screened: Vec::new(),
             };
-            decide(&problem, &found, &[1.0], 0.0).scored[0].probability
+            decide(&problem, &found, &[1.0], &NullScores::default()).scored[0].probability
         };
         assert!(named(0.023) < 0.5, "{}", named(0.023));
         assert!(named(0.2) > 0.9, "{}", named(0.2));
@@ -379,7 +394,7 @@ mod tests {
             let several = Vec::new();
             let found =
                 SearchResult { as_it_is: retuned.cost, retuned, singles: vec![single], several, screened: Vec::new() };
-            let decision = decide(&problem, &found, &[1.0], 0.0);
+            let decision = decide(&problem, &found, &[1.0], &NullScores::default());
             decision.scored[0].probability > decision.none
         };
         assert!(!named("viscous_friction", 3.5) && named("viscous_friction", 3.9));

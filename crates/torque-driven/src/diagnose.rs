@@ -7,6 +7,7 @@ use crate::case::Case;
 use crate::decide::{decide, evidence};
 use crate::decision::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::four_motors::{self, Found, with_four_motors};
 use crate::judged::Judged;
 use crate::nothing::{retune, without_effect};
 use crate::own_effects::Runaway;
@@ -29,6 +30,12 @@ const PRICES: Prices = decision::SETTINGS.prices;
 
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
+    /// The robot, on the chassis that drives show where its file does not say it.
+    robot: Robot<f64>,
+    /// That it has a motor at each wheel, where drives show it.
+    four_motors: Option<Found>,
+    /// What references or logs of a simulator gain by that, nats.
+    gain_of_four_motors: f64,
     /// What the user's simulator believes, where its logs were given.
     pub(crate) simulator: Option<Simulator>,
     references: Vec<Cut>,
@@ -51,6 +58,25 @@ impl Calibrated {
 
     /// The same with effects that scale with the torque probed up to `largest_torque`, N m.
     fn up_to(largest_torque: f64, case: &Case, options: &Options) -> Result<Self, DiagnosisError> {
+        let on_its_chassis = Self::on_its_chassis(largest_torque, case, options)?;
+        let by = if on_its_chassis.simulator.is_some() { "the logs of the simulator" } else { "the references" };
+        match Found::by(by, on_its_chassis.gain_of_four_motors) {
+            None => Ok(on_its_chassis),
+            found => {
+                let (four, _) = Self::with_four_motors(largest_torque, case, options)?;
+                Ok(Self { four_motors: found, ..four })
+            }
+        }
+    }
+
+    /// The same of the robot with a motor at each wheel, and the case of that robot.
+    fn with_four_motors(largest_torque: f64, case: &Case, options: &Options) -> Result<(Self, Case), DiagnosisError> {
+        let case = Case { robot: with_four_motors(&case.robot), may_have_four_motors: false, ..case.clone() };
+        Ok((Self::on_its_chassis(largest_torque, &case, options)?, case))
+    }
+
+    /// The same of the robot as it is in the case.
+    fn on_its_chassis(largest_torque: f64, case: &Case, options: &Options) -> Result<Self, DiagnosisError> {
         let robot = case.robot.checked()?;
         // A simulator's log says what the simulation believes, as the robot file does, and nothing about noise.
         let (simulated, references): (Vec<Run>, Vec<Run>) =
@@ -68,22 +94,38 @@ impl Calibrated {
             let of_constants = Options { known: KnownEffects::default(), ..*options };
             Some(Simulator::new(case, &robot, &logs, largest_torque, &of_constants)?)
         };
-        if references.is_empty() {
-            let mut calibration = Calibration::by_file();
-            if let Some(simulator) = &simulator {
-                calibration.theta = simulator.theta;
-            }
-            let (references, visits, runaways) = (Vec::new(), Vec::new(), Vec::new());
-            return Ok(Self { simulator, references, visits, calibration, largest_torque, runaways });
+        let mut calibration = Calibration::by_file();
+        if let Some(simulator) = &simulator {
+            calibration.theta = simulator.theta;
         }
-        let visits = visits_of(&references);
-        let mut references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
-        number(&mut references, &VisitNumbers::new(&visits, &[]).references);
-        own_effects::ensure_given_is_stable(&robot, &references, options.step)?;
-        let runaways = own_effects::runaways(options.known, &robot, &references, options.step);
-        let options = &own_effects::without(options, &runaways);
-        let calibration = calibrate(&robot, &case.sigma, &references, largest_torque, options)?;
-        Ok(Self { simulator, references, visits, calibration, largest_torque, runaways })
+        let mut out = Self {
+            robot,
+            four_motors: None,
+            gain_of_four_motors: simulator.as_ref().map_or(0.0, |s| s.gain_of_four_motors),
+            simulator,
+            references: Vec::new(),
+            visits: Vec::new(),
+            calibration,
+            largest_torque,
+            runaways: Vec::new(),
+        };
+        if references.is_empty() {
+            return Ok(out);
+        }
+
+        out.visits = visits_of(&references);
+        out.references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
+        number(&mut out.references, &VisitNumbers::new(&out.visits, &[]).references);
+        own_effects::ensure_given_is_stable(&robot, &out.references, options.step)?;
+        out.runaways = own_effects::runaways(options.known, &robot, &out.references, options.step);
+        let options = &own_effects::without(options, &out.runaways);
+        out.calibration = calibrate(&robot, &case.sigma, &out.references, largest_torque, options)?;
+        if four_motors::is_open(case, &robot) && out.simulator.is_none() {
+            let calibrated = (&out.references[..], &out.calibration);
+            out.gain_of_four_motors =
+                four_motors::gain_of_references(case, &robot, calibrated, largest_torque, options);
+        }
+        Ok(out)
     }
 
     /// Diagnoses the recordings of a case with the same robot and references. `progress` is called
@@ -120,7 +162,7 @@ impl Calibrated {
             return Err(DiagnosisError::Empty { what: "recording" });
         }
         check_inputs(case)?;
-        let robot = case.robot.checked()?;
+        let robot = self.robot;
         let sensors = check(&case.recordings, &case.references);
         let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
         let mut recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
@@ -152,11 +194,24 @@ impl Calibrated {
         let weigh = |calibration: &Calibration, known: &[Trial]| {
             let problem = problem(&robot, case, &recordings, calibration, largest, options);
             let found = search(&problem, known, progress);
-            let decision = decide(&problem, &found, &calibration.regimes.scatter, calibration.null_scores.highest());
+            let decision = decide(&problem, &found, &calibration.regimes.scatter, &calibration.null_scores);
             (found, decision)
         };
         let (mut found, mut decision) = weigh(&calibration, &[]);
         let level = decision.level;
+        // Drives that say little of the chassis leave it to the recordings, if these show anything at all.
+        let is_asked = self.references.is_empty() || !decision.finds_nothing();
+        if is_asked && four_motors::is_open(case, &robot) && four_motors::is_unsure(self.gain_of_four_motors) {
+            let (mut four, of_four) = Self::with_four_motors(self.largest_torque, case, options)?;
+            let calibrated = four.calibration.clone().for_visits(&visits);
+            let [coupled, motors] = [(&robot, &calibration), (&four.robot, &calibrated)]
+                .map(|(robot, calibration)| problem(robot, case, &recordings, calibration, largest, options));
+            let gain = four_motors::gain_of_recordings(&coupled, &motors, &found.retuned, &decision);
+            four.four_motors = Found::by("the recordings", gain + self.gain_of_four_motors);
+            if four.four_motors.is_some() {
+                return four.diagnose_turned(&of_four, options, progress, may_turn);
+            }
+        }
         // References of another visit, or several visits: what is found may be constants that moved between them.
         if calibration.moves.may_have_been(!self.references.is_empty()) && !decision.finds_nothing() {
             let moved = calibration.clone().on_another_visit();
@@ -197,6 +252,7 @@ impl Calibrated {
         progress("comparing on data that was not fitted");
         let answer = self.judged(case, options, &sensors, (&problem, &calibration), &decision);
         let mut out = answer.diagnosis(&found.retuned, found.screened.clone());
+        out.limits.extend(self.four_motors.map(Found::sentence));
         out.limits.extend(headings::sentence(&recordings, &turns));
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {

@@ -7,8 +7,8 @@ use faer::Mat;
 use inference::algebra::half_quadratic;
 use inference::least_squares::{self, Normal, Parameter, Settings, Step, minimise, saturated, saturation};
 use rayon::prelude::*;
-use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
+use robot_model::{Chassis, Robot};
 use sim::rollout::Grid;
 
 use crate::between_visits::{Deviations, VisitMove};
@@ -108,7 +108,8 @@ impl Problem<'_> {
             at += n;
             variant.at(&effects[at - n..at], onsets, &names)
         });
-        Correction { tuning, effects: effects.collect(), response: None }
+        let has_four_motors = self.robot.chassis == Chassis::FourMotors;
+        Correction { tuning, has_four_motors, effects: effects.collect(), response: None }
     }
 
     /// Every form of every effect that these recordings may show in the motion.

@@ -1,7 +1,6 @@
 //! Free runs on recordings that were not fitted: as it is, re-tuned, corrected, and a placebo.
 
 use inference::experiment::{self, Comparison, Experiment, Forecast};
-use inference::hypothesis::Place;
 use inference::robust;
 use robot_model::tunable::COUNT as NUISANCES;
 use verdict::FreeRun;
@@ -157,7 +156,7 @@ pub(crate) fn fitted_on_others(others: &Problem<'_>, h: &Hypothesis, of_all: &Po
 /// Of two effects that set in, the first is forecast so; the second stays as it was fitted.
 pub(crate) fn forecast(p: &Problem<'_>, model: &Model, run: usize) -> RunResponse {
     let Model { hypothesis, point } = model;
-    let Some(part) = hypothesis.parts.iter().position(|(variant, _)| variant.place == Place::Onset) else {
+    let Some(part) = hypothesis.parts.iter().position(|(variant, _)| variant.begins()) else {
         return p.run_response(run, point, hypothesis);
     };
     let from = |onset: Option<f64>| {
@@ -261,6 +260,7 @@ mod tests {
     use crate::visit::Visit;
     use crate::windows::cut;
     use inference::Options;
+    use inference::hypothesis::Place;
     use robot_model::tunable::usual_sigma;
     use testing::robot;
 

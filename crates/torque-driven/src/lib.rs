@@ -22,6 +22,7 @@
 //!   what left-out recordings say of them.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
+//! * `four_motors`: whether the wheels of a side have a motor each, where the robot file does not say it.
 //! * `answer`, `limits`, `words`: causes with sizes and intervals; what limits them; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
@@ -48,6 +49,7 @@ mod few_constants;
 mod fit;
 mod fitted_robot;
 mod forward;
+mod four_motors;
 mod handed_over;
 mod headings;
 mod hypothesis;

@@ -125,7 +125,7 @@ pub(crate) fn onset(ground: &Ground<'_>, variant: &Variant, parts: &[Response]) 
         let set: Vec<usize> = chosen.iter().flatten().copied().collect();
         let aa: f64 = set.iter().flat_map(|&i| set.iter().map(move |&j| (i, j))).map(|(i, j)| a[(i, j)]).sum();
         let bb: f64 = set.iter().map(|&i| b[(i, 0)]).sum();
-        single(aa, bb, false).map_or((f64::MIN, 0.0), |(v, x)| (v - ONSETS.cost * set.len() as f64, x))
+        single(aa, bb, variant.spec().signed).map_or((f64::MIN, 0.0), |(v, x)| (v - ONSETS.cost * set.len() as f64, x))
     };
     for _ in 0..ONSETS.rounds {
         for r in 0..runs {

@@ -6,7 +6,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::between_visits::VisitConstants;
 use crate::decide::penalty;
-use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
 use crate::run_numbers::UNKNOWN;
 use crate::screen::screen;
 use inference::algebra::solve_spd;
@@ -16,6 +16,16 @@ use inference::algebra::solve_spd;
 pub(crate) struct NullScores {
     /// Of each reference left out in turn: the effect that scores best, a false alarm, and its score, nats.
     pub(crate) of_references: Vec<(String, f64)>,
+    /// What each effect gains in a segment of a reference, nats: no reference lacks it, so that it stands for what the plant's laws
+    /// are not.
+    pub(crate) per_segment: Vec<(&'static str, f64)>,
+}
+
+/// What is learnt of a reference.
+struct OfReference {
+    best: (String, f64),
+    /// The gain of each effect in its best form.
+    gains: Vec<(&'static str, f64)>,
 }
 
 impl NullScores {
@@ -25,16 +35,34 @@ impl NullScores {
     /// `θ₋ᵣ = θ − (H − Sᵣ)⁻¹ gᵣ` with prior information `H − Sᵣ`: no second calibration is needed.
     ///
     /// A reference of one of several visits is compared with the constants of its visit, `of_visits`.
+    ///
+    /// A lone reference cannot be left out: only gains beside its own constants are learnt of it.
     pub(crate) fn new(problem: &Problem<'_>, at: &Point, information: &Mat<f64>, of_visits: &[VisitConstants]) -> Self {
         if problem.cuts.len() < 2 {
-            return Self::default();
+            let none = Hypothesis::default();
+            let base = problem.begin(&none, at.clone(), None);
+            return Self { of_references: Vec::new(), ..Self::of(problem, &[OfReference::new(problem, &base)]) };
         }
         let left_out = |r: usize| {
             let of_visit = problem.cuts[r].visit.and_then(|visit| of_visits.get(visit));
             let (theta, information) = of_visit.map_or((&at.theta, information), |v| (&v.theta, &v.information));
             Self::left_out(problem, theta, information, r)
         };
-        Self { of_references: (0..problem.cuts.len()).filter_map(left_out).collect() }
+        let of_references: Vec<OfReference> = (0..problem.cuts.len()).filter_map(left_out).collect();
+        Self::of(problem, &of_references)
+    }
+
+    fn of(problem: &Problem<'_>, references: &[OfReference]) -> Self {
+        let segments: usize = problem.cuts.iter().map(|cut| cut.segments.len()).sum();
+        let mut per_segment: Vec<(&'static str, f64)> = Vec::new();
+        for (id, gain) in references.iter().flat_map(|r| &r.gains) {
+            let share = gain.max(0.0) / segments.max(1) as f64;
+            match per_segment.iter_mut().find(|(known, _)| known == id) {
+                Some((_, sum)) => *sum += share,
+                None => per_segment.push((id, share)),
+            }
+        }
+        Self { of_references: references.iter().map(|r| r.best.clone()).collect(), per_segment }
     }
 
     fn left_out(
@@ -42,7 +70,7 @@ impl NullScores {
         theta: &[f64; NUISANCES],
         information: &Mat<f64>,
         r: usize,
-    ) -> Option<(String, f64)> {
+    ) -> Option<OfReference> {
         let none = Hypothesis::default();
         let mut alone = Problem {
             visits: Vec::new(),
@@ -61,18 +89,37 @@ impl NullScores {
             alone.centre[k] -= shift[(k, 0)];
         }
         alone.information = others;
-        screen(&alone, &base, &alone.variants(), &none)
-            .into_iter()
-            .map(|c| {
-                let h = Hypothesis::single(c.variant, c.onsets.clone());
-                (c.variant.label(), c.evidence - penalty(&h, &c.start, &problem.sizes()))
-            })
-            .max_by(|a, b| a.1.total_cmp(&b.1))
+        Some(OfReference::new(&alone, &base))
+    }
+
+    /// What fault-free drives of so many segments gain by the effects of a hypothesis, nats.
+    pub(crate) fn gain(&self, h: &Hypothesis, segments: usize) -> f64 {
+        let of = |id: &str| self.per_segment.iter().find(|(known, _)| *known == id).map_or(0.0, |(_, gain)| *gain);
+        h.ids().into_iter().map(of).sum::<f64>() * segments as f64
     }
 
     /// The highest score of a fault-free recording.
     pub(crate) fn highest(&self) -> f64 {
         self.of_references.iter().map(|a| a.1).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl OfReference {
+    fn new(problem: &Problem<'_>, base: &Fitted) -> Self {
+        let mut out = Self { best: (String::new(), f64::NEG_INFINITY), gains: Vec::new() };
+        for c in screen(problem, base, &problem.variants(), &Hypothesis::default()) {
+            let h = Hypothesis::single(c.variant, c.onsets.clone());
+            let score = c.evidence - penalty(&h, &c.start, &problem.sizes());
+            if score > out.best.1 {
+                out.best = (c.variant.label(), score);
+            }
+            let id = c.variant.spec().id;
+            match out.gains.iter_mut().find(|(known, _)| *known == id) {
+                Some((_, gain)) => *gain = gain.max(c.evidence),
+                None => out.gains.push((id, c.evidence)),
+            }
+        }
+        out
     }
 }
 

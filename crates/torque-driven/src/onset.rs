@@ -3,14 +3,13 @@
 use crate::fit::Problem;
 use crate::settings::search::{ExactOnsets, SETTINGS};
 use crate::trial::Trial;
-use inference::hypothesis::Place;
 
 const ONSETS: ExactOnsets = SETTINGS.exact_onsets;
 
 /// Moves every onset to where the cost is least: long steps about the start, then short ones.
 pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
     for part in 0..trial.hypothesis.parts.len() {
-        if trial.hypothesis.parts[part].0.place != Place::Onset {
+        if !trial.hypothesis.parts[part].0.begins() {
             continue;
         }
         for run in 0..problem.cuts.len() {

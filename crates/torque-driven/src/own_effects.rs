@@ -146,7 +146,7 @@ mod tests {
         let known = KnownEffects::with(vec![waving]);
         let p = Problem { known, ..problem(&robot, &cuts) };
         let found = search(&p, &[], &|_| {});
-        let decision = decide(&p, &found, &[1.0], 0.0);
+        let decision = decide(&p, &found, &[1.0], &crate::null_scores::NullScores::default());
         let best = &decision.scored[0];
         assert_eq!(best.trial.hypothesis.ids(), ["waving"]);
         assert!(best.probability > 0.9, "{}", best.probability);

@@ -27,10 +27,7 @@ fn probe_dose(variant: &Variant, free: &[Free], index: usize, size: f64) -> Dose
     if let Some(i) = free[index].parameter {
         values[i] = size;
     }
-    let mut presence = Presence::default();
-    if let Place::Side(s) = variant.place {
-        presence.side = Some(s);
-    }
+    let presence = Presence { side: variant.side(), ..Presence::default() };
     Dose { effect: variant.effect, values, presence }
 }
 
@@ -64,21 +61,21 @@ pub(crate) fn screen(
                     list.extend(probes(variant, f).into_iter().map(|size| Probe { variant: v, index, size }));
                 }
             }
-            Place::Disc | Place::Onset => locals.push(v),
+            Place::Disc | Place::Onset | Place::OnsetOfSide(_) => locals.push(v),
         }
     }
 
-    // Local forms of the same effect share their part lanes.
-    let mut part_of: Vec<&'static str> = locals.iter().map(|&v| variants[v].spec().id).collect();
-    part_of.dedup();
+    // Local forms of the same effect on the same side share their part lanes.
+    let lanes_of = |v: usize| (variants[v].spec().id, variants[v].side());
+    let mut part_of: Vec<(&'static str, Option<usize>)> = locals.iter().map(|&v| lanes_of(v)).collect();
     part_of.sort_unstable();
     part_of.dedup();
     let mut doses: Vec<(Dose, Option<usize>)> = list
         .iter()
         .map(|p| (probe_dose(&variants[p.variant], &variants[p.variant].free(&sizes), p.index, p.size), None))
         .collect();
-    for id in &part_of {
-        let Some(&v) = locals.iter().find(|&&v| variants[v].spec().id == *id) else { continue };
+    for of in &part_of {
+        let Some(&v) = locals.iter().find(|&&v| lanes_of(v) == *of) else { continue };
         let (variant, free) = (&variants[v], variants[v].free(&sizes));
         doses.extend((0..PARTS).map(|q| (probe_dose(variant, &free, 0, free[0].usual), Some(q))));
     }
@@ -107,9 +104,9 @@ pub(crate) fn screen(
     let raw: Vec<Response> = problem.lanes(&lanes).iter().map(|y| difference(y, &base.response, 1.0)).collect();
 
     let mut out = whole(&ground, variants, &list, &raw[..list.len()]);
-    for (n, id) in part_of.iter().enumerate() {
+    for (n, of) in part_of.iter().enumerate() {
         let parts = &raw[list.len() + n * PARTS..list.len() + (n + 1) * PARTS];
-        for &v in locals.iter().filter(|&&v| variants[v].spec().id == *id) {
+        for &v in locals.iter().filter(|&&v| lanes_of(v) == *of) {
             let found = match variants[v].place {
                 Place::Disc => local::disc(&ground, &variants[v], parts),
                 _ => local::onset(&ground, &variants[v], parts),

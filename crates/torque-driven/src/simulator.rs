@@ -12,6 +12,8 @@ use verdict::{Retuned, SimulatorConstants};
 use crate::calibrate::{Calibration, Driver, calibrate_on, problem};
 use crate::case::Case;
 use crate::few_constants::{FewConstants, few_constants};
+use crate::fit::Point;
+use crate::four_motors;
 use crate::retuned::otherwise;
 use crate::run::Run;
 use crate::settings::preparation::{Logs, SETTINGS};
@@ -26,6 +28,8 @@ pub(crate) struct Simulator {
     pub(crate) theta: [f64; NUISANCES],
     /// What of that is told.
     pub(crate) told: SimulatorConstants,
+    /// What its logs gain by a motor at each wheel, nats; 0 where the robot file says of the chassis.
+    pub(crate) gain_of_four_motors: f64,
 }
 
 impl Simulator {
@@ -66,8 +70,11 @@ impl Simulator {
                 SimulatorConstants { constants, or: Vec::new(), only_together: true }
             }
         };
-        let theta = few.map_or(all, |few| few.theta).map(|x| LOGS.wider * x);
-        Ok(Self { theta, told })
+        let theta = few.map_or(all, |few| few.theta);
+        let at = Point { theta, ..problem.origin() };
+        let gain_of_four_motors =
+            if four_motors::is_open(case, robot) { four_motors::gain_of_drives(&problem, &at) } else { 0.0 };
+        Ok(Self { theta: theta.map(|x| LOGS.wider * x), told, gain_of_four_motors })
     }
 }
 

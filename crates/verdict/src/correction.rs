@@ -13,6 +13,9 @@ pub struct Correction {
     /// Tuning of each constant by its id (`robot_model::tunable`): the logarithm of a factor, or an offset in its unit.
     #[serde(default)]
     pub tuning: BTreeMap<String, f64>,
+    /// Whether each wheel of four has a motor of its own, where the robot file says of neither that nor of coupled wheels.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_four_motors: bool,
     /// Effects, at values.
     #[serde(default)]
     pub effects: Vec<EffectAt>,

@@ -46,7 +46,12 @@ fn a_file_that_no_such_robot_can_be_is_told_with_its_line_and_the_remedy() {
     with("chassis = \"differential\"\n", "", &["line 10", "write chassis = \"differential\""]);
 
     let belt = "\n[[effects]]\neffect = \"belt_loss\"\nside = \"left\"\nvalues = { T_b = 1.0 }\n";
-    refused(&format!("{ROBOT}{belt}"), &["effect `belt_loss` is of skid-steer robots, and this one is differential"]);
+    refused(
+        &format!("{ROBOT}{belt}"),
+        &[
+            "effect `belt_loss` is of robots on four wheels only, those of a side coupled by a belt, and this one has chassis = \"differential\"",
+        ],
+    );
 }
 
 #[test]

@@ -14,18 +14,34 @@ const NO_LIMIT: f64 = 1e5;
 /// Shortest time constant that is worth a filter, s.
 const LEAST_LAG: f64 = 1e-5;
 
-/// Front wheels that turn with the rear ones: an equality of joints, or a tendon whose dry friction is the belt's limit.
+/// Whether an encoder shows something else than the speed of one joint: by another gain, or as the mean of two.
+pub(super) fn has_encoder_tendon(v: &Vehicle, side: usize) -> bool {
+    v.sensors.encoder[side] != 1.0 || driven(&v.robot, side).count() > 1
+}
+
+/// A tendon over the driven wheels of a side, with their shares times `gain` as coefficients.
+fn over_driven(v: &Vehicle, side: usize, name: String, gain: f64) -> Element {
+    let wheels: Vec<&'static str> = driven(&v.robot, side).collect();
+    let coefficient = gain / wheels.len() as f64;
+    let joint = |name: &'static str| element("joint").with("joint", name).num("coef", coefficient);
+    element("fixed").with("name", name).children(wheels.into_iter().map(joint))
+}
+
+/// Front wheels that turn with the rear ones: an equality of joints, or a tendon whose dry friction is the belt's limit. Where each
+/// wheel has a motor, a tendon over those of a side halves its torque.
 pub(super) fn couplings(mut root: Element, v: &Vehicle) -> Element {
-    let wheels = |side: usize| (names(&v.robot)[side], driven(&v.robot, side));
+    let wheels = |side: usize| (names(&v.robot)[side], names(&v.robot)[2 + side]);
     let has_belts = v.robot.chassis == Chassis::SkidSteer;
     let mut tendons = Vec::new();
     let mut equalities = Vec::new();
     for side in 0..2 {
         let (front, rear) = wheels(side);
         let joint = |name: &str, coefficient: f64| element("joint").with("joint", name).num("coef", coefficient);
-        if v.sensors.encoder[side] != 1.0 {
-            let name = format!("encoder_{}", SIDES[side]);
-            tendons.push(element("fixed").with("name", name).child(joint(rear, v.sensors.encoder[side])));
+        if has_encoder_tendon(v, side) {
+            tendons.push(over_driven(v, side, format!("encoder_{}", SIDES[side]), v.sensors.encoder[side]));
+        }
+        if driven(&v.robot, side).count() > 1 {
+            tendons.push(over_driven(v, side, format!("drive_{}", SIDES[side]), 1.0));
         }
         if !has_belts {
             continue;
@@ -66,8 +82,13 @@ pub(super) fn actuators(v: &Vehicle) -> Element {
     let delay = (d.delay + quick).max(0.0);
     let lag = slow + (d.delay + quick).min(0.0);
     let motor = |side: usize| {
-        let mut motor =
-            element("general").with("name", SIDES[side]).with("joint", driven(&v.robot, side)).num("gainprm", d.gain);
+        let several = driven(&v.robot, side).count() > 1;
+        let (kind, turned) = if several {
+            ("tendon", format!("drive_{}", SIDES[side]))
+        } else {
+            ("joint", names(&v.robot)[2 + side].to_owned())
+        };
+        let mut motor = element("general").with("name", SIDES[side]).with(kind, turned).num("gainprm", d.gain);
         if d.limit < NO_LIMIT {
             // What is limited is the torque before the lag: the command times the gain.
             motor = motor.nums("ctrlrange", &[-d.limit / d.gain, d.limit / d.gain]);

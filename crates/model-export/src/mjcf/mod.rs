@@ -5,7 +5,7 @@ use std::io;
 use robot_model::effect::export::{Engine, Section};
 
 use crate::added;
-use crate::contact::{casters, names, wheels};
+use crate::contact::{casters, motors, names, wheels};
 use crate::inertia::{Part, Parts};
 use crate::model::Model;
 use crate::number::number;
@@ -130,8 +130,9 @@ fn wheel(v: &Vehicle, parts: &Parts, i: usize) -> Element {
         .with("axis", "0 1 0")
         .num("damping", grip.viscous)
         .num("frictionloss", grip.dry);
-    if i >= 2 {
-        joint = joint.num("armature", v.robot.motor_inertia);
+    let share = motors(&v.robot)[i];
+    if share > 0.0 {
+        joint = joint.num("armature", share * v.robot.motor_inertia);
     }
     element("body")
         .with("name", names(&v.robot)[i])

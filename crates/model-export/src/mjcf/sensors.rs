@@ -3,7 +3,7 @@
 use robot_model::effect::export::Section;
 
 use super::step::STEP;
-use crate::contact::{SIDES, driven};
+use crate::contact::{SIDES, names};
 use crate::number::number;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
@@ -30,11 +30,10 @@ pub(super) fn sensors(v: &Vehicle) -> Element {
     let named = |kind: &'static str, name: String| element(kind).with("name", name);
     let encoder = |side: usize| {
         let name = format!("encoder_{}", SIDES[side]);
-        if v.sensors.encoder[side] == 1.0 {
-            named("jointvel", name).with("joint", driven(&v.robot, side))
-        } else {
-            named("tendonvel", name.clone()).with("tendon", name)
+        if super::drive::has_encoder_tendon(v, side) {
+            return named("tendonvel", name.clone()).with("tendon", name);
         }
+        named("jointvel", name).with("joint", names(&v.robot)[2 + side])
     };
     let late = |sensor: Element, delay: f64| {
         if delay <= 0.5 * STEP {

@@ -146,7 +146,7 @@ impl<T: Scalar> Robot<T> {
             slip_at_peak: [self.slip_at_peak; 4],
             lateral: [self.lateral_factor; 4],
             rolling: match self.chassis {
-                Chassis::SkidSteer => [self.rolling_resistance; 4],
+                Chassis::SkidSteer | Chassis::FourMotors => [self.rolling_resistance; 4],
                 Chassis::Differential => {
                     let (caster, wheel) = (self.caster_rolling, self.rolling_resistance);
                     [caster, caster, wheel, wheel]

@@ -213,6 +213,8 @@ impl Scopes {
     pub const WHOLE: Self = Self { everywhere: true, onset: false, disc: false, side: false };
     /// On one side of the robot.
     pub const ONE_SIDE: Self = Self { side: true, ..Self::WHOLE };
+    /// On one side of the robot, always or from an instant on.
+    pub const ONE_SIDE_OR_LATER: Self = Self { onset: true, ..Self::ONE_SIDE };
     /// Of the ground: everywhere, from an instant on, or at one place.
     pub const GROUND: Self = Self { onset: true, disc: true, ..Self::WHOLE };
 
@@ -326,8 +328,8 @@ pub struct EffectSpec {
     pub axes: &'static [&'static str],
     /// Where and when it may be present.
     pub scopes: Scopes,
-    /// The chassis on which alone it can be; `None` for any.
-    pub chassis: Option<Chassis>,
+    /// The chassis on which alone it can be; none for any.
+    pub chassis: &'static [Chassis],
     /// Sensor redundancy in which it shows, if any.
     pub redundancy: Redundancy,
     /// Term of the torque law of a speed-driven robot that it stands for, if any.
@@ -364,7 +366,7 @@ impl EffectSpec {
         signed: false,
         axes: &[],
         scopes: Scopes::WHOLE,
-        chassis: None,
+        chassis: &[],
         redundancy: Redundancy::None,
         load_term: None,
         sized_by: SizedBy::Itself,
@@ -383,15 +385,16 @@ impl EffectSpec {
 
     /// Whether it can be on a robot of this chassis.
     pub fn is_of(&self, chassis: Chassis) -> bool {
-        self.chassis.is_none_or(|only| only == chassis)
+        self.chassis.is_empty() || self.chassis.contains(&chassis)
     }
 
     /// The robots on which alone it can be, for people; nothing where it can be on any.
     pub fn on(&self) -> &'static str {
         match self.chassis {
-            None => "",
-            Some(Chassis::SkidSteer) => "robots on four wheels only",
-            Some(Chassis::Differential) => "robots on two wheels and casters only",
+            [] => "",
+            [Chassis::Differential] => "robots on two wheels and casters only",
+            [Chassis::SkidSteer] => "robots on four wheels only, those of a side coupled by a belt",
+            _ => "robots on four wheels only",
         }
     }
 

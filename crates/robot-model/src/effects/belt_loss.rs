@@ -18,7 +18,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "The front wheel of that side lags; the side scrubs less and grips less.",
     parameters: &[Parameter::shaped("T_b", "N m", [0.0, 1e9], 1e9, &[0.9, 0.5, 0.25])],
     scopes: Scopes::ONE_SIDE,
-    chassis: Some(Chassis::SkidSteer),
+    chassis: &[Chassis::SkidSteer],
     sized_by: SizedBy::Traction,
     revealed_by: "spins both ways and hard acceleration",
     resembles: "adhesion loss or turning_resistance on one side",

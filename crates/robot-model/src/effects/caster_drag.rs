@@ -15,7 +15,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "F = −Δf_c N along each caster's direction of rolling, at its pivot",
     seen: "Driving and turning cost more torque, turning on the spot most of all, where the casters go the longest way.",
     parameters: &[Parameter::added("Δf_c", |robot| robot.caster_rolling, [-0.5, 3.0], &[0.08])],
-    chassis: Some(Chassis::Differential),
+    chassis: &[Chassis::Differential],
     interest: 0.05,
     revealed_by: "straight drives both ways, then spins both ways",
     resembles: "rolling_resistance and coulomb_friction in straight drives",

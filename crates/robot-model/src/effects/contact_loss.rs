@@ -18,7 +18,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     seen: "Two wheels on a diagonal carry the robot: it rocks, and turns differently both ways.",
     parameters: &[Parameter::strength("q", "-", [-1.0, 1.0], &[0.5])],
     signed: true,
-    chassis: Some(Chassis::SkidSteer),
+    chassis: Chassis::ON_FOUR_WHEELS,
     interest: 0.4,
     rarity: 6.0,
     revealed_by: "spins and tight arcs both ways",

@@ -16,7 +16,7 @@ pub const SPEC: EffectSpec = EffectSpec {
     law: "T = Tb sign ω on one side",
     seen: "Pulls to one side by the same amount at every speed; the sign follows the motion.",
     parameters: &[Parameter::strength("Tb", "N m", [0.0, 20.0], &[0.2])],
-    scopes: Scopes::ONE_SIDE,
+    scopes: Scopes::ONE_SIDE_OR_LATER,
     sized_by: SizedBy::Traction,
     interest: 0.12,
     revealed_by: "straight drives both ways at two speeds",

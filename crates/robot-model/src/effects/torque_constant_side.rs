@@ -16,7 +16,7 @@ pub const SPEC: EffectSpec = EffectSpec {
         torque: it pulls to one side, the more the harder it accelerates.",
     // A speed-driven step finds the torque by that of the step before: it does where the share is below one.
     parameters: &[Parameter::strength("κ", "-", [-0.8, 0.8], &[-0.08])],
-    scopes: Scopes::ONE_SIDE,
+    scopes: Scopes::ONE_SIDE_OR_LATER,
     signed: true,
     interest: 0.045,
     rarity: 3.0,

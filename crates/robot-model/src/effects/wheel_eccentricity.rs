@@ -56,7 +56,7 @@ impl<T: Scalar> Effect<T> for Law {
             let (sin, cos) = at.wheel_angle[j].sin_cos();
             let rise = [(v[0] + v[2]) * cos + (v[1] + v[3]) * sin, (v[0] - v[2]) * cos + (v[1] - v[3]) * sin];
             let wheels = match at.chassis {
-                Chassis::SkidSteer => [(j, rise[0]), (j + 2, rise[1])],
+                Chassis::SkidSteer | Chassis::FourMotors => [(j, rise[0]), (j + 2, rise[1])],
                 // One wheel, and d would say what e says: half of each of two like it.
                 Chassis::Differential => [(j, T::zero()), (j + 2, v[0] * cos + v[1] * sin)],
             };

@@ -115,5 +115,6 @@ pub(crate) fn numbers_of(c: &Coefficients<f64>) -> Vec<f64> {
 
 /// A robot on each chassis that an effect may be on.
 pub(crate) fn robots_of(spec: &EffectSpec) -> Vec<Robot<f64>> {
-    [robot(), on_casters()].into_iter().filter(|robot| spec.is_of(robot.chassis)).collect()
+    let four_motors = Robot { chassis: Chassis::FourMotors, ..robot() };
+    [robot(), four_motors, on_casters()].into_iter().filter(|robot| spec.is_of(robot.chassis)).collect()
 }

@@ -7,11 +7,15 @@ use crate::battery::{H, presences, robots_of};
 fn kinetic(r: &Robot<f64>, s: &State<f64>) -> f64 {
     let [x, y] = s.velocity;
     let mut twice = r.mass * (x * x + y * y) + r.yaw_inertia * s.yaw_rate * s.yaw_rate;
+    let [wheel, motor] = [r.wheel_inertia, r.motor_inertia];
     for j in 0..2 {
-        if r.chassis == Chassis::SkidSteer {
-            twice += r.wheel_inertia * s.passive[j] * s.passive[j];
-        }
-        twice += (r.wheel_inertia + r.motor_inertia) * s.wheel_speed[j] * s.wheel_speed[j];
+        let [front, told] = [s.passive[j], s.wheel_speed[j]];
+        twice += match r.chassis {
+            Chassis::SkidSteer => wheel * front * front + (wheel + motor) * told * told,
+            // What is told of them is their mean.
+            Chassis::FourMotors => (wheel + 0.5 * motor) * (front * front + (2.0 * told - front).powi(2)),
+            Chassis::Differential => (wheel + motor) * told * told,
+        };
     }
     0.5 * twice
 }
@@ -59,7 +63,7 @@ fn rises(effect: &'static dyn Effect<f64>, r: &Robot<f64>) -> Vec<String> {
                 plant.set_velocity(&mut s, velocity);
                 let rim = |side: f64| (velocity[0] + side * yaw_rate * r.half_track) / r.wheel_radius;
                 s.wheel_speed = [rim(-1.0), rim(1.0)];
-                if r.chassis == Chassis::SkidSteer {
+                if r.chassis.is_on_four_wheels() {
                     s.passive = s.wheel_speed;
                 }
                 let start = kinetic(r, &s);

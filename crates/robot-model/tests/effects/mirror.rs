@@ -20,7 +20,7 @@ fn mirrored_state(s: &State<f64>, chassis: Chassis) -> State<f64> {
         yaw_rate: -s.yaw_rate,
         wheel_speed: swap(s.wheel_speed),
         passive: match chassis {
-            Chassis::SkidSteer => swap(s.passive),
+            Chassis::SkidSteer | Chassis::FourMotors => swap(s.passive),
             Chassis::Differential => s.passive.map(|angle| -angle),
         },
         wheel_angle: swap(s.wheel_angle),

@@ -5,7 +5,7 @@ mod common;
 mod on_casters;
 
 use common::{BOTH, Causality, distance, robot, run};
-use robot_model::{Active, Disc, Effect, Plant, Presence, Robot, State, effects};
+use robot_model::{Active, Chassis, Disc, Effect, Plant, Presence, Robot, State, effects};
 
 const H: f64 = 1e-3;
 
@@ -200,6 +200,32 @@ fn a_belt_that_never_slips_is_a_rigid_one() {
     let none = [active(&effects::belt_loss::Law, &[0.0])];
     let free = run(&robot(), &none, Causality::Torque, start(), |_, _| ());
     assert!(distance(&rigid, &free) > 1e-2);
+}
+
+#[test]
+fn motors_at_each_wheel_are_coupled_by_nothing() {
+    let coupled = Robot { com: [0.0, 0.0, 1e-9], ..symmetric() };
+    let four_motors = Robot { chassis: Chassis::FourMotors, ..coupled };
+    let end = |r: &Robot<f64>, torque: [f64; 2]| {
+        let plant = Plant::new(r, &[], H);
+        let mut s = State::default();
+        for _ in 0..1000 {
+            plant.step(&mut s, torque);
+        }
+        s
+    };
+    // Straight on, wheels of a side are loaded alike and turn alike, whatever couples them.
+    let straight = [&coupled, &four_motors].map(|r| end(r, [4.0; 2]));
+    assert!(distance(&straight[0], &straight[1]) < 1e-9, "{straight:?}");
+    assert!(near(straight[1].passive[0], straight[1].wheel_speed[0], 1e-9));
+    // With more load on the rear wheels these slip less: only a coupling makes the front ones turn with them.
+    let rearward = |r: Robot<f64>| Robot { com: [-0.05, 0.0, 0.1], ..r };
+    let [coupled, four_motors] = [coupled, four_motors].map(|r| end(&rearward(r), [6.0, 6.0]));
+    assert!(near(coupled.passive[0], coupled.wheel_speed[0], 1e-9));
+    assert!(four_motors.passive[0] - four_motors.wheel_speed[0] > 1e-3, "{four_motors:?}");
+    // In a curve the side that scrubs outward differs from the inner one.
+    let curve = end(&Robot { chassis: Chassis::FourMotors, ..symmetric() }, [2.0, 6.0]);
+    assert!(curve.yaw_rate > 0.1 && curve.passive.iter().all(|w| w.is_finite()), "{curve:?}");
 }
 
 #[test]

@@ -62,7 +62,7 @@ impl Rival {
 
     /// Ways in which a new drive may have what begins at an instant: throughout, from its middle, not at all.
     pub(crate) fn onsets(&self, length: f64) -> Vec<Hypothesis> {
-        let begins = self.hypothesis.parts.iter().any(|(v, _)| v.place == Place::Onset);
+        let begins = self.hypothesis.parts.iter().any(|(v, _)| v.begins());
         let of = |onset: Option<f64>| Hypothesis {
             parts: self.hypothesis.parts.iter().map(|(v, _)| (*v, vec![onset])).collect(),
             acting: None,

@@ -91,7 +91,7 @@
         least_mismatch: f64 = 60.0, "nats", "guess";
     }
 
-    /// Without references: whether left-out recordings need an effect that the form of the tyres' law may look like.
+    /// Whether left-out recordings need an effect: what the laws of the plant lack may look like one.
     confirmation: Confirmation {
         /// Standard errors by which they have to be forecast better with it.
         errors: f64 = 2.0, "1", "definition: what 95 of 100 normal errors do not reach";

@@ -96,6 +96,12 @@
         far: f64 = 2.0, "1", "guess";
     }
 
+    /// Whether the wheels of a side have a motor each, where the robot file does not say it.
+    four_motors: FourMotors {
+        /// Log-likelihood that a robot with a motor at each wheel gains over one with coupled wheels from which on it is believed.
+        least_gain: f64 = 10.0, "nats", "guess: what a cause has to gain to be named";
+    }
+
     /// Without references, or where constants may have moved since: effects that hide in a constant.
     handed_over: HandedOver {
         /// Move of a constant, in sigmas of the robot file, from which on the effect that it may stand for is fitted from
