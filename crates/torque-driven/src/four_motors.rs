@@ -152,7 +152,7 @@ mod tests {
             let cuts = drives(of);
             // Sensors as good as those of the plant's own drives.
             let plain = problem(&robot, &cuts);
-            let variance = plain.variance.map(|v| 1e-3 * v);
+            let variance = plain.variance.map(|v| 1e-4 * v);
             let p = Problem { has_references: false, constants_are_loose: true, variance, ..plain };
             let none = Hypothesis::default();
             let retuned = retune(&p, &none, p.begin(&none, p.origin(), None));
