@@ -199,18 +199,11 @@ impl Calibrated {
         };
         let (mut found, mut decision) = weigh(&calibration, &[]);
         let level = decision.level;
-        // Drives that say little of the chassis leave it to the recordings, if these show anything at all.
-        let is_asked = self.references.is_empty() || !decision.finds_nothing();
-        if is_asked && four_motors::is_open(case, &robot) && four_motors::is_unsure(self.gain_of_four_motors) {
-            let (mut four, of_four) = Self::with_four_motors(self.largest_torque, case, options)?;
-            let calibrated = four.calibration.clone().for_visits(&visits);
-            let [coupled, motors] = [(&robot, &calibration), (&four.robot, &calibrated)]
-                .map(|(robot, calibration)| problem(robot, case, &recordings, calibration, largest, options));
-            let gain = four_motors::gain_of_recordings(&coupled, &motors, &found.retuned, &decision);
-            four.four_motors = Found::by("the recordings", gain + self.gain_of_four_motors);
-            if four.four_motors.is_some() {
-                return four.diagnose_turned(&of_four, options, progress, may_turn);
-            }
+        let numbered = (&recordings[..], &visits, largest);
+        if let Some((four, of_four)) =
+            self.if_four_motors(case, options, numbered, (&calibration, &found.retuned, &decision))?
+        {
+            return four.diagnose_turned(&of_four, options, progress, may_turn);
         }
         // References of another visit, or several visits: what is found may be constants that moved between them.
         if calibration.moves.may_have_been(!self.references.is_empty()) && !decision.finds_nothing() {
@@ -257,17 +250,10 @@ impl Calibrated {
         out.limits.extend(runaways.into_iter().map(|r| r.sentence));
         if unnamed::Asked::of(&answer, &found.retuned, out.verdict) {
             progress("looking for a law without a name");
-            let law = match &usual {
-                Some((calibration, retuned, decision)) => {
-                    let problem = self::problem(&robot, case, &recordings, calibration, largest, options);
-                    unnamed::tell(
-                        &self.judged(case, options, &sensors, (&problem, calibration), decision),
-                        retuned,
-                        &out,
-                    )
-                }
-                None => unnamed::tell(&answer, &found.retuned, &out),
-            };
+            let as_found = (&calibration, &found.retuned, &decision);
+            let (taught, retuned, decision) = usual.as_ref().map_or(as_found, |(c, r, d)| (c, r, d));
+            let problem = self::problem(&robot, case, &recordings, taught, largest, options);
+            let law = unnamed::tell(&self.judged(case, options, &sensors, (&problem, taught), decision), retuned, &out);
             out.sentences.extend(law.sentence().filter(|_| out.verdict == Verdict::Unknown));
             out.law = Some(law);
         }
@@ -276,6 +262,29 @@ impl Calibrated {
             out.next = Some(next::advise(&answer, &found.retuned, length));
         }
         Ok((out, turns.iter().any(|turn| *turn != 0.0)))
+    }
+
+    /// What is taught of the robot with a motor at each wheel, and the case of that robot, where the recordings show that it has them.
+    /// Drives that say little of the chassis leave it to them, if they show anything at all.
+    fn if_four_motors(
+        &self,
+        case: &Case,
+        options: &Options,
+        (recordings, visits, largest): (&[Cut], &VisitNumbers, f64),
+        (calibration, retuned, decision): (&Calibration, &Fitted, &Decision),
+    ) -> Result<Option<(Self, Case)>, DiagnosisError> {
+        let is_asked = self.references.is_empty() || !decision.finds_nothing();
+        if !(is_asked && four_motors::is_open(case, &self.robot) && four_motors::is_unsure(self.gain_of_four_motors)) {
+            return Ok(None);
+        }
+
+        let (mut four, of_four) = Self::with_four_motors(self.largest_torque, case, options)?;
+        let calibrated = four.calibration.clone().for_visits(visits);
+        let [coupled, motors] = [(&self.robot, calibration), (&four.robot, &calibrated)]
+            .map(|(robot, calibration)| problem(robot, case, recordings, calibration, largest, options));
+        let gain = four_motors::gain_of_recordings(&coupled, &motors, retuned, decision);
+        four.four_motors = Found::by("the recordings", gain + self.gain_of_four_motors);
+        Ok(four.four_motors.is_some().then_some((four, of_four)))
     }
 
     /// A decision without effects that may be nothing or that left-out recordings do not need, and on the side that these tell.
