@@ -62,7 +62,8 @@ impl NullScores {
                 None => per_segment.push((id, share)),
             }
         }
-        Self { of_references: references.iter().map(|r| r.best.clone()).collect(), per_segment }
+        let best = references.iter().map(|r| r.best.clone());
+        Self { of_references: best.filter(|(_, score)| score.is_finite()).collect(), per_segment }
     }
 
     fn left_out(
@@ -158,7 +159,20 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_reference_has_no_null_score() {
+    fn a_lone_reference_has_no_null_score_and_shows_what_effects_gain_beside_its_constants() {
         assert_eq!(NullScores::default().highest(), f64::NEG_INFINITY);
+        let (robot, options) = (robot(), Options::default());
+        let drag = inference::hypothesis::variants(true).into_iter().find(|v| v.spec().id == "quadratic_drag");
+        let drag = drag.expect("in the catalogue");
+        let gain = |size: f64| {
+            let cuts = [cut(&driven(&robot, &[drag.dose(&[size], None)], 12.0), &cutting())];
+            let calibration = calibrate(&robot, &usual_sigma(), &cuts, 5.0, &options).expect("determined");
+            assert!(calibration.null_scores.of_references.is_empty());
+            let of = |segments| calibration.null_scores.gain(&Hypothesis::single(drag, Vec::new()), segments);
+            approx::assert_relative_eq!(of(12), 2.0 * of(6), epsilon = 1e-12);
+            of(6)
+        };
+        let (none, much) = (gain(0.0), gain(20.0));
+        assert!((0.0..1.0).contains(&none) && much > none + 1.0, "{none} {much}");
     }
 }
