@@ -15,6 +15,7 @@ use crate::judged::Judged;
 use crate::leave_out::{Model, all_but, fitted_on_others, forecast, without};
 use crate::refits;
 use crate::settings::decision::{Confirmation, Prices, SETTINGS};
+use crate::settings::fit;
 use crate::stand_in::StandIn;
 
 use crate::trial::Trial;
@@ -81,7 +82,12 @@ impl Judged<'_> {
         let judged = asked.into_iter().filter_map(|part| {
             let mut rest = best.trial.hypothesis.clone();
             let (variant, _) = rest.parts.remove(part);
-            let without = left_out_costs(self, &self.fit_of(&rest, best, all, retuned)?);
+            let without = self.fit_of(&rest, best, all, retuned)?;
+            // Constants as far from the robot file as a fit may go are no alternative, however well they forecast.
+            if at_stops(&without.fitted) > at_stops(&best.trial.fitted) {
+                return None;
+            }
+            let without = left_out_costs(self, &without);
             Some((rest, Unconfirmed { name: inference::words::variant(&variant), gain: gain(&without, &with) }))
         });
         judged.filter(|(_, effect)| !effect.is_needed()).min_by(|(_, a), (_, b)| a.gain[0].total_cmp(&b.gain[0]))
@@ -103,6 +109,11 @@ impl Judged<'_> {
         let weighed = all.scored.iter().find(|s| s.trial.hypothesis.is_of_the_effects_of(rest));
         weighed.map(|s| s.trial.clone()).or_else(|| refits::keeping(self.problem, &of.trial, rest.clone()))
     }
+}
+
+/// How many constants are as far from the robot file as a fit may go.
+fn at_stops(fitted: &Fitted) -> usize {
+    fitted.point.theta.iter().filter(|x| x.abs() >= fit::SETTINGS.fit.farthest).count()
 }
 
 /// What left-out segments gain by a hypothesis over another one, by their costs under both, and its standard error, nats.

@@ -22,7 +22,7 @@ use crate::unnamed::Acting;
 use crate::windows::Cut;
 use inference::KnownEffects;
 use inference::hypothesis::{Dose, Sizes};
-use inference::hypothesis::{Free, Variant, variants_of};
+use inference::hypothesis::{Free, Place, Variant, variants_of};
 use verdict::Correction;
 
 /// Cost of a response that is not finite.
@@ -119,6 +119,8 @@ impl Problem<'_> {
         let pose = segments().any(|s| s.shows(Channel::ForwardVelocity));
         let mut all = variants_of(self.known, self.robot.chassis, pose);
         all.retain(|v| self.without != Some(v.spec().id));
+        // Two of them explain what has no name, where only the robot file says what is usual.
+        all.retain(|v| self.has_references || !matches!(v.place, Place::OnsetOfSide(_)));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all
     }

@@ -6,11 +6,12 @@
 
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::settings::fit::{self, Fit};
-use crate::settings::search::{HandedOver, SETTINGS};
+use crate::settings::search::{Finalists, HandedOver, SETTINGS};
 use crate::stand_in::StandIn;
 use crate::trial::Trial;
 
 const HANDED_OVER: HandedOver = SETTINGS.handed_over;
+const FINALISTS: Finalists = SETTINGS.finalists;
 const FIT: Fit = fit::SETTINGS.fit;
 
 /// Hypotheses with one effect more than `h`, which was fitted, and the point from which each is to be fitted: the constant
@@ -41,6 +42,35 @@ pub(crate) fn starts(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> 
         out.push((longer, point));
     }
     out
+}
+
+/// The same where a constant is as far from the robot file as it may go: what is missing is no constant's then, and those that moved
+/// went together. All of them are where the file has them again, and the effect has the size whose free run costs least.
+pub(crate) fn starts_beyond_stops(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted) -> Vec<(Hypothesis, Point)> {
+    let theta = &fitted.point.theta;
+    if theta.iter().all(|x| x.abs() < FIT.farthest) {
+        return Vec::new();
+    }
+    let with_size = |(longer, point): (Hypothesis, Point)| {
+        let size = longer.parts.last().and_then(|(variant, _)| variant.free(&problem.sizes()).into_iter().next())?;
+        let at = fitted.point.effects.len();
+        let of_size = |value: f64| {
+            let mut point = point.clone();
+            for (own, centre) in point.theta.iter_mut().zip(problem.centre) {
+                if (*own - centre).abs() > HANDED_OVER.least_sigmas {
+                    *own = centre;
+                }
+            }
+            point.effects[at] = value;
+            point
+        };
+        let sizes = FINALISTS.sizes.iter().flat_map(|times| [times * size.unit, -times * size.unit]);
+        let points = sizes.filter(|x| (size.bounds[0]..=size.bounds[1]).contains(x)).map(of_size);
+        let cost = |point: &Point| problem.begin(&longer, point.clone(), Some(fitted.columns.clone())).cost;
+        let best = points.map(|point| (cost(&point), point)).min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(_, point)| (longer, point))
+    };
+    starts(problem, h, fitted).into_iter().filter_map(with_size).collect()
 }
 
 /// Where a fit of `member` begins that holds some of the effects of `whole`, whose values are `effects`: at the constants of the

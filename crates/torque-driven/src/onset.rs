@@ -1,10 +1,13 @@
 //! Moving the onsets of an effect that begins at an instant.
 
 use crate::fit::Problem;
+use crate::settings::decision::{self, Prices};
 use crate::settings::search::{ExactOnsets, SETTINGS};
 use crate::trial::Trial;
+use inference::hypothesis::Place;
 
 const ONSETS: ExactOnsets = SETTINGS.exact_onsets;
+const PRICES: Prices = decision::SETTINGS.prices;
 
 /// Moves every onset to where the cost is least: long steps about the start, then short ones.
 pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
@@ -30,6 +33,20 @@ pub(crate) fn scan(problem: &Problem<'_>, trial: &mut Trial) {
                     }
                 }
             }
+        }
+    }
+}
+
+/// Takes an effect of one side for one that is there throughout, where that costs no more than an instant has to gain to be told.
+pub(crate) fn settle(problem: &Problem<'_>, trial: &mut Trial) {
+    for part in 0..trial.hypothesis.parts.len() {
+        let Place::OnsetOfSide(side) = trial.hypothesis.parts[part].0.place else { continue };
+        let mut h = trial.hypothesis.clone();
+        h.parts[part].0.place = Place::Side(side);
+        h.parts[part].1.clear();
+        let fitted = problem.begin(&h, trial.fitted.point.clone(), Some(trial.fitted.columns.clone()));
+        if fitted.cost < trial.fitted.cost + PRICES.onset {
+            *trial = Trial { hypothesis: h, fitted };
         }
     }
 }

@@ -45,6 +45,7 @@ fn refit(problem: &Problem<'_>, h: Hypothesis, start: Fitted, steps: usize, rene
     let fitted = problem.refine(&h, start, steps, renew);
     let mut trial = Trial { hypothesis: h, fitted };
     onset::scan(problem, &mut trial);
+    onset::settle(problem, &mut trial);
     trial
 }
 
@@ -102,7 +103,8 @@ pub(crate) fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Tria
 
 /// Adds effects that may hide in a constant which was re-tuned far beside `h`, each in the better of both fits.
 pub(crate) fn include_handed_over(problem: &Problem<'_>, h: &Hypothesis, fitted: &Fitted, trials: &mut Vec<Trial>) {
-    for (hypothesis, point) in handed_over::starts(problem, h, fitted) {
+    let starts = handed_over::starts(problem, h, fitted);
+    for (hypothesis, point) in starts.into_iter().chain(handed_over::starts_beyond_stops(problem, h, fitted)) {
         let start = problem.begin(&hypothesis, point, Some(fitted.columns.clone()));
         let trial = refit(problem, hypothesis, start, FINALISTS.more_steps, Some(2));
         include(trials, trial);

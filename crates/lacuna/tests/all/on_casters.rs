@@ -37,7 +37,7 @@ fn a_file_that_no_such_robot_can_be_is_told_with_its_line_and_the_remedy() {
         assert!(ROBOT.contains(from));
         refused(&ROBOT.replacen(from, to, 1), parts);
     };
-    with("\"differential\"", "\"tank\"", &["line 3", "known are: skid-steer, differential"]);
+    with("\"differential\"", "\"tank\"", &["line 3", "known are: skid-steer, four-motors, differential"]);
     let wheelbase = "wheelbase = { value = 0.3, unit = \"m\", source = \"tape\" }\ncaster_x = {";
     with("caster_x = {", wheelbase, &["line 11", "a differential robot has no `wheelbase`"]);
     with("caster_x = { value = -0.18, unit = \"m\", source = \"tape\" }\n", "", &["`caster_x` is missing"]);

@@ -104,3 +104,25 @@ fn motion(at: &LawRow, time: f64, robot: &Robot<f64>) -> Motion<f64> {
         slip: [slip(0), slip(1)],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use examiner::Acting;
+
+    #[test]
+    fn the_distance_of_a_law_is_the_share_of_the_hidden_one_that_it_misses() {
+        let robot = Robot::from(&robot_model::paper::Parameters::SET_B);
+        let row = |k: i32| {
+            let forward = 0.1 * f64::from(k) - 1.0;
+            let acting = Acting { force: [-2.0 * forward, 0.0], ..Acting::default() };
+            LawRow { body: [0.0, 0.0, 0.0, forward, 0.0, 0.0], acting, ..LawRow::default() }
+        };
+        let rows = [("run_1".to_owned(), (0..20).map(row).collect())].into();
+        let of = |formula: &str| distance(&formula.parse().expect("a law"), &rows, &robot, 0.01);
+        for (coefficient, missed) in [(-2.0, 0.0), (-1.0, 0.5), (2.0, 2.0)] {
+            let formula = format!("F_x = {coefficient} [N s/m] * pow(v, 1)");
+            assert!((of(&formula) - missed).abs() < 1e-12, "{formula}: {}", of(&formula));
+        }
+    }
+}
