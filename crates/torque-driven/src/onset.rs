@@ -50,3 +50,34 @@ pub(crate) fn settle(problem: &Problem<'_>, trial: &mut Trial) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::{Hypothesis, Point};
+    use crate::testing::{cutting, driven, problem};
+    use crate::windows::cut;
+    use testing::robot;
+
+    #[test]
+    fn a_brake_that_was_there_from_the_beginning_has_no_instant_and_one_that_began_keeps_it() {
+        let robot = robot();
+        let of = |place: Place| {
+            inference::hypothesis::variants(true)
+                .into_iter()
+                .find(|v| v.spec().id == "coulomb_side" && v.place == place)
+        };
+        let begins = of(Place::OnsetOfSide(0)).expect("in the catalogue");
+        let settled = |from: f64| {
+            let cuts = [cut(&driven(&robot, &[begins.dose(&[0.5], Some(from))], 16.0), &cutting())];
+            let p = problem(&robot, &cuts);
+            let hypothesis = Hypothesis::single(begins, vec![Some(from)]);
+            let point = Point { effects: vec![0.5], ..p.origin() };
+            let fitted = p.begin(&hypothesis, point, None);
+            let mut trial = Trial { hypothesis, fitted };
+            settle(&p, &mut trial);
+            trial.hypothesis.parts[0].0.place
+        };
+        assert_eq!([settled(0.0), settled(8.0)], [Place::Side(0), Place::OnsetOfSide(0)]);
+    }
+}
