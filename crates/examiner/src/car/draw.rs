@@ -75,16 +75,26 @@ pub(super) fn case(plan: &CarPlan) -> CarCase {
     let stream = |name: &str| Stream::new(plan.seed, name, plan.index);
     let stated = stated(&mut stream("car robot"));
     let mut whole = as_built(&stated, &mut stream("car errors"));
-    let mut truth =
+    let nothing =
         CarTruth { case: plan.name.clone(), hidden: plan.hidden.clone(), has_tyres: false, numbers: BTreeMap::new() };
+    if let Some(flaw) = plan.in_all {
+        hide(flaw, &mut whole, &mut nothing.clone(), &mut stream("car flaw"));
+    }
+    let sound = whole.clone();
+    let mut truth = nothing;
     let mut s = stream("car sizes");
     for hidden in &plan.hidden {
         hide(*hidden, &mut whole, &mut truth, &mut s);
     }
-    truth.has_tyres = whole.car.tyres.is_some();
+    truth.has_tyres = whole.car.tyres.is_some() && sound.car.tyres.is_none();
 
     let mut files = vec![(PathBuf::from("robot.toml"), robot_file(&stated).into_bytes())];
     let every = [20, 20, 40, 10][stream("car rows").index(4)];
+    for number in 1..=plan.references {
+        let mut s = Stream::new(plan.seed, "car reference", plan.index * 100 + number as u64);
+        let text = sheet(&of_drive(&sound, &mut s), every, &mut s);
+        files.push((PathBuf::from(format!("references/ref_{number}.csv")), text.into_bytes()));
+    }
     for number in 1..=RECORDINGS {
         let mut s = Stream::new(plan.seed, "car drive", plan.index * 100 + number as u64);
         let text = sheet(&of_drive(&whole, &mut s), every, &mut s);

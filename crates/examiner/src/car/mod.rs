@@ -152,12 +152,16 @@ pub struct CarPlan {
     pub index: u64,
     /// What is hidden.
     pub hidden: Vec<CarHidden>,
+    /// Drives before anything is hidden.
+    pub references: usize,
+    /// What the robot file lacks in all drives, references included.
+    pub in_all: Option<CarHidden>,
 }
 
 impl CarPlan {
     /// A set of so many cases: in a quarter nothing is hidden, in the others one thing, each as often; beside every third of
-    /// them the tyres slip as well.
-    pub fn set(seed: u64, count: usize) -> Vec<Self> {
+    /// them the tyres slip as well. Where there are references, every other car has something else in all drives instead.
+    pub fn set(seed: u64, count: usize, references: usize) -> Vec<Self> {
         let mut turn = 0;
         let mut plan = |i: usize| {
             let mut hidden = Vec::new();
@@ -166,14 +170,21 @@ impl CarPlan {
                 turn += 1;
                 hidden.push(one);
                 let is_tyre = matches!(one, CarHidden::TyreSlip | CarHidden::GripLimit);
-                if turn.is_multiple_of(3) && !is_tyre {
+                if turn.is_multiple_of(3) && !is_tyre && references == 0 {
                     hidden.push(CarHidden::TyreSlip);
                 }
             }
-            Self { name: format!("a{:03}", i + 1), seed, index: i as u64, hidden }
+            let is_flawed = references > 0 && (i / 4 + i).is_multiple_of(2);
+            let in_all = Self::FLAWS[i / 2 % Self::FLAWS.len()];
+            let in_all = (is_flawed && !hidden.contains(&in_all)).then_some(in_all);
+            Self { name: format!("a{:03}", i + 1), seed, index: i as u64, hidden, references, in_all }
         };
         (0..count).map(&mut plan).collect()
     }
+
+    /// What robot files of cars lack most often.
+    const FLAWS: [CarHidden; 4] =
+        [CarHidden::TyreSlip, CarHidden::SteeringBend, CarHidden::SteeringLag, CarHidden::DriveGain];
 
     /// Draws the case.
     pub fn draw(&self) -> CarCase {
@@ -187,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_in_turn() {
-        let all = CarPlan::set(1, 176);
+        let all = CarPlan::set(1, 176, 0);
         assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 44);
         for hidden in CarHidden::ALL {
             assert!(all.iter().filter(|p| p.hidden.contains(&hidden)).count() >= 6, "{hidden:?}");
@@ -198,7 +209,7 @@ mod tests {
 
     #[test]
     fn a_case_is_the_same_twice_and_its_cars_drive() {
-        for plan in CarPlan::set(3, 28) {
+        for plan in CarPlan::set(3, 28, 0) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden);

@@ -25,6 +25,10 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
     let mut robot =
         Robot::ideal(radius * (1.0 + s.normal(0.006)), track * (1.0 + s.normal(0.006)), s.uniform(0.004, 0.01));
     let hidden = chosen(plan, &mut stream("command hidden"));
+    if let Some(flaw) = plan.in_all.filter(|flaw| !hidden.contains(flaw)) {
+        hide(flaw, &mut robot, fastest, [radius, track], &mut stream("command flaw"));
+    }
+    let sound = robot;
     let mut numbers = BTreeMap::new();
     let mut s = stream("command sizes");
     for kind in &hidden {
@@ -33,12 +37,16 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
     }
 
     let mut files = vec![(PathBuf::from("robot.toml"), file.into_bytes())];
-    for number in 1..=RECORDINGS {
-        let mut s = Stream::new(plan.seed, "command drive", plan.index * 100 + number as u64);
-        let steps = commands(fastest, track / radius, &mut s);
-        let text = sheet(&run(&robot, &steps), radius, &mut s);
-        files.push((PathBuf::from(format!("recordings/run_{number}.csv")), text.into_bytes()));
-    }
+    let mut drives = |count: usize, [folder, of]: [&str; 2], robot: &Robot| {
+        for number in 1..=count {
+            let mut s = Stream::new(plan.seed, of, plan.index * 100 + number as u64);
+            let steps = commands(fastest, track / radius, &mut s);
+            let text = sheet(&run(robot, &steps), radius, &mut s);
+            files.push((PathBuf::from(format!("{folder}_{number}.csv")), text.into_bytes()));
+        }
+    };
+    drives(plan.references, ["references/ref", "command reference"], &sound);
+    drives(RECORDINGS, ["recordings/run", "command drive"], &robot);
     CommandCase { files, truth: CommandTruth { case: plan.name.clone(), hidden, numbers } }
 }
 

@@ -108,21 +108,31 @@ pub struct CommandPlan {
     pub hidden: usize,
     /// The first of them.
     pub first: Hidden,
+    /// Drives before anything is hidden.
+    pub references: usize,
+    /// What the robot file lacks in all drives, references included.
+    pub in_all: Option<Hidden>,
 }
 
 impl CommandPlan {
     /// A set of so many cases: in a quarter nothing is hidden, in a half one thing, in a quarter one between command and
-    /// wheel and one between wheel and body.
-    pub fn set(seed: u64, count: usize) -> Vec<Self> {
+    /// wheel and one between wheel and body. Where there are references, in every other case something else is there in all
+    /// drives.
+    pub fn set(seed: u64, count: usize, references: usize) -> Vec<Self> {
         let plan = |i: usize| Self {
             name: format!("c{:03}", i + 1),
             seed,
             index: i as u64,
             hidden: [0, 1, 1, 2][i % 4],
             first: Hidden::ALL[(i / 4 * 2 + usize::from(i % 4 == 2)) % Hidden::ALL.len()],
+            references,
+            in_all: (references > 0 && (i / 4 + i).is_multiple_of(2)).then_some(Self::FLAWS[i / 2 % Self::FLAWS.len()]),
         };
         (0..count).map(plan).collect()
     }
+
+    /// What robot files lack most often.
+    const FLAWS: [Hidden; 4] = [Hidden::DeadTime, Hidden::Track, Hidden::Lag, Hidden::TurnSlip];
 
     /// Draws the case.
     pub fn draw(&self) -> CommandCase {
@@ -136,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_set_hides_everything_as_often() {
-        let all = CommandPlan::set(1, 200);
+        let all = CommandPlan::set(1, 200, 0);
         assert_eq!([0, 1, 2].map(|n| all.iter().filter(|p| p.hidden == n).count()), [50, 100, 50]);
         for hidden in Hidden::ALL {
             let singles = all.iter().filter(|p| p.hidden == 1 && p.first == hidden).count();
@@ -146,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_case_is_the_same_twice_and_its_truth_has_its_numbers() {
-        for plan in CommandPlan::set(3, 12) {
+        for plan in CommandPlan::set(3, 12, 0) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden.len(), plan.hidden, "{:?}", case.truth);

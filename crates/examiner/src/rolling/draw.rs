@@ -44,6 +44,10 @@ pub(super) fn case(plan: &RollingPlan) -> RollingCase {
     };
     let mut s = stream("rolling sizes");
     let wheel = s.index(robot.wheels.len());
+    if let Some(flaw) = plan.in_all {
+        hide(flaw, &mut robot, wheel, &mut truth.clone(), &mut stream("rolling flaw"));
+    }
+    let sound = robot.clone();
     if let Some(hidden) = plan.hidden {
         hide(hidden, &mut robot, wheel, &mut truth, &mut s);
     }
@@ -51,6 +55,16 @@ pub(super) fn case(plan: &RollingPlan) -> RollingCase {
     let gyro = (plan.seen == Seen::Gyro).then(|| gyro(plan, &mut truth, &mut stream("rolling gyro")));
     let text = robot_file(plan.chassis, &stated, counts, plan.seen);
     let mut files = vec![(PathBuf::from("robot.toml"), text.into_bytes())];
+    // Bias and scale of a gyro are hidden in it, and what is hidden is not there in references.
+    let sound_gyro = (plan.seen == Seen::Gyro).then(|| {
+        let nothing = RollingPlan { hidden: None, ..plan.clone() };
+        self::gyro(&nothing, &mut truth.clone(), &mut stream("rolling gyro"))
+    });
+    for number in 1..=plan.references {
+        let mut s = Stream::new(plan.seed, "rolling reference", plan.index * 100 + number as u64);
+        let text = sheet(plan.chassis, &of_session(&sound, &mut s), counts, None, sound_gyro, &mut s);
+        files.push((PathBuf::from(format!("references/ref_{number}.csv")), text.into_bytes()));
+    }
     for number in 1..=RECORDINGS {
         let mut s = Stream::new(plan.seed, "rolling drive", plan.index * 100 + number as u64);
         let lost = (plan.hidden == Some(Hidden::LostCounts)).then_some(wheel);

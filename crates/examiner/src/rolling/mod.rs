@@ -215,12 +215,16 @@ pub struct RollingPlan {
     pub seen: Seen,
     /// What is hidden.
     pub hidden: Option<Hidden>,
+    /// Drives before anything is hidden.
+    pub references: usize,
+    /// What the robot file lacks in all drives, references included.
+    pub in_all: Option<Hidden>,
 }
 
 impl RollingPlan {
     /// A set of so many cases: every kind of robot in turn; in a quarter nothing is hidden, in the others one thing, each as
-    /// often as kinds permit.
-    pub fn set(seed: u64, count: usize, seen: Seen) -> Vec<Self> {
+    /// often as kinds permit. Where there are references, in every other case something else is there in all drives.
+    pub fn set(seed: u64, count: usize, seen: Seen, references: usize) -> Vec<Self> {
         let mut turn = [0; Chassis::ALL.len()];
         let mut plan = |i: usize| {
             let kind = i % Chassis::ALL.len();
@@ -230,10 +234,18 @@ impl RollingPlan {
                 turn[kind] += 1;
                 of[(turn[kind] - 1) % of.len()]
             });
-            Self { name: format!("r{:03}", i + 1), seed, index: i as u64, chassis, seen, hidden }
+            let round = i / Chassis::ALL.len();
+            let is_flawed = references > 0 && (round / 4 + round + kind).is_multiple_of(2);
+            let flaws: Vec<Hidden> = Self::FLAWS.into_iter().filter(|h| h.is_of(chassis, seen)).collect();
+            let in_all = flaws.get(round / 2 % flaws.len().max(1)).copied();
+            let in_all = in_all.filter(|flaw| is_flawed && hidden != Some(*flaw));
+            Self { name: format!("r{:03}", i + 1), seed, index: i as u64, chassis, seen, hidden, references, in_all }
         };
         (0..count).map(&mut plan).collect()
     }
+
+    /// What robot files lack most often.
+    const FLAWS: [Hidden; 4] = [Hidden::TurnSlip, Hidden::AllRadii, Hidden::SpeedSlip, Hidden::Distance];
 
     /// Draws the case.
     pub fn draw(&self) -> RollingCase {
@@ -248,7 +260,7 @@ mod tests {
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_that_a_kind_can_have() {
         for seen in [Seen::Pose, Seen::Gyro] {
-            let all = RollingPlan::set(1, 480, seen);
+            let all = RollingPlan::set(1, 480, seen, 0);
             assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 120);
             for (chassis, hidden) in Chassis::ALL.into_iter().flat_map(|c| Hidden::ALL.map(|h| (c, h))) {
                 let cases = all.iter().filter(|p| p.chassis == chassis && p.hidden == Some(hidden)).count();
@@ -259,7 +271,7 @@ mod tests {
 
     #[test]
     fn a_case_is_the_same_twice_and_its_truth_has_its_numbers() {
-        for plan in [Seen::Pose, Seen::Gyro].into_iter().flat_map(|seen| RollingPlan::set(3, 60, seen)) {
+        for plan in [Seen::Pose, Seen::Gyro].into_iter().flat_map(|seen| RollingPlan::set(3, 60, seen, 0)) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden.into_iter().collect::<Vec<_>>());

@@ -46,6 +46,12 @@ pub(super) fn case(plan: &WheeledPlan) -> WheeledCase {
     let mut files = vec![(PathBuf::from("robot.toml"), robot_file(plan.layout, &stated).into_bytes())];
     let mut of_onset = stream("wheeled onset");
     let onset = plan.begins.then(|| (1 + of_onset.index(RECORDINGS), of_onset.uniform(EARLIEST, 1.0 - EARLIEST)));
+    for number in 1..=plan.references {
+        let mut s = Stream::new(plan.seed, "wheeled reference", plan.index * 100 + number as u64);
+        let lasting = Lasting { before: &sound, after: &sound, share: 0.0 };
+        let (text, _) = sheet(plan.layout, &stated, lasting, &mut s);
+        files.push((PathBuf::from(format!("references/ref_{number}.csv")), text.into_bytes()));
+    }
     for number in 1..=RECORDINGS {
         let mut s = Stream::new(plan.seed, "wheeled drive", plan.index * 100 + number as u64);
         let share = onset.map_or(0.0, |(run, share)| match number.cmp(&run) {

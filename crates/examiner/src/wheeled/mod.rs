@@ -198,12 +198,14 @@ pub struct WheeledPlan {
     pub hidden: Option<WheeledHidden>,
     /// Whether it begins in the course of a recording.
     pub begins: bool,
+    /// Drives before anything is hidden.
+    pub references: usize,
 }
 
 impl WheeledPlan {
     /// A set of so many cases: every kind of robot in turn; in a quarter nothing is hidden, in the others one thing, each as
     /// often as kinds permit. In another quarter it begins while the robot drives, where it can.
-    pub fn set(seed: u64, count: usize) -> Vec<Self> {
+    pub fn set(seed: u64, count: usize, references: usize) -> Vec<Self> {
         let mut turn = [0; Layout::ALL.len()];
         let mut plan = |i: usize| {
             let kind = i % Layout::ALL.len();
@@ -215,7 +217,7 @@ impl WheeledPlan {
                 of[(turn[kind] - 1 + 2 * kind) % of.len()]
             });
             let begins = i / Layout::ALL.len() % 4 == 2 && hidden.is_some_and(WheeledHidden::can_begin);
-            Self { name: format!("w{:03}", i + 1), seed, index: i as u64, layout, hidden, begins }
+            Self { name: format!("w{:03}", i + 1), seed, index: i as u64, layout, hidden, begins, references }
         };
         (0..count).map(&mut plan).collect()
     }
@@ -232,7 +234,7 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_that_a_kind_can_have() {
-        let all = WheeledPlan::set(1, 560);
+        let all = WheeledPlan::set(1, 560, 0);
         assert_eq!(all.iter().filter(|p| p.hidden.is_none()).count(), 140);
         let begin = all.iter().filter(|p| p.begins).count();
         assert!((60..140).contains(&begin) && all.iter().all(|p| !p.begins || p.hidden.is_some()), "{begin}");
@@ -244,7 +246,7 @@ mod tests {
 
     #[test]
     fn a_case_is_the_same_twice_and_its_robot_moves() {
-        for plan in WheeledPlan::set(3, 21) {
+        for plan in WheeledPlan::set(3, 21, 0) {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden.into_iter().collect::<Vec<_>>());

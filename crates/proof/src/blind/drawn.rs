@@ -23,6 +23,8 @@ use super::score::statistics::{Rate, median};
 pub(super) struct Set {
     pub(super) seed: u64,
     pub(super) count: usize,
+    /// Drives of each case before anything is hidden.
+    pub(super) references: usize,
     pub(super) out: PathBuf,
     /// Draw and seal only.
     pub(super) draw_only: bool,
@@ -45,7 +47,7 @@ pub(super) trait Subject {
     /// What draws the cases.
     const LAW: &'static str;
 
-    fn plans(seed: u64, count: usize) -> Vec<Self::Plan>;
+    fn plans(seed: u64, count: usize, references: usize) -> Vec<Self::Plan>;
     fn name(plan: &Self::Plan) -> &str;
     /// Files of the case by their path in it, and what was hidden.
     fn draw(plan: &Self::Plan) -> (Vec<(PathBuf, Vec<u8>)>, Self::Truth);
@@ -58,7 +60,7 @@ pub(super) trait Subject {
 
 /// Draws, seals, asks and scores; true if, when judged, no target was missed.
 pub(super) fn run<S: Subject>(set: &Set) -> Result<bool> {
-    let plans = S::plans(set.seed, set.count);
+    let plans = S::plans(set.seed, set.count, set.references);
     let seals = plans.par_iter().map(|plan| draw::<S>(plan, &set.out)).collect::<Result<Vec<(String, String)>>>()?;
     let sealed: Map<String, Value> = seals.into_iter().map(|(name, hash)| (name, json!(hash))).collect();
     write(&set.out, "seals.json", &serde_json::to_string_pretty(&sealed)?)?;
@@ -87,9 +89,14 @@ pub(super) fn run<S: Subject>(set: &Set) -> Result<bool> {
     let missed = figures.iter().filter(|f| f.pass == Some(false)).count();
     let judged = figures.iter().filter(|f| f.pass.is_some()).count();
     let intro = format!(
-        "{} cases of seed {}, drawn by {} that shares nothing with the diagnosis. {} of {judged} targets are met.",
+        "{} cases of seed {}{}, drawn by {} that shares nothing with the diagnosis. {} of {judged} targets are met.",
         rows.len(),
         set.seed,
+        match set.references {
+            0 => String::new(),
+            1 => " with a reference".to_owned(),
+            n => format!(" with {n} references"),
+        },
         S::LAW,
         judged - missed
     );

@@ -8,7 +8,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use examiner::Plan;
 use rayon::ThreadPool;
@@ -52,6 +52,7 @@ Examples:
   cargo xtask blind --kind odometry --count 240        wheel counts and a pose
   cargo xtask blind --kind gyro --count 240            wheel counts and a gyro alone
   cargo xtask blind --kind car --count 160             cars
+  cargo xtask blind --kind car --references 1          cars with a drive in which nothing was hidden
   cargo xtask blind --kind all --count 200             so many of each kind
   cargo xtask blind --cases DIR --answers DIR          answers for given cases, without their truth
 
@@ -72,7 +73,7 @@ pub(crate) struct Args {
     /// Only these cases.
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
-    /// Kind of the robots; of the options, other kinds than torques know --seed, --count, --out, --threads, --draw-only,
+    /// Kind of the robots; of the options, other kinds than torques know --seed, --count, --references, --out, --threads, --draw-only,
     /// --judge and --docs.
     #[arg(long, value_enum, default_value_t = Kind::Torque)]
     kind: Kind,
@@ -142,7 +143,12 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     let out = |usual: &str| args.running.out.clone().map_or_else(|| output::folder(usual), Ok);
     let (seed, count) = args.drawing.seed_and_count();
     let Running { draw_only, judge, docs, .. } = args.running;
-    let of = |out: PathBuf| drawn::Set { seed, count, out, draw_only, judge, docs };
+    let references = args.drawing.references_of_others();
+    ensure!(
+        references == 0 || !matches!(args.kind, Kind::Speed | Kind::All),
+        "speed-driven cases have references of their own; leave out --references, or give another --kind"
+    );
+    let of = |out: PathBuf| drawn::Set { seed, count, references, out, draw_only, judge, docs };
     let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
     let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
     let rolling = |out: PathBuf| pool.install(|| drawn::run::<rolling::Rolling<rolling::Pose>>(&of(out)));

@@ -58,9 +58,10 @@ pub(super) struct Drawing {
     /// Length of references and recordings.
     #[arg(long, value_name = "SECONDS", default_value_t = Settings::default().duration_s)]
     duration: f64,
-    /// Drives in which the simulation is right.
-    #[arg(long, value_name = "NUMBER", default_value_t = Settings::default().references)]
-    references: usize,
+    /// Drives in which the simulation is right; of kinds that are not driven by torques these have what the robot file lacks in
+    /// all drives [default: 3, of such kinds 0].
+    #[arg(long, value_name = "NUMBER", value_parser = RangedU64ValueParser::<usize>::new().range(..=20))]
+    references: Option<usize>,
     /// How far each constant of the robot moves after these at most, in the sigmas that its file states.
     #[arg(long, value_name = "SIGMAS", default_value_t = Settings::default().moved)]
     moved: f64,
@@ -100,6 +101,15 @@ impl Drawing {
         (self.seed, self.count())
     }
 
+    fn references(&self) -> usize {
+        self.references.unwrap_or(Settings::default().references)
+    }
+
+    /// References of kinds that are not driven by torques.
+    pub(super) fn references_of_others(&self) -> usize {
+        self.references.unwrap_or(0)
+    }
+
     /// The cases that are to be drawn.
     pub(super) fn plans(&self) -> Vec<Plan> {
         if self.wide {
@@ -115,7 +125,7 @@ impl Drawing {
             accelerometer: !self.no_accel,
             noise: self.noise,
             duration_s: self.duration,
-            references: self.references,
+            references: self.references(),
             moved: self.moved,
             ..Settings::default()
         };
@@ -144,7 +154,7 @@ impl Drawing {
             self.rate,
             self.duration,
             self.noise,
-            self.references,
+            self.references(),
             self.moved
         )
     }

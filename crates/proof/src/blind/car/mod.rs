@@ -28,8 +28,8 @@ impl Subject for Cars {
     const PAGE: [&'static str; 2] = ["blind-car.md", "Blind cases of cars"];
     const LAW: &'static str = "a two-axle car on brush tyres";
 
-    fn plans(seed: u64, count: usize) -> Vec<CarPlan> {
-        CarPlan::set(seed, count)
+    fn plans(seed: u64, count: usize, references: usize) -> Vec<CarPlan> {
+        CarPlan::set(seed, count, references)
     }
 
     fn name(plan: &CarPlan) -> &str {

@@ -28,8 +28,8 @@ impl Subject for CommandDriven {
     const PAGE: [&'static str; 2] = ["blind-command.md", "Blind cases, command-driven"];
     const LAW: &'static str = "a discrete controller with wheels of second order behind it";
 
-    fn plans(seed: u64, count: usize) -> Vec<CommandPlan> {
-        CommandPlan::set(seed, count)
+    fn plans(seed: u64, count: usize, references: usize) -> Vec<CommandPlan> {
+        CommandPlan::set(seed, count, references)
     }
 
     fn name(plan: &CommandPlan) -> &str {

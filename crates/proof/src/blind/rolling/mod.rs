@@ -51,8 +51,8 @@ impl<B: Beside> Subject for Rolling<B> {
     const PAGE: [&'static str; 2] = B::PAGE;
     const LAW: &'static str = "bodies that move first and wheels that follow";
 
-    fn plans(seed: u64, count: usize) -> Vec<RollingPlan> {
-        RollingPlan::set(seed, count, B::SEEN)
+    fn plans(seed: u64, count: usize, references: usize) -> Vec<RollingPlan> {
+        RollingPlan::set(seed, count, B::SEEN, references)
     }
 
     fn name(plan: &RollingPlan) -> &str {

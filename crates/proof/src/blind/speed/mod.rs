@@ -22,7 +22,7 @@ impl Subject for SpeedDriven {
     const PAGE: [&'static str; 2] = ["blind-speed.md", "Blind cases, speed-driven"];
     const LAW: &'static str = "a law of steady torques";
 
-    fn plans(seed: u64, count: usize) -> Vec<SpeedPlan> {
+    fn plans(seed: u64, count: usize, _: usize) -> Vec<SpeedPlan> {
         SpeedPlan::set(seed, count)
     }
 

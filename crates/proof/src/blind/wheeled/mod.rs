@@ -28,8 +28,8 @@ impl Subject for AnyWheels {
     const PAGE: [&'static str; 2] = ["blind-wheeled.md", "Blind cases of robots of any wheels"];
     const LAW: &'static str = "a plant of any wheels on brush tyres";
 
-    fn plans(seed: u64, count: usize) -> Vec<WheeledPlan> {
-        WheeledPlan::set(seed, count)
+    fn plans(seed: u64, count: usize, references: usize) -> Vec<WheeledPlan> {
+        WheeledPlan::set(seed, count, references)
     }
 
     fn name(plan: &WheeledPlan) -> &str {
