@@ -10,6 +10,7 @@ use crate::weigh::{Evidence, Posterior};
 use inference::robust::NINETY;
 
 /// A fit with what its equations name.
+#[derive(Clone)]
 pub(crate) struct Answered {
     pub(crate) fit: Fit,
     pub(crate) named: Named,
@@ -19,8 +20,13 @@ pub(crate) struct Answered {
 
 /// Evidence of two answers, nats. Errors count in the same sigmas, those of the fit that leaves less.
 pub(crate) fn scores<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], both: [&Answered; 2]) -> [f64; 2] {
-    let noise = both[0].fit.noise.least(both[1].fit.noise);
-    both.map(|of| {
+    scores_of(data, causes, both.map(|answer| (answer, prior)))
+}
+
+/// The same of answers that start from what is known each.
+pub(crate) fn scores_of<D: Observed>(data: &Data<D>, causes: &[Cause], both: [(&Answered, &Prior); 2]) -> [f64; 2] {
+    let noise = both[0].0.fit.noise.least(both[1].0.fit.noise);
+    both.map(|(of, prior)| {
         let sessions = sessions(data, &of.fit.theta, &of.fit.own, noise);
         let evidence = Evidence::new(&of.fit.theta, &sessions, &data.scatter(of.fit.factor), &prior.mean);
         let known = covariance(&prior.covariance, causes, &of.set);

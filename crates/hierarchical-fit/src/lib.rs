@@ -8,6 +8,7 @@
 //! * `descent`, `fit`: equations of every drive and steps down them; constants with a deviation of each drive, and how drives scatter.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
+//! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
 //!   all of it by one set of equations (`scan`), the best by their own (`search`).
 //! * `found`, `said`, `telling`, `sentences`: what was found as plain data, and as what all verdicts of such comparisons share.
@@ -33,6 +34,7 @@ mod name;
 pub mod next_drive;
 mod observed;
 mod onset;
+mod references;
 mod rehearsable;
 mod said;
 #[cfg(test)]

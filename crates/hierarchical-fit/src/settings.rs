@@ -95,6 +95,10 @@
         leaves_more: f64 = 0.06, "share", "the same cars: 0.03; a simulated one of our own: 0.05";
         /// Sigmas of what is known by which one that may stand for another must move a constant.
         moved_as_stand_in: f64 = 1.0, "1", "guess";
+        /// Sets of causes, of those named in recordings, that are tried in references together with the recordings.
+        also_in_references: usize = 2, "1", "guess; each takes a fit of the recordings";
+        /// Evidence by which references have to speak for such causes, beside what these cost anywhere.
+        references_lack: f64 = 2.3, "nat", "guess; of ten drives that their owner calls right one lacks what others are said to lack";
         /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas; causes that move one by so many
         /// times more sigmas than re-tuning are dropped where they are not needed.
         nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";

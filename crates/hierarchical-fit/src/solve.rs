@@ -1,6 +1,6 @@
 //! From drives to fitted constants and named causes.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::answered::{Answered, is_moved, scores};
 use crate::cause::Cause;
@@ -12,6 +12,7 @@ use crate::name::{Named, covariance, name};
 use crate::observed::Observed;
 use crate::onset::Onset;
 use crate::onset::search::onset;
+use crate::references::{Known, known, weighed_with};
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
 
@@ -33,30 +34,40 @@ pub struct Solved<D: Observed> {
     pub onset: Option<Onset>,
     /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
     pub left_of_references: Option<f64>,
+    /// Causes that references and recordings ask for alike, so that they are no difference between them.
+    pub in_all: Vec<usize>,
 }
 
 /// Fits drives and names causes, after references in which the model was right; `None` where equations have no solution.
 pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: Vec<Cause>) -> Option<Solved<D>> {
-    let mut prior = data.prior();
-    let mut left_of_references = None;
-    if let Some(right) = references {
-        // What they may be told to lack is of no interest: constants and scatter are.
-        let (of_right, retuned) = answered(right, &prior, &causes, prior.mean.as_slice().to_vec())?;
-        let (fit, named) = told((right, &prior, false), &causes, of_right, &retuned)?;
-        left_of_references = Some(right.share(named.posterior.mean.as_slice()));
-        let variance = |sigma: DVector<f64>| DMatrix::from_diagonal(&sigma.component_mul(&sigma));
-        let between = variance(right.scatter(fit.factor)) + variance(right.between_visits());
-        prior = Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between };
-    }
-    let start = prior.mean.as_slice().to_vec();
-    let (best, retuned) = answered(&data, &prior, &causes, start)?;
-    let best = exchanged(&data, &prior, &causes, &retuned, best)?;
+    let of_file = data.prior();
+    let before = known(references, of_file.clone(), &causes)?;
+    let (best, retuned) = answered(&data, &before.prior, &causes, before.prior.mean.as_slice().to_vec())?;
+    let best = exchanged(&data, &before.prior, &causes, &retuned, best)?;
+    let (known, best, retuned) = match references {
+        Some(right) => weighed_with((&data, right), (&of_file, &causes), before, (best, retuned))?,
+        None => (before, best, retuned),
+    };
+    let Known { prior, left_of_references, in_all, .. } = known;
     let (fit, named) = told((&data, &prior, references.is_some()), &causes, best, &retuned)?;
     let (onset, named) = with_onset(&data, &prior, &causes, (&fit, named));
-    Some(Solved { data, causes, prior, fit, retuned, named, onset, left_of_references })
+    Some(Solved { data, causes, prior, fit, retuned, named, onset, left_of_references, in_all })
 }
 
 impl<D: Observed> Solved<D> {
+    /// What references and recordings lack alike, for people.
+    pub fn lacking_in_all(&self) -> Option<String> {
+        let of = |c: &usize| format!("{} ({})", self.causes[*c].spec.name, self.causes[*c].label());
+        let all: Vec<String> = self.in_all.iter().map(of).collect();
+        (!all.is_empty()).then(|| {
+            format!(
+                "references and recordings alike ask for {}: the robot file lacks it in all drives, so that it is no difference \
+                 between them",
+                all.join(" and ")
+            )
+        })
+    }
+
     /// The same without one of its drives: constants and causes follow from the equations of the others, set up once more
     /// where those lead.
     pub fn without(&self, left: usize) -> Option<Self> {
@@ -92,13 +103,19 @@ impl<D: Observed> Solved<D> {
         let (causes, prior) = (causes.clone(), prior.clone());
         let (onset, named) =
             if self.onset.is_some() { with_onset(&data, &prior, &causes, (&fit, named)) } else { (None, named) };
-        Some(Self { data, causes, prior, fit, retuned, named, onset, left_of_references })
+        let in_all = self.in_all.clone();
+        Some(Self { data, causes, prior, fit, retuned, named, onset, left_of_references, in_all })
     }
 }
 
 /// Fits constants and names causes from what is known; where much is left, also from where every cause is free, and takes what
 /// is more probable; also the fit without any cause.
-fn answered<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Answered, Fit)> {
+pub(crate) fn answered<D: Observed>(
+    data: &Data<D>,
+    prior: &Prior,
+    causes: &[Cause],
+    start: Vec<f64>,
+) -> Option<(Answered, Fit)> {
     let retuned = fit(data, prior, start.clone())?;
     let near = settled(data, prior, causes, retuned.clone())?;
     let left = data.share(&near.fit.theta);
@@ -145,7 +162,7 @@ pub fn begun<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], named
 }
 
 /// What is told of an answer.
-fn told<D: Observed>(
+pub(crate) fn told<D: Observed>(
     (data, prior, has_references): (&Data<D>, &Prior, bool),
     causes: &[Cause],
     answer: Answered,
@@ -239,12 +256,14 @@ fn named_about<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], fit
 }
 
 /// What the drives say together, by the equations of a fit.
-fn about<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> Option<Evidence> {
+pub(crate) fn about<D: Observed>(data: &Data<D>, prior: &Prior, fit: &Fit) -> Option<Evidence> {
     Evidence::new(&fit.theta, &fit.sessions, &data.scatter(fit.factor), &prior.mean)
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::*;
     use crate::cause::Possible;
     use crate::name::Weighed;

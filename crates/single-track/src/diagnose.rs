@@ -141,7 +141,8 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         said.rival = None;
     }
     said.decide(UNEXPLAINED, |e| is_stated(&data.model, e));
-    let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
+    let mut told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
+    told.extend(solved.lacking_in_all());
     let traces = data.drives.iter().enumerate();
     Findings {
         said,

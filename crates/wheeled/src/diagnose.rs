@@ -128,7 +128,8 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>) -> Findings {
     let Solved { data, named, .. } = solved;
     let mut said = solved.said(&data.model.all);
     said.decide(UNEXPLAINED, |_| true);
-    let told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
+    let mut told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
+    told.extend(solved.lacking_in_all());
     let traces = data.drives.iter().enumerate();
     Findings {
         said,
