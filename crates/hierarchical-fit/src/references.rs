@@ -59,7 +59,7 @@ fn after<D: Observed>(right: &Data<D>, answer: Answered) -> Known {
 }
 
 /// The answer about recordings where what they are told to lack may be there in the references, too: the simpler answer where the drives
-/// together speak for it; else what it would spare is as much less probable.
+/// together speak for it; else what it would spare is at most as probable as they leave it.
 pub(crate) fn weighed_with<D: Observed>(
     (data, right): (&Data<D>, &Data<D>),
     (of_file, causes): (&Prior, &[Cause]),
@@ -84,35 +84,28 @@ pub(crate) fn weighed_with<D: Observed>(
     tried.truncate(rules.also_in_references);
 
     for (of_references, other) in tried {
-        let in_all = other.set.clone();
+        let set = other.set.clone();
         let anew = after(right, other);
-        let (simpler, retuned) = answered(data, &anew.prior, causes, anew.prior.mean.as_slice().to_vec())?;
+        let (mut simpler, of_none) = answered(data, &anew.prior, causes, anew.prior.mean.as_slice().to_vec())?;
         if simpler.named.chosen.len() >= told.len() {
             continue;
         }
         let [of_simpler, of_best] = scores_of(data, causes, [(&simpler, &anew.prior), (&best, &known.prior)]);
         let of_recordings = of_simpler - of_best + price(&simpler) - price(&best);
         let gained = of_references + of_recordings - rules.references_lack;
-        let spares = |cause: usize| simpler.named.chosen.iter().all(|w| w.cause != cause);
+        let named: Vec<usize> = simpler.named.chosen.iter().map(|w| w.cause).collect();
+        let is_difference = logistic(-gained);
         if gained <= 0.0 {
-            let doubted = best.named.chosen.iter_mut().filter(|w| spares(w.cause));
-            doubted.for_each(|w| w.probability *= logistic(-gained));
+            let spared = best.named.chosen.iter_mut().filter(|w| !named.contains(&w.cause));
+            spared.for_each(|w| w.probability = w.probability.min(is_difference));
             continue;
         }
-        let mut simpler = simpler;
-        let perhaps = told.iter().copied().filter(|&c| in_all.contains(&c));
-        for cause in perhaps {
-            let there = simpler.named.others.iter_mut().filter(|(c, _)| *c == cause);
-            there.for_each(|(_, p)| *p = p.max(logistic(-gained)));
-        }
-        let in_all = in_all.into_iter().filter(|c| told.contains(c) && spares_in(&simpler, *c)).collect();
-        return Some((Known { in_all, ..anew }, simpler, retuned));
+        let in_all: Vec<usize> = set.into_iter().filter(|c| told.contains(c) && !named.contains(c)).collect();
+        let spared = simpler.named.others.iter_mut().filter(|(c, _)| in_all.contains(c));
+        spared.for_each(|(_, p)| *p = p.max(is_difference));
+        return Some((Known { in_all, ..anew }, simpler, of_none));
     }
     Some((known, best, retuned))
-}
-
-fn spares_in(answer: &Answered, cause: usize) -> bool {
-    answer.named.chosen.iter().all(|w| w.cause != cause)
 }
 
 /// Sets of causes that references may have: each that the recordings are told to lack, and all of them, alone and beside their own.
