@@ -71,14 +71,13 @@ pub(crate) fn weighed_with<D: Observed>(
     let Some(own) = known.of_references.take().filter(|_| !told.is_empty()) else {
         return Some((known, best, retuned));
     };
-    let price = |of: &Answered| rules.odds * of.set.len() as f64;
 
     let mut tried: Vec<(f64, Answered)> = Vec::new();
-    for set in candidates(&told, &own.set) {
+    for set in sets_of_references(&told, &own.set) {
         let start = best.fit.theta.clone();
         let Some(other) = fitted(right, of_file, causes, (start, set)) else { continue };
         let [of_other, of_own] = scores(right, of_file, causes, [&other, &own]);
-        tried.push((of_other - of_own + price(&other) - price(&own), other));
+        tried.push((of_other - of_own + rules.odds * (other.set.len() as f64 - own.set.len() as f64), other));
     }
     tried.sort_by(|a, b| b.0.total_cmp(&a.0));
     tried.truncate(rules.also_in_references);
@@ -91,8 +90,8 @@ pub(crate) fn weighed_with<D: Observed>(
             continue;
         }
         let [of_simpler, of_best] = scores_of(data, causes, [(&simpler, &anew.prior), (&best, &known.prior)]);
-        let of_recordings = of_simpler - of_best + price(&simpler) - price(&best);
-        let gained = of_references + of_recordings - rules.references_lack;
+        // The causes of the references are paid for already.
+        let gained = gained_with_references(of_references + of_simpler - of_best, [simpler.set.len(), best.set.len()]);
         let named: Vec<usize> = simpler.named.chosen.iter().map(|w| w.cause).collect();
         let is_difference = logistic(-gained);
         if gained <= 0.0 {
@@ -108,8 +107,15 @@ pub(crate) fn weighed_with<D: Observed>(
     Some((known, best, retuned))
 }
 
+/// What an answer gains, nats, that has causes in references, too: by the evidence of all drives, after the price of the causes of either
+/// answer, and of drives called right that lack something.
+pub fn gained_with_references(evidence: f64, [simpler, best]: [usize; 2]) -> f64 {
+    let rules = SETTINGS.naming;
+    evidence + rules.odds * (simpler as f64 - best as f64) - rules.references_lack
+}
+
 /// Sets of causes that references may have: each that the recordings are told to lack, and all of them, alone and beside their own.
-fn candidates(told: &[usize], own: &[usize]) -> Vec<Vec<usize>> {
+pub fn sets_of_references(told: &[usize], own: &[usize]) -> Vec<Vec<usize>> {
     let singles = told.iter().map(|&c| vec![c]);
     let mut out: Vec<Vec<usize>> = Vec::new();
     for set in singles.chain([told.to_vec()]) {
@@ -174,8 +180,8 @@ mod tests {
 
     #[test]
     fn sets_for_references_hold_each_named_cause_alone_and_beside_their_own() {
-        assert_eq!(candidates(&[2], &[]), [[2]]);
-        assert_eq!(candidates(&[2], &[1]), [vec![2], vec![1, 2]]);
-        assert_eq!(candidates(&[3, 2], &[2]), [vec![3], vec![2, 3]], "the references' own set is none");
+        assert_eq!(sets_of_references(&[2], &[]), [[2]]);
+        assert_eq!(sets_of_references(&[2], &[1]), [vec![2], vec![1, 2]]);
+        assert_eq!(sets_of_references(&[3, 2], &[2]), [vec![3], vec![2, 3]], "the references' own set is none");
     }
 }

@@ -5,6 +5,7 @@ use inference::evidence::logistic;
 use inference::words::{probability, two_decimals};
 use verdict::{Diagnosis, FreeRun, Retuned};
 
+use crate::cause::Cause;
 use crate::found::{Answer, Estimate, NamedCause};
 use crate::said::{Unconfirmed, beyond_references};
 use crate::settings::SETTINGS;
@@ -202,6 +203,18 @@ impl Found<'_> {
             format!("{name}: {}{familiar}{gain}{onset}{alike}.", values.collect::<Vec<_>>().join("; "))
         })
     }
+}
+
+/// What references and recordings lack alike, where they do.
+pub fn lacking_in_all<'a>(causes: impl Iterator<Item = &'a Cause>) -> Option<String> {
+    let all: Vec<String> = causes.map(|cause| format!("{} ({})", cause.spec.name, cause.label())).collect();
+    (!all.is_empty()).then(|| {
+        format!(
+            "references and recordings alike ask for {}: the robot file lacks it in all drives, so that it is no difference between \
+             them",
+            all.join(" and ")
+        )
+    })
 }
 
 /// Sentences about recordings that say the same of several, each once: "recording 'a': it" and "recording 'b': it" as "recordings 'a', 'b':

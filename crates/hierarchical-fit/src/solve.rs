@@ -13,6 +13,7 @@ use crate::observed::Observed;
 use crate::onset::Onset;
 use crate::onset::search::onset;
 use crate::references::{Known, known, weighed_with};
+use crate::sentences::lacking_in_all;
 use crate::settings::SETTINGS;
 use crate::weigh::{Evidence, Posterior};
 
@@ -57,15 +58,7 @@ pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: V
 impl<D: Observed> Solved<D> {
     /// What references and recordings lack alike, for people.
     pub fn lacking_in_all(&self) -> Option<String> {
-        let of = |c: &usize| format!("{} ({})", self.causes[*c].spec.name, self.causes[*c].label());
-        let all: Vec<String> = self.in_all.iter().map(of).collect();
-        (!all.is_empty()).then(|| {
-            format!(
-                "references and recordings alike ask for {}: the robot file lacks it in all drives, so that it is no difference \
-                 between them",
-                all.join(" and ")
-            )
-        })
+        lacking_in_all(self.in_all.iter().map(|&c| &self.causes[c]))
     }
 
     /// The same without one of its drives: constants and causes follow from the equations of the others, set up once more

@@ -44,6 +44,8 @@ pub(crate) struct Solved {
     pub(crate) onset: Option<Onset>,
     /// Error that the best answer leaves of the references, as a share of their motion; `None` without any.
     pub(crate) left_of_references: Option<f64>,
+    /// Causes that references and recordings lack alike, so that they are no difference between them.
+    pub(crate) in_all: Vec<usize>,
 }
 
 impl Solved {
@@ -150,25 +152,26 @@ pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, 
     Ok(crate::rehearsable::rehearsable(&case, &data, &solved))
 }
 
-/// What is known before the recordings: of the robot file, or of the references, with the error that is left of these.
-fn prior(
+/// What the robot file knows.
+fn of_file(constants: &[Constant]) -> Prior {
+    let n = constants.len();
+    let variances = DVector::from_iterator(n, constants.iter().map(|c| c.sigma.powi(2)));
+    Prior { mean: DVector::zeros(n), covariance: DMatrix::from_diagonal(&variances) }
+}
+
+/// What is known before the recordings: of the robot file, or of the references.
+fn known(
     robot: &WheeledRobot,
     constants: &[Constant],
     references: &[Drive],
 ) -> Result<(Prior, Option<f64>), OdometryError> {
-    let n = constants.len();
-    let known = DMatrix::from_diagonal(&DVector::from_iterator(n, constants.iter().map(|c| c.sigma.powi(2))));
-    let of_file = Prior { mean: DVector::zeros(n), covariance: known };
+    let of_file = of_file(constants);
     if references.is_empty() {
         return Ok((of_file, None));
     }
-    let data = Data::new(robot, constants, references.iter().collect())?;
-    let causes = causes(robot, constants);
-    let (fit, named) = weigh(&data, &of_file, &causes, vec![0.0; n]).ok_or(short(&data))?;
-    let deviation = scatter(&data, fit.factors);
-    let between = DMatrix::from_diagonal(&deviation.component_mul(&deviation));
-    let left = share(&data, &named.posterior.mean).1;
-    Ok((Prior { mean: named.posterior.mean, covariance: named.posterior.covariance + between }, Some(left)))
+    let right = Data::new(robot, constants, references.iter().collect())?;
+    let known = crate::references::known(&right, &of_file, &causes(robot, constants)).ok_or_else(|| short(&right))?;
+    Ok((known.prior, Some(known.left)))
 }
 
 fn short(data: &Data<'_>) -> OdometryError {
@@ -213,16 +216,17 @@ pub(crate) fn solve(
     }
     let stated = constants.clone();
     // What references say does not depend on the drives beside them.
-    let (prior, left_of_references) = match start.of.filter(|other| other.stated == stated) {
+    let (mut prior, mut left_of_references) = match start.of.filter(|other| other.stated == stated) {
         Some(other) => (other.prior.clone(), other.left_of_references),
-        None => prior(robot, &constants, references)?,
+        None => known(robot, &constants, references)?,
     };
     let seen = |quantity: Quantity| match (quantity, start.clock) {
         (Quantity::ClockOffset, Some([offset, _])) => Some(offset),
         (Quantity::ClockRate(_), Some([_, rate])) => Some(rate),
         _ => None,
     };
-    let start: Vec<f64> = match start.of {
+    let start_of = start.of;
+    let start: Vec<f64> = match start_of {
         Some(other) => other.fit.theta.clone(),
         None => constants.iter().zip(&prior.mean).map(|(c, known)| seen(c.quantity).unwrap_or(*known)).collect(),
     };
@@ -254,6 +258,17 @@ pub(crate) fn solve(
         data = self::data(robot, &constants, drives.to_vec(), &lost)?;
         (fit, named) = weigh(&data, &prior, &causes, fit.theta).ok_or_else(|| short(&data))?;
     }
+    // Of drives left out in turn that was weighed before.
+    let mut in_all = start_of.map_or_else(Vec::new, |other| other.in_all.clone());
+    if start_of.is_none() && !references.is_empty() {
+        let right = Data::new(robot, &constants, references.iter().collect())?;
+        let known = (&of_file(&stated), &prior, causes.as_slice());
+        if let Some(simpler) = crate::references::weighed_with((&data, &right), known, (&fit, &mut named)) {
+            let (known, of_drives, with_references) = simpler;
+            (fit, named) = (of_drives, with_references);
+            (prior, left_of_references, in_all) = (known.prior, Some(known.left), known.in_all);
+        }
+    }
     let mut plainer = without_what_little_shows(&data, (&prior, &fit), &causes, &named);
     // By turning alone nothing confirms such laws: a gyro that is off is forecast as well.
     if drives.iter().all(|drive| drive.heading_only) {
@@ -264,7 +279,7 @@ pub(crate) fn solve(
         (begun, named, plainer) = (Some(onset), with_it, None);
     }
     drop(data);
-    Ok(Solved { stated, constants, causes, prior, fit, named, plainer, lost, onset: begun, left_of_references })
+    Ok(Solved { stated, constants, causes, prior, fit, named, plainer, lost, onset: begun, left_of_references, in_all })
 }
 
 /// Takes what stands far beyond the usual size of its cause as usual: a frame that is turned by a right angle, or logs that start
@@ -288,7 +303,7 @@ fn wide(prior: &Prior, causes: &[Cause]) -> Prior {
 }
 
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.
-fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
+pub(crate) fn weigh(data: &Data<'_>, prior: &Prior, causes: &[Cause], start: Vec<f64>) -> Option<(Fit, Named)> {
     let mut fit = fit(data, &wide(prior, causes), start)?;
     let weighed = |fit: &Fit, from: &[usize]| {
         let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(data, fit.factors), &prior.mean)?;

@@ -15,6 +15,7 @@
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
 //! * `findings`, `said`: what the drives of a case say, as plain data, and how it follows from a fit.
 //! * `onset`: a cause that begins or ends while the drives go on.
+//! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `doubt`: causes that evidence names and that explain little.
 //! * `diagnose`, `left_out`, `answer`: a case in, findings out, and findings as a verdict in sentences.
 //! * `next_drive`: drives of the menu as the robot would drive them, and what they would say.
@@ -47,6 +48,7 @@ mod motion;
 mod next_drive;
 mod onset;
 pub mod rates;
+mod references;
 mod rehearsable;
 mod rivals;
 mod said;

@@ -10,7 +10,9 @@ use crate::onset;
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::Data;
-use hierarchical_fit::{Answer, Estimate, NamedCause, Posterior, Weighed, is_beyond_references, of_recordings};
+use hierarchical_fit::{
+    Answer, Estimate, NamedCause, Posterior, Weighed, is_beyond_references, lacking_in_all, of_recordings,
+};
 use inference::robust::{NINETY, rms};
 use nalgebra::DVector;
 
@@ -73,7 +75,8 @@ pub(crate) fn findings(case: &Case, data: &Data<'_>, solved: &Solved) -> Finding
     let mut told: Vec<String> =
         case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()).collect();
     told.sort();
-    let told = of_recordings(told);
+    let mut told = of_recordings(told);
+    told.extend(lacking_in_all(solved.in_all.iter().map(|&c| &causes[c])));
     Findings {
         answer,
         named: named_causes,

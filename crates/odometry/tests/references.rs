@@ -62,3 +62,15 @@ fn what_leaves_many_times_as_much_as_the_references_is_unknown_whatever_fits_bes
     let told = odometry::diagnosis(&found.after(&table), &table, true);
     assert!(told.sentences[0].contains("of the motion of the references, so that"), "{:?}", told.sentences);
 }
+
+#[test]
+fn what_one_short_reference_hardly_shows_is_no_difference_where_the_recordings_show_it_too() {
+    let mut case = drawn(Kind::Differential, Hidden::Distance, 4, 60.0, 91).case;
+    case.recordings.truncate(3);
+    case.references = drawn(Kind::Differential, Hidden::Distance, 4, 20.0, 91).case.recordings.split_off(3);
+    let found = diagnose(&case, &|_| {}).expect("an answer");
+    assert!(found.answer == Answer::Retune && found.named.is_empty(), "{:?}", found.named);
+    let is_told =
+        |text: &String| text.contains("references and recordings alike") && text.contains("wheel_distance (track)");
+    assert!(found.told.iter().any(is_told), "{:?}", found.told);
+}

@@ -208,6 +208,23 @@ mod tests {
     }
 
     #[test]
+    fn references_have_what_all_drives_lack_and_nothing_that_is_hidden() {
+        let file = |plan: &CarPlan, path: &str| {
+            let files = plan.draw().files;
+            files.into_iter().find(|(p, _)| p == std::path::Path::new(path)).map(|(_, bytes)| bytes)
+        };
+        let plan = CarPlan::set(3, 12, 1).into_iter().find(|p| p.in_all.is_some() && !p.hidden.is_empty());
+        let plan = plan.expect("a flawed car with something hidden");
+        let sound = CarPlan { hidden: Vec::new(), ..plan.clone() };
+        let ideal = CarPlan { in_all: None, ..sound.clone() };
+        let reference = file(&plan, "references/ref_1.csv").expect("a reference");
+        assert_eq!(Some(&reference), file(&sound, "references/ref_1.csv").as_ref());
+        assert_ne!(Some(&reference), file(&ideal, "references/ref_1.csv").as_ref());
+        assert_ne!(file(&plan, "recordings/run_1.csv"), file(&sound, "recordings/run_1.csv"));
+        assert!(file(&plan, "references/ref_2.csv").is_none() && plan.draw().truth.hidden == plan.hidden);
+    }
+
+    #[test]
     fn a_case_is_the_same_twice_and_its_cars_drive() {
         for plan in CarPlan::set(3, 28, 0) {
             let case = plan.draw();

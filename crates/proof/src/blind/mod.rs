@@ -148,6 +148,10 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         references == 0 || !matches!(args.kind, Kind::Speed | Kind::All),
         "speed-driven cases have references of their own; leave out --references, or give another --kind"
     );
+    ensure!(
+        references == 0 || args.kind == Kind::Torque || !args.running.docs,
+        "the pages of this kind show cases without references; leave out --docs or --references"
+    );
     let of = |out: PathBuf| drawn::Set { seed, count, references, out, draw_only, judge, docs };
     let speed = |out: PathBuf| pool.install(|| drawn::run::<speed::SpeedDriven>(&of(out)));
     let command = |out: PathBuf| pool.install(|| drawn::run::<command::CommandDriven>(&of(out)));
