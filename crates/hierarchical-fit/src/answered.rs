@@ -10,7 +10,6 @@ use crate::weigh::{Evidence, Posterior};
 use inference::robust::NINETY;
 
 /// A fit with what its equations name.
-#[derive(Clone)]
 pub(crate) struct Answered {
     pub(crate) fit: Fit,
     pub(crate) named: Named,

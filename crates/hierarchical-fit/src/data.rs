@@ -3,6 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::cause::Cause;
+use crate::name::covariance;
 use crate::observed::{Kind, Observed, Spread};
 use crate::onset::Onset;
 use crate::settings::SETTINGS;
@@ -62,6 +64,14 @@ pub struct Prior {
     pub mean: DVector<f64>,
     /// Covariance about them.
     pub covariance: DMatrix<f64>,
+}
+
+impl Prior {
+    /// The same where these causes may be there.
+    #[must_use]
+    pub fn with(&self, causes: &[Cause], set: &[usize]) -> Self {
+        Self { mean: self.mean.clone(), covariance: covariance(&self.covariance, causes, set) }
+    }
 }
 
 impl<D: Observed> Data<D> {

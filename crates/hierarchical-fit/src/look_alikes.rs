@@ -7,7 +7,7 @@ use crate::answered::{Answered, is_moved, scores};
 use crate::cause::Cause;
 use crate::data::{Data, Prior};
 use crate::fit::{Fit, fit_like, likelier};
-use crate::name::{covariance, named_as, stand_ins};
+use crate::name::{named_as, stand_ins};
 use crate::observed::Observed;
 use crate::settings::SETTINGS;
 use crate::weigh::Evidence;
@@ -32,7 +32,7 @@ pub(crate) fn exchanged<D: Observed>(
     for cause in first {
         let set: Vec<usize> = best.named.chosen.iter().map(|w| w.cause).collect();
         let fitted = |with: Vec<usize>| {
-            let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &with) };
+            let narrow = prior.with(causes, &with);
             let ends = data.bounded(&lines(retuned)?.posterior(&narrow.covariance)?).as_slice().to_vec();
             let start = likelier(data, &narrow, retuned, [retuned.theta.clone(), ends])?;
             let fit = fit_like(data, &narrow, start, &best.fit)?;

@@ -11,7 +11,7 @@ use crate::answered::{Answered, scores, scores_of};
 use crate::cause::Cause;
 use crate::data::{Data, Prior};
 use crate::fit::{Fit, fit};
-use crate::name::{covariance, named_as};
+use crate::name::named_as;
 use crate::observed::Observed;
 use crate::settings::SETTINGS;
 use crate::solve::{about, answered, told};
@@ -138,7 +138,7 @@ fn fitted<D: Observed>(
     causes: &[Cause],
     (start, set): (Vec<f64>, Vec<usize>),
 ) -> Option<Answered> {
-    let wide = Prior { mean: of_file.mean.clone(), covariance: covariance(&of_file.covariance, causes, &set) };
+    let wide = of_file.with(causes, &set);
     let fit = fit(right, &wide, start)?;
     let mut named = named_as(&about(right, of_file, &fit)?, &of_file.covariance, causes, &set)?;
     named.posterior.mean = DVector::from_column_slice(&fit.theta);

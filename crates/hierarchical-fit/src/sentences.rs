@@ -210,8 +210,8 @@ pub fn lacking_in_all<'a>(causes: impl Iterator<Item = &'a Cause>) -> Option<Str
     let all: Vec<String> = causes.map(|cause| format!("{} ({})", cause.spec.name, cause.label())).collect();
     (!all.is_empty()).then(|| {
         format!(
-            "references and recordings alike ask for {}: the robot file lacks it in all drives, so that it is no difference between \
-             them",
+            "references and recordings alike ask for {}: the robot file is wrong about this in all drives, so that it is no \
+             difference between them; correct the robot file",
             all.join(" and ")
         )
     })

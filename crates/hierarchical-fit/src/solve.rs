@@ -8,7 +8,7 @@ use crate::data::{Data, Prior};
 use crate::descent::sessions;
 use crate::fit::{Fit, fit, likelier, without};
 use crate::look_alikes::exchanged;
-use crate::name::{Named, covariance, name};
+use crate::name::{Named, name};
 use crate::observed::Observed;
 use crate::onset::Onset;
 use crate::onset::search::onset;
@@ -78,7 +78,7 @@ impl<D: Observed> Solved<D> {
         };
         // How much drives scatter is judged where what was named may be there: else it would all be scatter.
         let set: Vec<usize> = self.named.chosen.iter().map(|w| w.cause).collect();
-        let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+        let wide = prior.with(causes, &set);
         let moved = |from: &Fit, known: &Prior, to: &dyn Fn(&Fit) -> Option<DVector<f64>>| {
             let mut fit = without(&data, known, from, left);
             fit.theta = to(&fit)?.as_slice().to_vec();
@@ -116,7 +116,7 @@ pub(crate) fn answered<D: Observed>(
         return Some((near, retuned));
     }
     let every: Vec<usize> = (0..causes.len()).collect();
-    let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) };
+    let wide = prior.with(causes, &every);
     let free = fit(data, &wide, start)?;
     // Where the free robot leaves about as much, there is no better answer far from here.
     if data.share(&free.theta) > SETTINGS.fitting.freed * left {
@@ -148,7 +148,7 @@ fn with_onset<D: Observed>(
 /// A cause that begins or ends while drives go on, where that says more of them than what was named of them, and the answer with it.
 pub fn begun<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], named: &Named) -> Option<(Onset, Named)> {
     let set: Vec<usize> = named.chosen.iter().map(|w| w.cause).collect();
-    let wide = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+    let wide = prior.with(causes, &set);
     let fit = fit(data, &wide, named.posterior.mean.as_slice().to_vec())?;
     let (onset, named) = with_onset(data, prior, causes, (&fit, named.clone()));
     Some((onset?, named))
@@ -189,7 +189,7 @@ fn settled<D: Observed>(data: &Data<D>, prior: &Prior, causes: &[Cause], from: F
         if tried.contains(&set) {
             break;
         }
-        let narrow = Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &set) };
+        let narrow = prior.with(causes, &set);
         // Along a valley that only what is known closes, a fit hardly moves; the equations know where it ends.
         let ends = data.bounded(&out.named.posterior).as_slice().to_vec();
         let start = likelier(data, &narrow, &out.fit, [out.fit.theta.clone(), ends])?;

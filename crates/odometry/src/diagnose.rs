@@ -13,7 +13,7 @@ use crate::drive::Drive;
 use crate::dropout::{self, Lost};
 use crate::error::OdometryError;
 use crate::findings::Findings;
-use crate::fit::{Fit, Prior, equations, fit, scatter};
+use crate::fit::{Fit, equations, fit, scatter};
 use crate::motion::{Laws, implied};
 use crate::next_drive::{self, Found};
 use crate::onset;
@@ -23,7 +23,7 @@ use crate::standing;
 use crate::traces::trace;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, laws};
-use hierarchical_fit::{CaseError, Cause, Evidence, Named, Onset, Rehearsable, covariance, name_from, of_class};
+use hierarchical_fit::{CaseError, Cause, Evidence, Named, Onset, Prior, Rehearsable, covariance, name_from, of_class};
 use verdict::Trace;
 
 /// Drives with the constants fitted to them, and what was named.
@@ -299,7 +299,7 @@ fn take_as_usual(constants: &mut [Constant], prior: &Prior, values: &[f64]) -> b
 /// What is known before the recordings if every cause may be there.
 fn wide(prior: &Prior, causes: &[Cause]) -> Prior {
     let every: Vec<usize> = (0..causes.len()).collect();
-    Prior { mean: prior.mean.clone(), covariance: covariance(&prior.covariance, causes, &every) }
+    prior.with(causes, &every)
 }
 
 /// Fits all constants as if every cause may be there, and weighs the causes about that fit and once more about the answer.

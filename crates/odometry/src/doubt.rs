@@ -1,10 +1,10 @@
 //! Causes that evidence names and that explain little.
 
 use catalogue::odometry::{CORNERING_SLIP, SLIP_WITH_SPEED, SLIP_WITH_TURNING};
-use hierarchical_fit::{Cause, Evidence, Named, named_as};
+use hierarchical_fit::{Cause, Evidence, Named, Prior, named_as};
 use nalgebra::DVector;
 
-use crate::fit::{Fit, Prior, scatter};
+use crate::fit::{Fit, scatter};
 use crate::said::share;
 use crate::settings::SETTINGS;
 use crate::windows::Data;

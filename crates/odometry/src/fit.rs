@@ -12,21 +12,8 @@ use crate::motion::implied;
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, Window, laws};
-use hierarchical_fit::{Evidence, Session, joint};
+use hierarchical_fit::{Evidence, Prior, Session, joint};
 use inference::least_squares::{Normal, Parameter, Problem, Settings, Step, minimise};
-
-/// What is known of the constants before the drives.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Prior {
-    pub(crate) mean: DVector<f64>,
-    pub(crate) covariance: DMatrix<f64>,
-}
-
-impl Prior {
-    fn information(&self) -> Option<DMatrix<f64>> {
-        self.covariance.clone().cholesky().map(|c| c.inverse())
-    }
-}
 
 /// Where a fit stands.
 #[derive(Debug, Clone)]
@@ -213,7 +200,7 @@ pub(crate) fn scatter(data: &Data<'_>, factors: Factors) -> DVector<f64> {
 
 /// Fits the constants from `start`, scale of errors and scatter of sessions included; `None` where a prior is no covariance.
 pub(crate) fn fit(data: &Data<'_>, prior: &Prior, start: Vec<f64>) -> Option<Fit> {
-    let information = prior.information()?;
+    let information = prior.covariance.clone().cholesky()?.inverse();
     let settings = Settings { iterations: 20, least_relative_fall: 1e-6, ..Settings::gauss_newton() };
     let mut theta = start;
     let mut scale = data.scale(&data.errors(&theta));

@@ -2,13 +2,13 @@
 
 use hierarchical_fit::menu::{Reach, menu};
 use hierarchical_fit::next_drive::{self, Answers, Candidate, Readings};
-use hierarchical_fit::{Cause, Evidence, Weighed};
+use hierarchical_fit::{Cause, Evidence, Prior, Weighed};
 use nalgebra::DMatrix;
 use verdict::{Advice, Manoeuvre};
 
 use crate::case::Case;
 use crate::drive::{Drive, WheelData};
-use crate::fit::{Fit, Prior, columns, equations, scatter};
+use crate::fit::{Fit, columns, equations, scatter};
 use crate::kinematics::Kinematics;
 use crate::motion::{Laws, implied};
 use crate::settings::{NextDrive, SETTINGS};

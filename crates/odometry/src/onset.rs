@@ -4,12 +4,12 @@ use nalgebra::DVector;
 
 use crate::constants::Constant;
 use crate::drive::Drive;
-use crate::fit::{Factors, Prior, columns_of, loss, scatter};
+use crate::fit::{Factors, columns_of, loss, scatter};
 use crate::motion::{Laws, implied, moved_on};
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::{Data, Window, laws};
-use hierarchical_fit::{Cause, Kind, Named, Observed, Onset, Row, Spread, begun, interval_of_instants};
+use hierarchical_fit::{Cause, Kind, Named, Observed, Onset, Prior, Row, Spread, begun, interval_of_instants};
 
 /// A drive by its windows.
 #[derive(Clone)]
@@ -96,9 +96,8 @@ pub(crate) fn onset(
         bounds: [f64::NEG_INFINITY, f64::INFINITY],
     };
     let spreads = data.constants.iter().zip(scatter.iter()).map(spread).collect();
-    let prior = hierarchical_fit::Prior { mean: prior.mean.clone(), covariance: prior.covariance.clone() };
     let drives = hierarchical_fit::Data { model: (), spreads, drives };
-    let (mut onset, named) = begun(&drives, &prior, causes, named)?;
+    let (mut onset, named) = begun(&drives, prior, causes, named)?;
     let scale = data.scale(&errors(data, &named.posterior.mean, &onset));
     let known = onset.changes.clone();
     for (index, (at, _)) in known.into_iter().enumerate().filter_map(|(index, change)| Some((index, change?))) {

@@ -3,12 +3,14 @@
 //! As of [`hierarchical_fit`]: a reference may take slip in turns for another track, or not show it. What is named in recordings is fitted to
 //! the references, too, and both answers are weighed by the evidence of all drives.
 
-use hierarchical_fit::{Cause, Evidence, Named, covariance, gained_with_references, named_as, sets_of_references};
+use hierarchical_fit::{
+    Cause, Evidence, Named, Prior, covariance, gained_with_references, named_as, sets_of_references,
+};
 use inference::evidence::logistic;
 use nalgebra::{DMatrix, DVector};
 
 use crate::diagnose::weigh;
-use crate::fit::{Factors, Fit, Prior, equations, fit, scatter};
+use crate::fit::{Factors, Fit, equations, fit, scatter};
 use crate::said::share;
 use crate::windows::Data;
 
@@ -65,6 +67,7 @@ pub(crate) fn weighed_with(
     if best.set.is_empty() {
         return None;
     }
+    // Anew, for the recordings may have widened what counts as usual.
     let own = Answered::of(weigh(right, of_file, causes, vec![0.0; of_file.mean.len()])?);
     let mut tried: Vec<(f64, Answered)> = Vec::new();
     for set in sets_of_references(&best.set, &own.set) {
@@ -103,7 +106,7 @@ fn fitted(
     causes: &[Cause],
     (start, set): (Vec<f64>, Vec<usize>),
 ) -> Option<Answered> {
-    let wide = Prior { mean: of_file.mean.clone(), covariance: covariance(&of_file.covariance, causes, &set) };
+    let wide = of_file.with(causes, &set);
     let fit = fit(right, &wide, start)?;
     let evidence = Evidence::new(&fit.theta, &fit.sessions, &scatter(right, fit.factors), &of_file.mean)?;
     let mut named = named_as(&evidence, &of_file.covariance, causes, &set)?;

@@ -5,13 +5,12 @@ use crate::constants::{Constant, Measured, Quantity};
 use crate::diagnose::Solved;
 use crate::dropout;
 use crate::findings::{Findings, is_nothing_that_slips};
-use crate::fit::Prior;
 use crate::onset;
 use crate::settings::SETTINGS;
 use crate::wheel::WheeledRobot;
 use crate::windows::Data;
 use hierarchical_fit::{
-    Answer, Estimate, NamedCause, Posterior, Weighed, is_beyond_references, lacking_in_all, of_recordings,
+    Answer, Estimate, NamedCause, Posterior, Prior, Weighed, is_beyond_references, lacking_in_all, of_recordings,
 };
 use inference::robust::{NINETY, rms};
 use nalgebra::DVector;
