@@ -5,13 +5,13 @@ use crate::vehicle::Vehicle;
 
 /// Roll and pitch inertia over yaw inertia of chassis and load. A planar robot does not know them; they decide how fast
 /// loads move between wheels, not how much. Above one half, as every body must be.
-const FLAT: f64 = 0.6;
+pub(crate) const FLAT: f64 = 0.6;
 /// A wheel's inertia across its axle over that about it: one half of a thin disc, more with its width.
-const ACROSS: f64 = 0.55;
+pub(crate) const ACROSS: f64 = 0.55;
 /// Largest share of the robot's mass in a wheel.
-const HEAVIEST: f64 = 0.05;
+pub(crate) const HEAVIEST: f64 = 0.05;
 /// Least share of the yaw inertia that must be left to the chassis.
-const LEFT: f64 = 0.3;
+pub(crate) const LEFT: f64 = 0.3;
 
 /// A rigid part: mass, centre in the robot's frame, inertia about it.
 #[derive(Debug, Clone, Copy)]
@@ -67,30 +67,41 @@ impl Parts {
             centre: [r.com[0], r.com[1], p.height],
             inertia: [FLAT, FLAT, 1.0].map(|k| k * p.yaw_inertia),
         });
-        let others = || wheels.iter().chain(&payload);
-        let left = r.mass - others().map(|p| p.mass).sum::<f64>();
-        let centre: [f64; 3] =
-            std::array::from_fn(|k| (r.mass * r.com[k] - others().map(|p| p.mass * p.centre[k]).sum::<f64>()) / left);
-        let apart = |p: &[f64; 3]| (p[0] - r.com[0]).powi(2) + (p[1] - r.com[1]).powi(2);
-        let taken: f64 = others().map(|p| p.inertia[2] + p.mass * apart(&p.centre)).sum();
-        let yaw = r.yaw_inertia - taken - left * apart(&centre);
-        let chassis = Part { mass: left, centre, inertia: [FLAT, FLAT, 1.0].map(|k| k * yaw) };
+        let chassis = rest((r.mass, r.com, r.yaw_inertia), wheels.iter().chain(&payload));
         Self { chassis, wheels, payload }
     }
 
-    pub(crate) fn all(&self) -> impl Iterator<Item = &Part> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Part> + Clone {
         std::iter::once(&self.chassis).chain(&self.wheels).chain(&self.payload)
     }
 
     /// Mass, centre of mass, and inertia about it.
     pub(crate) fn total(&self) -> Part {
-        let mass: f64 = self.all().map(|p| p.mass).sum();
-        let centre: [f64; 3] = std::array::from_fn(|k| self.all().map(|p| p.mass * p.centre[k]).sum::<f64>() / mass);
-        let inertia = std::array::from_fn(|k| {
-            let (m, n) = ((k + 1) % 3, (k + 2) % 3);
-            let arm2 = |p: &Part| (p.centre[m] - centre[m]).powi(2) + (p.centre[n] - centre[n]).powi(2);
-            self.all().map(|p| p.inertia[k] + p.mass * arm2(p)).sum()
-        });
-        Part { mass, centre, inertia }
+        together(&self.all())
     }
+}
+
+/// Parts as one: mass, centre of mass, and inertia about it.
+pub(crate) fn together<'a>(all: &(impl Iterator<Item = &'a Part> + Clone)) -> Part {
+    let mass: f64 = all.clone().map(|p| p.mass).sum();
+    let centre: [f64; 3] = std::array::from_fn(|k| all.clone().map(|p| p.mass * p.centre[k]).sum::<f64>() / mass);
+    let inertia = std::array::from_fn(|k| {
+        let (m, n) = ((k + 1) % 3, (k + 2) % 3);
+        let arm2 = |p: &Part| (p.centre[m] - centre[m]).powi(2) + (p.centre[n] - centre[n]).powi(2);
+        all.clone().map(|p| p.inertia[k] + p.mass * arm2(p)).sum()
+    });
+    Part { mass, centre, inertia }
+}
+
+/// What is left of a robot of this mass, centre of mass and yaw inertia beside parts of it.
+pub(crate) fn rest<'a>(whole: (f64, [f64; 3], f64), others: impl Iterator<Item = &'a Part> + Clone) -> Part {
+    let (whole_mass, com, whole_yaw) = whole;
+    let mass = whole_mass - others.clone().map(|p| p.mass).sum::<f64>();
+    let centre: [f64; 3] = std::array::from_fn(|k| {
+        (whole_mass * com[k] - others.clone().map(|p| p.mass * p.centre[k]).sum::<f64>()) / mass
+    });
+    let apart = |p: &[f64; 3]| (p[0] - com[0]).powi(2) + (p[1] - com[1]).powi(2);
+    let taken: f64 = others.map(|p| p.inertia[2] + p.mass * apart(&p.centre)).sum();
+    let yaw = whole_yaw - taken - mass * apart(&centre);
+    Part { mass, centre, inertia: [FLAT, FLAT, 1.0].map(|k| k * yaw) }
 }

@@ -6,10 +6,11 @@
 //!
 //! From the bottom up: `number` and `xml`; `model` (what is exported); `at` (an effect at values), `origin` (where values
 //! come from), `vehicle`, `contact`, `inertia` and `residual` (what writers read); `translate` (effects into a vehicle);
-//! `added`, `gazebo`, `mjcf`, `urdf`, `sdf` (writers); `export` (one model for one engine). Beside them `ros2/*`:
-//! parameters of ROS 2 controllers from wheels and their lengths.
+//! `added`, `gazebo`, `mjcf`, `urdf`, `sdf` (writers); `export` (one model for one engine). Beside them `any_wheels/*`:
+//! robots of any wheels, and `ros2/*`: parameters of ROS 2 controllers from wheels and their lengths.
 
 mod added;
+mod any_wheels;
 mod at;
 mod contact;
 mod export;
@@ -27,6 +28,7 @@ mod urdf;
 mod vehicle;
 mod xml;
 
+pub use any_wheels::{AnyWheelsModel, Input};
 pub use model::{ExportError, Exported, Model};
 pub use robot_model::effect::export::{Engine, Way};
 pub use translate::way;

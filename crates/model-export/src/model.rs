@@ -42,6 +42,25 @@ pub enum ExportError {
     /// A robot that cannot be, with its effects.
     #[error("the robot with its effects cannot exist: {0}; correct the values of the effects")]
     Robot(#[from] robot_model::ModelError),
+    /// Parts without a name.
+    #[error("{given} names for {there} {part}; give one for each")]
+    Names {
+        /// What they name.
+        part: &'static str,
+        /// Names.
+        given: usize,
+        /// Parts.
+        there: usize,
+    },
+    /// Rollers that an engine does not have.
+    #[error(
+        "wheel {wheel} has rollers that lie askew, and a wheel of MuJoCo has friction along its axle and across it only: export the robot to \
+         SDF, which has friction in any direction"
+    )]
+    Rollers {
+        /// Name of the wheel.
+        wheel: String,
+    },
     /// XML that could not be written.
     #[error("the model could not be written as XML: {0}")]
     Xml(#[from] std::io::Error),

@@ -14,7 +14,7 @@ use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
 /// Friction of the ground where the wheels decide: Gazebo takes the smaller one of both.
-const ANY_FRICTION: f64 = 100.0;
+pub(crate) const ANY_FRICTION: f64 = 100.0;
 /// Height of a disc of other grip, m.
 const DISC: f64 = 0.0004;
 
@@ -35,11 +35,11 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
     )])
 }
 
-fn pose(xyz: [f64; 3], rpy: [f64; 3]) -> String {
+pub(crate) fn pose(xyz: [f64; 3], rpy: [f64; 3]) -> String {
     format!("{} {}", numbers(&xyz), numbers(&rpy))
 }
 
-fn friction(along: f64, across: f64, first: Option<&str>) -> Element {
+pub(crate) fn friction(along: f64, across: f64, first: Option<&str>) -> Element {
     let mut ode = element("ode").value("mu", &[along]).value("mu2", &[across]);
     if let Some(direction) = first {
         ode = ode.leaf("fdir1", direction);
@@ -84,7 +84,7 @@ fn robot(model: &Model<'_>, v: &Vehicle) -> Element {
     out.child(slip_plugin(v, &grips(v)))
 }
 
-fn inertial(part: &Part, link: [f64; 3]) -> Element {
+pub(crate) fn inertial(part: &Part, link: [f64; 3]) -> Element {
     let [x, y, z] = part.inertia;
     let centre: [f64; 3] = std::array::from_fn(|k| part.centre[k] - link[k]);
     let inertia = element("inertia").value("ixx", &[x]).value("iyy", &[y]).value("izz", &[z]);

@@ -13,7 +13,7 @@ use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
 /// URDF asks for a limit of the speed, rad/s: none that matters.
-const ANY_SPEED: f64 = 1000.0;
+pub(crate) const ANY_SPEED: f64 = 1000.0;
 
 /// The model as a document.
 pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
@@ -61,11 +61,11 @@ pub(crate) fn document(model: &Model<'_>, v: &Vehicle) -> io::Result<String> {
     )])
 }
 
-fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Element {
+pub(crate) fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Element {
     element("origin").nums("xyz", &xyz).nums("rpy", &rpy)
 }
 
-fn inertial(part: &Part, link: [f64; 3]) -> Element {
+pub(crate) fn inertial(part: &Part, link: [f64; 3]) -> Element {
     let [x, y, z] = part.inertia;
     let centre: [f64; 3] = std::array::from_fn(|k| part.centre[k] - link[k]);
     element("inertial").child(origin(centre, [0.0; 3])).child(element("mass").num("value", part.mass)).child(
@@ -74,7 +74,7 @@ fn inertial(part: &Part, link: [f64; 3]) -> Element {
 }
 
 /// A joint from the chassis to a link. Simulators that read URDF as SDF want a name of its own for every link and joint.
-fn joint(name: &'static str, kind: &'static str) -> Element {
+pub(crate) fn joint(name: &str, kind: &'static str) -> Element {
     element("joint")
         .with("name", format!("{name}_joint"))
         .with("type", kind)

@@ -56,12 +56,15 @@ impl Element {
         self
     }
 
-    /// With an element inside that holds a text.
-    pub(crate) fn leaf(mut self, name: &'static str, text: impl Into<String>) -> Self {
-        let mut leaf = element(name);
-        leaf.children.push(Node::Text(text.into()));
-        self.children.push(Node::Element(leaf));
+    /// With a text inside.
+    pub(crate) fn text(mut self, text: impl Into<String>) -> Self {
+        self.children.push(Node::Text(text.into()));
         self
+    }
+
+    /// With an element inside that holds a text.
+    pub(crate) fn leaf(self, name: &'static str, text: impl Into<String>) -> Self {
+        self.child(element(name).text(text))
     }
 
     /// With an element inside that holds numbers.

@@ -1,12 +1,16 @@
 //! Robot files of robots of any wheels.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Context, Result};
+use model_export::{AnyWheelsModel, Engine, Input};
 use toml_edit::{Array, Item, TableLike};
 use verdict::Diagnosis;
 use wheeled::file::RobotFile;
 use wheeled::{AnyWheels, Constant, Quantity, constants};
 
 use super::unheld::{Told, Unheld, told};
+use super::{ColumnsRobot, Written};
 use crate::edit::{document, rounded, set, set_source, tables};
 
 /// The corrected file, and what it cannot hold.
@@ -27,6 +31,44 @@ pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Resul
         told.differs_from(constant.given).then_some(Unheld { told, unit: constant.unit, remedy })
     };
     Ok((edited, self::told(diagnosis).into_iter().filter_map(unheld).collect()))
+}
+
+/// The model for an engine of what the corrected robot file says.
+pub(super) fn model(robot: &ColumnsRobot, engine: Engine) -> Result<Written> {
+    let (text, unheld) = robot.edited()?;
+    let holder = format!("a model in {}", engine.name());
+    let mut not_held: Vec<String> = unheld.iter().map(|u| u.sentence(&holder)).collect();
+    let RobotFile { robot: corrected, columns, .. } = RobotFile::parse(&robot.name, &text)?;
+    let mut told: Vec<String> = robot.headline().into_iter().collect();
+    told.extend(retuned(&RobotFile::parse(&robot.name, &robot.text)?.robot, &robot.tuning()));
+
+    let (motors, joints) = (inputs(&corrected.motors, &columns.torque), inputs(&corrected.joints, &columns.joints));
+    let model = AnyWheelsModel {
+        name: &corrected.name,
+        robot: &corrected.plant,
+        wheels: &corrected.wheels,
+        motors: &motors,
+        joints: &joints,
+        point: corrected.point,
+        told: &told,
+    };
+    let exported = model.export(engine)?;
+    not_held.extend(exported.notes.iter().map(|note| format!("{} does not hold {note}", engine.name())));
+    Ok(Written { text: exported.text, not_held })
+}
+
+/// Motors or joints with what a unit of their columns is.
+fn inputs<'a>(names: &'a [String], columns: &[(String, f64)]) -> Vec<Input<'a>> {
+    names.iter().zip(columns).map(|(name, (_, per_unit))| Input { name, per_unit: *per_unit }).collect()
+}
+
+/// Constants that a verdict corrects, one sentence each.
+fn retuned(stated: &AnyWheels, tuning: &BTreeMap<String, f64>) -> Vec<String> {
+    let differs = |c: &Constant| {
+        let found = tuning.get(&c.name).copied().filter(|found| rounded(*found) != rounded(c.given))?;
+        Some(format!("{}: {} {}, re-tuned from {}", c.name, rounded(found), c.unit, rounded(c.given)))
+    };
+    constants(stated, true, true).iter().filter_map(differs).collect()
 }
 
 /// Writes a number where its file has it.

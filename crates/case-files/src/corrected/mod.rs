@@ -16,11 +16,13 @@ mod wheels_ros2;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
+use model_export::Engine;
 use verdict::{Diagnosis, Verdict};
 
 use crate::columns::{ColumnsEnvelope, Kind};
 use crate::edit::one_line;
+use unheld::Unheld;
 
 /// A robot of a robot file that names its columns, with the verdict that corrects it, if there is one.
 #[derive(Debug, Clone)]
@@ -109,14 +111,10 @@ impl ColumnsRobot {
     /// # Errors
     /// A robot file that is none, or that no such robot can have once it is corrected.
     pub fn robot_file(&self) -> Result<Written> {
-        let Some(diagnosis) = self.correction() else {
+        if self.correction().is_none() {
             return Ok(Written { text: self.text.clone(), not_held: Vec::new() });
-        };
-        let (edited, unheld) = match self.kind {
-            Kind::Odometry => wheels::robot_file(&self.name, &self.text, diagnosis)?,
-            Kind::Car => car::robot_file(&self.name, &self.text, diagnosis)?,
-            Kind::Wheeled => any_wheels::robot_file(&self.name, &self.text, diagnosis)?,
-        };
+        }
+        let (edited, unheld) = self.edited()?;
         let holder = format!("a robot file of kind {}", self.kind.name());
         let not_held: Vec<String> = unheld.iter().map(|u| u.sentence(&holder)).collect();
 
@@ -125,6 +123,30 @@ impl ColumnsRobot {
         text.extend(self.headline().map(|sentence| format!("# {}\n", one_line(&sentence))));
         text.extend(not_held.iter().map(|sentence| format!("# {}\n", one_line(sentence))));
         Ok(Written { text: text + "\n" + &edited, not_held })
+    }
+
+    /// The owner's robot file with the corrected numbers in it, and what has no key there.
+    fn edited(&self) -> Result<(String, Vec<Unheld>)> {
+        let Some(diagnosis) = self.correction() else { return Ok((self.text.clone(), Vec::new())) };
+        match self.kind {
+            Kind::Odometry => wheels::robot_file(&self.name, &self.text, diagnosis),
+            Kind::Car => car::robot_file(&self.name, &self.text, diagnosis),
+            Kind::Wheeled => any_wheels::robot_file(&self.name, &self.text, diagnosis),
+        }
+    }
+
+    /// Its model for a simulator, of robots with masses and forces.
+    ///
+    /// # Errors
+    /// A robot of a kind without masses, a robot file that is none, and what the engine cannot have at all.
+    pub fn model(&self, engine: Engine) -> Result<Written> {
+        ensure!(
+            self.kind == Kind::Wheeled,
+            "robots of kind {} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export it with --to toml, \
+             or with --to ros2 for parameters of its controller",
+            self.kind.name()
+        );
+        any_wheels::model(self, engine)
     }
 
     /// Parameters of the ROS 2 controller that its wheels ask for.

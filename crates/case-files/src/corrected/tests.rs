@@ -315,6 +315,20 @@ fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
         "{:?}",
         written.not_held
     );
+    // As a model of a simulator: what a unit of the motor's column is, and the offset of the steering, are the actuators'.
+    let model = corrected.model(Engine::Mjcf).expect("a model");
+    assert!(
+        model.text.contains("gainprm=\"0.8\"") && model.text.contains("mass: 75 kg, re-tuned from 60"),
+        "{}",
+        model.text
+    );
+    // 0.05 rad and 1.1 rad per unit at a servo of 1500 N m/rad.
+    assert!(
+        model.text.contains("gainprm=\"1650\"") && model.text.contains("biasprm=\"75 -1500 -30\""),
+        "{}",
+        model.text
+    );
+    assert!(model.not_held.iter().any(|s| s.contains("a model in MJCF cannot hold")), "{:?}", model.not_held);
     let refused = corrected.controllers().unwrap_err().to_string();
     assert!(refused.contains("driven by torques") && refused.contains("--to toml"), "{refused}");
 }

@@ -39,8 +39,9 @@ beside the model, robot_residual.py.
 
 Verdicts of kind odometry, car and wheeled become the owner's robot file with
 the corrected numbers (toml); of the first two, parameters of the controller
-of ros2_controllers that the wheels ask for (ros2). What such a file cannot hold is a warning and
-a comment in it.
+of ros2_controllers that the wheels ask for (ros2); of kind wheeled, models of
+MuJoCo, ROS and Gazebo (mjcf, urdf, sdf). What such a file cannot hold is a
+warning.
 
 Exit codes: 0 done, 1 failed, 2 wrong usage.";
 

@@ -348,6 +348,10 @@ fn what_cannot_be_exported_is_one_clear_sentence() {
         let run = bench.run(&["export", "cart.toml", "--to", format]);
         run.failed(&["kind odometry have no masses and forces", "--to ros2"]);
     }
+    let run = bench.run(&["export", "torque-mecanum-4", "--to", "mjcf"]);
+    run.failed(&["rollers that lie askew", "export the robot to SDF"]);
+    let run = bench.run(&["export", "torque-car", "--to", "sdf", "-o", "car.sdf"]);
+    assert!(run.code() == Some(0) && run.err().contains("SDF does not hold lags of motors"), "{}", run.err());
     bench.run(&["export", "cart.toml", "--to", "json"]).failed(&["kind odometry are TOML", "--to toml"]);
     let run = bench.run(&["export", "cart.toml", "--to", "toml", "--retuned"]);
     assert!(run.code() == Some(2) && run.err().contains("take --nominal"), "{}", run.err());

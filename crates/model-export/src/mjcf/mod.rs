@@ -12,12 +12,12 @@ use crate::number::number;
 use crate::vehicle::Vehicle;
 use crate::xml::{Element, element};
 
-mod contact;
+pub(crate) mod contact;
 mod drive;
 mod sensors;
 mod step;
 
-use step::STEP;
+pub(crate) use step::STEP;
 
 /// Density of a medium in which nothing but the sphere of the drag feels anything, kg/m³.
 const THIN: f64 = 1e-6;
@@ -58,11 +58,11 @@ fn heading(model: &Model<'_>) -> String {
 }
 
 /// Collides by its contact pair only, and weighs nothing: masses are told apart.
-fn invisible(geom: Element) -> Element {
+pub(crate) fn invisible(geom: Element) -> Element {
     geom.with("contype", "0").with("conaffinity", "0").with("mass", "0")
 }
 
-fn inertial(part: &Part, origin: [f64; 3]) -> Element {
+pub(crate) fn inertial(part: &Part, origin: [f64; 3]) -> Element {
     let centre: [f64; 3] = std::array::from_fn(|k| part.centre[k] - origin[k]);
     element("inertial").nums("pos", &centre).num("mass", part.mass).nums("diaginertia", &part.inertia)
 }

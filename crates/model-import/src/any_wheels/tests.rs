@@ -1,6 +1,6 @@
 //! Models in, robot files of any wheels out.
 
-use model_export::Engine;
+use model_export::{AnyWheelsModel, Engine, Input};
 use robot_file::RobotSpec;
 use wheeled::file::RobotFile;
 
@@ -150,4 +150,58 @@ fn wheels_that_are_all_steered_are_of_this_kind_and_of_no_other() {
         "{}",
         refused(&text, &of_kind(Kind::TorqueDriven))
     );
+}
+
+/// A built-in robot, exported.
+fn exported_of_any_wheels(name: &str, engine: Engine) -> (String, RobotFile) {
+    let (_, text) = wheeled::file::BUILT_IN.iter().find(|(n, _)| *n == name).expect("built in");
+    let file = RobotFile::parse(name, text).expect("a robot");
+    let model = AnyWheelsModel {
+        name,
+        robot: &file.robot.plant,
+        wheels: &file.robot.wheels,
+        motors: &file.robot.motors.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+        joints: &file.robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+        point: file.robot.point,
+        told: &[],
+    };
+    (model.export(engine).expect("a model").text, file)
+}
+
+#[test]
+fn robots_of_any_wheels_that_were_exported_read_back_the_same() {
+    for name in ["torque-tricycle", "torque-car", "torque-omni-3", "torque-six-wheel"] {
+        for engine in [Engine::Mjcf, Engine::Urdf, Engine::Sdf] {
+            let (text, file) = exported_of_any_wheels(name, engine);
+            let asked = of_kind(Kind::Wheeled);
+            let made = import("again.xml", &text, &asked).unwrap_or_else(|e| panic!("{name} {engine:?}: {e}"));
+            let again = RobotFile::parse("again.toml", &made.text).expect("a robot file").robot;
+            let (got, wanted) = (&again.plant, &file.robot.plant);
+            let near = |what: &str, got: f64, wanted: f64| {
+                assert!(
+                    (got - wanted).abs() < 2e-3 * wanted.abs() + 1e-3,
+                    "{name} {engine:?} {what}: {got}, not {wanted}"
+                );
+            };
+            near("mass", got.mass, wanted.mass);
+            near("yaw inertia", got.yaw_inertia, wanted.yaw_inertia);
+            (0..3).for_each(|k| near("centre of mass", got.com[k], wanted.com[k]));
+            let turning = |robot: &wheeled::AnyWheels| robot.plant.wheels.iter().flatten().count();
+            assert_eq!(turning(&again), turning(&file.robot), "{name} {engine:?}");
+            for (at, name) in file.robot.wheels.iter().enumerate() {
+                let name = name.replace(' ', "_");
+                let of = again
+                    .wheels
+                    .iter()
+                    .position(|n| n.starts_with(&name))
+                    .unwrap_or_else(|| panic!("{:?}", again.wheels));
+                let (Some(got), Some(wanted)) = (got.wheels[of], wanted.wheels[at]) else { panic!("{name}") };
+                (0..2).for_each(|k| near("place", got.place[k], wanted.place[k]));
+                near("radius", got.radius, wanted.radius);
+                near("direction", (got.direction - wanted.direction).sin(), 0.0);
+                assert_eq!(got.motor.is_some(), wanted.motor.is_some(), "{name} {engine:?}");
+                assert_eq!(got.joint.is_some(), wanted.joint.is_some(), "{name} {engine:?}");
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The constants of a robot of any wheels, checked.
 
+use crate::contact::Plane;
 use crate::error::{ModelError, not_negative, positive, within};
 use crate::scalar::{Scalar, real};
 use crate::wheels::{MOST, MOST_CASTERS};
@@ -207,6 +208,13 @@ impl<T: Scalar> Robot<T> {
 }
 
 impl Robot<f64> {
+    /// Loads at rest on level ground, N: of wheels, then of casters, as [`Self::contacts`]; below zero where it would lift.
+    pub fn static_loads(&self) -> impl Iterator<Item = f64> + '_ {
+        let from_com = self.contacts().map(|[x, y]| [x - self.com[0], y - self.com[1]]);
+        let (plane, weight) = (Plane::of(from_com.clone()), self.mass * self.ground.gravity);
+        from_com.map(move |at| plane.share(at, 0) * weight)
+    }
+
     /// Checks every constant, and that the robot stands.
     ///
     /// # Errors

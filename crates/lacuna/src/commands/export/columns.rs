@@ -1,7 +1,8 @@
-//! Exports of robots whose files name their columns: wheels beside a pose, and cars.
+//! Exports of robots whose files name their columns: wheels beside a pose, cars, and any wheels under torque.
 
 use anyhow::{Result, bail, ensure};
 use case_files::corrected::ColumnsRobot;
+use model_export::Engine;
 use verdict::{Diagnosis, Verdict};
 
 use super::{Args, Format, doubts, save};
@@ -27,10 +28,9 @@ pub(super) fn run(args: &Args, robot: ColumnsRobot) -> Result<Outcome> {
         Format::Toml => robot.robot_file()?,
         Format::Ros2 => robot.controllers()?,
         Format::Json => bail!("robot files of kind {kind} are TOML; export it with --to toml"),
-        Format::Mjcf | Format::Urdf | Format::Sdf => bail!(
-            "robots of kind {kind} have no masses and forces that a model of MuJoCo, ROS or Gazebo is made of; export \
-             it with --to toml, or with --to ros2 for parameters of its controller"
-        ),
+        Format::Mjcf => robot.model(Engine::Mjcf)?,
+        Format::Urdf => robot.model(Engine::Urdf)?,
+        Format::Sdf => robot.model(Engine::Sdf)?,
     };
     for doubt in robot.correction().map(told).unwrap_or_default() {
         warning(&doubt);
