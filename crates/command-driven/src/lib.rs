@@ -180,7 +180,8 @@ pub fn diagnose_response(
     out.limits = limits(case, has_position, &response);
     if !response.parameters.is_empty() {
         let ratio = standing.as_ref().map(|s| s.over_retuned).filter(|_| !is_confirmed.contains(&true));
-        out.limits.extend(ratio.map(words::not_taken).or(objection));
+        let doubt = standing.as_ref().and_then(|standing| standing.doubt(&out.free_runs, None));
+        out.limits.extend(ratio.map(words::not_taken).or(doubt));
     }
     let begun: Vec<String> = [
         words::begun(&OfDrive, &found.drive, &case.recordings),

@@ -82,7 +82,7 @@ impl Found<'_> {
             classes.map(|(c, alike)| std::iter::once(c.label.clone()).chain(alike).collect()).collect();
         let standing = Standing::new(&out.free_runs);
         if out.verdict == Verdict::Explained {
-            out.limits.extend(standing.and_then(|s| s.objection(self.rival)));
+            out.limits.extend(standing.and_then(|s| s.doubt(&out.free_runs, self.rival)));
         }
         if self.answer == Answer::Retune {
             out.limits.extend(standing.and_then(|s| s.objection_to_re_tuning()));

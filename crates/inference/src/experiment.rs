@@ -5,6 +5,8 @@
 //! block, and what each answers to it. [`leave_out`] asks them, [`free_runs`] makes the rows of a verdict, and
 //! [`Standing::objection`] says what these rows hold against the correction.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 use verdict::FreeRun;
 
@@ -170,6 +172,12 @@ impl Standing {
         })
     }
 
+    /// What these figures hold against the correction, or else what quantities of these `rows` do of which the best wrong cause forecasts
+    /// one clearly better, for people.
+    pub fn doubt(&self, rows: &[FreeRun], placebo: Option<&str>) -> Option<String> {
+        self.objection(placebo).or_else(|| better_with_placebo(rows, placebo))
+    }
+
     /// What these figures hold against constants that were re-tuned where nothing is named, for people.
     pub fn objection_to_re_tuning(&self) -> Option<String> {
         (self.over_nominal > SETTINGS.forecasts.worse).then(|| {
@@ -180,6 +188,30 @@ impl Standing {
             )
         })
     }
+}
+
+/// Quantities that the best wrong cause forecasts clearly better on recordings left out, though the named cause stands over all, for people.
+fn better_with_placebo(rows: &[FreeRun], placebo: Option<&str>) -> Option<String> {
+    let quantity = |row: &FreeRun| row.quantity.split(['(', ',']).next().unwrap_or_default().trim().to_owned();
+    let mut ratios: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for row in rows {
+        let ratio = row.placebo.map(|placebo| row.corrected / placebo).filter(|r| r.is_finite() && *r > 0.0);
+        ratios.entry(quantity(row)).or_default().extend(ratio);
+    }
+    let better: Vec<String> = ratios
+        .into_iter()
+        .filter_map(|(quantity, of)| Some((quantity, geometric_mean(of)?)))
+        .filter(|(_, ratio)| *ratio > SETTINGS.forecasts.worse_quantity)
+        .map(|(quantity, ratio)| format!("{quantity} (with the named cause the error is {ratio:.2} times as large)"))
+        .collect();
+    let wrong = placebo.unwrap_or("a wrong cause with as many constants");
+    (!better.is_empty()).then(|| {
+        format!(
+            "over all quantities recordings left out of the fit are forecast best with the named cause, but with {wrong} in its place \
+             better in {}: look there for what else differs",
+            better.join(", ")
+        )
+    })
 }
 
 #[cfg(test)]
@@ -254,6 +286,17 @@ mod tests {
         assert!(matched.contains("forecast as well or better with drag") && matched.contains("1.05"), "{matched}");
         let idle = objection(&[row(1.0, 1.2, Some(1.5))]).expect("an objection");
         assert!(idle.contains("1.20 times"), "{idle}");
+        // Over both quantities the correction is better, in one of them it is not.
+        let position = FreeRun { quantity: "position (rms), m".to_owned(), ..row(2.0, 1.0, Some(0.8)) };
+        let both = [row(2.0, 1.0, Some(3.0)), position];
+        let standing = Standing::new(&both).expect("a standing");
+        assert_eq!(standing.objection(Some("drag")), None);
+        let doubt = standing.doubt(&both, Some("drag")).expect("a doubt");
+        assert!(
+            doubt.contains("with drag in its place better in position (with the named cause the error is 1.25"),
+            "{doubt}"
+        );
+        assert_eq!(standing.doubt(&both[..1], Some("drag")), None);
         // Where nothing is named the re-tuned simulation is the best there is.
         let re_tuned = |error: f64| Standing::new(&[row(error, error, None)]).and_then(|s| s.objection_to_re_tuning());
         assert_eq!(re_tuned(9.5), None);

@@ -33,6 +33,8 @@
     forecasts: Forecasts {
         /// Error with re-tuned constants over that as stated, beyond which they are not to be adopted.
         worse: f64 = 1.1, "1", "guess; fault-free robots of another hand have 1.09 at most, one whose tyres scrub by a third more had 1.49";
+        /// Error of one quantity with the named cause over that with the best wrong cause, beyond which that is told.
+        worse_quantity: f64 = 1.1, "1", "guess; equal to the other";
     }
 
     /// A constant of a fit by residuals unless set otherwise.

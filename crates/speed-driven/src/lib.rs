@@ -222,6 +222,7 @@ pub fn diagnose_steady(
     // The loads alone give a verdict; what was measured beside them may lead over it.
     let (mut out, of_loads) = verdict(case, comparison.as_ref().zip(naming.as_ref()), loads, &forecasts);
     let Forecasts { free_runs, traces, standing, placebo } = forecasts;
+    let compared = free_runs.clone();
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
@@ -236,7 +237,7 @@ pub fn diagnose_steady(
     out.limits.extend(leans.into_iter().filter_map(|(lean, of)| mounting::told(lean, of)));
     if of_loads == Verdict::Explained {
         let wrong = placebo.map(Named::name);
-        out.limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
+        out.limits.extend(standing.and_then(|s| s.doubt(&compared, wrong.as_deref())));
     }
 
     if options.next.is_some() {

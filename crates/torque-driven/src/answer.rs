@@ -265,7 +265,7 @@ impl Judged<'_> {
         limits.extend(located.contradiction);
         limits.extend(self.decision.unconfirmed.iter().map(Unconfirmed::sentence));
         let wrong = forecasts.placebo.as_ref().map(|s| inference::words::variants(s.trial.hypothesis.variants()));
-        limits.extend(standing.and_then(|s| s.objection(wrong.as_deref())));
+        limits.extend(standing.and_then(|s| s.doubt(&forecasts.free_runs, wrong.as_deref())));
         if verdict == Verdict::NoMismatch {
             limits.extend(Standing::new(&forecasts.free_runs).and_then(|s| s.objection_to_re_tuning()));
         }
