@@ -113,11 +113,11 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
 
     let compared: Vec<&Compared> = kept.iter().filter_map(|j| j.peers.as_ref()).collect();
     let mut figures = tables::figures(&kept);
+    let mut sections = tables::all(&kept, &figures);
+    sections.extend(peers::tables(&compared, spent.map(|s| s / kept.len().max(1) as f64)));
     figures.extend(peers::figures(&compared));
     output::write(&folder, "summary.json", &serde_json::to_string_pretty(&figures)?)?;
     output::write(&folder, "cases.json", &serde_json::to_string_pretty(&kept)?)?;
-    let mut sections = tables::all(&kept, &figures);
-    sections.push(peers::table(&compared, spent.map(|s| s / kept.len().max(1) as f64)));
     println!("{}", to_text(&sections));
     Ok(failed == 0 && figures.iter().all(|f| f.pass != Some(false)))
 }

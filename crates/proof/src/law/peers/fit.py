@@ -31,7 +31,7 @@ from sklearn.neural_network import MLPRegressor
 SEED = 0
 ANGLES = ["phi", "heading"]
 # Columns of a library whose coefficient is below this share of the target's norm go, columns being of norm one.
-THRESHOLDS = [0.03, 0.1, 0.2, 0.4]
+THRESHOLDS = [0.02, 0.05, 0.1, 0.2, 0.4]
 # Widths of a smoothed sign, in the variable's rms.
 SMOOTH = 0.1
 PENALTIES = [0.1, 10.0, 1000.0]
@@ -49,9 +49,15 @@ class Data:
         self.y = np.array([w["size"] for w in windows])
         self.sigma = np.array([w["sigma"] for w in windows])
         self.of = np.array([w["recording"] for w in windows])
-        self.left_out = np.array(job["left_out"])
+        self.left_out = self.within(self.x, np.array(job["left_out"]))
         # Relative weights of mean one.
         self.weight = self.sigma**-2 / np.mean(self.sigma**-2)
+
+    def within(self, seen, x):
+        """Windows whose variables are held within the range seen, as those of a law are; angles only repeat."""
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        is_angle = np.array([name in ANGLES for name in self.names])
+        return np.where(is_angle, x, np.clip(x, low, high))
 
     def folds(self):
         """Each recording of the fit against the others."""
@@ -65,7 +71,8 @@ class Data:
             total = 0.0
             for rest, out in self.folds():
                 predict = fit(self.x[rest], self.y[rest], self.weight[rest], setting)
-                total += np.sum(self.weight[out] * (self.y[out] - predict(self.x[out])) ** 2)
+                predicted = predict(self.within(self.x[rest], self.x[out]))
+                total += np.sum(self.weight[out] * (self.y[out] - predicted) ** 2)
             return total if np.isfinite(total) else np.inf
 
         return min(settings, key=error)

@@ -25,7 +25,7 @@ use super::judge::Judged;
 use job::Job;
 pub(super) use place::true_place;
 pub(super) use python::Python;
-pub(super) use tables::{figures, table};
+pub(super) use tables::{figures, tables};
 
 mod job;
 mod place;
@@ -42,6 +42,8 @@ const HIDDEN: &str = "the hidden law itself";
 /// What all methods made of one case.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Compared {
+    /// The hidden effect, or kind of law.
+    hidden: String,
     /// Where the series was taken.
     place: String,
     /// Whether Lacuna told a law.
@@ -122,7 +124,8 @@ pub(super) fn compare(
         });
     }
     scores.extend(hidden.as_ref().map(|h| scored(HIDDEN, h)));
-    Ok(Compared { place: place.name().to_owned(), has_law: law.is_some(), scores, versions: answer.versions })
+    let hidden = judged.hidden.clone().unwrap_or_default();
+    Ok(Compared { hidden, place: place.name().to_owned(), has_law: law.is_some(), scores, versions: answer.versions })
 }
 
 /// A told law, held within the ranges in which it was seen.

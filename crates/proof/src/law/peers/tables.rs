@@ -2,7 +2,7 @@
 
 use inference::robust::median;
 
-use super::{Compared, HIDDEN, Scored};
+use super::{Compared, HIDDEN, OWN, Scored};
 use crate::blind::Rate;
 use crate::document::Section;
 use crate::output::Figure;
@@ -32,6 +32,11 @@ impl Row<'_> {
         self.middle(|_, s| s.of_hidden)
     }
 
+    /// Errs more than if nothing acted.
+    fn worse_than_nothing(&self) -> Rate {
+        self.scores.iter().map(|(_, s)| s.explained < 0.0).collect()
+    }
+
     fn wrong_units(&self) -> Rate {
         self.scores.iter().filter_map(|(_, s)| s.has_wrong_units).collect()
     }
@@ -54,6 +59,7 @@ pub(in super::super) fn figures(all: &[&Compared]) -> Vec<Figure> {
             ("share of the left-out series explained, median", row.explained()),
             ("the same where a law is told, median", row.explained_with_law()),
             ("share of the hidden law explained, median", row.of_hidden()),
+            ("worse than nothing", row.worse_than_nothing().share()),
             ("formulas with wrong units", row.wrong_units().share()),
         ];
         let named =
@@ -63,8 +69,32 @@ pub(in super::super) fn figures(all: &[&Compared]) -> Vec<Figure> {
     out
 }
 
-/// The table; without rows where nothing was compared. `own_seconds`: processor time of Lacuna for a robot, s.
-pub(in super::super) fn table(all: &[&Compared], own_seconds: Option<f64>) -> Section {
+/// Tables of the methods and of the cases; none where nothing was compared. `own_seconds`: processor time of Lacuna for a robot, s.
+pub(in super::super) fn tables(all: &[&Compared], own_seconds: Option<f64>) -> Vec<Section> {
+    if all.is_empty() { Vec::new() } else { vec![by_method(all, own_seconds), by_case(all)] }
+}
+
+fn share(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |x| format!("{x:.2}"))
+}
+
+fn by_case(all: &[&Compared]) -> Section {
+    let methods: Vec<&str> = rows(all).iter().map(|row| row.method).collect();
+    let header = [&["hidden", "place of the series", "law told"], methods.as_slice()].concat();
+    let mut s = Section::new("Peers, case by case", "Share of the left-out series explained.", &header);
+    for case in all {
+        let mut row: Vec<_> = vec![case.hidden.as_str().into(), case.place.as_str().into()];
+        row.push((if case.has_law { "yes" } else { "no" }).into());
+        row.extend(methods.iter().map(|method| {
+            let own = case.scores.iter().find(|s| s.method == *method);
+            share(own.map(|s| s.explained)).into()
+        }));
+        s.rows.push(row);
+    }
+    s
+}
+
+fn by_method(all: &[&Compared], own_seconds: Option<f64>) -> Section {
     let with_law = all.iter().filter(|c| c.has_law).count();
     let known = all.iter().filter(|c| c.scores.iter().any(|s| s.method == HIDDEN)).count();
     let versions = all.first().map_or_else(String::new, |c| {
@@ -82,16 +112,16 @@ pub(in super::super) fn table(all: &[&Compared], own_seconds: Option<f64>) -> Se
         "explained: all",
         "where a law is told",
         "of the hidden curve",
+        "worse than nothing",
         "parts",
         "wrong units",
         "processor, s",
     ];
     let mut s = Section::new("Peers on the same residual series", &note, &header);
-    let share = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |x| format!("{x:.2}"));
     for row in rows(all) {
         let formulas = row.scores.iter().filter(|(_, s)| s.formula.is_some()).count();
         let parts = row.middle(|_, s| s.parts.map(|n| n as f64));
-        let seconds = row.middle(|_, s| s.seconds).or(own_seconds.filter(|_| row.method == super::OWN));
+        let seconds = row.middle(|_, s| s.seconds).or(own_seconds.filter(|_| row.method == OWN));
         let units = row.wrong_units();
         s.rows.push(vec![
             row.method.into(),
@@ -100,6 +130,7 @@ pub(in super::super) fn table(all: &[&Compared], own_seconds: Option<f64>) -> Se
             share(row.explained()).into(),
             share(row.explained_with_law()).into(),
             share(row.of_hidden()).into(),
+            row.worse_than_nothing().hits.to_string().into(),
             parts.map_or_else(|| "-".to_owned(), |n| format!("{n:.0}")).into(),
             (if units.count == 0 { "no formula".to_owned() } else { units.counted() }).into(),
             seconds.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}")).into(),
@@ -127,19 +158,20 @@ mod tests {
     #[test]
     fn a_row_counts_all_cases_and_those_with_a_law_apart() {
         let case = |has_law: bool, explained: f64, wrong: bool| Compared {
+            hidden: "a drag".to_owned(),
             place: String::new(),
             has_law,
-            scores: vec![scored(super::super::OWN, 0.0, None), scored("peer", explained, Some(wrong))],
+            scores: vec![scored(OWN, 0.0, None), scored("peer", explained, Some(wrong))],
             versions: std::collections::BTreeMap::new(),
         };
-        let cases = [case(true, 0.9, true), case(false, 0.1, false), case(false, 0.3, true)];
+        let cases = [case(true, 0.9, true), case(false, -0.1, false), case(false, 0.3, true)];
         let all: Vec<&Compared> = cases.iter().collect();
-        let table = table(&all, Some(4.0));
-        let cells: Vec<&str> = table.rows[1].iter().map(|c| c.text.as_str()).collect();
-        assert_eq!(cells, ["peer", "3", "3", "0.30", "0.90", "-", "3", "2 of 3", "-"]);
-        let own: Vec<&str> = table.rows[0].iter().map(|c| c.text.as_str()).collect();
-        assert_eq!(own, [super::super::OWN, "3", "none", "0.00", "0.00", "-", "-", "no formula", "4.0"]);
+        let tables = tables(&all, Some(4.0));
+        let row = |t: usize, r: usize| tables[t].rows[r].iter().map(|c| c.text.as_str()).collect::<Vec<_>>();
+        assert_eq!(row(0, 1), ["peer", "3", "3", "0.30", "0.90", "-", "1", "3", "2 of 3", "-"]);
+        assert_eq!(row(0, 0), [OWN, "3", "none", "0.00", "0.00", "-", "0", "-", "no formula", "4.0"]);
+        assert_eq!(row(1, 1), ["a drag", "", "no", "0.00", "-0.10"]);
         assert!(figures(&all).iter().any(|f| f.name.contains("peer: formulas with wrong units") && f.value > 0.6));
-        assert!(figures(&[]).is_empty());
+        assert!(figures(&[]).is_empty() && super::tables(&[], None).is_empty());
     }
 }
