@@ -32,6 +32,10 @@ impl Row<'_> {
         self.middle(|_, s| s.of_hidden)
     }
 
+    fn of_hidden_with_law(&self) -> Option<f64> {
+        self.middle(|case, s| s.of_hidden.filter(|_| case.has_law))
+    }
+
     /// Errs more than if nothing acted.
     fn worse_than_nothing(&self) -> Rate {
         self.scores.iter().map(|(_, s)| s.explained < 0.0).collect()
@@ -59,6 +63,7 @@ pub(in super::super) fn figures(all: &[&Compared]) -> Vec<Figure> {
             ("share of the left-out series explained, median", row.explained()),
             ("the same where a law is told, median", row.explained_with_law()),
             ("share of the hidden law explained, median", row.of_hidden()),
+            ("the same of the hidden law where a law is told, median", row.of_hidden_with_law()),
             ("worse than nothing", row.worse_than_nothing().share()),
             ("formulas with wrong units", row.wrong_units().share()),
         ];
@@ -111,7 +116,8 @@ fn by_method(all: &[&Compared], own_seconds: Option<f64>) -> Section {
         "formulas",
         "explained: all",
         "where a law is told",
-        "of the hidden curve",
+        "of the hidden curve: all",
+        "where a law is told",
         "worse than nothing",
         "parts",
         "wrong units",
@@ -130,6 +136,7 @@ fn by_method(all: &[&Compared], own_seconds: Option<f64>) -> Section {
             share(row.explained()).into(),
             share(row.explained_with_law()).into(),
             share(row.of_hidden()).into(),
+            share(row.of_hidden_with_law()).into(),
             row.worse_than_nothing().hits.to_string().into(),
             parts.map_or_else(|| "-".to_owned(), |n| format!("{n:.0}")).into(),
             (if units.count == 0 { "no formula".to_owned() } else { units.counted() }).into(),
@@ -168,8 +175,8 @@ mod tests {
         let all: Vec<&Compared> = cases.iter().collect();
         let tables = tables(&all, Some(4.0));
         let row = |t: usize, r: usize| tables[t].rows[r].iter().map(|c| c.text.as_str()).collect::<Vec<_>>();
-        assert_eq!(row(0, 1), ["peer", "3", "3", "0.30", "0.90", "-", "1", "3", "2 of 3", "-"]);
-        assert_eq!(row(0, 0), [OWN, "3", "none", "0.00", "0.00", "-", "0", "-", "no formula", "4.0"]);
+        assert_eq!(row(0, 1), ["peer", "3", "3", "0.30", "0.90", "-", "-", "1", "3", "2 of 3", "-"]);
+        assert_eq!(row(0, 0), [OWN, "3", "none", "0.00", "0.00", "-", "-", "0", "-", "no formula", "4.0"]);
         assert_eq!(row(1, 1), ["a drag", "", "no", "0.00", "-0.10"]);
         assert!(figures(&all).iter().any(|f| f.name.contains("peer: formulas with wrong units") && f.value > 0.6));
         assert!(figures(&[]).is_empty() && super::tables(&[], None).is_empty());
