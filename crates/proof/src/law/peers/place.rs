@@ -49,9 +49,10 @@ mod tests {
     use super::*;
 
     fn truth(id: &str, kind: Option<&str>, side: Option<&str>) -> EffectTruth {
-        let mut e = EffectTruth::new(id.to_owned(), 1.0);
-        (e.kind, e.side) = (kind.map(str::to_owned), side.map(str::to_owned));
-        e
+        let json = serde_json::json!({
+            "id": id, "kind": kind, "side": side, "severity": 1, "magnitude": 1.0, "excess": 2.0,
+        });
+        serde_json::from_value(json).expect("an effect")
     }
 
     #[test]
