@@ -28,6 +28,11 @@ impl Unit {
     /// Of a torque times an angular rate, radians left standing.
     pub(crate) const POWER: Self = Self { m: 2, kg: 1, s: -3, rad: 1 };
 
+    /// Its exponents of m, kg, s and rad.
+    pub fn exponents(self) -> [i8; 4] {
+        [self.m, self.kg, self.s, self.rad]
+    }
+
     /// The unit of a quantity's power.
     #[must_use]
     pub fn power(self, n: u8) -> Self {

@@ -3,7 +3,8 @@
 use scalar::{Scalar, real};
 
 use crate::error::LawError;
-use crate::motion::Motion;
+use crate::motion::{Input, Motion};
+use crate::place::Place;
 use crate::settings::SETTINGS;
 use crate::unit::Unit;
 
@@ -131,6 +132,13 @@ impl Variable {
         Ok(variable)
     }
 
+    /// Its value at an instant as an input of a place sees it, in [`Variable::unit`], a heading within ±π; `None` where the
+    /// place does not act on that input.
+    pub fn seen_by(self, place: Place, input: Input, m: &Motion<f64>) -> Option<f64> {
+        let (_, of) = place.inputs().iter().find(|(own, _)| *own == input)?;
+        Some(if self == Self::Heading { m.heading[1].atan2(m.heading[0]) } else { self.value(m, *of) })
+    }
+
     /// Its value at an instant; of the heading, which is no number here, zero.
     #[inline(always)]
     pub(crate) fn value<T: Scalar>(self, m: &Motion<T>, of: Of) -> T {
@@ -159,4 +167,21 @@ impl Variable {
 #[inline(always)]
 pub(crate) fn held<T: Scalar>(x: T) -> T {
     x.max(real(-SETTINGS.guard.most)).min(real(SETTINGS.guard.most))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_sees_the_variables_of_its_own_side_and_a_moment_half_their_difference() {
+        let m = Motion { wheel_speed: [2.0, 5.0], heading: [0.0, -1.0], ..Motion::default() };
+        let of = |place, input| Variable::WheelSpeed.seen_by(place, input, &m);
+        assert_eq!(of(Place::TorqueBoth, Input::Torque(1)), Some(5.0));
+        assert_eq!(of(Place::TorqueLeft, Input::Torque(1)), None);
+        assert_eq!(of(Place::YawMoment, Input::Moment), Some(1.5));
+        assert_eq!(of(Place::ForceForward, Input::Force(0)), Some(3.5));
+        let heading = Variable::Heading.seen_by(Place::YawMoment, Input::Moment, &m);
+        assert_eq!(heading, Some(-std::f64::consts::FRAC_PI_2));
+    }
 }

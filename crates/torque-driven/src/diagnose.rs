@@ -31,7 +31,7 @@ const PRICES: Prices = decision::SETTINGS.prices;
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
     /// The robot, on the chassis that drives show where its file does not say it.
-    robot: Robot<f64>,
+    pub(crate) robot: Robot<f64>,
     /// That it has a motor at each wheel, where drives show it.
     four_motors: Option<Found>,
     /// What references or logs of a simulator gain by that, nats.
@@ -40,9 +40,9 @@ pub struct Calibrated {
     pub(crate) simulator: Option<Simulator>,
     references: Vec<Cut>,
     /// Visits of the references.
-    visits: Vec<Option<Visit>>,
-    calibration: Calibration,
-    largest_torque: f64,
+    pub(crate) visits: Vec<Option<Visit>>,
+    pub(crate) calibration: Calibration,
+    pub(crate) largest_torque: f64,
     /// Effects of one's own that no free run of the references can hold.
     runaways: Vec<Runaway>,
 }
@@ -364,7 +364,7 @@ pub fn diagnose(case: &Case, options: &Options, progress: &dyn Fn(&str)) -> Resu
 }
 
 /// Writes down which visit each run is of.
-fn number(cuts: &mut [Cut], visits: &[usize]) {
+pub(crate) fn number(cuts: &mut [Cut], visits: &[usize]) {
     cuts.iter_mut().zip(visits).for_each(|(cut, visit)| cut.visit = Some(*visit));
 }
 

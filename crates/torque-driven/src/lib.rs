@@ -100,6 +100,7 @@ pub use diagnose::{Calibrated, diagnose};
 pub use fitted_robot::{FittedConstant, FittedRobot, fit_logs};
 pub use forward::{forecast, simulate, simulate_at_speed};
 pub use run::Run;
+pub use unnamed::ResidualWindow;
 pub use visit::{KnownBy, Visit};
 
 /// Every tuned number of this crate, for the page of settings.

@@ -75,7 +75,7 @@ fn distance(law: &Law, rows: &BTreeMap<String, Vec<LawRow>>, robot: &Robot<f64>,
 }
 
 /// What the hidden law does through an input.
-fn acting(at: &LawRow, input: Input) -> f64 {
+pub(super) fn acting(at: &LawRow, input: Input) -> f64 {
     match input {
         Input::Torque(side) => at.acting.torque[side.min(1)],
         Input::Force(axis) => at.acting.force[axis.min(1)],

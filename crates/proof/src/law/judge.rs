@@ -5,12 +5,13 @@ use serde::Serialize;
 
 use super::events::{EventScore, score};
 use super::foreign::{ForeignScore, is_foreign, places};
+use super::peers::Compared;
 use verdict::{Claim, Diagnosis, LawFreeRun};
 
 /// Effects that are laws: id, symbols of right places, names of right factors (any of them).
 ///
 /// A slope is a force as well, and rolling resistance of all wheels a torque or a force.
-const LAWS: [(&str, &[&str], &[&str]); 14] = [
+pub(super) const LAWS: [(&str, &[&str], &[&str]); 14] = [
     ("viscous_friction", &["T_both", "F_x", "F_xy"], &["pow(omega", "pow(v,", "sgn", "clip", "excess"]),
     ("coulomb_friction", &["T_both", "F_x", "F_xy"], &["sgn", "clip"]),
     ("coulomb_side", &["T_left", "T_right"], &["sgn", "clip"]),
@@ -52,7 +53,7 @@ pub(super) fn is_law(id: &str) -> bool {
 }
 
 /// A case with its judgement.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Judged {
     /// The hidden effect; `None` where nothing was.
     pub(super) hidden: Option<String>,
@@ -70,6 +71,8 @@ pub(super) struct Judged {
     pub(super) events: Option<EventScore>,
     /// A law of another grammar that is hidden, with what the law that was told is worth beside it.
     pub(super) foreign: Option<ForeignScore>,
+    /// What other methods made of the same residual series.
+    pub(super) peers: Option<Compared>,
 }
 
 /// Whether a truth is one of short events.
@@ -110,6 +113,7 @@ pub(super) fn judged(truth: &Truth, d: &Diagnosis) -> Judged {
         hidden: hidden.map(|e| e.kind.clone().filter(|_| e.id == OUTSIDE).unwrap_or_else(|| e.id.clone())),
         events: hidden.filter(|e| is_short(e)).map(|_| score(truth, d)),
         foreign: None,
+        peers: None,
         is_outside: outside.is_some(),
         claim: d.law.as_ref().map(|l| l.claim),
         kind_right: place_right && known.is_some_and(|(.., factors)| factors.iter().any(|f| formula.contains(f))),

@@ -7,6 +7,10 @@
 //! drawn robot with a foreign law   --> diagnosis                                  --> law, place, or nothing
 //! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
 //! ```
+//!
+//! With `--peers` other methods get the same residual series, and all predict a recording that was left out.
+
+use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{self, CaseFolder};
@@ -23,9 +27,12 @@ use crate::output;
 mod events;
 mod foreign;
 mod judge;
+mod peers;
+mod processor;
 mod tables;
 
 use judge::{Judged, judged};
+use peers::{Compared, Python};
 
 /// Arguments of `cargo xtask law`.
 #[derive(Debug, ClapArgs)]
@@ -55,14 +62,23 @@ pub(crate) struct Args {
     /// Only robots with these hidden effects.
     #[arg(long, value_delimiter = ',')]
     only: Vec<String>,
+    /// Compare with PySINDy, gplearn, a network and a Gaussian process on the same residual series, where a law is hidden: robots
+    /// then have four recordings, and the last is left out for all. Needs a Python that has them: LACUNA_PEERS_PYTHON names it.
+    #[arg(long)]
+    peers: bool,
 }
+
+/// Recordings of a robot with peers: one is left out.
+const RECORDINGS_WITH_PEERS: usize = 4;
 
 /// Runs the command; true if all that is asked is met.
 pub(crate) fn run(args: &Args) -> Result<bool> {
+    let python = if args.peers { Some(Python::named()?) } else { None };
     let folder = output::folder("law")?;
     let single = Mix { null: 0.0, single: 1.0, pair: 0.0, outsider: 0.0, triple: 0.0 };
     let null = Mix { null: 1.0, single: 0.0, ..single };
-    let settings = Settings { references: args.references, ..Settings::default() };
+    let recordings = args.peers.then_some(RECORDINGS_WITH_PEERS);
+    let settings = Settings { references: args.references, recordings, ..Settings::default() };
     let mut plans = examiner::set(args.seed, args.count, single, &settings);
     plans.extend(examiner::set(args.seed + 1, args.fault_free, null, &settings));
     let outside = Mix { outsider: 1.0, single: 0.0, ..single };
@@ -74,12 +90,15 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
 
     let bar = output::progress(plans.len() as u64, "robots")?;
     let one = |(i, plan): (usize, &Plan)| {
-        let out = case(plan, &folder.join(format!("{i:03}")), &args.only).with_context(|| format!("case {i}"));
+        let own = folder.join(format!("{i:03}"));
+        let out = case(plan, &own, &args.only, python.as_ref()).with_context(|| format!("case {i}"));
         bar.inc(1);
         out
     };
+    let began = processor::seconds();
     let tried: Vec<Result<Option<Judged>>> = plans.par_iter().enumerate().map(one).collect();
     bar.finish_and_clear();
+    let spent = processor::seconds().zip(began).map(|(now, then)| now - then);
     let mut failed = 0;
     let mut kept = Vec::new();
     for outcome in tried {
@@ -92,10 +111,14 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         }
     }
 
-    let figures = tables::figures(&kept);
+    let compared: Vec<&Compared> = kept.iter().filter_map(|j| j.peers.as_ref()).collect();
+    let mut figures = tables::figures(&kept);
+    let mut sections = tables::all(&kept, &figures);
+    sections.extend(peers::tables(&compared, spent.map(|s| s / kept.len().max(1) as f64)));
+    figures.extend(peers::figures(&compared));
     output::write(&folder, "summary.json", &serde_json::to_string_pretty(&figures)?)?;
     output::write(&folder, "cases.json", &serde_json::to_string_pretty(&kept)?)?;
-    println!("{}", to_text(&tables::all(&kept, &figures)));
+    println!("{}", to_text(&sections));
     Ok(failed == 0 && figures.iter().all(|f| f.pass != Some(false)))
 }
 
@@ -112,7 +135,7 @@ fn with_law((i, mut plan): (usize, Plan)) -> Plan {
 }
 
 /// Draws and diagnoses a case; `None` where its effect is no law, or is not asked for.
-fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option<Judged>> {
+fn case(plan: &Plan, folder: &Path, only: &[String], python: Option<&Python>) -> Result<Option<Judged>> {
     let drawn = plan.draw()?;
     let hidden = drawn.truth.effects.first().cloned();
     let id = hidden.as_ref().map(|e| e.id.as_str());
@@ -132,12 +155,17 @@ fn case(plan: &Plan, folder: &std::path::Path, only: &[String]) -> Result<Option
     let all = robot_model::effects::catalogue::<f64>();
     let without = id.and_then(|id| all.iter().map(|e| e.spec().id).find(|known| *known == id));
     let options = Options { without, law: SearchForLaw::Always, ..Options::default() };
-    let diagnosis = torque_driven::diagnose(&case, &options, &|_| ())?;
-    std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
+    let python = python.filter(|_| hidden.as_ref().is_some_and(|e| peers::true_place(e).is_some()));
+    let used = if python.is_some() { peers::without_last(&case) } else { case.clone() };
+    let diagnosis = torque_driven::diagnose(&used, &options, &|_| ())?;
     let mut judged = judged(&drawn.truth, &diagnosis);
     if hidden.as_ref().is_some_and(foreign::is_foreign) {
         let told = diagnosis.law.as_ref().filter(|l| l.claim == Claim::Law).and_then(|l| l.law.as_ref());
         judged.foreign = Some(foreign::score(told, &drawn.law_rows, &case.robot, 1.0 / plan.settings.row_rate_hz));
     }
+    if let Some(python) = python {
+        judged.peers = Some(peers::compare(python, folder, (&drawn, &case), &options, (&diagnosis, &judged))?);
+    }
+    std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
     Ok(Some(judged))
 }

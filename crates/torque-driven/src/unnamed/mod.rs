@@ -10,6 +10,7 @@
 //! * `series`: what an arbitrary input would have been, window by window.
 //! * `events`: instants at which something acts, where no law fits.
 //! * `place`: where something acts, where neither a law nor events are told.
+//! * `residual`: the same at one place as plain data, beside what a law may depend on: for laws of other hands.
 //! * `shared`: what such events have in common.
 //! * `told`: the law as plain data of the verdict.
 
@@ -21,6 +22,7 @@ mod operator;
 mod place;
 mod rank;
 mod refit;
+mod residual;
 mod series;
 mod shared;
 mod signals;
@@ -29,5 +31,6 @@ mod tests;
 mod told;
 
 pub(crate) use acting::{Acting, InRecording};
+pub use residual::ResidualWindow;
 pub(crate) use signals::Signals;
 pub(crate) use told::{Asked, tell};

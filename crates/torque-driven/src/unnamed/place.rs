@@ -4,7 +4,7 @@ use inference::robust;
 use verdict::FoundPlace;
 
 use super::acting::Inputs;
-use super::arbitrary::{Acts, Standing, given};
+use super::arbitrary::{Acts, Instant, Standing, given};
 use super::gate::References;
 use super::series::{Ground, Seen, Series};
 use crate::fit::Fitted;
@@ -24,7 +24,7 @@ pub(super) fn find(
     references: Option<&References<'_>>,
 ) -> Option<FoundPlace> {
     let (best, others) = all.split_first()?;
-    let inputs = best.throughout(ground)?;
+    let (inputs, _) = best.throughout(ground)?;
     let standing = Standing::new(judged, retuned, &inputs);
     let score = best.evidence / standing.misfit;
     // Of a robot that lacks nothing an arbitrary input explains the little that there is.
@@ -36,7 +36,7 @@ pub(super) fn find(
     let own = strength(&inputs).filter(|s| *s > 0.0)?;
     let in_references = match references {
         Some(references) => {
-            let elsewhere = references.at(best, |ground, acts| strength(&acts.throughout(ground)?))?;
+            let elsewhere = references.at(best, |ground, acts| strength(&acts.throughout(ground)?.0))?;
             Some((elsewhere / own).powi(2))
         }
         None => None,
@@ -56,24 +56,26 @@ pub(super) fn find(
 }
 
 impl Acts {
-    /// The most probable input of every window, about free runs with it while their cost falls.
-    fn throughout(&self, ground: &Ground<'_>) -> Option<Inputs> {
+    /// The most probable input of every window, about free runs with it while their cost falls; and the same window by window
+    /// with its sigma.
+    pub(super) fn throughout(&self, ground: &Ground<'_>) -> Option<(Inputs, Vec<Instant>)> {
         let everywhere = self.series.everywhere();
         let p = ground.problem;
-        let with = |inputs: Inputs| {
+        let with = |instants: Vec<Instant>| {
+            let inputs = self.inputs_at(p, &instants);
             let response = given(p, ground.base, &inputs);
-            (p.misfit(&response), inputs, response)
+            (p.misfit(&response), inputs, response, instants)
         };
-        let mut best = with(self.inputs_at(p, &self.instants(ground, &everywhere, &self.solved, 1.0)));
+        let mut best = with(self.instants(ground, &everywhere, &self.solved, 1.0));
         for _ in 1..EVENTS.rounds {
             let seen = Seen { response: &best.2, inputs: &best.1 };
             let solved = Series::new(ground, &self.inputs, Some(&seen))?.solve(&everywhere, self.size)?;
-            let next = with(self.inputs_at(p, &self.instants(ground, &everywhere, &solved, 1.0)));
+            let next = with(self.instants(ground, &everywhere, &solved, 1.0));
             if next.0 >= best.0 {
                 break;
             }
             best = next;
         }
-        Some(best.1)
+        Some((best.1, best.3))
     }
 }

@@ -34,6 +34,11 @@ impl Signals {
         self.0.iter().flatten().flatten().flat_map(move |m| of_sides(m, v))
     }
 
+    /// Motions in the parts of a window of a recording.
+    pub(crate) fn window(&self, run: usize, window: usize) -> &[Motion<f64>] {
+        self.0.get(run).and_then(|windows| windows.get(window)).map_or(&[], |parts| parts.as_slice())
+    }
+
     /// Mean of a variable, left and right, in every window of every recording.
     pub(crate) fn means(&self, v: Variable) -> Vec<Vec<[f64; 2]>> {
         let window = |parts: &[Motion<f64>; PARTS]| {
