@@ -5,7 +5,7 @@ use crate::level::levels;
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, changes::Scrub};
 use crate::straight::Reading;
-use inference::robust::{NINETY, median};
+use inference::robust::{NINETY, mean, median, rms};
 use verdict::{TurningChange, Way};
 
 const SCRUB: Scrub = CHANGES.scrub;
@@ -15,6 +15,9 @@ const SCRUB: Scrub = CHANGES.scrub;
 pub(crate) struct Sides {
     factor: [f64; 2],
     known: bool,
+    /// Least and most that a turn may take on the references' ground, N m, where they turned often enough to tell: arcs of another
+    /// radius, and spins beside arcs, cost another torque.
+    range: Option<[f64; 2]>,
 }
 
 impl Sides {
@@ -32,7 +35,31 @@ impl Sides {
         let mean = [0, 1].map(|j| sum[j] / f64::max(rows[j], 1.0));
         let middle = 0.5 * (mean[0] + mean[1]);
         let known = seconds.iter().all(|s| *s >= SCRUB.one_way) && mean.iter().all(|m| *m > 0.0);
-        Self { factor: if known { mean.map(|m| m / middle) } else { [1.0; 2] }, known }
+        let out = Self { factor: if known { mean.map(|m| m / middle) } else { [1.0; 2] }, known, range: None };
+        Self { range: out.range_of(references), ..out }
+    }
+
+    /// What turns of the references took, from the least to the most, each with their scatter beyond.
+    fn range_of(self, references: &[SpeedRun]) -> Option<[f64; 2]> {
+        let of_run = |run: &SpeedRun| -> Vec<f64> {
+            let readings = readings(run, self);
+            let rows: Vec<usize> = (0..readings.len()).collect();
+            let turns = rows.chunk_by(|&a, &b| readings[a].is_some() == readings[b].is_some());
+            let lasting = turns.filter(|turn| turn.len() as f64 * run.period() >= SCRUB.turn);
+            let mean_of = |turn: &[usize]| mean(turn.iter().filter_map(|&i| readings[i]).map(Reading::value));
+            lasting.filter_map(mean_of).filter(|torque| *torque > 0.0).collect()
+        };
+        let turns: Vec<f64> = references.iter().flat_map(of_run).collect();
+        let middle = median(turns.iter().copied()).filter(|_| turns.len() >= SCRUB.turns)?;
+        let scatter = rms(turns.iter().map(|torque| (torque / middle).ln()))?.max(SCRUB.scatter);
+        let wider = 1.0 + NINETY * scatter;
+        let [least, most] = turns.iter().fold([middle; 2], |[a, b], torque| [a.min(*torque), b.max(*torque)]);
+        Some([least / wider, most * wider])
+    }
+
+    /// Whether a turn of the references may have taken as much.
+    fn is_usual(self, torque: f64) -> bool {
+        self.range.is_some_and(|[least, most]| least <= torque && torque <= most)
     }
 }
 
@@ -106,7 +133,7 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
         let ratio = mean / base;
         let of_readings = (spread / (CHANGES.levels.per_second * seconds)).sqrt() / base;
         let half = NINETY * (SCRUB.scatter * std::f64::consts::SQRT_2 * ratio).hypot(of_readings);
-        if (ratio - 1.0).abs() < half {
+        if (ratio - 1.0).abs() < half || sides.is_usual(mean) {
             continue;
         }
         // A middle between two grounds makes the usual one of them look like another.
@@ -148,7 +175,7 @@ mod tests {
     use super::*;
     use crate::testing::{Leg, drive};
 
-    const EQUAL: Sides = Sides { factor: [1.0; 2], known: true };
+    const EQUAL: Sides = Sides { factor: [1.0; 2], known: true, range: None };
 
     /// Straight driving and turns both ways, some rounds of it, at a scrub couple.
     fn rounds(n: usize, scrub: f64) -> Vec<Leg> {
@@ -191,6 +218,19 @@ mod tests {
         let both = own([left(), right(), vec![Leg { scrub: 45.0, ..Leg::right(12.0) }]].concat());
         let found = turning_changes(&drive(&both, false), Some(25.5), sides);
         assert_eq!(found.iter().map(|c| c.one_way).collect::<Vec<_>>(), [Some(Way::Right)], "{found:?}");
+    }
+
+    #[test]
+    fn what_turns_of_the_references_took_is_no_other_ground() {
+        // Arcs of other radii cost from a little less to a half more.
+        let mixed = |n: usize| [rounds(n, 18.0), rounds(n, 36.0)].concat();
+        let sides = Sides::of(&[drive(&mixed(3), false)]);
+        let run = |scrub: f64| drive(&[rounds(5, 20.0), rounds(3, scrub)].concat(), false);
+        assert_ne!(turning_changes(&run(36.0), Some(25.5), EQUAL), [], "nobody knows what turns take");
+        assert_eq!(turning_changes(&run(36.0), Some(25.5), sides), []);
+        assert_eq!(turning_changes(&run(90.0), Some(25.5), sides).len(), 1);
+        // A few turns say little.
+        assert_eq!(Sides::of(&[drive(&rounds(2, 36.0), false)]).range, None);
     }
 
     #[test]

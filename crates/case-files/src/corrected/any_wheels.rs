@@ -66,7 +66,9 @@ fn inputs<'a>(names: &'a [String], columns: &[(String, f64)]) -> Vec<Input<'a>> 
 fn retuned(stated: &AnyWheels, tuning: &BTreeMap<String, f64>) -> Vec<String> {
     let differs = |c: &Constant| {
         let found = tuning.get(&c.name).copied().filter(|found| rounded(*found) != rounded(c.given))?;
-        Some(format!("{}: {} {}, re-tuned from {}", c.name, rounded(found), c.unit, rounded(c.given)))
+        let number = |x: f64| format!("{x:.4e}").parse::<f64>().unwrap_or(x);
+        let unit = if c.unit == "1" { String::new() } else { format!(" {}", c.unit) };
+        Some(format!("{}: {}{unit}, re-tuned from {}", c.name, number(found), number(c.given)))
     };
     constants(stated, true, true).iter().filter_map(differs).collect()
 }

@@ -63,7 +63,9 @@ impl AnyWheelsModel<'_> {
 
     fn heading(&self, engine: Engine) -> Vec<String> {
         let takes = match engine {
-            Engine::Mjcf => "Actuators have the names of motors and steering joints and take what is recorded of them",
+            Engine::Mjcf => {
+                "Actuators have the names of motors, and of steering joints behind steer_, and take what is recorded of them"
+            }
             Engine::Urdf | Engine::Sdf => "Joints of wheels take torques, joints named steer_ take angles",
         };
         let first = format!(

@@ -83,6 +83,42 @@ fn rollers_that_lie_askew_have_their_direction_in_sdf_and_are_refused_for_mujoco
 }
 
 #[test]
+fn inertias_of_wheels_are_of_bodies_that_can_be() {
+    for (name, _) in BUILT_IN {
+        let read =
+            urdf_rs::read_from_string(&exported(&robot(name), Engine::Urdf).expect("a model").text).expect("URDF");
+        for link in read.links.iter().filter(|l| l.inertial.mass.value > 0.0) {
+            let i = &link.inertial.inertia;
+            assert!(i.ixx + i.izz >= i.iyy && i.ixx + i.iyy >= i.izz, "{name} {}: {i:?}", link.name);
+        }
+    }
+}
+
+#[test]
+fn what_a_unit_of_a_command_is_stands_in_the_actuator_or_is_told() {
+    let file = robot("torque-tricycle");
+    let model = |engine: Engine| {
+        AnyWheelsModel {
+            name: "cart",
+            robot: &file.robot.plant,
+            wheels: &file.robot.wheels,
+            motors: &file.robot.motors.iter().map(|name| Input { name, per_unit: 0.73 }).collect::<Vec<_>>(),
+            joints: &file.robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+            point: [0.0; 3],
+            told: &[],
+        }
+        .export(engine)
+        .expect("a model")
+    };
+    assert!(model(Engine::Mjcf).text.contains("gainprm=\"0.73\"") && model(Engine::Mjcf).notes.is_empty());
+    for engine in [Engine::Urdf, Engine::Sdf] {
+        let told = model(engine).notes.join("; ");
+        assert!(told.contains("the command of motor front is: multiply it by 0.73 to have N m"), "{told}");
+        assert!(!told.contains("to have rad"), "{told}");
+    }
+}
+
+#[test]
 fn parts_without_names_are_refused() {
     let mut file = robot("torque-car");
     file.robot.motors.clear();

@@ -8,6 +8,7 @@ use super::{AnyWheelsModel, Input};
 use crate::gazebo::Slip;
 use crate::inertia::{ACROSS, HEAVIEST, LEFT, Part, rest, together};
 use crate::model::ExportError;
+use crate::number::number;
 
 /// Mass of what turns and has none in the plant, share of the robot's: knuckles. Engines want some.
 const LIGHT: f64 = 1e-4;
@@ -136,7 +137,8 @@ impl Vehicle {
         } else {
             // Joints of URDF and SDF have no rotor.
             for w in &mut wheels {
-                w.part.inertia[1] += w.rotor;
+                let spin = w.part.inertia[1] + w.rotor;
+                w.part.inertia = [ACROSS * spin, spin, ACROSS * spin];
             }
         }
         // Actuators share one space of names.
@@ -215,6 +217,15 @@ impl Vehicle {
         if !late.is_empty() {
             out.push(format!("lags of motors: filter torques where they are commanded, {}", late.join(", ")));
         }
+        let scaled = self.motors.iter().filter(|m| (m.gain - 1.0).abs() > ROUNDING);
+        out.extend(scaled.map(|m| {
+            format!("what a unit of the command of motor {} is: multiply it by {} to have N m", m.name, number(m.gain))
+        }));
+        let differs = |j: &&Joint| (j.gain - 1.0).abs() > ROUNDING || j.plant.offset.abs() > ROUNDING;
+        out.extend(self.joints.iter().filter(differs).map(|j| {
+            let (gain, offset) = (number(j.gain), number(j.plant.offset));
+            format!("what a unit of the command of {} is: multiply it by {gain} and add {offset} to have rad", j.name)
+        }));
         let shared = self.joints.iter().filter(|j| !j.is_of_one);
         out.extend(shared.map(|j| {
             let names: Vec<&str> = j.wheels.iter().map(|k| self.wheels[*k].name.as_str()).collect();
@@ -236,6 +247,9 @@ impl Vehicle {
         out
     }
 }
+
+/// Factors that differ from one, and angles from zero, by less are rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Names that engines take: letters, digits, underscores, each once.
 fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {

@@ -184,6 +184,10 @@ const fn degrees(x: f64) -> f64 {
         same: f64 = 1.25, "1", "guess";
         /// Scatter of such torques on one ground, as a share.
         scatter: f64 = 0.08, "1", "guess";
+        /// Turns of references that last so long say what turns take.
+        turn: f64 = 1.0, "s", "guess: as long as a current is filtered";
+        /// So many of them are needed.
+        turns: usize = 5, "1", "guess";
         /// Least steady turning that shows a change.
         least: f64 = 3.0, "s", "guess";
         /// A way counts as turned to, or a side as known, after so much steady turning.
