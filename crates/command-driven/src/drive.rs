@@ -8,7 +8,7 @@ use crate::run::{STEP, WINDOW};
 use crate::search::{Model, Part, Timed};
 use crate::settings::{DriveStarts, SETTINGS};
 use crate::windows::Windows;
-use inference::robust::select_quantile;
+use inference::robust::{MAD_TO_SIGMA, median, rms, select_quantile};
 use verdict::{DRIVE_CONSTANTS, Element, ResponseConstant};
 
 const STARTS: DriveStarts = SETTINGS.drive_starts;
@@ -45,6 +45,23 @@ impl<'a> DrivePart<'a> {
     /// Every piece's wheel speeds.
     pub(crate) fn wheels(&self, law: Law, x: &[f64]) -> Vec<Vec<[f64; 2]>> {
         self.windows.pieces.iter().map(|p| simulate(law, x, self.largest, p)).collect()
+    }
+}
+
+impl DrivePart<'_> {
+    /// Whether a model leaves more than noise: another law may then be as right. The scatter of neighbouring rows tells the noise.
+    pub(crate) fn is_inexact(&self, model: &Model<Law>) -> bool {
+        let residuals = self.residuals(model.law, &model.x);
+        let apart = 2 * SETTINGS.left.apart;
+        let second = |rows: &[f64]| -> Vec<f64> {
+            (apart..rows.len().saturating_sub(apart))
+                .map(|i| (rows[i + apart] - 2.0 * rows[i] + rows[i - apart]).abs())
+                .collect()
+        };
+        // White noise of σ has second differences of 6 σ².
+        let noise =
+            median(residuals.chunks(2 * WINDOW).flat_map(second)).map_or(0.0, |m| MAD_TO_SIGMA * m / 6f64.sqrt());
+        rms(residuals.iter().copied()).is_some_and(|rms| rms > SETTINGS.answer.inexact * noise)
     }
 }
 

@@ -3,10 +3,11 @@
 use rayon::prelude::*;
 use verdict::{Alternative, Element, Scaling};
 
-use crate::controller::Law;
+use crate::controller::{DEAD_TIME, Law};
 use crate::drive::DrivePart;
 use crate::ground::{self, GroundPart, TurnSlip};
 use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
+use crate::settings::SETTINGS;
 use crate::windows::Windows;
 
 /// What the simulation says: of the drive, of the ground.
@@ -116,9 +117,13 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
     }
     let second = attempt(&part, base, Law { second_order: true, ..best.model.law }, &full, None);
     tried.push(("second-order lag".to_owned(), second.clone()));
+    let mut other = second.clone();
     if evidence(windows, &best.loss, &second.loss).score > 0.0 {
-        best = second;
+        other = std::mem::replace(&mut best, second);
     }
+    // A lag of second order begins slowly, as a dead time does.
+    let is_near = other.level() <= SETTINGS.answer.near * best.level() && part.is_inexact(&best.model);
+    let other_dead_time = (is_near && other.has(DeadTime)).then(|| other.model.x[DEAD_TIME]);
     let mut found = Weighed::new();
     for extra in [ForwardLimit, SideGain] {
         let more: Vec<Element> = best.elements.iter().copied().chain([extra]).collect();
@@ -130,7 +135,8 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
             found.push((extra, e));
         }
     }
-    let (kept, each) = prune(&part, base, best);
+    let (mut kept, each) = prune(&part, base, best);
+    kept.other_dead_time = other_dead_time.filter(|_| kept.has(DeadTime));
     let mut alternatives: Vec<Alternative> =
         tried.iter().map(|(what, t)| alternative(windows, what.clone(), &t.loss, &kept.loss)).collect();
     let without = |e: Element| format!("without {}", crate::element_words::element(e));

@@ -136,6 +136,8 @@ pub fn diagnose_response(
     let confirms = |ratio: f64| ratio < SETTINGS.answer.confirmed;
     let is_confirmed = standing.as_ref().map_or([true; 2], |s| [s.over_nominal, s.over_retuned].map(confirms));
     let mut figures = figures(&left_out, &rivals.drive_only(None), has_position);
+    let [wheel_before, _, wheel_after, ..] = figures.wheel;
+    let is_drive_confirmed = confirms(wheel_after / wheel_before.max(f64::MIN_POSITIVE));
     if !unseen.list.is_empty() {
         let errors = rivals.unseen(&unseen);
         let position = case.held_out.iter().any(ResponseRun::has_position);
@@ -158,7 +160,7 @@ pub fn diagnose_response(
         &response.parameters,
         &moved,
         (off, nominal[1]),
-        (&remains, is_confirmed),
+        (&remains, [is_confirmed[0], is_confirmed[1], is_drive_confirmed]),
         &case.recordings,
     );
     let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
@@ -195,7 +197,7 @@ pub fn diagnose_response(
         out.limits.push(ONE_ONSET.to_owned());
     }
     let all = !case.references.is_empty();
-    out.sentences = words::sentences(&out, &response, &figures, nominal[1], all, &remains, begun);
+    out.sentences = words::sentences(&out, &response, (&figures, is_drive_confirmed), nominal[1], all, &remains, begun);
     out.traces = traces::traces(&case.recordings, &windows, &folds);
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     let corrected = if is_confirmed.contains(&true) { &corrected } else { &base };

@@ -24,6 +24,9 @@ fn probability(e: &Evidence) -> f64 {
     logistic(e.score)
 }
 
+/// Name of the dead time.
+const DEAD_TIME_ID: &str = "dead_time";
+
 /// Fitted constants of a part with their intervals.
 fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Parameter> {
     let sigmas = sigmas(part, t);
@@ -33,6 +36,9 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
         .filter_map(|(&k, sigma)| {
             let c: &ResponseConstant = &part.constants()[k];
             let (value, half) = told(part, t, k, sigma.map(|s| NINETY * s));
+            // Between what both laws say, with both inside the interval.
+            let apart = t.other_dead_time.filter(|_| c.id == DEAD_TIME_ID).map_or(0.0, |other| 0.5 * (other - value));
+            let (value, half) = (value + apart, half.map(|half| half.hypot(apart)));
             Some(Parameter {
                 element: belongs(k)?,
                 id: c.id.into(),
@@ -152,13 +158,13 @@ pub(crate) fn causes_of(present: &[Element]) -> impl Iterator<Item = &'static st
 ///
 /// `moved`: constants that the robot file may have wrong. `off`: what the wheels do otherwise than commanded, with its
 /// standard error. `is_confirmed`: whether forecasts of what was left out need any of it more than what was given,
-/// and than re-tuned constants.
+/// and than re-tuned constants, and of the wheels what lies between command and wheel.
 pub(crate) fn ranked(
     found: &Identified,
     parameters: &[Parameter],
     moved: &[Moved],
     (off, track): ([f64; 2], f64),
-    (remains, is_confirmed): (&Remains, [bool; 2]),
+    (remains, is_confirmed): (&Remains, [bool; 3]),
     runs: &[ResponseRun],
 ) -> Vec<Cause> {
     let mut out = Vec::new();
@@ -167,7 +173,9 @@ pub(crate) fn ranked(
         let own = found.evidence.iter().filter(|(e, _)| elements.contains(e));
         let of_file = moved.iter().find(|m| elements.contains(&m.element)).map_or(0.0, |m| m.probability);
         let is_tuned = elements.iter().all(|e| [Element::Radius, Element::Track].contains(e));
-        let trust = if is_confirmed[usize::from(!is_tuned)] { 1.0 } else { ANSWER.unconfirmed };
+        let is_of_drive = elements.iter().all(|e| e.is_drive());
+        let is_confirmed = is_confirmed[usize::from(!is_tuned)] && (is_confirmed[2] || !is_of_drive);
+        let trust = if is_confirmed { 1.0 } else { ANSWER.unconfirmed };
         let p = trust * (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         if p < ANSWER.listed {
             present.push(p);
@@ -252,6 +260,8 @@ pub(crate) fn simulated(base: &Base) -> [&[f64]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::{Identify, OfDrive, neutral};
+    use crate::testing::Truth;
 
     #[test]
     fn causes_are_those_of_the_catalogue_and_every_element_belongs_to_one() {
@@ -261,6 +271,30 @@ mod tests {
         elements.sort_unstable();
         let last = Element::SideRadius as usize;
         assert_eq!(elements.iter().map(|e| *e as usize).collect::<Vec<_>>(), (0..=last).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_lag_of_the_other_order_leaves_the_dead_time_open_where_neither_is_exact() {
+        let identified = |truth: &Truth| {
+            let windows = Windows::new(&[truth.run("a", 30, 1), truth.run("b", 20, 2)]);
+            let trial = OfDrive.identify(&windows, &neutral(&windows).drive).trial;
+            (windows, trial)
+        };
+        let dead_time = |windows: &Windows, trial: &Trial<_>| {
+            let part = OfDrive.part(windows);
+            let all = parameters(&part, trial, &part.neutral());
+            all.into_iter().find(|p| p.id == DEAD_TIME_ID).expect("a dead time")
+        };
+        let (windows, mut trial) = identified(&Truth::stock());
+        assert_eq!(trial.other_dead_time, None, "the law is exact");
+        let own = dead_time(&windows, &trial);
+        trial.other_dead_time = Some(own.value + 0.1);
+        let both = dead_time(&windows, &trial);
+        approx::assert_relative_eq!(both.value, own.value + 0.05, max_relative = 1e-9);
+        assert!(both.half_width > Some(0.05) && both.half_width < Some(0.08), "{both:?}");
+        // Wheels that follow no law of the two.
+        let swaying = Truth { wheel_push: |t, _| 0.3 * (1.3 * t).sin(), ..Truth::stock() };
+        assert!(identified(&swaying).1.other_dead_time.is_some());
     }
 
     #[test]

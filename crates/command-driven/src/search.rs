@@ -57,6 +57,8 @@ pub(crate) struct Trial<L> {
     pub(crate) folds: Vec<Model<L>>,
     /// Left-out loss of each window (Huber).
     pub(crate) loss: Vec<f64>,
+    /// The dead time with a lag of the other order, s, where that forecasts nearly as well.
+    pub(crate) other_dead_time: Option<f64>,
     /// What held before it, where it began inside recordings; it was then fitted to the windows since.
     pub(crate) began: Option<Box<Began<L>>>,
 }
@@ -248,7 +250,7 @@ pub(crate) fn attempt<P: Part>(
         .collect();
     let by_fold: Vec<Vec<f64>> = folds.par_iter().map(|m| losses(part, m)).collect();
     let loss = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w]).collect();
-    Trial { elements: elements.to_vec(), free, model, folds, loss, began: None }
+    Trial { elements: elements.to_vec(), free, model, folds, loss, other_dead_time: None, began: None }
 }
 
 impl<L: Copy + PartialEq> Trial<L> {

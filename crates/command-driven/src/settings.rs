@@ -126,6 +126,10 @@
         /// A dead time or lag below this is no finding.
         least_delay: f64 = 0.04, "s",
             "rows of 0.05 s tell no better when a wheel changed; chosen after a look at 120 drawn cases";
+        /// A lag of the other order leaves open how long the dead time is where its left-out loss is at most so many times as large.
+        near: f64 = 2.0, "1", "guess; three robots of another hand with a control loop that overshoots had 1.2 to 1.5";
+        /// The same where the law leaves more than so many times the noise.
+        inexact: f64 = 2.0, "1", "guess";
         /// Error of forecasts of what was left out over that with re-tuned constants, from which on it confirms no cause.
         confirmed: f64 = 0.95, "1",
             "guess: 5 % are as little as nothing; of 40 robots of another hand true causes left 0.04 to 0.74, and false ones 0.89 and more";

@@ -38,7 +38,7 @@ fn list(r: &Response, items: &[(&str, &str)]) -> Vec<String> {
 pub(crate) fn sentences(
     d: &Diagnosis,
     r: &Response,
-    figures: &Figures,
+    figures: (&Figures, bool),
     track: f64,
     references: bool,
     remains: &Remains,
@@ -115,12 +115,19 @@ fn where_left(remains: &Remains) -> String {
 }
 
 /// What the named causes say.
-fn explained(d: &Diagnosis, r: &Response, figures: &Figures, track: f64, references: bool) -> Vec<String> {
+/// `is_drive_confirmed`: whether forecasts of the wheels gain by what was fitted between command and wheel.
+fn explained(
+    d: &Diagnosis,
+    r: &Response,
+    (figures, is_drive_confirmed): (&Figures, bool),
+    track: f64,
+    references: bool,
+) -> Vec<String> {
     if d.verdict == Verdict::NoMismatch {
         let none = "No mismatch: the wheels do what is commanded and the body follows them, as the simulation says.";
         return std::iter::once(none.to_owned()).chain(retuned(d)).collect();
     }
-    let drive = r.parameters.iter().any(|p| p.element.is_drive());
+    let drive = is_drive_confirmed && r.parameters.iter().any(|p| p.element.is_drive());
     let ground = r.parameters.iter().any(|p| !p.element.is_drive());
     let simulation = if references { "the references' response" } else { "the command" };
     let mut out = Vec::new();
