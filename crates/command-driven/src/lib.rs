@@ -185,13 +185,9 @@ pub fn diagnose_response(
         let doubt = standing.as_ref().and_then(|standing| standing.doubt(&out.free_runs, None));
         out.limits.extend(ratio.map(words::not_taken).or(doubt));
     }
-    let begun: Vec<String> = [
-        words::begun(&OfDrive, &found.drive, &case.recordings),
-        words::begun(&OfGround { nominal }, &found.ground, &case.recordings),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let of_drive = words::begun(&OfDrive, &found.drive, &case.recordings);
+    let of_ground = words::begun(&OfGround { nominal }, &found.ground, &case.recordings);
+    let begun: Vec<String> = of_drive.into_iter().chain(of_ground).collect();
     out.located.spans.extend(name::onsets(&found, &case.recordings));
     if !begun.is_empty() {
         out.limits.push(ONE_ONSET.to_owned());
