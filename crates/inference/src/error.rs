@@ -12,6 +12,15 @@ pub enum DiagnosisError {
         /// The signal.
         what: &'static str,
     },
+    /// A recording of a torque-driven robot has currents and no torque.
+    #[error(
+        "recording '{recording}' has currents and no torque, which a torque-driven robot needs; map the same columns as torque, with N m at the \
+         wheels of a side per unit of the current as scale: torque_left = {{ column = \"...\", unit = \"N m\", scale = ... }}"
+    )]
+    CurrentsForTorque {
+        /// Name of the recording.
+        recording: String,
+    },
     /// A recording is too short.
     #[error(
         "recording '{recording}' has {rows} rows, but at least {needed} are needed; record longer, or, where the file has many more, state \

@@ -17,7 +17,8 @@
 //! * `guesses`: what a mapping may have wrong.
 //! * `sentences`, `headline`, `words`: the answer in sentences, what leads them, their parts.
 //! * `straight`, `level`, `jumps`: when the straight load changes inside a recording.
-//! * `mounting`: how the inertial unit leans in the body; `zero`: what current sensors read when nothing flows.
+//! * `mounting`: how the inertial unit leans in the body; `zero`, `gyro_zero`: what current
+//!   sensors read when nothing flows, and a gyro while the robot stands.
 //! * `power`: signs of torques that no robot can have.
 //! * `plane`: one slope under all driving, by loads and directions of travel.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`: rows that show that.
@@ -42,6 +43,7 @@ mod ground;
 mod grounds;
 mod groups;
 mod guesses;
+mod gyro_zero;
 mod heading;
 mod headline;
 mod jumps;
@@ -140,7 +142,7 @@ pub fn diagnose_steady(
     progress("measuring steady loads");
     // A body that stands has neither loads nor a track: its rows are marked before anything is measured.
     let mut marked = case.clone();
-    let zero = zero::remove(&mut marked.references, &mut marked.recordings);
+    let zeros = take_off_zeros(&mut marked);
     power::check(marked.references.iter().chain(&marked.recordings))?;
     let of_file = standstill::track_of_file(&robot);
     let standing_references = standstill::mark(&mut marked.references, of_file);
@@ -233,7 +235,7 @@ pub fn diagnose_steady(
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
-    out.limits.extend(standing_references.iter().map(words::standing_reference).chain(zero.map(zero::told)));
+    out.limits.extend(standing_references.iter().map(words::standing_reference).chain(zeros));
     out.limits.extend(leans.into_iter().filter_map(|(lean, of)| mounting::told(lean, of)));
     if of_loads == Verdict::Explained {
         let wrong = placebo.map(Named::name);
@@ -295,6 +297,13 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
 /// Effective track of references, m.
 fn track_of(refs: &[Reference]) -> Option<f64> {
     refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
+}
+
+/// Takes off what current sensors and gyros read at rest; what is told of it.
+fn take_off_zeros(case: &mut SteadyCase) -> Vec<String> {
+    let of_currents = zero::remove(&mut case.references, &mut case.recordings).map(zero::told);
+    let of_gyros = gyro_zero::remove(&mut case.references, &mut case.recordings);
+    of_currents.into_iter().chain(of_gyros).collect()
 }
 
 /// Straight load of references by speed class, N m.

@@ -22,23 +22,31 @@ struct Rest {
     torque: [f64; 2],
 }
 
+/// Rows of the stretches of a recording in which the drive is at rest.
+pub(crate) fn rows_at_rest(run: &SpeedRun) -> Vec<Vec<usize>> {
+    // Wheels that are held at a command are no drive at rest.
+    let is_asked =
+        |i: usize| run.commanded.as_ref().is_some_and(|of| of.iter().any(|side| side[i].abs() >= ZERO.still));
+    let is_still = |i: &usize| is_slow(run, *i) && !is_asked(*i) && run.held(*i, ZERO.still, ZERO.settled);
+    let stretches = pieces(&run.time, (0..run.time.len()).filter(is_still), ZERO.gap);
+    stretches.into_iter().filter(|rows| rows.len() as f64 * run.period() >= ZERO.least).collect()
+}
+
+fn is_slow(run: &SpeedRun, i: usize) -> bool {
+    (0..2).all(|j| run.speed[j][i].abs() < ZERO.still)
+}
+
 /// Stretches of a recording in which the drive is at rest.
 fn rests(run: &SpeedRun) -> Vec<Rest> {
     // Without a yaw rate it may have turned: references alone confirm what is read then.
     let heading = headings(run);
-    let is_slow = |i: usize| (0..2).all(|j| run.speed[j][i].abs() < ZERO.still);
-    // Wheels that are held at a command are no drive at rest.
-    let is_asked =
-        |i: usize| run.commanded.as_ref().is_some_and(|of| of.iter().any(|side| side[i].abs() >= ZERO.still));
-    let is_still = |i: &usize| is_slow(*i) && !is_asked(*i) && run.held(*i, ZERO.still, ZERO.settled);
-    let moves_from = (0..run.time.len()).find(|&i| !is_slow(i)).unwrap_or(run.time.len());
+    let moves_from = (0..run.time.len()).find(|&i| !is_slow(run, i)).unwrap_or(run.time.len());
     let of = |rows: Vec<usize>| {
         let side = |j: usize| median(rows.iter().map(|&i| run.torque[j][i])).unwrap_or(0.0);
         let heading = heading.as_ref().map_or(0.0, |heading| heading[rows[0]]);
         Rest { is_first: rows[0] < moves_from, heading, torque: [side(0), side(1)] }
     };
-    let stretches = pieces(&run.time, (0..run.time.len()).filter(is_still), ZERO.gap);
-    stretches.into_iter().filter(|rows| rows.len() as f64 * run.period() >= ZERO.least).map(of).collect()
+    rows_at_rest(run).into_iter().map(of).collect()
 }
 
 /// The stretch before the robot drives.

@@ -48,8 +48,15 @@ impl Run {
         let name = recording.name().to_owned();
         let missing = |what: &'static str| DiagnosisError::MissingSignal { recording: name.clone(), what };
         let get = |s: Signal| recording.get(s);
-        let left = get(Signal::TorqueLeft).ok_or_else(|| missing("torque_left"))?;
-        let right = get(Signal::TorqueRight).ok_or_else(|| missing("torque_right"))?;
+        let torque = |of: Signal, current: Signal| {
+            let recording = name.clone();
+            get(of).ok_or_else(|| match get(current) {
+                Some(_) => DiagnosisError::CurrentsForTorque { recording },
+                None => missing(of.name()),
+            })
+        };
+        let left = torque(Signal::TorqueLeft, Signal::CurrentLeft)?;
+        let right = torque(Signal::TorqueRight, Signal::CurrentRight)?;
         let mut gaps: Vec<i64> = left.t_ns().windows(2).map(|w| w[1] - w[0]).collect();
         if gaps.len() + 1 < RUNS.least_rows {
             let (rows, needed) = (gaps.len() + 1, RUNS.least_rows);
@@ -249,6 +256,12 @@ mod tests {
             assert!(matches!(e, DiagnosisError::MissingSignal { .. }));
             assert!(e.to_string().contains(name), "{e}");
         }
+        // Currents are no torques, but may be mapped as such.
+        let mut c = channels();
+        (c[0].0, c[1].0) = (Signal::CurrentLeft, Signal::CurrentRight);
+        let e = error(&c);
+        assert!(matches!(e, DiagnosisError::CurrentsForTorque { .. }), "{e}");
+        assert!(e.to_string().contains("torque_left = { column = \"...\", unit = \"N m\", scale = ... }"), "{e}");
     }
 
     #[test]

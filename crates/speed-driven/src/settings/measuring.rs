@@ -143,6 +143,18 @@
         seen: [f64; 2] = [0.5, 1.5], "1", "guess";
     }
 
+    /// What a gyro reads while the robot stands.
+    gyro_zero: GyroZero {
+        /// From this on it is taken off, and told.
+        matters: f64 = 0.01, "rad/s", "guess: at 0.5 m/s an arc of 50 m; a robot may still sway a little where it came to rest";
+        /// Standard errors of it that it has to exceed.
+        clear: f64 = 4.0, "1", "guess";
+        /// For how long a robot must have stood in all.
+        least: f64 = 2.0, "s", "guess";
+        /// Stretches agree within this share of it, or of what matters.
+        agree: f64 = 0.3, "1", "guess";
+    }
+
     /// A slow speed controller that lets go after a turn, seen by currents without sign.
     unwinding: Unwinding {
         /// For how long it may last after the drive became straight.
