@@ -212,6 +212,10 @@ impl Vehicle {
         if engine == Engine::Mjcf {
             return out;
         }
+        if engine == Engine::Urdf && ground.slope != [0.0; 2] {
+            let [x, y, z] = self.gravity().map(number);
+            out.push(format!("the slope of the ground: set the gravity of the world to {x}, {y}, {z} m/s²"));
+        }
         let late = self.motors.iter().filter(|m| m.lag > 0.0);
         let late: Vec<String> = late.map(|m| format!("{} ({} s)", m.name, m.lag)).collect();
         if !late.is_empty() {
