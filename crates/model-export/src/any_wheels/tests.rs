@@ -122,10 +122,10 @@ fn what_a_unit_of_a_command_is_stands_in_the_actuator_or_is_told() {
 fn a_slope_is_the_gravity_of_a_world_and_told_where_there_is_none() {
     let mut file = robot("torque-car");
     file.robot.plant.ground.slope = [-0.5, 0.0];
-    assert!(exported(&file, Engine::Mjcf).expect("a model").text.contains("gravity=\"-0.5 0 -9.79389\""));
-    assert!(exported(&file, Engine::Sdf).expect("a model").text.contains("<gravity>-0.5 0 -9.79389</gravity>"));
+    assert!(exported(&file, Engine::Mjcf).expect("a model").text.contains("gravity=\"-0.5 0 -9.7939\""));
+    assert!(exported(&file, Engine::Sdf).expect("a model").text.contains("<gravity>-0.5 0 -9.7939</gravity>"));
     let told = exported(&file, Engine::Urdf).expect("a model").notes.join("; ");
-    assert!(told.contains("the slope of the ground: set the gravity of the world to -0.5, 0, -9.79389"), "{told}");
+    assert!(told.contains("the slope of the ground: set the gravity of the world to -0.5, 0, -9.7939"), "{told}");
 }
 
 #[test]
