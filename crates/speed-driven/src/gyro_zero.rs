@@ -3,6 +3,8 @@
 //! A zero that is off turns a robot that goes straight: arcs come out wider one way than the other, and loads and tracks that are
 //! told by turning come out wrong. Where wheels stand and are not asked to turn it is all that is read.
 
+use std::f64::consts::FRAC_PI_2;
+
 use inference::robust::{MAD_TO_SIGMA, NINETY, median, median_absolute_deviation};
 
 use crate::run::SpeedRun;
@@ -10,8 +12,6 @@ use crate::settings::{MEASURING, measuring::GyroZero};
 use crate::zero::rows_at_rest;
 
 const ZERO: GyroZero = MEASURING.gyro_zero;
-/// Standard error of a median over that of a mean, of normal numbers: √(π/2).
-const MEDIAN_ERROR: f64 = 1.253_314;
 
 /// What a gyro reads at rest and the standard error of that, rad/s.
 #[derive(Debug, Clone, Copy)]
@@ -73,7 +73,8 @@ fn of(run: &SpeedRun) -> Option<Read> {
     // About the middle of each stretch: what differs between these is no scatter.
     let apart = stretches.iter().zip(&middles).flat_map(|(rates, middle)| rates.iter().map(move |rate| rate - middle));
     let scatter = MAD_TO_SIGMA * median_absolute_deviation(&apart.collect::<Vec<_>>())?;
-    let error = |rows: usize| MEDIAN_ERROR * scatter / (rows as f64).sqrt();
+    // Of a median, √(π/2) of that of a mean.
+    let error = |rows: usize| FRAC_PI_2.sqrt() * scatter / (rows as f64).sqrt();
     let agrees = |(middle, rates): (&f64, &Vec<f64>)| {
         let within = ZERO.agree * zero.abs().max(ZERO.matters) + ZERO.clear * error(rates.len());
         (middle - zero).abs() <= within
