@@ -69,6 +69,11 @@ pub fn processor_of_children() -> Option<f64> {
     None
 }
 
+/// Time on processors that this process took, all its threads, s; where the system tells.
+pub fn processor_of_this() -> Option<f64> {
+    usage(std::process::id()).processor
+}
+
 #[cfg(target_os = "linux")]
 fn usage(id: u32) -> Usage {
     let Some(process) = i32::try_from(id).ok().and_then(|id| procfs::process::Process::new(id).ok()) else {
@@ -85,4 +90,21 @@ fn usage(id: u32) -> Usage {
 #[cfg(not(target_os = "linux"))]
 fn usage(_: u32) -> Usage {
     Usage::default()
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_of_this_process_takes_time_on_processors() {
+        let before = processor_of_this().expect("Linux tells it");
+        let begun = Instant::now();
+        let mut sum = 0_u64;
+        // Ticks are of ten milliseconds.
+        while begun.elapsed() < Duration::from_secs(5) && processor_of_this().is_some_and(|now| now <= before) {
+            sum = std::hint::black_box(sum.wrapping_add(1));
+        }
+        assert!(processor_of_this().expect("still") > before, "{sum}");
+    }
 }

@@ -16,6 +16,7 @@ use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use clap::Args as ClapArgs;
 use examiner::{Content, LawKind, Mix, Outsider, Plan, Settings};
+use harness::child::processor_of_this;
 use inference::{Options, SearchForLaw};
 use rayon::prelude::*;
 use recordings::ReadOptions;
@@ -28,7 +29,6 @@ mod events;
 mod foreign;
 mod judge;
 mod peers;
-mod processor;
 mod tables;
 
 use judge::{Judged, judged};
@@ -95,10 +95,10 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         bar.inc(1);
         out
     };
-    let began = processor::seconds();
+    let began = processor_of_this();
     let tried: Vec<Result<Option<Judged>>> = plans.par_iter().enumerate().map(one).collect();
     bar.finish_and_clear();
-    let spent = processor::seconds().zip(began).map(|(now, then)| now - then);
+    let spent = processor_of_this().zip(began).map(|(now, then)| now - then);
     let mut failed = 0;
     let mut kept = Vec::new();
     for outcome in tried {
