@@ -136,8 +136,8 @@ fn driven_in_mujoco(python: &Path, robot: &wheeled::AnyWheels, commands: &[f64])
         name: &robot.name,
         robot: &robot.plant,
         wheels: &robot.wheels,
-        motors: &robot.motors.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
-        joints: &robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+        motors: &Input::in_si(&robot.motors),
+        joints: &Input::in_si(&robot.joints),
         point: [0.0; 3],
         told: &[],
     };

@@ -27,8 +27,8 @@ impl Read {
     }
 }
 
-/// Takes what the gyro reads at rest off all it reads, in each recording its own, where it is enough to matter. Returns what is told of
-/// recordings in which it is another than in the references.
+/// Subtracts from every yaw rate of a recording what its gyro reads at rest, where that is enough to matter. Returns a sentence about the
+/// recordings in which the gyro reads something else at rest than in the references.
 pub(crate) fn remove(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -> Option<String> {
     let usual = median(references.iter().filter_map(of).map(|read| read.zero)).unwrap_or(0.0);
     let read: Vec<(String, Read)> = recordings.iter().filter_map(|run| Some((run.name.clone(), of(run)?))).collect();

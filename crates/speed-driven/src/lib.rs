@@ -299,7 +299,7 @@ fn track_of(refs: &[Reference]) -> Option<f64> {
     refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
 }
 
-/// Takes off what current sensors and gyros read at rest; what is told of it.
+/// Subtracts from currents and yaw rates what their sensors read at rest; returns sentences about it.
 fn take_off_zeros(case: &mut SteadyCase) -> Vec<String> {
     let of_currents = zero::remove(&mut case.references, &mut case.recordings).map(zero::told);
     let of_gyros = gyro_zero::remove(&mut case.references, &mut case.recordings);

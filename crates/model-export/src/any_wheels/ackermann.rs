@@ -3,7 +3,7 @@
 use nalgebra::{Matrix5, Vector5};
 use robot_model::wheels::{Joint, Wheel};
 
-/// Angle of a joint up to which the polynomial is fitted, rad: steering of usual cars ends there.
+/// Angle of a joint up to which the polynomial is fitted, rad: steering of usual cars ends there (guess).
 pub(super) const FARTHEST: f64 = 0.8;
 
 /// Coefficients below this are none, 1/rad^k.
@@ -38,19 +38,15 @@ pub(super) fn polynomial(joint: &Joint<f64>, wheel: &Wheel<f64>) -> [f64; 5] {
 mod tests {
     use super::*;
 
+    fn at(place: [f64; 2]) -> Wheel<f64> {
+        Wheel { place, direction: 0.0, roller: None, radius: 0.1, inertia: 0.01, motor: None, joint: Some(0) }
+    }
+
     #[test]
     fn axles_of_steered_wheels_meet_on_the_line_of_the_fixed_axle() {
         let joint = Joint { place: [0.6, 0.0], about: 0.0, offset: 0.0, gain: 1.0, lag: 0.0 };
         for y in [0.2, -0.2] {
-            let wheel = Wheel {
-                place: [0.6, y],
-                direction: 0.0,
-                roller: None,
-                radius: 0.1,
-                inertia: 0.01,
-                motor: None,
-                joint: Some(0),
-            };
+            let wheel = at([0.6, y]);
             assert!(!is_same(&joint, &wheel));
             let coefficients = polynomial(&joint, &wheel);
             for of_joint in [-0.7_f64, -0.3, 0.1, 0.5] {
@@ -62,15 +58,6 @@ mod tests {
                 approx::assert_abs_diff_eq!(by_powers, own, epsilon = 2e-3);
             }
         }
-        let middle = Wheel {
-            place: [0.6, 0.0],
-            direction: 0.0,
-            roller: None,
-            radius: 0.1,
-            inertia: 0.01,
-            motor: None,
-            joint: Some(0),
-        };
-        assert!(is_same(&joint, &middle));
+        assert!(is_same(&joint, &at([0.6, 0.0])));
     }
 }

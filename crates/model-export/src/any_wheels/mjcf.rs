@@ -10,9 +10,9 @@ use crate::mjcf::{STEP, inertial, invisible};
 use crate::number::{number, numbers};
 use crate::xml::{Element, element};
 
-/// Inertia of what turns a steered wheel, of the wheel's about its axle: a servo with its gear.
+/// Inertia of what turns a steered wheel, of the wheel's about its axle: a servo with its gear (guess).
 const SERVO: f64 = 10.0;
-/// How fast a steered wheel follows its joint, rad/s: fast beside any steering.
+/// How fast a steered wheel follows its joint, rad/s: fast beside any steering (guess).
 const FOLLOWS: f64 = 100.0;
 /// Shortest time constant that is worth a filter, s.
 const LEAST_LAG: f64 = 1e-5;

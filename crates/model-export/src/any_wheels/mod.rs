@@ -26,6 +26,13 @@ pub struct Input<'a> {
     pub per_unit: f64,
 }
 
+impl<'a> Input<'a> {
+    /// Inputs of these names whose commands are in N m or rad.
+    pub fn in_si(names: &'a [String]) -> Vec<Self> {
+        names.iter().map(|name| Self { name, per_unit: 1.0 }).collect()
+    }
+}
+
 /// A robot of any wheels that is exported.
 #[derive(Debug, Clone, Copy)]
 pub struct AnyWheelsModel<'a> {

@@ -16,8 +16,8 @@ fn exported(file: &RobotFile, engine: Engine) -> Result<Exported, ExportError> {
         name: &file.robot.name,
         robot: &file.robot.plant,
         wheels: &file.robot.wheels,
-        motors: &file.robot.motors.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
-        joints: &file.robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+        motors: &Input::in_si(&file.robot.motors),
+        joints: &Input::in_si(&file.robot.joints),
         point: file.robot.point,
         told: &[],
     };
@@ -103,7 +103,7 @@ fn what_a_unit_of_a_command_is_stands_in_the_actuator_or_is_told() {
             robot: &file.robot.plant,
             wheels: &file.robot.wheels,
             motors: &file.robot.motors.iter().map(|name| Input { name, per_unit: 0.73 }).collect::<Vec<_>>(),
-            joints: &file.robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+            joints: &Input::in_si(&file.robot.joints),
             point: [0.0; 3],
             told: &[],
         }

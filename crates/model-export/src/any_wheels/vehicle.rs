@@ -10,11 +10,11 @@ use crate::inertia::{ACROSS, HEAVIEST, LEFT, Part, rest, together};
 use crate::model::ExportError;
 use crate::number::number;
 
-/// Mass of what turns and has none in the plant, share of the robot's: knuckles. Engines want some.
+/// Mass of what turns and has none in the plant, share of the robot's: knuckles. Engines want some (guess: nobody feels it).
 const LIGHT: f64 = 1e-4;
-/// Rollers this far from lying across their wheel are none that MuJoCo has, rad.
+/// Rollers this far from lying across their wheel are none that MuJoCo has, rad (guess: a degree).
 const ACROSS_THE_WHEEL: f64 = 0.02;
-/// Sideways stiffness over that ahead which differs from one by so much is worth telling.
+/// Sideways stiffness over that ahead which differs from one by so much is worth telling (guess).
 const STIFFER: f64 = 0.01;
 
 /// A wheel.

@@ -160,8 +160,8 @@ fn exported_of_any_wheels(name: &str, engine: Engine) -> (String, RobotFile) {
         name,
         robot: &file.robot.plant,
         wheels: &file.robot.wheels,
-        motors: &file.robot.motors.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
-        joints: &file.robot.joints.iter().map(|name| Input { name, per_unit: 1.0 }).collect::<Vec<_>>(),
+        motors: &Input::in_si(&file.robot.motors),
+        joints: &Input::in_si(&file.robot.joints),
         point: file.robot.point,
         told: &[],
     };
