@@ -47,6 +47,7 @@ mod lost_pose;
 mod motion;
 mod next_drive;
 mod onset;
+pub mod pose_jumps;
 pub mod rates;
 mod references;
 mod rehearsable;

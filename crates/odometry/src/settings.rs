@@ -22,6 +22,22 @@
         steering: [f64; 3] = [-0.6, 0.3, 0.9], "rad", "guess; any but right angles";
     }
 
+    /// Poses that jump.
+    pose_jumps: PoseJumps {
+        /// Quantile of speeds from row to row that counts as the fastest.
+        quantile: f64 = 0.99, "1", "guess; a pose that jumps more often is one of such rows";
+        /// So many times as fast is no motion.
+        times: f64 = 5.0, "1", "equal to that of counters and poses that begin anew";
+        /// Jumps below these are left to the noise of windows: of the place, and of yaw.
+        least: [f64; 2] = [0.05, 0.1], "m, rad", "guess; several times the noise of usual trackers";
+        /// Rows in which a pose that comes back is taken as not seen.
+        lone: usize = 3, "1", "guess; longer ones are continued";
+        /// Jumps of a pose of which more are how it is, each second.
+        most: f64 = 0.2, "1/s", "guess; a map that is matched anew each second moves as often";
+        /// Steps before a jump that say how the robot moved.
+        before: usize = 5, "1", "guess; a tenth of a second of usual trackers";
+    }
+
     /// Drives that can be compared.
     drive: DriveRules {
         /// Rows below which a drive is refused.

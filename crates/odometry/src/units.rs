@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use crate::drive::{Drive, WheelData};
 use crate::error::OdometryError;
 use crate::kinematics::{Geometry, Kinematics};
+use crate::pose_jumps::without_jumps;
 use crate::settings::{DriveRules, SETTINGS};
 use crate::wheel::WheeledRobot;
 use crate::yaw::{turn_while_unseen, unwrap_yaw};
@@ -32,7 +33,10 @@ pub(crate) fn guess(drive: &mut Drive, robot: &WheeledRobot, data: WheelData) ->
         unwrap_yaw(drive, TAU);
     }
     turn_while_unseen(drive, robot);
-    length(drive, robot)
+    length(drive, robot)?;
+    let told = without_jumps(&drive.time, &mut drive.pose).map(|what| format!("recording '{}': {what}", drive.name));
+    drive.told.extend(told);
+    Ok(())
 }
 
 /// Takes a heading that turns by 57.3 times what the wheels say to be in degrees, and whether it does; `what` turns, and how that is

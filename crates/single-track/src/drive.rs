@@ -6,6 +6,7 @@ use crate::settings::{Grid, SETTINGS};
 use hierarchical_fit::CaseError as CarError;
 use inference::robust::{median, quantile, sorted};
 use odometry::held::Command;
+use odometry::pose_jumps::without_jumps;
 use odometry::rates::on_grid;
 
 const RULES: Grid = SETTINGS.grid;
@@ -155,7 +156,9 @@ impl Drive {
             .iter()
             .map(|&(time, row)| Message { time, gyro: cell(&table.gyro, row), encoder: cell(&table.encoder, row) })
             .collect();
-        let seen = table.time.iter().zip(&table.pose).map(|(time, pose)| (time - start, *pose));
+        let mut pose = table.pose.clone();
+        told.extend(without_jumps(&table.time, &mut pose).map(|what| format!("recording '{name}': {what}")));
+        let seen = table.time.iter().zip(pose).map(|(time, pose)| (time - start, pose));
         Ok(Self {
             name: name.to_owned(),
             steering: command(&table.steering, &[]),

@@ -5,6 +5,7 @@ use inference::interpolate;
 use inference::robust::median;
 use odometry::file::Series;
 use odometry::held::Command;
+use odometry::pose_jumps::without_jumps;
 use odometry::rates::on_grid;
 use robot_model::wheels::MOST_CASTERS;
 
@@ -134,12 +135,11 @@ impl Drive {
             let [from, until] = series.span().unwrap_or([start, end]);
             gaps.extend([[f64::MIN, from - start - RULES.gap], [until - start + RULES.gap, f64::MAX]]);
         }
-        let [x, y, yaw] = &of.pose;
-        let seen = x
-            .time
-            .iter()
-            .enumerate()
-            .map(|(k, t)| (t - start, [x, y, yaw].map(|s| s.value.get(k).copied().unwrap_or(f64::NAN))));
+        let times = &of.pose[0].time;
+        let row = |k: usize| of.pose.each_ref().map(|s| s.value.get(k).copied().unwrap_or(f64::NAN));
+        let mut pose: Vec<[f64; 3]> = (0..times.len()).map(row).collect();
+        let told = without_jumps(times, &mut pose).map(|what| format!("recording '{name}': {what}"));
+        let seen = times.iter().zip(pose).map(|(t, pose)| (t - start, pose));
         let mut drive = Self {
             name: name.to_owned(),
             torque: of.torque.iter().map(held).collect(),
@@ -152,7 +152,7 @@ impl Drive {
             gaps,
             steps,
             start,
-            told: Vec::new(),
+            told: told.into_iter().collect(),
         };
         if let Some(what) = mistaken(&drive, robot, of.is_speed) {
             return Err(wrong(what));
