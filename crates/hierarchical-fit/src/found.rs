@@ -82,7 +82,20 @@ impl std::fmt::Display for Began {
                 "it is there in drive '{drive}' and all after it in the order of their names, and not before"
             )?,
         }
-        if *ends { f.write_str(", and predictions are made without it") } else { Ok(()) }
+        if *ends {
+            f.write_str(", and predictions are made without it")?;
+        }
+        if self.is_in_one() {
+            f.write_str("; no other drive shows it, so that no forecast of a drive that was left out can confirm it")?;
+        }
+        Ok(())
+    }
+}
+
+impl Began {
+    /// Whether it is there in a single drive.
+    pub fn is_in_one(&self) -> bool {
+        !self.others && self.anew.is_empty()
     }
 }
 

@@ -198,8 +198,8 @@ impl Said {
     /// Judges what was named by drives that were left out, and [decides](Said::decide) anew; whether it was taken back. Causes with which
     /// they are forecast worse than as stated, and which leave more of the motion than `rules.share`, are refuted: something else is
     /// missing. Re-tuned constants that no owner would believe may forecast better and refute nothing. Causes with which they are
-    /// forecast hardly better than as stated, or worse than re-tuned, are confirmed by nothing, and no longer named; but where `shows` says
-    /// of one of them that forecasts could not show it, as of a sensor that they do not predict.
+    /// forecast hardly better than as stated, or worse than re-tuned, are confirmed by nothing, and no longer named; but where forecasts could
+    /// not show one of them: where `shows` says so, as of a sensor that they do not predict, and where it is there in a single drive.
     pub fn judge(
         &mut self,
         free_runs: &[FreeRun],
@@ -214,7 +214,8 @@ impl Said {
             self.answer = Answer::Unknown;
         }
         let is_confirmed = standing.over_nominal < naming.confirmed && standing.over_retuned < naming.worse;
-        if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(shows) {
+        let is_shown = |cause: &NamedCause| shows(cause) && !cause.onset.as_ref().is_some_and(Began::is_in_one);
+        if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(is_shown) {
             return false;
         }
         let labels = self.named.iter().map(|cause| cause.label.clone()).collect();
@@ -350,8 +351,9 @@ mod tests {
             corrected,
             placebo: None,
         };
-        let judged_where = |is_shown: bool, errors: [f64; 3], left: f64| {
+        let judged_with = |onset: Option<Began>, is_shown: bool, errors: [f64; 3], left: f64| {
             let mut said = Said { others: vec![("gyro_bias".to_owned(), 0.1)], ..named([1.0, 0.09, left]) };
+            said.named[0].onset = onset;
             let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4 };
             let is_taken_back = said.judge(&[free_run(errors)], rules, |_| true, |_| is_shown);
             assert_eq!((is_taken_back, is_taken_back), (said.unconfirmed.is_some(), said.named.is_empty()));
@@ -361,12 +363,19 @@ mod tests {
             }
             said.answer
         };
+        let judged_where = |is_shown, errors, left| judged_with(None, is_shown, errors, left);
         let judged = |errors: [f64; 3], left: f64| judged_where(true, errors, left);
         assert_eq!(judged([2.0, 1.0, 0.9], 0.08), Answer::Named);
         assert_eq!(judged([2.0, 1.0, 1.05], 0.08), Answer::Named, "hardly worse than re-tuned");
         assert_eq!(judged([2.0, 1.0, 1.3], 0.08), Answer::Nothing, "worse than re-tuned");
         assert_eq!(judged([1.0, 2.0, 0.98], 0.08), Answer::Nothing, "hardly better than as stated");
         assert_eq!(judged_where(false, [1.0, 2.0, 0.98], 0.08), Answer::Named, "a sensor that they do not predict");
+        let began = |others: bool| {
+            Some(Began { drive: "b".to_owned(), at: Some((9.0, [8.0, 10.0])), anew: Vec::new(), ends: false, others })
+        };
+        let of_one = judged_with(began(false), true, [1.0, 2.0, 0.98], 0.08);
+        assert_eq!(of_one, Answer::Named, "no other drive shows it");
+        assert_eq!(judged_with(began(true), true, [1.0, 2.0, 0.98], 0.08), Answer::Nothing, "drives after it do");
         assert_eq!(judged([1.0, 2.0, 1.3], 0.08), Answer::Unknown, "far worse than as stated");
         assert_eq!(judged([1.0, 2.0, 1.3], 0.04), Answer::Nothing, "the same where it leaves hardly anything");
     }

@@ -199,7 +199,9 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
         }
     }
     let places = [sigmas.place.hypot(open.place), usual.place, scatter.geometry];
-    for (axis, quantity, name) in [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along it")] {
+    for (axis, quantity, name) in
+        [(1, Q::Across, "distances across the robot"), (0, Q::Along, "distances along the robot")]
+    {
         if plant.wheels.iter().flatten().any(|w| w.place[axis] != 0.0) {
             add(quantity, (name, None, "1"), (1.0, true, any), places, &odo::WHEEL_DISTANCE);
         }

@@ -292,7 +292,7 @@ fn a_robot_of_any_wheels_has_the_corrected_numbers_and_says_what_has_no_key() {
         ("dry friction of front", 1.1),
         ("radius of front", 0.105),
         ("rolling resistance", 0.03),
-        ("distances along it", 1.02),
+        ("distances along the robot", 1.02),
         ("tracked point, left", 0.01),
         ("steering zero of front", 0.05),
         ("steering gain of front", 1.1),
