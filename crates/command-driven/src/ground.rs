@@ -16,11 +16,11 @@ const STARTS: GroundStarts = SETTINGS.ground_starts;
 
 pub(crate) const RADIUS: usize = 0;
 pub(crate) const TRACK: usize = 1;
-const OFFSET: usize = 2;
-const TURN_SLIP: usize = 3;
-const BODY_LAG: usize = 4;
-const SIDE_RADIUS: usize = 5;
-const TURN_SLIP_LINEAR: usize = 6;
+pub(crate) const OFFSET: usize = 2;
+pub(crate) const TURN_SLIP: usize = 3;
+pub(crate) const BODY_LAG: usize = 4;
+pub(crate) const SIDE_RADIUS: usize = 5;
+pub(crate) const TURN_SLIP_LINEAR: usize = 6;
 
 /// How the forward speed that turning costs grows with the yaw rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -89,7 +89,7 @@ impl Timed<TurnSlip> {
 }
 
 /// Forward speed (m/s) and yaw rate (rad/s) of the body.
-fn twist(x: &[f64], [radius, track]: [f64; 2], wheels: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(crate) fn twist(x: &[f64], [radius, track]: [f64; 2], wheels: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let keep = if x[BODY_LAG] > 0.0 { (-STEP / x[BODY_LAG]).exp() } else { 0.0 };
     let mut late: Option<[f64; 2]> = None;
     let rolls = |[l, r]: [f64; 2]| {

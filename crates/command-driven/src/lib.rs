@@ -17,6 +17,7 @@
 //! * `name`, `element_words`, `words`: elements as causes with intervals; sentences.
 //! * `next/*`: which commands would tell the remaining responses apart.
 //! * `model`: a fitted response as a model of its own, run forward.
+//! * `replica`: the same commands driven by a response that is known, for rehearsals.
 //! * `settings`: every tuned number, with unit and source.
 
 mod compare;
@@ -32,6 +33,7 @@ mod moved;
 mod name;
 mod next;
 mod onset;
+mod replica;
 mod run;
 mod search;
 mod settings;
@@ -61,7 +63,8 @@ use windows::{FOLDS, Windows};
 use words::Figures;
 
 pub use model::{response_errors, simulate_response};
-pub use run::ResponseRun;
+pub use replica::{Hideable, Replicas};
+pub use run::{ResponseRun, STEP};
 
 /// Every tuned number of this crate, for the page of settings.
 pub fn settings() -> impl Iterator<Item = &'static ::settings::Setting> {

@@ -8,7 +8,7 @@ use crate::controller::{H, SUBSTEPS};
 use crate::settings::SETTINGS;
 
 /// Grid on which commands, wheels and pose are compared, s.
-pub(crate) const STEP: f64 = SETTINGS.recording.step;
+pub const STEP: f64 = SETTINGS.recording.step;
 /// Rows of a window.
 pub(crate) const WINDOW: usize = SETTINGS.windows.rows;
 /// A sample this much later than a row still counts as of that row, s.

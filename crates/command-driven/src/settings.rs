@@ -19,6 +19,24 @@
         telling_hold: f64 = 0.04, "s", "guess";
     }
 
+    /// Sizes of interest of what is hidden in rehearsals.
+    rehearsed: Rehearsed {
+        /// Gains of forward speed and turning.
+        gain: f64 = 0.1, "share", "guess; a drive that misses its set speed by less is within usual tuning";
+        /// Dead times and lags.
+        delay: f64 = 0.1, "s", "guess; at 0.5 m/s a robot goes 5 cm meanwhile";
+        /// Effective track.
+        track: f64 = 0.1, "share", "guess; floors change it by more";
+        /// Rolling radius.
+        radius: f64 = 0.03, "share", "guess; 30 cm in 10 m";
+        /// Forward speed lost at 1 rad/s.
+        lost: f64 = 0.1, "share", "guess";
+        /// Centre of rotation from the pose sensor.
+        offset: f64 = 0.05, "m", "guess; a hand's breadth";
+        /// Difference of a side's radius from the mean.
+        side_radius: f64 = 0.01, "share", "guess; it bends a straight line of 10 m by a metre";
+    }
+
     /// Windows that are forecast, and folds in which they are left out.
     windows: Windows {
         /// Rows of a window, which is 2 s; the row that would close it opens the next one.

@@ -130,11 +130,20 @@ impl<D: Observed> Data<D> {
 
     /// The same where a cause is not there all the time, `theta` being the constants where it is.
     pub(crate) fn share_with(&self, theta: &[f64], onset: &Onset) -> f64 {
+        self.share_of(&self.errors_with(theta, onset))
+    }
+
+    /// Scales of errors, by kind, of the same.
+    pub(crate) fn left_with(&self, theta: &[f64], onset: &Onset) -> [f64; 3] {
+        self.sigmas(&self.errors_with(theta, onset))
+    }
+
+    fn errors_with(&self, theta: &[f64], onset: &Onset) -> Vec<Vec<f64>> {
         let all = |theta: &[f64]| self.errors(&vec![theta.to_vec(); self.drives.len()]);
         let both = all(theta).into_iter().zip(all(onset.off.as_slice())).enumerate();
         let chosen =
             |(k, (on, off)): (usize, (Vec<f64>, Vec<f64>))| onset.gate.chosen(k, self.drives[k].rows(), &on, &off);
-        self.share_of(&both.map(chosen).collect::<Vec<_>>())
+        both.map(chosen).collect()
     }
 
     fn share_of(&self, errors: &[Vec<f64>]) -> f64 {

@@ -1,5 +1,6 @@
 //! What the drives of a fit say, whatever its model is.
 
+use inference::evidence::logistic;
 use inference::experiment::Standing;
 use inference::robust::NINETY;
 use nalgebra::DVector;
@@ -38,6 +39,9 @@ pub struct Unexplained {
     pub of_retuned: f64,
     /// Remaining error over the motion, beyond which nothing is explained, however much more was left before.
     pub most: f64,
+    /// Remaining error over the motion from which on something unknown is likelier where nothing is called missing and no reference says
+    /// what is usual.
+    pub doubted: f64,
 }
 
 /// Causes with which drives that were left out are forecast no better than without.
@@ -78,6 +82,8 @@ pub struct Said {
     pub left_of_references: Option<f64>,
     /// The same that the noise of what is measured alone would leave.
     pub share_of_noise: f64,
+    /// The same from which on something unknown is likelier; without references.
+    pub doubted: Option<f64>,
 }
 
 impl<D: Observed> Solved<D> {
@@ -95,7 +101,12 @@ impl<D: Observed> Solved<D> {
         Said {
             answer: Answer::Nothing,
             named: named.chosen.iter().map(of_cause).collect(),
-            others: named.others.iter().map(|&(c, p)| (causes[c].label(), p)).collect(),
+            // What was not taken, though straight lines about the answer speak for it, is no surer than what just misses.
+            others: named
+                .others
+                .iter()
+                .map(|&(c, p)| (causes[c].label(), p.min(logistic(SETTINGS.naming.named))))
+                .collect(),
             retuned: estimates(&named.retuned),
             rival: named.rival.map(|c| causes[c].label()),
             scatter: factor,
@@ -106,6 +117,7 @@ impl<D: Observed> Solved<D> {
             shares: [data.share(prior.mean.as_slice()), data.share(named.retuned.mean.as_slice()), self.share()],
             left_of_references: self.left_of_references,
             share_of_noise: data.share_of_noise(),
+            doubted: None,
             constants: estimates(&Posterior {
                 mean: DVector::from_column_slice(self.corrected_from_now_on()),
                 ..named.posterior.clone()
@@ -179,6 +191,7 @@ impl<D: Observed> Solved<D> {
 impl Said {
     /// Decides the answer. `is_stated`: whether a constant that moved is told as re-tuned.
     pub fn decide(&mut self, rules: Unexplained, is_stated: impl Fn(&Estimate) -> bool) {
+        self.doubted = Some(rules.doubted).filter(|_| self.left_of_references.is_none());
         // What noise would leave is none of theirs.
         let [_, retuned, left] = self.without_noise();
         let is_left = left > rules.most
@@ -240,6 +253,7 @@ impl Said {
             rival: self.rival.as_deref(),
             shares: self.shares,
             beside_references: self.left_of_references.map(|usual| [self.without_noise()[2], usual]),
+            beside_usual: self.doubted.map(|usual| [self.without_noise()[2], usual]),
             unconfirmed: self.unconfirmed.as_ref(),
             unknown: if self.is_scattered {
                 Unaccounted::Scattered(self.scatter)
@@ -303,12 +317,13 @@ mod tests {
             shares,
             left_of_references: None,
             share_of_noise: 0.0,
+            doubted: None,
         }
     }
 
     #[test]
     fn an_answer_is_unknown_where_much_is_left_or_drives_differ_too_much_to_trust_a_cause() {
-        let rules = Unexplained { share: 0.1, of_retuned: 0.8, most: 0.4 };
+        let rules = Unexplained { share: 0.1, of_retuned: 0.8, most: 0.4, doubted: 0.04 };
         let estimate = |value: f64| Estimate {
             name: "length".to_owned(),
             unit: "m",
@@ -354,7 +369,7 @@ mod tests {
         let judged_with = |onset: Option<Began>, is_shown: bool, errors: [f64; 3], left: f64| {
             let mut said = Said { others: vec![("gyro_bias".to_owned(), 0.1)], ..named([1.0, 0.09, left]) };
             said.named[0].onset = onset;
-            let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4 };
+            let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4, doubted: 0.04 };
             let is_taken_back = said.judge(&[free_run(errors)], rules, |_| true, |_| is_shown);
             assert_eq!((is_taken_back, is_taken_back), (said.unconfirmed.is_some(), said.named.is_empty()));
             if is_taken_back {

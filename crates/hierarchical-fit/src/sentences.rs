@@ -135,7 +135,19 @@ impl Found<'_> {
 
     /// What is left of the recordings beside the references, where that is more than usual.
     fn doubted(&self) -> Option<String> {
-        let [left, usual] = self.beside_references.filter(|_| self.doubt() > 0.0)?;
+        if self.doubt() <= 0.0 {
+            return None;
+        }
+        let Some([left, usual]) = self.beside_references else {
+            return self.beside_usual.map(|[left, usual]| {
+                format!(
+                    "Yet {:.1} % of the motion are left, and sound robots leave less than {:.0} %: not enough to be called missing. Look where \
+                     the drives differ from the simulation.",
+                    100.0 * left,
+                    100.0 * usual
+                )
+            });
+        };
         Some(format!(
             "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: more than what is \
              usual, and not enough to be called missing. Look at where they differ.",
@@ -276,6 +288,7 @@ mod tests {
             rival: None,
             shares: [0.3, 0.2, 0.1],
             beside_references: None,
+            beside_usual: None,
             unconfirmed: None,
             unknown: Unaccounted::Left { of_references: None },
         }
@@ -329,6 +342,10 @@ mod tests {
             t.contains("2.0 % of the motion are left of the recordings and 0.6 % of the references, 3.3")
         }));
         assert_eq!(doubted(0.02, Some(0.012)), (0.0, None), "it is usual");
+        let by_usual = |left: f64| Found { beside_usual: Some([left, 0.03]), ..found(Answer::Retune) };
+        approx::assert_relative_eq!(by_usual(0.045).doubt(), 0.225, epsilon = 1e-12);
+        assert!(by_usual(0.045).doubted().is_some_and(|told| told.contains("sound robots leave less than 3 %")));
+        assert_eq!((by_usual(0.02).doubt(), by_usual(0.02).doubted()), (0.0, None));
         assert_eq!(doubted(0.003, Some(0.001)), (0.0, None), "it is next to nothing");
         assert_eq!(doubted(0.02, None), (0.0, None));
     }

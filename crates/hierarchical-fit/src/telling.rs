@@ -30,6 +30,8 @@ pub struct Found<'a> {
     pub shares: [f64; 3],
     /// What the answer leaves of the recordings and of the references but for noise, as shares of the motion; `None` without references.
     pub beside_references: Option<[f64; 2]>,
+    /// What the answer leaves but for noise, and from which share of the motion on that is more than usual; `None` with references.
+    pub beside_usual: Option<[f64; 2]>,
     /// What left-out drives did not confirm.
     pub unconfirmed: Option<&'a Unconfirmed>,
     /// Why it is unknown, where it is.
@@ -135,13 +137,17 @@ impl Found<'_> {
         (1.0 - self.doubt()) * none_of(self.others.iter().map(|(_, p)| *p))
     }
 
-    /// Probability of something unknown where nothing is called missing and yet recordings leave more than references do.
+    /// Probability of something unknown where nothing is called missing and yet recordings leave more than references do, or, without
+    /// any, more than usual.
     pub(crate) fn doubt(&self) -> f64 {
         let rules = SETTINGS.beside_references;
         let nothing = matches!(self.answer, Answer::Nothing | Answer::Retune);
         let beside = self.beside_references.filter(|[left, _]| nothing && *left > rules.doubted_least);
         let times = beside.map_or(1.0, |[left, usual]| left / usual.max(f64::MIN_POSITIVE));
-        rules.doubt * ((times - rules.doubted) / (rules.times - rules.doubted)).clamp(0.0, 1.0)
+        let by_references = (times - rules.doubted) / (rules.times - rules.doubted);
+        let usual = self.beside_usual.filter(|_| nothing);
+        let by_usual = usual.map_or(0.0, |[left, usual]| left / usual.max(f64::MIN_POSITIVE) - 1.0);
+        rules.doubt * by_references.max(by_usual).clamp(0.0, 1.0)
     }
 }
 
@@ -259,6 +265,7 @@ mod tests {
                 rival: None,
                 shares,
                 beside_references: None,
+                beside_usual: None,
                 unconfirmed: None,
                 unknown: Unaccounted::Refuted,
             };

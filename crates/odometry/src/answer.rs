@@ -22,6 +22,8 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         rival: findings.rival.as_deref(),
         shares: findings.shares,
         beside_references: findings.left_of_references.map(|usual| [findings.shares[2], usual]),
+        beside_usual: Some([findings.shares[2], SETTINGS.unexplained.doubted])
+            .filter(|_| !has_references && findings.measured.pose),
         unconfirmed: findings.unconfirmed.as_ref(),
         unknown: if is_nothing_that_slips(&findings.named) {
             Unaccounted::SlipsBelowZero

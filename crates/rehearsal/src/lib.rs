@@ -5,15 +5,19 @@
 //! * `plan`: what is to be rehearsed; `error`: why nothing could be.
 //! * `rehearse`: the whole way, from a case to shares of replicas.
 //! * `of_fit`: the same by the equations of a fit to whole drives, without simulating.
+//! * `of_response`: of responses to commands, by driving the same commands again.
+//! * `assemble`: from answers to replicas to what is told of each cause.
 //! * `hidden`: an effect of a given size, in the form in which a replica has it.
 //! * `replica`: a robot drawn about the robot file, its references, the drives of its recordings.
 //! * `sensors`: noise, rates and gaps of the recordings, and what such sensors show of a simulated drive.
 //! * `score`: how an answer is counted; shares, and from where on an effect is found.
 //! * `words`: limits in sentences; `random`: streams fixed by paths; `settings`: every tuned number.
 
+mod assemble;
 mod error;
 mod hidden;
 mod of_fit;
+mod of_response;
 mod plan;
 mod random;
 mod rehearse;
@@ -27,6 +31,7 @@ mod words;
 
 pub use error::RehearsalError;
 pub use of_fit::rehearse_fit;
+pub use of_response::RehearsingResponse;
 pub use plan::Plan;
 pub use rehearse::{Rehearsing, rehearse};
 

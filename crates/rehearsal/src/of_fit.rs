@@ -8,14 +8,13 @@ use std::collections::BTreeSet;
 
 use hierarchical_fit::{Hideable, Rehearsable, Session};
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
-use verdict::{NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect, RehearsedSize};
+use verdict::{Rehearsal, RehearsedDrives};
 
+use crate::assemble::{Effect, assembled};
 use crate::error::RehearsalError;
 use crate::plan::Plan;
 use crate::random::{Purpose, Stream};
-use crate::rehearse::{BEYOND, in_order};
-use crate::score::{Scored, count, found_from, look_alikes, share_found};
+use crate::score::Scored;
 use crate::settings::SETTINGS;
 use crate::words;
 
@@ -44,50 +43,35 @@ pub fn rehearse_fit(of: &Rehearsable, plan: &Plan) -> Result<Rehearsal, Rehearsa
     let plan = plan.checked(&Vec::from_iter(names))?;
     let references = plan.references.unwrap_or(of.references);
     let drawn = Drawn { of, seed: plan.seed, references, roots: roots(of) };
-    let all = |hidden: Hidden<'_>, replicas: usize| {
-        let scored: Vec<Scored> = (0..replicas).into_par_iter().map(|replica| drawn.answer(replica, hidden)).collect();
-        count(&scored)
-    };
-
-    let size = |hideable: &Hideable, multiple: f64| {
-        let answers = all(Some((hideable, multiple)), plan.replicas);
-        RehearsedSize { multiple, size: hideable.size(multiple), found: share_found(&answers), answers, driven: 1.0 }
-    };
-    let effect = |hideable: &Hideable| {
-        let can_be = |multiple: &&f64| hideable.signs(**multiple).contains(&true);
-        let sizes: Vec<RehearsedSize> = plan.sizes.iter().filter(can_be).map(|m| size(hideable, *m)).collect();
-        RehearsedEffect {
-            effect: hideable.cause.label(),
-            name: hideable.cause.spec.name.to_owned(),
+    let effects = of.causes.iter().filter(|c| plan.wants(c.cause.spec.id) || plan.wants(&c.cause.label()));
+    let effects: Vec<Effect<&Hideable>> = effects
+        .map(|hideable| Effect {
+            of: hideable,
+            id: hideable.cause.label(),
+            name: hideable.cause.spec.name,
             interest: hideable.size(1.0),
-            unit: hideable.told.unit.into(),
-            found: found_from(&sizes, SETTINGS.plan.wanted),
-            look_alikes: look_alikes(&sizes),
-            sizes,
-        }
+            unit: hideable.told.unit,
+            sizes: plan
+                .sizes
+                .iter()
+                .filter(|m| hideable.signs(**m).contains(&true))
+                .map(|m| (*m, hideable.size(*m)))
+                .collect(),
+        })
+        .collect();
+    let drives = RehearsedDrives {
+        seed: plan.seed,
+        replicas: plan.replicas,
+        fault_free_replicas: plan.fault_free,
+        references,
+        recordings: of.drives.iter().map(|(name, seconds, _)| (name.clone(), *seconds)).collect(),
+        noise: of.noise.clone(),
+        wanted_share: SETTINGS.plan.wanted,
     };
-    let is_wanted = |c: &&Hideable| plan.wants(c.cause.spec.id) || plan.wants(&c.cause.label());
-    let (effects, beyond): (Vec<_>, Vec<_>) =
-        of.causes.iter().filter(is_wanted).map(effect).partition(|effect| !effect.sizes.is_empty());
-    let left_out = beyond.into_iter().map(|effect| NotRehearsed { effect: effect.effect, why: BEYOND.into() });
-
-    Ok(Rehearsal {
-        format: REHEARSAL_FORMAT,
-        drives: RehearsedDrives {
-            seed: plan.seed,
-            replicas: plan.replicas,
-            fault_free_replicas: plan.fault_free,
-            references,
-            recordings: of.drives.iter().map(|(name, seconds, _)| (name.clone(), *seconds)).collect(),
-            noise: of.noise.clone(),
-            wanted_share: SETTINGS.plan.wanted,
-        },
-        fault_free: all(None, plan.fault_free),
-        effects: in_order(effects),
-        left_out: left_out.collect(),
-        shortened: Vec::new(),
-        limits: words::limits_of_fit(&plan, references),
-    })
+    let answer =
+        |replica: usize, hidden: Option<(&&Hideable, f64)>| drawn.answer(replica, hidden.map(|(h, m)| (*h, m)));
+    let rehearsal = assembled(&plan, drives, &effects, &answer);
+    Ok(Rehearsal { limits: words::limits_of_fit(&plan, references), ..rehearsal })
 }
 
 /// Roots of the curvature of each drive; of one that has none, no noise.

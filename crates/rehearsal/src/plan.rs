@@ -7,7 +7,7 @@ use verdict::NotRehearsed;
 
 use crate::error::RehearsalError;
 use crate::hidden::Hidden;
-use crate::settings::{Planned, PlannedOfFit, SETTINGS};
+use crate::settings::{Planned, PlannedOfFit, PlannedOfResponse, SETTINGS};
 
 const PLAN: Planned = SETTINGS.plan;
 
@@ -52,6 +52,12 @@ impl Plan {
     /// The plan for robots whose constants are fitted to whole drives: nothing is simulated, and more can be drawn.
     pub fn of_fit() -> Self {
         let PlannedOfFit { sizes, replicas, fault_free } = SETTINGS.plan_of_fit;
+        Self { sizes: sizes.to_vec(), replicas, fault_free, ..Self::default() }
+    }
+
+    /// The plan for robots that are given commands: whole drives are diagnosed.
+    pub fn of_response() -> Self {
+        let PlannedOfResponse { sizes, replicas, fault_free } = SETTINGS.plan_of_response;
         Self { sizes: sizes.to_vec(), replicas, fault_free, ..Self::default() }
     }
 

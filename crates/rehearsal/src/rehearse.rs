@@ -23,7 +23,8 @@ const WANTED: f64 = SETTINGS.plan.wanted;
 /// Why an effect is left out whose smallest size is none.
 pub(crate) const BEYOND: &str = "already its smallest size lies beyond what the catalogue calls sensible on this robot";
 /// Why an effect is left out that no recorded channel shows.
-const UNSEEN: &str = "it changes nothing that these recordings hold: the channel that would show it is missing";
+pub(crate) const UNSEEN: &str =
+    "it changes nothing that these recordings hold: the channel that would show it is missing";
 
 /// A rehearsal that is ready to be run.
 pub struct Rehearsing<'a> {

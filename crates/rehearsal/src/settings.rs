@@ -34,6 +34,16 @@
         fault_free: usize = 200, "1", "guess; with none alarmed, Wilson's interval ends at two per cent";
     }
 
+    /// What is rehearsed of responses to commands unless the caller says otherwise.
+    plan_of_response: PlannedOfResponse {
+        /// Sizes that are hidden, in sizes of interest.
+        sizes: [f64; 3] = [0.25, 0.5, 1.0], "1", "guess; octaves up to the size below which nobody would act";
+        /// Replicas of each size.
+        replicas: usize = 3, "1", "four minutes of two cores for five minutes of driving";
+        /// Replicas in which nothing is hidden, at least.
+        fault_free: usize = 12, "1", "guess; with none alarmed, Wilson's interval ends at a quarter";
+    }
+
     /// Robots that are drawn about the robot file.
     constants: Constants {
         /// Farthest move of a constant, in the robot file's sigmas.

@@ -70,6 +70,28 @@ pub(crate) fn limits_of_fit(plan: &Plan, references: usize) -> Vec<String> {
     out
 }
 
+/// What limits an answer about responses to commands.
+pub(crate) fn limits_of_response(plan: &Plan, references: usize) -> Vec<String> {
+    let mut out = vec![
+        "what is hidden is one constant of the very response by which it is looked for; wheels and body err from it as these \
+         recordings do from the best response to them, later by some time and with either sign: on a real robot less is found than here"
+            .to_owned(),
+        format!(
+            "radius and track are drawn within {} sigmas of the robot file, and stay the same in all drives of a replica",
+            SETTINGS.constants.farthest
+        ),
+        "a cause is hidden alone and throughout; instants and pairs are not drawn".to_owned(),
+        format!("each size has {} replicas: read the intervals, not the shares", plan.replicas),
+    ];
+    if references == 0 {
+        out.push(
+            "there is no reference: the simulation is that wheels do what is commanded; --references 3 tells what three would be worth"
+                .to_owned(),
+        );
+    }
+    out
+}
+
 /// What limits an answer without references.
 const NO_REFERENCE: &str =
     "there is no reference: the robot file stands in its place; --references 3 tells what three would be worth";

@@ -5,11 +5,10 @@ use hierarchical_fit::Cause;
 use crate::constants::Constant;
 
 /// The causes that can show: each with the constants that it moves.
-pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
+pub(crate) fn causes(constants: &[Constant], has_references: bool) -> Vec<Cause> {
     let mut out: Vec<Cause> = Vec::new();
     for (k, constant) in constants.iter().enumerate() {
-        // Beyond what is known already; a constant of which nothing is known cannot be wrong.
-        if constant.sigma >= constant.usual {
+        if !constant.can_be_wrong(has_references) {
             continue;
         }
         let direction = (vec![(k, 1.0)], constant.usual);

@@ -77,6 +77,11 @@ impl Constant {
         [if self.is_size() { -self.given } else { -far }, far]
     }
 
+    /// Whether something is known of it from which it may differ: by its owner, or by references.
+    pub(crate) fn can_be_wrong(&self, has_references: bool) -> bool {
+        has_references || self.sigma < self.usual
+    }
+
     /// Whether there is none below 0.
     fn is_size(&self) -> bool {
         use Quantity as Q;

@@ -27,6 +27,7 @@ const UNEXPLAINED: Unexplained = Unexplained {
     share: SETTINGS.unexplained.share,
     of_retuned: SETTINGS.unexplained.of_retuned,
     most: SETTINGS.unexplained.most,
+    doubted: SETTINGS.unexplained.doubted,
 };
 
 /// What the drives of a case say.
@@ -99,7 +100,12 @@ pub fn examine(case: &Case, next: Option<f64>, progress: &dyn Fn(&str)) -> Resul
     let solved = solve(&case.car, &case.references, &all)?;
     let (mut findings, table) = (findings(&case, &solved, apart.as_ref()), left_out_of(&solved, progress));
     // Many causes of cars are of sensors, or of clocks that were measured before the fit: forecasts of poses say nothing about them.
-    findings.said.judge(&table.free_runs(), UNEXPLAINED, |e| is_stated(&solved.data.model, e), |_| false);
+    findings.said.judge(
+        &table.free_runs(),
+        UNEXPLAINED,
+        |e| is_known(&solved.data.model, !case.references.is_empty(), e),
+        |_| false,
+    );
     // A drive is chosen for causes that are always there.
     if next.is_some() && solved.onset.is_some() {
         findings.told.push(NO_ADVICE.to_owned());
@@ -126,9 +132,9 @@ pub fn rehearsable(case: &Case, progress: &dyn Fn(&str)) -> Result<Rehearsable, 
     Ok(solved.rehearsable(&solved.data.model, case.references.len(), next_drive::read))
 }
 
-/// Whether the owner states a constant that moved.
-fn is_stated(constants: &[Constant], e: &Estimate) -> bool {
-    constants.iter().any(|c| c.name == e.name && c.sigma < c.usual)
+/// Whether something was known of a constant that moved.
+fn is_known(constants: &[Constant], has_references: bool, e: &Estimate) -> bool {
+    constants.iter().any(|c| c.name == e.name && c.can_be_wrong(has_references))
 }
 
 fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> Findings {
@@ -140,14 +146,15 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         // Of the clocks that were measured before the fit there is none.
         said.rival = None;
     }
-    said.decide(UNEXPLAINED, |e| is_stated(&data.model, e));
+    let has_references = !case.references.is_empty();
+    said.decide(UNEXPLAINED, |e| is_known(&data.model, has_references, e));
     let mut told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     told.extend(solved.lacking_in_all());
     let traces = data.drives.iter().enumerate();
     Findings {
         said,
         unweighed: [false, true].map(|is_stated| {
-            let unweighed = data.model.iter().filter(|c| c.sigma >= c.usual && c.is_stated == is_stated);
+            let unweighed = data.model.iter().filter(|c| !c.can_be_wrong(has_references) && c.is_stated == is_stated);
             unweighed.map(|c| c.name).collect()
         }),
         noise: fit.noise.sigma,

@@ -30,6 +30,8 @@ pub(crate) struct Shown<'a> {
     /// World velocities and yaw rate of the tracked point at each step, from poses about it.
     pub(crate) rates: Arc<[[f64; 3]]>,
     pub(crate) rows: Vec<Row>,
+    /// What the car reported, smoothed as the pose's rates are, which is compared with these.
+    reported: Arc<[Message]>,
     /// The messages that are compared with the pose.
     messages: Range<usize>,
     /// Steps of which steering and drive are needed.
@@ -51,6 +53,7 @@ impl<'a> Shown<'a> {
             windows: Vec::new(),
             rates,
             rows: Vec::new(),
+            reported: if drive.has_pose() { smoothed(&drive.messages) } else { Arc::from([]) },
             messages: if drive.has_pose() { 0..drive.messages.len() } else { 0..0 },
             span: 0..steps,
             encoder_window,
@@ -97,6 +100,7 @@ impl<'a> Shown<'a> {
             windows,
             rates: Arc::clone(&self.rates),
             rows,
+            reported: Arc::clone(&self.reported),
             messages,
             span,
             encoder_window: self.encoder_window,
@@ -204,7 +208,7 @@ impl<'a> Shown<'a> {
                 }
             }
         }
-        for message in &self.drive.messages[self.messages.clone()] {
+        for message in &self.reported[self.messages.clone()] {
             let at = |delay: f64| self.rate_at(message.time - laws.clock - delay);
             if let Some(gyro) = message.gyro {
                 out.push(at(laws.gyro_delay).map_or(0.0, |r| laws.gyro_scale * r[2] + laws.gyro_bias - gyro));
@@ -242,6 +246,33 @@ impl<'a> Shown<'a> {
         };
         (0..theta.len()).map(of).collect()
     }
+}
+
+/// Messages as means over those about each, by the weights with which a parabola through a way takes its rates: `1 − (Δt/h)²`. A quick turn
+/// that is flattened in the rates of the pose alone would make the gyro read too much.
+fn smoothed(messages: &[Message]) -> Arc<[Message]> {
+    let half = SETTINGS.grid.smoothing + 0.5 * STEP;
+    let weight = |a: f64, b: f64| (1.0 - ((a - b) / half).powi(2)).max(0.0);
+    let about = |at: &Message| {
+        let first = messages.partition_point(|m| m.time <= at.time - half);
+        let last = messages.partition_point(|m| m.time < at.time + half);
+        let near = &messages[first..last];
+        // What is reported too rarely is compared as it is.
+        if near.len() < RULES.smoothed {
+            return *at;
+        }
+        let mean = |of: fn(&Message) -> Option<f64>| {
+            let known = near.iter().filter_map(|m| Some((weight(m.time, at.time), of(m)?)));
+            let (sum, weights) = known.fold((0.0, 0.0), |(sum, weights), (w, value)| (sum + w * value, weights + w));
+            of(at).map(|_| sum / weights)
+        };
+        Message {
+            time: mean(|m| Some(m.time)).unwrap_or(at.time),
+            gyro: mean(|m| m.gyro),
+            encoder: mean(|m| m.encoder),
+        }
+    };
+    messages.iter().map(about).collect()
 }
 
 /// By how much the parabola about a step shows another speed than that of the step where the push changes about it, m/s: the

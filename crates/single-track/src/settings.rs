@@ -56,6 +56,8 @@
         moving: f64 = 0.1, "m/s", "guess";
         /// Factor within which a ratio is that of two units.
         near: f64 = 1.25, "1", "guess; scales of sensors are known to a few per cent, and the least factor of units is 3.6";
+        /// Factor within which most stretches have the same ratio, else it is of no unit.
+        steady: f64 = 1.15, "1", "guess; a unit is the same everywhere, wheels that spin are not";
         /// Least steering angle of stretches in which the car is compared with its steering.
         steered: f64 = 0.1, "rad", "guess; beyond offsets and play";
         /// Least throttle of these: backward a car turns the other way.
@@ -90,6 +92,8 @@
         length: f64 = 1.0, "s", "guess; half of the forecasts, several lags of usual servos";
         /// Distance of their beginnings.
         every: f64 = 0.5, "s", "guess; half a window";
+        /// Messages of the car within the smoothing of the pose, fewer than which are compared as they are.
+        smoothed: usize = 3, "1", "definition: one on either side";
         /// Weight of a row of the pose beside the others of its window.
         shared: f64 = 0.5, "1", "guess; middle and end of a window share the errors of its start";
         /// Metres that a heading error of one radian costs.
@@ -320,6 +324,8 @@
         hardly: f64 = 1.0, "1", "causes that leave no less; 0.7 took back what was hidden in 4 of 36 drawn cars";
         /// Remaining error over the way, beyond which nothing is explained, however much more was left before.
         most: f64 = 0.45, "1", "guess; wrong signs and units leave half of the motion and more";
+        /// The same from which on something unknown is likelier where nothing is called missing and no reference says what is usual.
+        doubted: f64 = 0.03, "1", "guess; sound cars of two other hands leave 0.007";
         /// Share of the re-tuned error that has to be left then.
         of_retuned: f64 = 0.8, "1", "guess";
     }

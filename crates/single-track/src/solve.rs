@@ -83,7 +83,7 @@ pub(crate) fn solve<'a>(
 ) -> Result<Solved<Shown<'a>>, CarError> {
     let right = if references.is_empty() { None } else { Some(data(car, &references.iter().collect::<Vec<_>>())?) };
     let data = data(car, drives)?;
-    let causes = causes(&data.model);
+    let causes = causes(&data.model, right.is_some());
     let short = CarError::Short { windows: 0, length: SETTINGS.windows.length, needed: SETTINGS.windows.least };
     hierarchical_fit::solve(data, right.as_ref(), causes).ok_or(short)
 }

@@ -111,7 +111,8 @@ fn answered(table: &Columns, car: &Car, by_pose: bool, rows: std::ops::Range<usi
 }
 
 /// Median of what a channel shows over what the pose does in the same time, over stretches in which the pose does `least` and
-/// more per second; `None` without enough of them.
+/// more per second; `None` without enough of them, and where it is another from stretch to stretch: a unit is the same everywhere, wheels
+/// that spin are not.
 fn ratio(table: &Columns, channel: &[f64], done: fn(&[[f64; 3]]) -> Option<f64>, least: f64) -> Option<f64> {
     if channel.is_empty() || table.pose.is_empty() {
         return None;
@@ -132,7 +133,9 @@ fn ratio(table: &Columns, channel: &[f64], done: fn(&[[f64; 3]]) -> Option<f64>,
         }
         from = until;
     }
-    (found.len() >= RULES.stretches).then(|| median(found)).flatten()
+    let factor = median(found.iter().copied()).filter(|_| found.len() >= RULES.stretches)?;
+    let is_steady = |ratio: &&f64| (1.0 / RULES.steady..RULES.steady).contains(&(*ratio / factor));
+    (2 * found.iter().filter(is_steady).count() > found.len()).then_some(factor)
 }
 
 /// How far the body turns over rows of the pose; `None` where yaw wraps around or was not seen.

@@ -12,7 +12,7 @@ use crate::decide::fault_free_cost;
 use crate::decision::Scored;
 use crate::fit::{Fitted, Hypothesis};
 use crate::judged::Judged;
-use crate::leave_out::{is_worthwhile, leave_one_out};
+use crate::leave_out::{Forecasts, QUANTITIES, is_worthwhile, leave_one_out};
 use crate::motion::GyroError;
 use crate::predict::predict;
 use crate::redundancy::Fault;
@@ -170,52 +170,22 @@ impl Judged<'_> {
         )
     }
 
-    /// When at least half of the wheels were inside the disc, in each recording.
-    fn inside(&self, disc: [f64; 3]) -> BTreeMap<String, Vec<[f64; 2]>> {
-        const FINE: usize = ANSWER.path_parts;
-        let wheels = self.problem.robot.wheels();
-        let mut out = BTreeMap::new();
-        for cut in self.problem.cuts {
-            let window = cut.rows_per_window as f64 * cut.period;
-            let mut list: Vec<[f64; 2]> = Vec::new();
-            for (w, ends) in cut.path.windows(2).enumerate() {
-                for i in 0..FINE {
-                    let f = (i as f64 + 0.5) / FINE as f64;
-                    let at = |k: usize| ends[0][k] * (1.0 - f) + ends[1][k] * f;
-                    let (sin, cos) = at(2).sin_cos();
-                    let inside = wheels
-                        .clone()
-                        .filter(|[x, y]| {
-                            let wheel = [at(0) + cos * x - sin * y, at(1) + sin * x + cos * y];
-                            (wheel[0] - disc[0]).hypot(wheel[1] - disc[1]) < disc[2]
-                        })
-                        .count();
-                    if 2 * inside >= wheels.len() {
-                        let from = cut.from + (w as f64 + i as f64 / FINE as f64) * window;
-                        let until = from + window / FINE as f64;
-                        match list.last_mut() {
-                            Some(last) if from - last[1] < 1e-6 => last[1] = until,
-                            _ => list.push([from, until]),
-                        }
-                    }
-                }
-            }
-            out.insert(cut.name.clone(), list);
-        }
-        out
-    }
-
-    fn after(&self, onsets: &[Option<f64>]) -> BTreeMap<String, Vec<[f64; 2]>> {
-        self.problem
-            .cuts
-            .iter()
-            .zip(onsets)
-            .map(|(c, t)| (c.name.clone(), t.map(|t| vec![[t, c.end()]]).unwrap_or_default()))
-            .collect()
-    }
-
     /// The whole diagnosis.
     pub(crate) fn diagnosis(&self, retuned: &Fitted, screened: Vec<(String, f64)>) -> Diagnosis {
+        let forecasts = leave_one_out(self, retuned);
+        let wheels = || {
+            let of_wheels = forecasts.free_runs.iter().filter(|row| row.quantity == QUANTITIES[0]);
+            Standing::new(&of_wheels.cloned().collect::<Vec<_>>())
+        };
+        let is_asked = self.verdict() == Verdict::Explained && !self.is_of_sensors_alone();
+        match self.decision.refuted_by(if is_asked { wheels() } else { None }) {
+            Some(decision) => Judged { decision: &decision, ..*self }.told(retuned, screened, forecasts),
+            None => self.told(retuned, screened, forecasts),
+        }
+    }
+
+    /// The same with forecasts of what was left out.
+    fn told(&self, retuned: &Fitted, screened: Vec<(String, f64)>, forecasts: Forecasts) -> Diagnosis {
         let p = self.problem;
         let verdict = self.verdict();
         let ranked = self.causes();
@@ -223,7 +193,6 @@ impl Judged<'_> {
         let calibrated = p.response(&p.origin(), &none);
         let winner = self.winner();
         let theta = winner.map_or(retuned.point.theta, |w| w.trial.fitted.point.theta);
-        let forecasts = leave_one_out(self, retuned);
         let worthwhile = is_worthwhile(p, &calibrated, &forecasts.free_runs);
         let (corrector, forecaster) = if worthwhile { (winner, theta) } else { (None, p.centre) };
         let gyro = self.sensors.gyro;
@@ -245,7 +214,9 @@ impl Judged<'_> {
             })
             .collect();
         let fault_free = fault_free_cost(p, &self.calibration.regimes.scatter);
-        let unexplained = (winner.is_some() || verdict == Verdict::Unknown).then(|| self.decision.level.share());
+        // What a refuted hypothesis leaves is no measure of what is explained.
+        let is_measured = (winner.is_some() || verdict == Verdict::Unknown) && self.decision.refuted.is_none();
+        let unexplained = is_measured.then(|| self.decision.level.share());
         // What a sensor shows wrongly is no part of the motion that is forecast.
         let forecasts_tell = verdict == Verdict::Explained && !self.is_of_sensors_alone();
         let standing = Standing::new(&forecasts.free_runs).filter(|_| forecasts_tell);

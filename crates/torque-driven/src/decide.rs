@@ -197,7 +197,7 @@ pub(crate) fn decide(
     let named: f64 = scored.iter().map(|s| s.probability).sum();
     let told = scored.first().filter(|_| named > nothing).map_or(base, |s| &s.trial.fitted);
     let level = Level { as_it_is: found.as_it_is, fitted: told.cost, fault_free, is_unknown: by_level };
-    Decision { scored, none: nothing, unknown, level, form, moved, unconfirmed: Vec::new() }
+    Decision { scored, none: nothing, unknown, level, form, moved, ..Decision::default() }
 }
 
 /// A hypothesis in which a constant that moved since the references stands for one of the effects of a fit.
@@ -345,7 +345,8 @@ mod tests {
         let level = Level { as_it_is: 500.0, fitted: 140.0, fault_free: 100.0, is_unknown: 0.8 };
         let told = Decision { level, ..decision.clone() }.with_level(level);
         assert!(
-            (told.unknown - 0.8).abs() < 1e-12 && told.why_unknown("It", true).starts_with("It is off by 1.2 times")
+            (told.unknown - 0.8).abs() < 1e-12
+                && told.why_unknown("It", true).is_some_and(|why| why.starts_with("It is off by 1.2 times"))
         );
         // The score that fault-free drives reach is the least that names anything.
         let reached = NullScores { of_references: vec![("payload".to_owned(), 100.0)], ..NullScores::default() };

@@ -10,6 +10,8 @@ use crate::stand_in;
 use crate::structure::Structure;
 use crate::trial::Trial;
 use inference::evidence::none_of;
+use inference::experiment::Standing;
+use inference::words::variants;
 
 /// A hypothesis with its score and probability.
 #[derive(Clone)]
@@ -35,6 +37,8 @@ pub(crate) struct Decision {
     pub(crate) moved: Option<Trial>,
     /// Effects that are not named since left-out recordings do not need them.
     pub(crate) unconfirmed: Vec<Unconfirmed>,
+    /// How forecasts of the wheels of left-out recordings stand with what was named, where they refute it.
+    pub(crate) refuted: Option<Standing>,
 }
 
 impl Decision {
@@ -63,17 +67,31 @@ impl Decision {
     }
 
     /// Why the cause is taken for one that is not in the catalogue, as a sentence; `what`: the simulation that is judged.
-    pub(crate) fn why_unknown(&self, what: &str, has_references: bool) -> String {
+    pub(crate) fn why_unknown(&self, what: &str, has_references: bool) -> Option<String> {
         match self.form {
+            _ if self.refuted.is_some() => None,
             Some(form) if self.by_form() > self.level.is_unknown => {
-                format!("{what} leaves a mismatch that {}, which noise does not.", form.habit())
+                Some(format!("{what} leaves a mismatch that {}, which noise does not.", form.habit()))
             }
             _ => {
                 let usual =
                     if has_references { "in the references" } else { "a tuned simulation of a robot usually is" };
-                format!("{what} is off by {:.1} times as much (rms) as {usual}.", self.level.times())
+                Some(format!("{what} is off by {:.1} times as much (rms) as {usual}.", self.level.times()))
             }
         }
+    }
+
+    /// What refutes the best hypothesis, as a sentence, where something does.
+    pub(crate) fn refuted(&self) -> Option<String> {
+        let (wheels, best) = self.refuted.zip(self.scored.first())?;
+        Some(format!(
+            "It looks like {}, but with it the wheel speeds of recordings that were left out of the fit are forecast with {:.1} times the \
+             error of the simulation as it is, and {:.1} times that of re-tuned constants: that is not what is missing. A sensor that is \
+             late or wrong can look so.",
+            variants(best.trial.hypothesis.variants()),
+            wheels.over_nominal,
+            wheels.over_retuned
+        ))
     }
 
     /// The constant that is likelier moved than that anything is missing, by its place.
@@ -83,11 +101,42 @@ impl Decision {
     }
 
     /// The decision where how much is left is that of another fit.
-    pub(crate) fn with_level(mut self, level: Level) -> Self {
+    pub(crate) fn with_level(self, level: Level) -> Self {
         let unknown = 1.0 - none_of([level.is_unknown, self.by_form()]);
+        Self { level, ..self.with_unknown(unknown) }
+    }
+
+    /// The decision where forecasts of the wheels of left-out recordings refute what was named: something is missing that makes it look so.
+    /// `None` where they do not.
+    pub(crate) fn refuted_by(&self, wheels: Option<Standing>) -> Option<Self> {
+        let rules = SETTINGS.confirmation;
+        let wheels = wheels.filter(|s| s.over_nominal.min(s.over_retuned) > rules.refuted)?;
+        Some(Self { refuted: Some(wheels), ..self.clone().with_unknown(1.0 - SETTINGS.answer.listed) })
+    }
+
+    fn with_unknown(mut self, unknown: f64) -> Self {
         let factor = (1.0 - unknown) / (1.0 - self.unknown).max(f64::EPSILON);
         self.none *= factor;
         self.scored.iter_mut().for_each(|s| s.probability *= factor);
-        Self { unknown, level, ..self }
+        Self { unknown, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_forecasts_wheels_worse_than_the_simulation_and_than_re_tuned_constants_is_refuted() {
+        let named = Decision { none: 0.1, unknown: 0.2, ..Decision::default() };
+        let refuted = |over_nominal: f64, over_retuned: f64| {
+            named.refuted_by(Some(Standing { over_nominal, over_retuned, over_placebo: None }))
+        };
+        // A late IMU that was told as a delay of the torques.
+        let answer = refuted(1.7, 2.1).expect("refuted");
+        assert!(answer.unknown > 0.9 && answer.none < 0.02 && answer.why_unknown("It", true).is_none());
+        // A bias of a gyro leaves wheels as they are.
+        assert!(refuted(0.4, 1.0).is_none() && refuted(1.0, 1.3).is_none());
+        assert!(named.refuted_by(None).is_none());
     }
 }

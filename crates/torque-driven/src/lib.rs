@@ -23,7 +23,7 @@
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `four_motors`: whether the wheels of a side have a motor each, where the robot file does not say it.
-//! * `answer`, `limits`, `words`: causes with sizes and intervals; what limits them; sentences.
+//! * `answer`, `present`, `limits`, `words`: causes with sizes and intervals, and when they are there; what limits them; sentences.
 //! * `locate/*`: where and when the calibrated model fails, and what is left after the verdict.
 //! * `leave_out`, `rms`: free runs on recordings left out, with re-tuned and placebo models.
 //! * `forward`, `predict`: any drive simulated, and held-out drives forecast.
@@ -70,6 +70,7 @@ mod other_side;
 pub mod output_error;
 mod own_effects;
 mod predict;
+mod present;
 mod redundancy;
 mod refits;
 mod retuned;

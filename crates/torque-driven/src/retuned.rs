@@ -1,5 +1,7 @@
 //! Constants of the robot that moved farther than they are known: "re-tune" as an answer.
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
 use inference::algebra::inverse_spd;
 use inference::robust::NINETY;
@@ -53,6 +55,18 @@ impl Judged<'_> {
             return Vec::new();
         }
         retuned(self.problem, h, fitted, self.decision.moved_constant(self.problem))
+    }
+
+    /// Constants that a tuning, in sigmas by id, puts farther from the robot file than it states, the farthest first, a few of them.
+    pub(crate) fn beyond_the_file(&self, tuning: &BTreeMap<String, f64>) -> Vec<Retuned> {
+        let p = self.problem;
+        let theta = tunables::<f64>().map(|t| tuning.get(t.id).copied().unwrap_or(0.0));
+        let is_beyond = |k: &usize| (theta[*k] - p.centre[*k]).abs() >= RETUNE.least_known;
+        let far = (0..NUISANCES).filter(is_beyond);
+        let mut out: Vec<Retuned> = far.filter_map(|k| otherwise(p.robot, &p.sigma, [&p.centre, &theta], k)).collect();
+        out.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
+        out.truncate(ANSWER.listed_beyond);
+        out
     }
 }
 

@@ -27,7 +27,11 @@ impl Judged<'_> {
         for (part, _) in shared {
             let fits = other_side::fits(self.problem, &best.trial, part).into_iter();
             let Some(mirrored) = fits.min_by(|a, b| a.fitted.cost.total_cmp(&b.fitted.cost)) else { continue };
-            let share = share(gain(&left_out_costs(self, &mirrored), &left_out_costs(self, &best.trial)));
+            let [more, error] = gain(&left_out_costs(self, &mirrored), &left_out_costs(self, &best.trial));
+            // What either side asks of constants beyond what the file states is paid for as well.
+            let [asked, of_best] = [&mirrored, &best.trial].map(|trial| self.problem.prior(&trial.fitted.point));
+            let is_less_likely = mirrored.fitted.cost > best.trial.fitted.cost;
+            let share = share([more + asked - of_best, error], is_less_likely);
             if share == 1.0 {
                 continue;
             }
@@ -48,11 +52,12 @@ impl Judged<'_> {
 }
 
 /// Share of the probability of both sides that the first keeps where left-out recordings cost so much more with the other, with this
-/// standard error, nats: what is better beyond the errors takes all.
-fn share([more, error]: [f64; 2]) -> f64 {
+/// standard error, nats: what is better beyond the errors takes all, but of two of which the drives that were fitted say the contrary
+/// neither does.
+fn share([more, error]: [f64; 2], is_other_less_likely: bool) -> f64 {
     match more / (RULES.errors * error) {
         beyond if beyond > 1.0 => 1.0,
-        beyond if beyond < -1.0 => 0.0,
+        beyond if beyond < -1.0 && !is_other_less_likely => 0.0,
         _ => 0.5,
     }
 }
@@ -90,7 +95,11 @@ mod tests {
     #[test]
     fn sides_within_two_standard_errors_are_as_likely() {
         // The first is what a robot of another hand gave, whose left motor was told as its right.
-        assert_eq!([[73.4, 59.8], [-73.4, 59.8], [200.0, 59.8], [-200.0, 59.8]].map(share), [0.5, 0.5, 1.0, 0.0]);
+        let of = |is_other_less_likely| {
+            [[73.4, 59.8], [-73.4, 59.8], [200.0, 59.8], [-200.0, 59.8]].map(|more| share(more, is_other_less_likely))
+        };
+        assert_eq!(of(false), [0.5, 0.5, 1.0, 0.0]);
+        assert_eq!(of(true), [0.5, 0.5, 1.0, 0.5], "fits and forecasts contradict each other");
     }
 
     #[test]

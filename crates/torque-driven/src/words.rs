@@ -61,18 +61,44 @@ fn missing(causes: &[&Cause]) -> Vec<String> {
     out
 }
 
+/// That recordings may lack something, where that is as likely as that they lack nothing, and is not named.
+fn undecided(d: &Diagnosis) -> Option<String> {
+    let of = |id: &str| d.ranked.iter().find(|c| c.effect == id).map_or(0.0, |c| c.probability);
+    let [unknown, nothing] = [UNKNOWN.id, NONE.id].map(of);
+    (d.verdict == Verdict::NoMismatch && unknown >= nothing).then(|| {
+        format!(
+            "These recordings do not tell whether anything is missing: something that is not in the catalogue has a probability of {}, \
+             nothing one of {}. Drives in which the simulation is right (--reference) would tell.",
+            probability(unknown),
+            probability(nothing)
+        )
+    })
+}
+
+/// That nothing is missing by the robot file alone; `beyond`: constants that lie farther from it than it states.
+fn by_the_file(beyond: &[Retuned]) -> String {
+    if beyond.is_empty() {
+        return "No mismatch: the simulation explains these recordings, its constants within the uncertainty that the robot file \
+                states."
+            .to_owned();
+    }
+    let constants: Vec<String> =
+        beyond.iter().map(|c| format!("{} ({:.1} of its sigmas)", c.values(), c.sigmas.abs())).collect();
+    format!(
+        "Nothing that can be named is missing: the simulation explains these recordings, with constants farther from the robot file than \
+         it states: {}. Without references these may also make up for laws that this robot has otherwise.",
+        constants.join("; ")
+    )
+}
+
 /// The answer in sentences, the most important one first.
 pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
-    let mut out = Vec::new();
+    let mut out: Vec<String> = undecided(d).into_iter().collect();
     let calibrated = judged.problem.has_references;
     let causes: Vec<&Cause> = d.ranked.iter().filter(|c| c.effect != NONE.id && c.effect != UNKNOWN.id).collect();
     match d.verdict {
         Verdict::NoMismatch if d.retuned.is_empty() && calibrated => out.push(without_a_cause(d.costs)),
-        Verdict::NoMismatch if d.retuned.is_empty() => out.push(
-            "No mismatch: the simulation explains these recordings, its constants within the uncertainty that the robot \
-             file states."
-                .to_owned(),
-        ),
+        Verdict::NoMismatch if d.retuned.is_empty() => out.push(by_the_file(&judged.beyond_the_file(&d.tuning))),
         Verdict::NoMismatch => out.push(
             "Nothing is missing: the simulation explains these recordings once its constants are re-tuned.".to_owned(),
         ),
@@ -87,10 +113,11 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
                  references these cannot be told apart; give a fault-free drive with --reference."
                     .to_owned()
             });
+            out.extend(judged.decision.refuted());
             let nearest = causes.first().filter(|_| judged.winner().is_some());
             out.extend(nearest.map(|c| format!("The nearest effect is {} ({}).", c.name, quantity(c))));
             let what = nearest.map_or("The re-tuned simulation", |_| "With it the simulation");
-            out.push(judged.decision.why_unknown(what, calibrated));
+            out.extend(judged.decision.why_unknown(what, calibrated));
         }
         Verdict::Explained => {
             out.extend(missing(&causes));

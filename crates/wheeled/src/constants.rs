@@ -340,11 +340,11 @@ fn skidding(robot: &AnyWheels) -> Skidding {
 }
 
 /// The causes that can show: of one part, and of all parts alike.
-pub(crate) fn causes(constants: &[Constant]) -> Vec<Cause> {
+pub(crate) fn causes(constants: &[Constant], has_references: bool) -> Vec<Cause> {
     let mut out: Vec<Cause> = Vec::new();
     for (k, c) in constants.iter().enumerate() {
-        // A constant of which nothing is known cannot be wrong.
-        if c.spread.sigma >= c.spread.usual {
+        // A constant of which nothing is known, by its owner or by references, cannot be wrong.
+        if !has_references && c.spread.sigma >= c.spread.usual {
             continue;
         }
         let (spec, of) = &c.cause;

@@ -23,6 +23,7 @@ const UNEXPLAINED: Unexplained = Unexplained {
     share: SETTINGS.unexplained.share,
     of_retuned: SETTINGS.unexplained.of_retuned,
     most: SETTINGS.unexplained.most,
+    doubted: SETTINGS.unexplained.doubted,
 };
 
 /// A robot with its drives.
@@ -117,7 +118,7 @@ fn solved<'a>(case: &'a Case, progress: &dyn Fn(&str)) -> Result<Solved<Shown<'a
     let of = |drives: &'a [Drive]| data(&robot, has, &drives.iter().collect::<Vec<_>>());
     let right = if case.references.is_empty() { None } else { Some(of(&case.references)?) };
     let data = of(&case.recordings)?;
-    let causes = causes(&data.model.all);
+    let causes = causes(&data.model.all, right.is_some());
     let short = WheeledError::Short { windows: 0, length: SETTINGS.windows.length, needed: SETTINGS.windows.least };
     let solved = hierarchical_fit::solve(data, right.as_ref(), causes).ok_or(short);
     progress("naming what would make them agree");

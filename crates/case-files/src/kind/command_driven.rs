@@ -39,13 +39,6 @@ impl Kind for CommandDriven {
         Ok(Forecast { errors: errors.into_iter().map(|(q, e)| (q, Some(e))).collect(), prediction: None })
     }
 
-    fn no_rehearsal(&self) -> Option<&'static str> {
-        Some(
-            "only robots that are given torques can be rehearsed yet: its recordings hold no torques that the plant could be \
-             driven with, and its causes are elements of a response, which have no law in the plant",
-        )
-    }
-
     fn no_prediction(&self) -> Option<&'static str> {
         Some("command-driven robots have no predictions; errors on held-out drives are in the text and the JSON")
     }

@@ -34,8 +34,8 @@ impl Kind for SpeedDriven {
 
     fn no_rehearsal(&self) -> Option<&'static str> {
         Some(
-            "only robots that are given torques can be rehearsed yet: of recorded wheel speeds the plant gives loads, and \
-             no replica of their currents' noise and of steady driving is drawn",
+            "such robots cannot be rehearsed yet: of recorded wheel speeds the plant gives loads, and no replica of their \
+             currents' noise and of steady driving is drawn",
         )
     }
 

@@ -176,6 +176,15 @@ mod tests {
     }
 
     #[test]
+    fn a_step_between_two_drives_is_no_scatter_of_theirs() {
+        let drives = [1.0, 1.12, 1.12, 1.12].map(|scale| Scaled::changing([scale; 2], 0.0).roughly(0.03));
+        let solved = solved(drives.into());
+        let onset = solved.onset.as_ref().expect("a step");
+        assert!(onset.drive() == 1 && onset.changes.iter().all(Option::is_none), "{:?}", onset.changes);
+        assert_relative_eq!(solved.named.posterior.mean[0], 1.12_f64.ln(), epsilon = 0.005);
+    }
+
+    #[test]
     fn a_cause_that_begins_in_each_drive_anew_is_found_in_each() {
         let at = [6.0, 12.0, 9.0];
         let solved = solved(at.map(|from| Scaled::changing([1.0, 1.5], from)).into());

@@ -268,12 +268,21 @@ impl<D: Observed> Sought<'_, D> {
         [mean.rows(0, n).into_owned(), mean.rows(n, mean.len() - n).into_owned()]
     }
 
+    /// Deviations of drives about which equations of a hypothesis stand. Where drives scatter more without it than with it, those of the
+    /// fit are what it explains, and it would count twice.
+    fn own(&self, weighted: &Weighted) -> Vec<DVector<f64>> {
+        if weighted.factor < self.fit.factor {
+            self.fit.own.iter().map(|own| DVector::zeros(own.len())).collect()
+        } else {
+            self.fit.own.clone()
+        }
+    }
+
     /// A hypothesis by equations about where it led.
     fn again(&self, weighted: &Weighted, noise: Noise) -> Option<(Weighted, Equations)> {
         let ([theta, moved], [_, acting]) = (self.split(weighted), self.constants(weighted));
-        let of = |theta: &DVector<f64>| {
-            stretches(self.data, theta.as_slice(), &self.fit.own, (noise, SETTINGS.onset.coarse))
-        };
+        let own = self.own(weighted);
+        let of = |theta: &DVector<f64>| stretches(self.data, theta.as_slice(), &own, (noise, SETTINGS.onset.coarse));
         let about = Equations { off: of(&theta), on: of(&acting), theta, moved: Some(moved) };
         Some((self.weighed(&weighted.hypothesis, &about, &likely(&weighted.instants))?, about))
     }
@@ -293,7 +302,7 @@ impl<D: Observed> Sought<'_, D> {
                 |at: &DVector<f64>| drive.errors(&self.data.model, &self.data.own_constants(at.as_slice(), own));
             gate.chosen(k, drive.rows(), &errors(&on), &errors(&off))
         };
-        let errors: Vec<Vec<f64>> = self.fit.own.iter().enumerate().map(of).collect();
+        let errors: Vec<Vec<f64>> = self.own(&weighted).iter().enumerate().map(of).collect();
         Some((weighted, self.data.noise(&errors)))
     }
 

@@ -5,12 +5,14 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail, ensure};
+use case_files::case_folder::CaseFolder;
 use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Program;
 use case_files::{kind, own_effects};
 use clap::Args as ClapArgs;
 use inference::{KnownEffects, Options};
-use rehearsal::{Plan, RehearsalError, Rehearsing, rehearse_fit};
+use rehearsal::{Plan, RehearsalError, Rehearsing, RehearsingResponse, rehearse_fit};
+use robot_file::Causality;
 use serde_json::json;
 use verdict::Rehearsal;
 
@@ -40,6 +42,10 @@ Of robots whose files name their columns (wheel counts, cars, any wheels) the
 constants are fitted to the recordings, and replicas are drawn from the
 equations of that fit: of whole drives, 40 of each size, in seconds. Sizes are
 then multiples of what a cause usually has [default: 0.125,0.25,0.5,1].
+
+Of robots that are given commands whole drives are driven again by the response
+of their references, or by wheels that do what is commanded, and diagnosed: 3 of
+each size [default: 0.25,0.5,1], in minutes.
 
 With the defaults it takes minutes: of each drive the first 12 s, of two
 recordings, each size three times. More of each takes longer in proportion.
@@ -117,6 +123,19 @@ impl Args {
         (files.into_iter().map(PathBuf::from).collect(), names)
     }
 
+    /// Refuses what is of robots whose drives are simulated again in part.
+    fn refuse_parts_of_drives(&self, robot: &str) -> Result<()> {
+        for (given, option) in [(self.seconds.is_some(), "--seconds"), (self.drives.is_some(), "--drives")] {
+            if given {
+                return Err(Usage(format!(
+                    "{option} is of robots that are given torques; of '{robot}' whole drives are taken, and all of them; leave it out"
+                ))
+                .into());
+            }
+        }
+        Ok(())
+    }
+
     fn plan(&self, known: KnownEffects, usual: Plan) -> Plan {
         let (_, names) = self.files_and_names();
         let of_catalogue = names.into_iter().map(|name| name.to_lowercase().replace(['-', ' '], "_"));
@@ -147,32 +166,62 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         known.refused_for(case.kind().name())?;
         return of_fit(args, &case, progress);
     }
-    let plan = args.plan(known, Plan::default());
-    let names: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
-    plan.checked(&names).map_err(told)?;
     let robot = diagnose::located(&args.input, known)?.robot;
+    let plan = args.plan(known, Plan::default());
+    if robot.causality == Causality::TorqueDriven {
+        let names: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
+        plan.checked(&names).map_err(told)?;
+    }
     if let Some(why) = kind::of(robot.causality).no_rehearsal() {
         bail!("robot '{}' is {}; {why}", robot.name, robot.causality.name());
     }
     let (folder, mapping) = diagnose::read(&args.input, known)?;
+    if robot.causality == Causality::CommandDriven {
+        known.refused_for(robot.causality.name())?;
+        return of_response(args, (&folder, &mapping), progress, verbose);
+    }
     let (case, options) = (folder.torque_driven()?, Options { known, ..Options::default() });
     progress.stage("looking which effects these inputs can show");
     let rehearsing = Rehearsing::new(&case, &plan, &options).map_err(told)?;
     drop(progress);
 
-    let progress = Counted::new(rehearsing.count(), "diagnoses", verbose);
+    let rehearsal = counted(rehearsing.count(), verbose, |listener| rehearsing.run(listener)).map_err(told)?;
+    tell(args, &folder, &mapping, &rehearsal)
+}
+
+/// Rehearses a robot that is given commands.
+fn of_response(
+    args: &Args,
+    (folder, mapping): (&CaseFolder, &str),
+    progress: Progress,
+    verbose: bool,
+) -> Result<Outcome> {
+    args.refuse_parts_of_drives(&folder.robot.name)?;
+    let plan = args.plan(KnownEffects::default(), Plan::of_response());
+    let case = folder.command_driven()?;
+    let rehearsing = RehearsingResponse::new(&case, &plan, &|what| progress.stage(what)).map_err(told)?;
+    drop(progress);
+    let rehearsal = counted(rehearsing.count(), verbose, |listener| rehearsing.run(listener));
+    tell(args, folder, mapping, &rehearsal)
+}
+
+/// Runs so many diagnoses with a line for each.
+fn counted<T>(diagnoses: usize, verbose: bool, run: impl FnOnce(&(dyn Fn(&str) + Sync)) -> T) -> T {
+    let progress = Counted::new(diagnoses, "diagnoses", verbose);
     let last = Mutex::new(Instant::now());
-    let rehearsal = rehearsing.run(&|line| {
+    run(&|line| {
         // Time since the line before: of all threads together.
         let took =
             last.lock().map_or(Duration::ZERO, |mut last| std::mem::replace(&mut *last, Instant::now()).elapsed());
         progress.one(line, took);
-    });
-    drop(progress);
+    })
+}
 
-    let (rehearsal, lost) = (rehearsal.map_err(told)?, folder.lost());
+/// Writes a rehearsal of a folder with what was lost.
+fn tell(args: &Args, folder: &CaseFolder, mapping: &str, rehearsal: &Rehearsal) -> Result<Outcome> {
+    let lost = folder.lost();
     let about = json!({ "robot": folder.robot.to_json()?, "mapping": mapping, "lost": lost });
-    write(args, &rehearsal, &folder.robot.name, about)?;
+    write(args, rehearsal, &folder.robot.name, about)?;
     if ![&args.json, &args.html].iter().any(|target| target.as_deref() == Some("-")) {
         emit(&listed("Input that was lost", &lost))?;
     }
@@ -181,16 +230,7 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
 
 /// Rehearses a case whose constants are fitted to whole drives.
 fn of_fit(args: &Args, case: &ColumnsCase, progress: Progress) -> Result<Outcome> {
-    for (given, option) in [(args.seconds.is_some(), "--seconds"), (args.drives.is_some(), "--drives")] {
-        if given {
-            let name = case.robot_name();
-            return Err(Usage(format!(
-                "{option} is of robots whose drives are simulated again; of '{name}' whole drives are taken, and all of them; leave \
-                 it out"
-            ))
-            .into());
-        }
-    }
+    args.refuse_parts_of_drives(case.robot_name())?;
     let plan = args.plan(KnownEffects::default(), Plan::of_fit());
     let rehearsable = case.rehearsable(&|what| progress.stage(what))?;
     progress.stage("naming the causes of replicas");

@@ -75,6 +75,22 @@ fn a_response_is_reported_without_any_reference() {
 }
 
 #[test]
+fn a_rehearsal_drives_the_commands_again_and_counts_whole_diagnoses() {
+    let bench = bench();
+    let asked = ["--effects", "transport_delay,rolling_radius", "--size", "2", "--replicas", "1", "--fault-free", "1"];
+    let run = bench.run(&[&["rehearse", "case", "--json", "r.json", "--html", "r.html"], &asked[..]].concat());
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for told in ["of 1 replicas", "transport_delay", "rolling_radius: it changes nothing", "there is no reference"] {
+        assert!(run.out().contains(told), "no `{told}` in {}", run.out());
+    }
+    let json: Value = serde_json::from_str(&bench.read("r.json")).unwrap();
+    let size = &json["rehearsal"]["effects"][0]["sizes"][0];
+    assert_eq!((&size["size"], &size["answers"]["first"]), (&0.2.into(), &1.into()), "{}", run.out());
+    assert!(bench.read("r.html").contains("Rehearsal"));
+    bench.run(&["rehearse", "case", "--seconds", "5"]).failed(&["--seconds", "whole drives are taken"]);
+}
+
+#[test]
 fn the_page_is_the_same_at_once_and_from_the_json() {
     let bench = bench();
     let run = bench.run(&["diagnose", "case", "--json", "out.json", "--report", "page.html"]);

@@ -1,0 +1,65 @@
+//! From answers to replicas to what a rehearsal tells of each cause.
+
+use rayon::prelude::*;
+use verdict::{NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect, RehearsedSize};
+
+use crate::plan::Plan;
+use crate::rehearse::{BEYOND, in_order};
+use crate::score::{Scored, count, found_from, look_alikes, share_found};
+use crate::settings::SETTINGS;
+
+/// A cause that is hidden in several sizes.
+pub(crate) struct Effect<T> {
+    pub(crate) of: T,
+    pub(crate) id: String,
+    pub(crate) name: &'static str,
+    /// Its size of interest, in `unit`.
+    pub(crate) interest: f64,
+    pub(crate) unit: &'static str,
+    /// Its sizes, in sizes of interest and in `unit`; none where already the smallest is not sensible.
+    pub(crate) sizes: Vec<(f64, f64)>,
+}
+
+/// A rehearsal of these causes; `answer` is what is told of a replica, by its number, in which so many sizes of interest of a cause, or
+/// nothing, is hidden.
+pub(crate) fn assembled<T: Sync>(
+    plan: &Plan,
+    drives: RehearsedDrives,
+    effects: &[Effect<T>],
+    answer: &(dyn Fn(usize, Option<(&T, f64)>) -> Scored + Sync),
+) -> Rehearsal {
+    let all = |hidden: Option<(&T, f64)>, replicas: usize| {
+        let scored: Vec<Scored> = (0..replicas).into_par_iter().map(|replica| answer(replica, hidden)).collect();
+        count(&scored)
+    };
+    let sizes_of = |effect: &Effect<T>| -> Vec<RehearsedSize> {
+        let one = |&(multiple, size): &(f64, f64)| {
+            let answers = all(Some((&effect.of, multiple)), plan.replicas);
+            RehearsedSize { multiple, size, found: share_found(&answers), answers, driven: 1.0 }
+        };
+        effect.sizes.iter().map(one).collect()
+    };
+    let rehearsed = |effect: &Effect<T>| {
+        let sizes = sizes_of(effect);
+        RehearsedEffect {
+            effect: effect.id.clone(),
+            name: effect.name.to_owned(),
+            interest: effect.interest,
+            unit: effect.unit.into(),
+            found: found_from(&sizes, SETTINGS.plan.wanted),
+            look_alikes: look_alikes(&sizes),
+            sizes,
+        }
+    };
+    let (can_be, beyond): (Vec<_>, Vec<_>) = effects.iter().partition(|effect| !effect.sizes.is_empty());
+    let left_out = |effect: &Effect<T>| NotRehearsed { effect: effect.id.clone(), why: BEYOND.into() };
+    Rehearsal {
+        format: REHEARSAL_FORMAT,
+        drives,
+        fault_free: all(None, plan.fault_free),
+        effects: in_order(can_be.into_iter().map(rehearsed).collect()),
+        left_out: beyond.into_iter().map(left_out).collect(),
+        shortened: Vec::new(),
+        limits: Vec::new(),
+    }
+}
