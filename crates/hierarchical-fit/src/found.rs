@@ -94,7 +94,7 @@ impl std::fmt::Display for Began {
 
 impl Began {
     /// Whether it is there in a single drive.
-    pub fn is_in_one(&self) -> bool {
+    fn is_in_one(&self) -> bool {
         !self.others && self.anew.is_empty()
     }
 }
@@ -119,6 +119,11 @@ pub struct NamedCause {
 }
 
 impl NamedCause {
+    /// Whether it is there in a single drive, so that no forecast of another can confirm it.
+    pub fn is_in_one_drive(&self) -> bool {
+        self.onset.as_ref().is_some_and(Began::is_in_one)
+    }
+
     /// A cause as it was weighed, with estimates of all constants, when it was there, and when it begins or ends.
     pub fn new(
         weighed: &Weighed,

@@ -227,7 +227,7 @@ impl Said {
             self.answer = Answer::Unknown;
         }
         let is_confirmed = standing.over_nominal < naming.confirmed && standing.over_retuned < naming.worse;
-        let is_shown = |cause: &NamedCause| shows(cause) && !cause.onset.as_ref().is_some_and(Began::is_in_one);
+        let is_shown = |cause: &NamedCause| shows(cause) && !cause.is_in_one_drive();
         if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(is_shown) {
             return false;
         }

@@ -80,7 +80,7 @@ impl Findings {
         let Some(standing) = standing else { return out };
         if leaves_most && standing.over_nominal > rules.refuted {
             out.take_back();
-        } else if standing.over_nominal > confirmed {
+        } else if standing.over_nominal > confirmed && !out.named.iter().any(NamedCause::is_in_one_drive) {
             out.take_back();
             out.unconfirmed = Some(Unconfirmed { labels, standing });
         }

@@ -20,15 +20,18 @@ pub(crate) struct Effect<T> {
     pub(crate) sizes: Vec<(f64, f64)>,
 }
 
+/// What is hidden in a replica: so many sizes of interest of a cause, or nothing.
+pub(crate) type Hidden<'a, T> = Option<(&'a T, f64)>;
+
 /// A rehearsal of these causes; `answer` is what is told of a replica, by its number, in which so many sizes of interest of a cause, or
 /// nothing, is hidden.
 pub(crate) fn assembled<T: Sync>(
     plan: &Plan,
     drives: RehearsedDrives,
     effects: &[Effect<T>],
-    answer: &(dyn Fn(usize, Option<(&T, f64)>) -> Scored + Sync),
+    answer: &(dyn Fn(usize, Hidden<'_, T>) -> Scored + Sync),
 ) -> Rehearsal {
-    let all = |hidden: Option<(&T, f64)>, replicas: usize| {
+    let all = |hidden: Hidden<'_, T>, replicas: usize| {
         let scored: Vec<Scored> = (0..replicas).into_par_iter().map(|replica| answer(replica, hidden)).collect();
         count(&scored)
     };

@@ -10,7 +10,7 @@ use hierarchical_fit::{Hideable, Rehearsable, Session};
 use nalgebra::{DMatrix, DVector};
 use verdict::{Rehearsal, RehearsedDrives};
 
-use crate::assemble::{Effect, assembled};
+use crate::assemble::{Effect, Hidden, assembled};
 use crate::error::RehearsalError;
 use crate::plan::Plan;
 use crate::random::{Purpose, Stream};
@@ -26,9 +26,6 @@ struct Drawn<'a> {
     /// Of each drive a root of its curvature: noise of its slope is this times numbers of unit variance.
     roots: Vec<DMatrix<f64>>,
 }
-
-/// What is hidden: a cause, in so many of its usual sizes.
-type Hidden<'a> = Option<(&'a Hideable, f64)>;
 
 /// Which causes would be found with the drives of a fit, from which size on, and how often one would be alarmed for nothing. Of the plan
 /// neither seconds nor recordings count: whole drives are taken, and all of them.
@@ -82,7 +79,7 @@ fn roots(of: &Rehearsable) -> Vec<DMatrix<f64>> {
 
 impl Drawn<'_> {
     /// What is named of a replica.
-    fn answer(&self, replica: usize, hidden: Hidden<'_>) -> Scored {
+    fn answer(&self, replica: usize, hidden: Hidden<'_, Hideable>) -> Scored {
         let of = self.of;
         let label = hidden.map(|(hideable, _)| hideable.cause.label());
         let within = |stream: &mut Stream| stream.normal_within(SETTINGS.constants.farthest);

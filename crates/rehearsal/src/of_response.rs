@@ -5,7 +5,7 @@ use command_driven::{Hideable, Replicas, ResponseCase, diagnose_response};
 use inference::Options;
 use verdict::{NotRehearsed, Rehearsal, RehearsedDrives, SensorNoise};
 
-use crate::assemble::{Effect, assembled};
+use crate::assemble::{Effect, Hidden, assembled};
 use crate::error::RehearsalError;
 use crate::plan::Plan;
 use crate::random::{Purpose, Stream};
@@ -66,7 +66,7 @@ impl RehearsingResponse {
     /// from any thread.
     pub fn run(&self, listener: &(dyn Fn(&str) + Sync)) -> Rehearsal {
         let Self { plan, replicas, references, .. } = self;
-        let answer = |replica: usize, hidden: Option<(&Hideable, f64)>| {
+        let answer = |replica: usize, hidden: Hidden<'_, Hideable>| {
             let scored = self.answer(replica, hidden);
             let what = hidden.map_or_else(|| "nothing hidden".to_owned(), |(h, m)| format!("{} {m} x", h.spec.id));
             let others: Vec<&str> = scored.others.iter().map(String::as_str).collect();
@@ -97,7 +97,7 @@ impl RehearsingResponse {
     }
 
     /// What is told of a replica.
-    fn answer(&self, replica: usize, hidden: Option<(&Hideable, f64)>) -> Scored {
+    fn answer(&self, replica: usize, hidden: Hidden<'_, Hideable>) -> Scored {
         let mut numbers = Stream::new(self.plan.seed, Purpose::Constants, &[replica]);
         let mut direction = Stream::new(self.plan.seed, Purpose::Direction, &[replica]);
         let hidden = hidden.map(|(hideable, multiple)| {

@@ -21,7 +21,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
         errors: "errors after a second",
         machine: "car",
         conditions: "floor and battery",
-        most: SETTINGS.unexplained.most,
+        most: SETTINGS.unexplained.columns,
         scales: &[ENCODER_SCALE.id],
         has_references,
     };

@@ -77,9 +77,10 @@ impl Constant {
         [if self.is_size() { -self.given } else { -far }, far]
     }
 
-    /// Whether something is known of it from which it may differ: by its owner, or by references.
+    /// Whether something is known of it from which it may differ: by its owner, or by references. Of the yaw inertia these say little: it
+    /// makes up for tyres and delays that are not quite the model's, in each drive otherwise.
     pub(crate) fn can_be_wrong(&self, has_references: bool) -> bool {
-        has_references || self.sigma < self.usual
+        self.sigma < self.usual || (has_references && self.quantity != Quantity::Gyration)
     }
 
     /// Whether there is none below 0.
