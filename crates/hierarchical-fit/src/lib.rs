@@ -11,7 +11,7 @@
 //! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
 //!   all of it by one set of equations (`scan`), the best by their own (`search`).
-//! * `found`, `said`, `telling`, `sentences`: what was found as plain data, and as what all verdicts of such comparisons share.
+//! * `found`, `said`, `telling`, `sentences`, `hedges`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
 //! * `rehearsable`: what the drives of a fit could say, for whoever asks what they would show.
 //! * `table`: columns of a drive by the names that a robot file gives them.
@@ -28,6 +28,7 @@ mod descent;
 mod error;
 mod fit;
 mod found;
+mod hedges;
 mod look_alikes;
 pub mod menu;
 mod name;

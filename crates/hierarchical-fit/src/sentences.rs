@@ -1,8 +1,7 @@
 //! Findings in sentences: what every comparison whose sessions give normal equations says alike.
 
 use catalogue::for_people;
-use inference::evidence::logistic;
-use inference::words::{probability, two_decimals};
+use inference::words::two_decimals;
 use verdict::{Diagnosis, FreeRun, Retuned};
 
 use crate::cause::Cause;
@@ -77,10 +76,15 @@ impl Found<'_> {
                 "{}: {agree}, as well as {stated} {is_known} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned).",
                 self.nothing()
             ),
-            Answer::Retune => format!(
-                "Re-tune: {agree} once constants are set within what {stated} {leaves} open ({errors}: {given:.1} % of the motion, \
-                 {tuned:.1} % re-tuned)."
-            ),
+            Answer::Retune => {
+                let far = self.retuned.iter().map(|e| e.sigmas.abs()).fold(0.0, f64::max);
+                let how = if far > SETTINGS.naming.told_far {
+                    format!("once constants are set up to {far:.1} sigmas from {stated}")
+                } else {
+                    format!("once constants are set within what {stated} {leaves} open")
+                };
+                format!("Re-tune: {agree} {how} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned).")
+            }
             Answer::Named => format!(
                 "{disagree} by more than {stated} {leaves} open: {} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned, \
                  {best:.1} % with what is named).",
@@ -115,11 +119,6 @@ impl Found<'_> {
         }
     }
 
-    /// How an answer begins by which nothing is missing.
-    fn nothing(&self) -> &'static str {
-        if self.doubt() > 0.0 { "Nothing that can be named is missing" } else { "Nothing is missing" }
-    }
-
     /// What was named and is not told.
     fn unconfirmed(&self) -> Option<String> {
         let Unconfirmed { labels, standing } = self.unconfirmed?;
@@ -130,59 +129,6 @@ impl Found<'_> {
             names.join("; "),
             standing.over_nominal,
             standing.over_retuned
-        ))
-    }
-
-    /// What is left of the recordings beside the references, where that is more than usual.
-    fn doubted(&self) -> Option<String> {
-        if self.doubt() <= 0.0 {
-            return None;
-        }
-        let Some([left, usual]) = self.beside_references else {
-            return self.beside_usual.map(|[left, usual]| {
-                format!(
-                    "Yet {:.1} % of the motion are left, and sound robots leave less than {:.0} %: not enough to be called missing. Look where \
-                     the drives differ from the simulation.",
-                    100.0 * left,
-                    100.0 * usual
-                )
-            });
-        };
-        Some(format!(
-            "Yet {:.1} % of the motion are left of the recordings and {:.1} % of the references, {:.1} times as much: more than what is \
-             usual, and not enough to be called missing. Look at where they differ.",
-            100.0 * left,
-            100.0 * usual,
-            left / usual.max(f64::MIN_POSITIVE)
-        ))
-    }
-
-    /// Causes that are likelier than not, beside those that are named, and not sure enough for it.
-    fn perhaps(&self) -> Option<String> {
-        let likely = self.others.iter().filter(|(_, p)| self.answer == Answer::Named && *p > 0.5);
-        let told: Vec<String> = likely.map(|(l, p)| format!("{} ({})", for_people(l), probability(*p))).collect();
-        (!told.is_empty()).then(|| {
-            format!(
-                "Perhaps also, with a probability in brackets below the {} from which a cause is named: {}.",
-                probability(logistic(SETTINGS.naming.named)),
-                told.join(", ")
-            )
-        })
-    }
-
-    /// What leads where no cause is named and yet one is likelier than none.
-    fn undecided(&self) -> Option<String> {
-        if !matches!(self.answer, Answer::Nothing | Answer::Retune) {
-            return None;
-        }
-        let none = self.nothing_else();
-        let (label, best) = self.others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, p)| *p > none)?;
-        Some(format!(
-            "These drives do not tell whether anything is missing: {} has a probability of {}, nothing one of {}. Record more \
-             drives to decide.",
-            for_people(label),
-            probability(*best),
-            probability(none)
         ))
     }
 
@@ -344,7 +290,7 @@ mod tests {
         assert_eq!(doubted(0.02, Some(0.012)), (0.0, None), "it is usual");
         let by_usual = |left: f64| Found { beside_usual: Some([left, 0.03]), ..found(Answer::Retune) };
         approx::assert_relative_eq!(by_usual(0.045).doubt(), 0.225, epsilon = 1e-12);
-        assert!(by_usual(0.045).doubted().is_some_and(|told| told.contains("sound robots leave less than 3 %")));
+        assert!(by_usual(0.045).doubted().is_some_and(|told| told.contains("sound robots leave less than 3.0 %")));
         assert_eq!((by_usual(0.02).doubt(), by_usual(0.02).doubted()), (0.0, None));
         assert_eq!(doubted(0.003, Some(0.001)), (0.0, None), "it is next to nothing");
         assert_eq!(doubted(0.02, None), (0.0, None));
@@ -395,5 +341,12 @@ mod tests {
             ]
         );
         assert!(told(Answer::Unknown)[1].starts_with("Candidate only: "));
+
+        let re_tuned = |sigmas: f64| {
+            let retuned = [estimate("far", sigmas)];
+            Found { retuned: &retuned, ..found(Answer::Retune) }.headline(&words)
+        };
+        assert!(re_tuned(2.0).contains("both agree once constants are set within what the robot file leaves open"));
+        assert!(re_tuned(3.84).contains("once constants are set up to 3.8 sigmas from the robot file"));
     }
 }

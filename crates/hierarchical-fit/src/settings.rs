@@ -67,6 +67,8 @@
             "edges of encoders, diameters for radii, turns for radians";
         /// Sigmas by which a constant has to move to be told as re-tuned.
         moved: f64 = 0.5, "1", "guess";
+        /// Sigmas from which on constants that are re-tuned are not told to be within what is known.
+        told_far: f64 = 2.5, "1", "of thirty normal constants the farthest lies beyond in one robot of three";
         /// Sigmas of what is known within which all constants may be re-tuned for an answer without a cause: known by the robot file, and
         /// by references.
         within: [f64; 2] = [3.5, 2.5], "1", "of thirty normal constants the farthest lies beyond 3.5 in one robot of seventy; since the references 2.5 are 1.5 of the owner's";
