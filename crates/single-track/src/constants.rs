@@ -77,10 +77,10 @@ impl Constant {
         [if self.is_size() { -self.given } else { -far }, far]
     }
 
-    /// Whether something is known of it from which it may differ: by its owner, or by references. Of the yaw inertia these say little: it
-    /// makes up for tyres and delays that are not quite the model's, in each drive otherwise.
+    /// Whether something is known of it from which it may differ: by its owner, or, of the friction of the drive, by references. Of yaw
+    /// inertia and clocks these say little: they make up for tyres and delays that are not quite the model's, in each drive otherwise.
     pub(crate) fn can_be_wrong(&self, has_references: bool) -> bool {
-        self.sigma < self.usual || (has_references && self.quantity != Quantity::Gyration)
+        self.sigma < self.usual || (has_references && matches!(self.quantity, Quantity::Friction | Quantity::Viscous))
     }
 
     /// Whether there is none below 0.

@@ -30,7 +30,7 @@ pub(crate) struct Shown<'a> {
     /// World velocities and yaw rate of the tracked point at each step, from poses about it.
     pub(crate) rates: Arc<[[f64; 3]]>,
     pub(crate) rows: Vec<Row>,
-    /// What the car reported, smoothed as the pose's rates are, which is compared with these.
+    /// What the car reported, its gyro flattened as the pose's rates are, which is compared with these.
     reported: Arc<[Message]>,
     /// The messages that are compared with the pose.
     messages: Range<usize>,
@@ -53,7 +53,7 @@ impl<'a> Shown<'a> {
             windows: Vec::new(),
             rates,
             rows: Vec::new(),
-            reported: if drive.has_pose() { smoothed(&drive.messages) } else { Arc::from([]) },
+            reported: if drive.has_pose() { flattened(&drive.messages) } else { Arc::from([]) },
             messages: if drive.has_pose() { 0..drive.messages.len() } else { 0..0 },
             span: 0..steps,
             encoder_window,
@@ -248,29 +248,32 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// Messages as means over those about each, by the weights with which a parabola through a way takes its rates: `1 − (Δt/h)²`. A quick turn
-/// that is flattened in the rates of the pose alone would make the gyro read too much.
-fn smoothed(messages: &[Message]) -> Arc<[Message]> {
+/// Messages with what smoothing takes from quick turns taken from the gyro, `g − S g + S S g`: the rates of the pose are flattened so, and
+/// alone would make the gyro read too much.
+fn flattened(messages: &[Message]) -> Arc<[Message]> {
+    let once = smoothed(messages);
+    let twice = smoothed(&once);
+    let taken = |(at, (once, twice)): (&Message, (&Message, &Message))| {
+        let gyro = at.gyro.zip(once.gyro.zip(twice.gyro)).map(|(gyro, (once, twice))| gyro - once + twice);
+        Message { gyro, ..*at }
+    };
+    messages.iter().zip(once.iter().zip(&twice)).map(taken).collect()
+}
+
+/// Messages with the gyro as its mean over those about each, by the weights with which a parabola through a way takes its rates:
+/// `1 − (Δt/h)²`.
+fn smoothed(messages: &[Message]) -> Vec<Message> {
     let half = SETTINGS.grid.smoothing + 0.5 * STEP;
-    let weight = |a: f64, b: f64| (1.0 - ((a - b) / half).powi(2)).max(0.0);
     let about = |at: &Message| {
         let first = messages.partition_point(|m| m.time <= at.time - half);
         let last = messages.partition_point(|m| m.time < at.time + half);
-        let near = &messages[first..last];
+        let weight = |m: &Message| 1.0 - ((m.time - at.time) / half).powi(2);
+        let weighed = messages[first..last].iter().filter_map(|m| Some((weight(m), m.gyro?)));
+        let (count, sum, weights) =
+            weighed.fold((0, 0.0, 0.0), |(n, sum, weights), (w, value)| (n + 1, sum + w * value, weights + w));
         // What is reported too rarely is compared as it is.
-        if near.len() < RULES.smoothed {
-            return *at;
-        }
-        let mean = |of: fn(&Message) -> Option<f64>| {
-            let known = near.iter().filter_map(|m| Some((weight(m.time, at.time), of(m)?)));
-            let (sum, weights) = known.fold((0.0, 0.0), |(sum, weights), (w, value)| (sum + w * value, weights + w));
-            of(at).map(|_| sum / weights)
-        };
-        Message {
-            time: mean(|m| Some(m.time)).unwrap_or(at.time),
-            gyro: mean(|m| m.gyro),
-            encoder: mean(|m| m.encoder),
-        }
+        let gyro = if count < RULES.smoothed { at.gyro } else { at.gyro.map(|_| sum / weights) };
+        Message { gyro, ..*at }
     };
     messages.iter().map(about).collect()
 }
