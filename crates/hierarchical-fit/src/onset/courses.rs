@@ -46,6 +46,11 @@ impl Grid {
         all.get(self.least..until).map(|kept| kept.iter().copied().map(of).collect()).unwrap_or_default()
     }
 
+    /// Whether nothing changes within a drive.
+    pub(crate) fn is_between_drives(&self, course: &Course) -> bool {
+        course.iter().zip(&self.lengths).all(|(from, length)| *from == 0 || from == length)
+    }
+
     /// Where something may change in a drive that changes anew in each.
     fn in_one(&self, drive: usize) -> Vec<usize> {
         let length = self.lengths[drive];
@@ -114,6 +119,7 @@ mod tests {
         let series = grid.in_series();
         assert_eq!(series.first(), Some(&vec![4, 0]));
         assert!(series.contains(&vec![20, 0]) && series.last() == Some(&vec![20, 15]));
+        assert!(grid.is_between_drives(&vec![20, 0]) && !grid.is_between_drives(&vec![20, 15]));
 
         let truth = [7.0, 12.0];
         let score = |course: &Course| {

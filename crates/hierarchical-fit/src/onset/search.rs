@@ -268,10 +268,12 @@ impl<D: Observed> Sought<'_, D> {
         [mean.rows(0, n).into_owned(), mean.rows(n, mean.len() - n).into_owned()]
     }
 
-    /// Deviations of drives about which equations of a hypothesis stand. Where drives scatter more without it than with it, those of the
-    /// fit are what it explains, and it would count twice.
+    /// Deviations of drives about which equations of a hypothesis stand. Where drives scatter more without a step between two of them than
+    /// with it, those of the fit are the step, and it would count twice.
     fn own(&self, weighted: &Weighted) -> Vec<DVector<f64>> {
-        if weighted.factor < self.fit.factor {
+        let best = weighted.instants.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        let is_step = best.is_some_and(|(_, course)| self.grid.is_between_drives(course));
+        if is_step && weighted.factor < self.fit.factor {
             self.fit.own.iter().map(|own| DVector::zeros(own.len())).collect()
         } else {
             self.fit.own.clone()
