@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn a_replica_with_a_dead_time_is_named_so_and_one_without_anything_is_not_accused() {
+    fn a_hidden_dead_time_is_named_and_a_robot_without_a_fault_is_not_alarmed() {
         let replicas = replicas(true);
         let dead_time = replicas.hideable.iter().find(|h| h.spec.id == cause::DEAD_TIME.id).expect("a cause");
         let hidden = replicas.replica(Some((dead_time, 2.0)), 1, &mut ones()).expect("a replica");

@@ -26,7 +26,7 @@ pub fn without_jumps(time: &[f64], pose: &mut [[f64; 3]]) -> Option<String> {
     let mut steps: Vec<Step> = seen.windows(2).map(|pair| between(pose, pair[0], pair[1])).collect();
     let limits = Limits::of(&steps)?;
 
-    let mut jumps: Vec<usize> = (0..steps.len()).filter(|&k| limits.are_passed(&steps[k])).collect();
+    let jumps: Vec<usize> = (0..steps.len()).filter(|&k| limits.are_passed(&steps[k])).collect();
     let duration = time.last()? - time.first()?;
     if jumps.is_empty() || jumps.len() as f64 > RULES.most * duration {
         return None;
@@ -51,12 +51,10 @@ pub fn without_jumps(time: &[f64], pose: &mut [[f64; 3]]) -> Option<String> {
     }
     let seen: Vec<usize> = seen.into_iter().filter(|row| !unseen.contains(row)).collect();
     steps = seen.windows(2).map(|pair| between(pose, pair[0], pair[1])).collect();
-    jumps.clear();
-    jumps.extend((0..steps.len()).find(|&k| limits.are_passed(&steps[k])));
 
     // The others go on as the robot moved before.
     let mut frame = Frame::default();
-    for k in jumps.first().copied().unwrap_or(steps.len())..steps.len() {
+    for k in 0..steps.len() {
         let row = seen[k + 1];
         let passed = limits.passed(&steps[k]);
         if passed.contains(&true) {

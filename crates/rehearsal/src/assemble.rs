@@ -1,4 +1,4 @@
-//! From answers to replicas to what a rehearsal tells of each cause.
+//! Counts diagnoses of simulated cases: how often each cause was found at each size, and how often nothing was hidden and an alarm given.
 
 use rayon::prelude::*;
 use verdict::{NotRehearsed, REHEARSAL_FORMAT, Rehearsal, RehearsedDrives, RehearsedEffect, RehearsedSize};
@@ -23,8 +23,8 @@ pub(crate) struct Effect<T> {
 /// What is hidden in a replica: so many sizes of interest of a cause, or nothing.
 pub(crate) type Hidden<'a, T> = Option<(&'a T, f64)>;
 
-/// A rehearsal of these causes; `answer` is what is told of a replica, by its number, in which so many sizes of interest of a cause, or
-/// nothing, is hidden.
+/// Hides each cause at each of its sizes in as many replicas as the plan asks for, and counts the answers. `answer` diagnoses a replica, by
+/// its number and by what is hidden in it.
 pub(crate) fn assembled<T: Sync>(
     plan: &Plan,
     drives: RehearsedDrives,

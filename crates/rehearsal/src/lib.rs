@@ -6,7 +6,7 @@
 //! * `rehearse`: the whole way, from a case to shares of replicas.
 //! * `of_fit`: the same by the equations of a fit to whole drives, without simulating.
 //! * `of_response`: of responses to commands, by driving the same commands again.
-//! * `assemble`: from answers to replicas to what is told of each cause.
+//! * `assemble`: hides each cause at each size in replicas and counts the diagnoses that find it.
 //! * `hidden`: an effect of a given size, in the form in which a replica has it.
 //! * `replica`: a robot drawn about the robot file, its references, the drives of its recordings.
 //! * `sensors`: noise, rates and gaps of the recordings, and what such sensors show of a simulated drive.

@@ -61,7 +61,7 @@ pub(crate) fn limits_of_fit(plan: &Plan, references: usize) -> Vec<String> {
             "constants are drawn within {} sigmas of the robot file, and differ from drive to drive as the fit found",
             SETTINGS.constants.farthest
         ),
-        "a cause is hidden alone and throughout; instants and pairs are not drawn".to_owned(),
+        ALONE.to_owned(),
         format!("each size has {} replicas, a reference the inputs of a recording: read the intervals, not the shares", plan.replicas),
     ];
     if references == 0 {
@@ -80,7 +80,7 @@ pub(crate) fn limits_of_response(plan: &Plan, references: usize) -> Vec<String> 
             "radius and track are drawn within {} sigmas of the robot file, and stay the same in all drives of a replica",
             SETTINGS.constants.farthest
         ),
-        "a cause is hidden alone and throughout; instants and pairs are not drawn".to_owned(),
+        ALONE.to_owned(),
         format!("each size has {} replicas: read the intervals, not the shares", plan.replicas),
     ];
     if references == 0 {
@@ -91,6 +91,9 @@ pub(crate) fn limits_of_response(plan: &Plan, references: usize) -> Vec<String> 
     }
     out
 }
+
+/// What is not drawn.
+const ALONE: &str = "a cause is hidden alone and throughout; instants and pairs are not drawn";
 
 /// What limits an answer without references.
 const NO_REFERENCE: &str =
