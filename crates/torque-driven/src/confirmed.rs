@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::calibrate::problem;
 use crate::decision::{Decision, Scored};
-use crate::fit::{Fitted, Hypothesis, Point};
+use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::judged::Judged;
 use crate::leave_out::{Model, all_but, fitted_on_others, forecast, without};
 use crate::refits;
@@ -87,6 +87,11 @@ impl Judged<'_> {
             if at_stops(&without.fitted) > at_stops(&best.trial.fitted) {
                 return None;
             }
+            // Nor is one that lies beyond belief where the effect leaves it near.
+            let [far, near] = [&without, &best.trial].map(|trial| farthest(self.problem, &trial.fitted));
+            if far > RULES.believable && far > RULES.nearer * near {
+                return None;
+            }
             let without = left_out_costs(self, &without);
             Some((rest, Unconfirmed { name: inference::words::variant(&variant), gain: gain(&without, &with) }))
         });
@@ -114,6 +119,12 @@ impl Judged<'_> {
 /// How many constants are as far from the robot file as a fit may go.
 fn at_stops(fitted: &Fitted) -> usize {
     fitted.point.theta.iter().filter(|x| x.abs() >= fit::SETTINGS.fit.farthest).count()
+}
+
+/// By how many sigmas the constant lies from where it is known to be that lies farthest.
+fn farthest(problem: &Problem<'_>, fitted: &Fitted) -> f64 {
+    let moves = fitted.point.theta.iter().zip(problem.centre);
+    moves.map(|(own, centre)| (own - centre).abs()).fold(0.0, f64::max)
 }
 
 /// What left-out segments gain by a hypothesis over another one, by their costs under both, and its standard error, nats.

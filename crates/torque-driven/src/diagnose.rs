@@ -4,15 +4,16 @@ use robot_model::Robot;
 
 use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
-use crate::decide::{decide, evidence};
+use crate::decide::decide;
 use crate::decision::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::four_motors::{self, Found, with_four_motors};
 use crate::judged::Judged;
 use crate::nothing::{retune, without_effect};
 use crate::own_effects::Runaway;
+use crate::prices::evidence;
 use crate::redundancy::{Redundant, check};
-use crate::run::Run;
+use crate::run::{Run, largest_torque};
 use crate::search::search;
 use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
@@ -393,9 +394,4 @@ pub(crate) fn cut_all(
             Ok(Cut { given: case.effects.doses(&run.name), ..c })
         })
         .collect()
-}
-
-/// Largest torque command of any run, N m.
-pub(crate) fn largest_torque(runs: &[Run]) -> f64 {
-    runs.iter().flat_map(|r| &r.torque).flatten().fold(0.0_f64, |a, t| a.max(t.abs()))
 }

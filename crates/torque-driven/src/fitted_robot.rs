@@ -5,12 +5,13 @@ use robot_model::tunable::{COUNT as NUISANCES, Tuning, tunables, tuned};
 
 use crate::calibrate::{Calibration, problem};
 use crate::case::Case;
-use crate::diagnose::{cut_all, largest_torque};
+use crate::diagnose::cut_all;
 use crate::few_constants::errors;
 use crate::redundancy::Redundant;
 use crate::retuned::constant_of;
 use crate::rms::motion;
 use crate::run::Run;
+use crate::run::largest_torque;
 use crate::settings::preparation::{Logs, SETTINGS};
 use crate::simulator::fit;
 use inference::{DiagnosisError, Options};

@@ -9,10 +9,10 @@ use robot_model::{Chassis, Robot};
 
 use crate::calibrate::{Calibration, of_file, problem};
 use crate::case::Case;
-use crate::decide::penalty;
 use crate::decision::Decision;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::nothing::retune;
+use crate::prices::penalty;
 use crate::settings::search::{FourMotors, SETTINGS};
 use crate::windows::Cut;
 use inference::Options;

@@ -18,7 +18,7 @@
 //! * `search`, `several`, `other_side`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
 //!   pairs and threes; `nothing`: re-tuned constants alone; `disc`, `onset`: place and time; `handed_over`: effects that hide
 //!   in a constant.
-//! * `decide`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities; `confirmed`, `which_side`:
+//! * `decide`, `prices`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities; `confirmed`, `which_side`:
 //!   what left-out recordings say of them.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
@@ -71,6 +71,7 @@ pub mod output_error;
 mod own_effects;
 mod predict;
 mod present;
+mod prices;
 mod redundancy;
 mod refits;
 mod retuned;

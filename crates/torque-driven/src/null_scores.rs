@@ -5,8 +5,8 @@ use faer::Mat;
 use robot_model::tunable::COUNT as NUISANCES;
 
 use crate::between_visits::VisitConstants;
-use crate::decide::penalty;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
+use crate::prices::penalty;
 use crate::run_numbers::UNKNOWN;
 use crate::screen::screen;
 use inference::algebra::solve_spd;

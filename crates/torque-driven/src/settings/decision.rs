@@ -95,6 +95,10 @@
     confirmation: Confirmation {
         /// Standard errors by which they have to be forecast better with it.
         errors: f64 = 2.0, "1", "definition: what 95 of 100 normal errors do not reach";
+        /// Sigmas from which on a constant that takes the effect's place is beyond belief.
+        believable: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
+        /// By how many times farther it must lie then than with the effect.
+        nearer: f64 = 2.0, "1", "guess";
         /// Share of its probability that an effect keeps that they do not need.
         doubted: f64 = 0.3, "1", "equal to that of cars and any wheels";
         /// Error of forecasts of left-out wheels over that of the simulation as it is, and of re-tuned constants, from which on what was named is

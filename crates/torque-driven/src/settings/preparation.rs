@@ -62,6 +62,8 @@
     runs: Runs {
         /// Fewest rows of a recording.
         least_rows: usize = 201, "1", "guess";
+        /// Time between samples from which on one is missing, in usual ones.
+        missing: f64 = 1.75, "1", "guess; stamps tremble by less than half of it";
         /// Most rows of the grid per sample of the torque: more are gaps, not a recording.
         most_rows_per_sample: usize = 100, "1", "guess";
     }

@@ -11,9 +11,10 @@ use super::series::Ground;
 use super::signals::Signals;
 use crate::calibrate::problem;
 use crate::case::Case;
-use crate::diagnose::{Calibrated, cut_all, largest_torque, number};
+use crate::diagnose::{Calibrated, cut_all, number};
 use crate::fit::{Hypothesis, Problem};
 use crate::redundancy::check;
+use crate::run::largest_torque;
 use crate::settings::law::SETTINGS;
 use crate::visit::{VisitNumbers, visits_of};
 
