@@ -11,6 +11,7 @@
 //! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
 //!   all of it by one set of equations (`scan`), the best by their own (`search`).
+//! * `corrected`: constants with what is named, at instants of drives that were fitted or left out.
 //! * `found`, `said`, `telling`, `sentences`, `hedges`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
 //! * `rehearsable`: what the drives of a fit could say, for whoever asks what they would show.
@@ -23,6 +24,7 @@ mod ahead;
 mod answered;
 mod beside;
 mod cause;
+mod corrected;
 mod data;
 mod descent;
 mod error;

@@ -137,35 +137,6 @@ impl<D: Observed> Solved<D> {
         onset.began(&names)
     }
 
-    /// Constants at an instant of a drive, s from its start, with what is named.
-    pub fn corrected(&self, drive: usize, time: f64) -> &[f64] {
-        let onset = self.onset.as_ref().filter(|onset| !onset.acts(drive, time));
-        onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
-    }
-
-    /// The same after the last drive.
-    pub fn corrected_from_now_on(&self) -> &[f64] {
-        self.corrected_of_left_out(self.data.drives.len())
-    }
-
-    /// The same of a drive that was left out, from its place among all.
-    pub fn corrected_of_left_out(&self, place: usize) -> &[f64] {
-        let onset = self.onset.as_ref().filter(|onset| !onset.acts_in_left_out(place));
-        onset.map_or(&self.named.posterior.mean, |onset| &onset.off).as_slice()
-    }
-
-    /// What simulations show of a drive, as stated or as the references have it, re-tuned, and with the named causes by these constants at
-    /// each instant, the last only where there are some; `run` simulates by the constants at an instant, s from the start of the drive.
-    pub fn simulated<'a>(
-        &'a self,
-        corrected: &dyn Fn(f64) -> &'a [f64],
-        run: impl Fn(&dyn Fn(f64) -> &'a [f64]) -> Vec<[f64; 3]>,
-    ) -> [Vec<[f64; 3]>; 3] {
-        let Self { prior, named, .. } = self;
-        let corrected = if named.chosen.is_empty() { Vec::new() } else { run(corrected) };
-        [run(&|_| prior.mean.as_slice()), run(&|_| named.retuned.mean.as_slice()), corrected]
-    }
-
     /// What the answer leaves of the motion.
     fn share(&self) -> f64 {
         let theta = self.named.posterior.mean.as_slice();

@@ -80,7 +80,15 @@ impl Solved {
                 let both = [&of(&self.named.posterior.mean), &of(&own.off)];
                 onset::path(robot, drive, both, |time| of_all.acts(index, time))
             }
-            None => implied(robot, drive, &corrected),
+            None => match when.filter(|(of_all, index)| self.onset.is_none() && of_all.is_absent(*index)) {
+                // The others all have it.
+                Some((of_all, _)) => {
+                    let mut theta = self.named.posterior.mean.clone();
+                    self.causes[of_all.cause].moves().into_iter().for_each(|k| theta[k] = self.prior.mean[k]);
+                    implied(robot, drive, &laws(robot, &self.constants, theta.as_slice()))
+                }
+                None => implied(robot, drive, &corrected),
+            },
         };
         [implied(robot, drive, &stated), implied(robot, drive, &retuned), with_causes]
     }

@@ -119,7 +119,8 @@ fn fold(all: &Solved<Shown<'_>>, left: usize) -> Option<Fold> {
     let own = &all.data.drives[left];
     let solved = all.without(left)?;
     let constants = &solved.data.model;
-    let best = solved.corrected_of_left_out(left);
+    let best = solved.corrected_of_left_out_beside(left, all);
+    let best = best.as_slice();
     let laws = |theta: &[f64]| Some(Laws::at(constants, theta));
     let mut models = vec![
         laws(solved.prior.mean.as_slice()),

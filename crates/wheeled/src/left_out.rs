@@ -69,18 +69,18 @@ pub(crate) fn left_out_of(all: &Solved<Shown<'_>>, progress: &dyn Fn(&str)) -> T
         let own = &all.data.drives[k];
         let solved = all.without(k)?;
         let named = &solved.named;
-        let corrected = solved.corrected_of_left_out(k);
+        let corrected = solved.corrected_of_left_out_beside(k, all);
         let theta = [
             Some(solved.prior.mean.as_slice()),
             Some(named.retuned.mean.as_slice()),
-            Some(corrected),
+            Some(corrected.as_slice()),
             named.placebo.as_ref().map(|(_, p)| p.mean.as_slice()),
         ];
         let of = |theta: Option<&[f64]>| theta.map_or_else(Vec::new, |t| forecasts(&solved.data.model, t, own.drive));
         let mut errors: Vec<Errors> = theta.into_iter().map(of).collect();
         errors.push(twist(own.drive));
         let labels = named.chosen.iter().map(|w| solved.causes[w.cause].label()).collect::<Vec<_>>();
-        Some((own.drive.name.clone(), errors, labels, trace(&solved, own, |_| corrected, true)))
+        Some((own.drive.name.clone(), errors, labels, trace(&solved, own, |_| &corrected, true)))
     };
     let folds: Vec<_> = left.par_iter().filter_map(fold).collect();
     let mut sums: Vec<Errors> = vec![Vec::new(); MODELS.len()];

@@ -83,6 +83,11 @@ impl Onset {
         (self.is_anew() || place > self.drive()) != self.ends()
     }
 
+    /// Whether it is not there in any part of a drive.
+    pub fn is_absent(&self, drive: usize) -> bool {
+        self.span(drive, f64::INFINITY).is_none()
+    }
+
     /// From when to when it is there in a drive that is so long, s.
     pub fn span(&self, drive: usize, length: f64) -> Option<[f64; 2]> {
         match (self.acts(drive, 0.0), self.changes[drive]) {

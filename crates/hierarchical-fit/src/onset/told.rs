@@ -63,14 +63,15 @@ impl<D: Observed> Sought<'_, D> {
         // What it explains must be more than laws that are not quite those of the robot get wrong.
         let left = self.data.share_with(mean.as_slice(), &onset);
         let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.share(p.mean.as_slice()));
-        let is_of_motion = left <= rules.leaves * always && left <= D::HARDLY * retuned;
+        let leaves = if hypothesis.anew { rules.leaves_anew } else { rules.leaves };
+        let is_of_motion = left <= leaves * always && left <= D::HARDLY * retuned;
         // What a sensor shows otherwise from an instant on is in its own readings.
         let is_of_readings = || {
             let with = self.data.left_with(mean.as_slice(), &onset);
             let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.left(p.mean.as_slice()));
             let most = D::HARDLY.min(SETTINGS.naming.seen);
             (0..with.len())
-                .any(|kind| with[kind] <= rules.leaves.min(most) * always[kind] && with[kind] <= most * retuned[kind])
+                .any(|kind| with[kind] <= leaves.min(most) * always[kind] && with[kind] <= most * retuned[kind])
         };
         if !is_of_motion && !is_of_readings() {
             return None;
