@@ -6,42 +6,36 @@
 //! are some. A mismatch is unknown when it stands above that floor, matters beside the motion, and most of it remains.
 
 use inference::evidence::logistic;
-use inference::experiment::Comparison;
-use inference::robust::{MAD_TO_SIGMA, mean, median};
+use inference::robust::mean;
 use verdict::{Remainder, Span};
 
-use crate::compare::{Motion, Simulated};
-use crate::ground::{GroundPart, Poses, RADIUS, TRACK, misses};
+use crate::compare::Simulated;
 use crate::identified::Identified;
 use crate::identify::Base;
 use crate::run::{ResponseRun, STEP, WINDOW};
 use crate::settings::{Remaining, SETTINGS};
-use crate::traces::put_together;
-use crate::windows::{FOLDS, Window, Windows};
+use crate::squares::Squares;
+use crate::windows::Windows;
 
 const LEFT: Remaining = SETTINGS.left;
 
 /// Signals, each with its unit; the first two are the sides.
 pub(crate) const SIGNALS: [(&str, &str); 4] =
     [("left wheel speed", "rad/s"), ("right wheel speed", "rad/s"), ("heading", "rad"), ("position", "m")];
-const HEADING: usize = 2;
-const POSITION: usize = 3;
+pub(crate) const HEADING: usize = 2;
+pub(crate) const POSITION: usize = 3;
 
 /// One number for each signal.
-type BySignal = [f64; SIGNALS.len()];
+pub(crate) type BySignal = [f64; SIGNALS.len()];
 
-/// Mean squares of a window in squares of the signals' units; zeros where nothing was recorded.
-struct Squares {
-    nominal: Vec<BySignal>,
-    corrected: Vec<BySignal>,
-    /// Of the motion itself, over all windows.
-    motion: BySignal,
-    /// What noise alone leaves.
-    noise: BySignal,
+/// What references leave when they are fitted, as shares of their motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Floor {
+    /// In the mean.
+    mean: BySignal,
+    /// The most that lasts.
+    lasting: BySignal,
 }
-
-/// What references leave when they are fitted: share of their motion.
-pub(crate) type Floor = BySignal;
 
 /// What is left of a mismatch.
 #[derive(Debug, Clone)]
@@ -110,10 +104,10 @@ pub(crate) struct Fitted<'a> {
 pub(crate) fn floor(fitted: &Fitted<'_>) -> Floor {
     let windows = fitted.windows;
     let squares = Squares::new(fitted);
-    std::array::from_fn(|s| {
-        let corrected = windows.by_block(|w| squares.corrected[w][s]);
-        mean(corrected).unwrap_or(0.0) / squares.motion[s].max(f64::MIN_POSITIVE)
-    })
+    let motion = |s: usize| squares.motion[s].max(f64::MIN_POSITIVE);
+    let of = |s: usize| mean(windows.by_block(|w| squares.corrected[w][s])).unwrap_or(0.0) / motion(s);
+    let lasting = |s: usize| lasting(windows, |w| squares.corrected[w][s]).map_or(0.0, |most| most / motion(s));
+    Floor { mean: std::array::from_fn(of), lasting: std::array::from_fn(lasting) }
 }
 
 /// What is left of the recordings.
@@ -124,10 +118,14 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     let squares = Squares::new(fitted);
     let motion = squares.motion;
     let known = |s: usize| motion[s] > 0.0;
-    let floor: BySignal = std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f[s] * motion[s])));
-    // What lasts is no jump, though it may last for one command only: a wheel that is held.
+    let floor: BySignal =
+        std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f.mean[s] * motion[s])));
+    // What lasts is no jump, though it may last for one command only: a wheel that is held, a body that stands.
     let lasts: [bool; SIGNALS.len()] = std::array::from_fn(|s| {
-        s < HEADING && lasts(windows, |w| squares.corrected[w][s] > LEFT.large.powi(2) * motion[s])
+        let usual =
+            references.map_or(LEFT.large.powi(2), |f| (LEFT.stands_out * f.lasting[s]).max(LEFT.interest.powi(2)));
+        let least = (usual * motion[s]).max(LEFT.stands_out * floor[s]);
+        known(s) && lasting(windows, |w| squares.corrected[w][s]).is_some_and(|most| most > least)
     });
     let level = |of: &[BySignal], s: usize| {
         let blocks = windows.by_block(|w| of[w][s]);
@@ -144,6 +142,10 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     let unknown = std::array::from_fn(|s| {
         if left[s] <= 0.0 {
             return 0.0;
+        }
+        // Where it lasts it is as large as it must be to stand out and to matter.
+        if lasts[s] {
+            return most(share_of(left[s], gap[s]));
         }
         let stands = logistic(LEFT.slope * ((corrected[s] / floor[s].max(f64::MIN_POSITIVE)).ln() - LEFT.centre));
         let matters = logistic(LEFT.slope * (left[s].sqrt() / LEFT.interest).ln());
@@ -173,12 +175,13 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     out
 }
 
-/// Whether windows that follow each other are so for long.
-fn lasts(windows: &Windows, is_so: impl Fn(usize) -> bool) -> bool {
-    let least = (LEFT.lasting / (WINDOW as f64 * STEP)).ceil() as usize;
-    let all: Vec<usize> = (0..windows.list.len()).filter(|w| is_so(*w)).collect();
-    let follows = |a: &usize, b: &usize| *b == a + 1 && windows.list[*a].piece == windows.list[*b].piece;
-    all.chunk_by(follows).any(|stretch| stretch.len() >= least)
+/// The largest value that windows which follow each other keep for long.
+fn lasting(windows: &Windows, value: impl Fn(usize) -> f64) -> Option<f64> {
+    let length = (LEFT.lasting / (WINDOW as f64 * STEP)).ceil() as usize;
+    let last = windows.list.len().checked_sub(length)?;
+    let is_whole = |first: &usize| windows.list[*first].piece == windows.list[first + length - 1].piece;
+    let kept = |first: usize| (first..first + length).map(&value).fold(f64::INFINITY, f64::min);
+    (0..=last).filter(is_whole).map(kept).max_by(f64::total_cmp)
 }
 
 /// Mean without the largest value: one jump of a sensor, or one command step, decides nothing.
@@ -217,87 +220,6 @@ fn spans(runs: &[ResponseRun], windows: &Windows, signal: usize, high: &[f64]) -
         last = Some(w);
     }
     out
-}
-
-impl Squares {
-    fn new(fitted: &Fitted<'_>) -> Self {
-        let Fitted { windows, folds, base, found, nominal } = *fitted;
-        let of = |which: &dyn Fn(&Comparison<Motion>) -> &Motion| {
-            put_together(windows, &folds.iter().map(|fold| which(&fold.responses)).collect::<Vec<_>>()).wheels
-        };
-        let wheels = [of(&|c| &c.nominal), of(&|c| c.best())];
-        // The body at the wheel speeds that were measured, each window by the fit that left it out.
-        let body = GroundPart::measured(windows, nominal);
-        let plain = body.poses(&base.ground.x);
-        let by_fold: Vec<Vec<Poses>> = (0..FOLDS).map(|f| found.ground.without(f).poses(&body)).collect();
-        let corrected: Vec<Poses> = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w].clone()).collect();
-
-        let residuals = |wheels: &[Vec<[f64; 2]>], poses: &[Poses]| -> Vec<Vec<[f64; 5]>> {
-            let of_window = |(w, p): (&Window, &Poses)| {
-                let measured = &windows.pieces[w.piece].wheel;
-                let wheel = |i: usize, s: usize| wheels[w.piece][w.start + i][s] - measured[w.start + i][s];
-                let row = |(i, [x, y, h]): (usize, [f64; 3])| [wheel(i, 0), wheel(i, 1), h, x, y];
-                misses(windows, w, p).into_iter().enumerate().map(row).collect()
-            };
-            windows.list.iter().zip(poses).map(of_window).collect()
-        };
-        let left = residuals(&wheels[1], &corrected);
-        let still = vec![vec![[0.0; 3]; WINDOW]; windows.list.len()];
-        let at_rest: Vec<Vec<[f64; 2]>> = windows.pieces.iter().map(|p| vec![[0.0; 2]; p.wheel.len()]).collect();
-        let moved = squares(&residuals(&at_rest, &still));
-        let motion = std::array::from_fn(|s| {
-            let one = |k: usize| mean(moved.iter().map(|m| m[k])).unwrap_or(0.0);
-            // Both wheels are measured by the motion of both: a wheel at rest has no share of its own.
-            if s < HEADING { 0.5 * (one(0) + one(1)) } else { one(s) }
-        });
-        let noise = noise(windows, &left, motion, found, nominal);
-        Self { nominal: squares(&residuals(&wheels[0], &plain)), corrected: squares(&left), motion, noise }
-    }
-}
-
-/// Mean squares of every window.
-fn squares(residuals: &[Vec<[f64; 5]>]) -> Vec<BySignal> {
-    let of_window = |rows: &Vec<[f64; 5]>| {
-        let mean = |k: usize| rows.iter().map(|r| r[k] * r[k]).sum::<f64>() / rows.len().max(1) as f64;
-        [mean(0), mean(1), mean(2), mean(3) + mean(4)]
-    };
-    residuals.iter().map(of_window).collect()
-}
-
-/// Mean squares that noise leaves of a perfect forecast over a window that begins at a measured state.
-///
-/// White noise of σ has second differences of 6 σ². A pose is compared with the noisy pose of the window's first row, so
-/// that it is off by 2 σ² and, where it goes, by its distance times the first heading's error; wheel noise adds up along
-/// the window as a random walk, and so does a gyro's, whose second differences are 2 q for steps of q.
-fn noise(
-    windows: &Windows,
-    residuals: &[Vec<[f64; 5]>],
-    motion: BySignal,
-    found: &Identified,
-    [radius, track]: [f64; 2],
-) -> BySignal {
-    let apart = LEFT.apart;
-    let second = |k: usize| -> f64 {
-        let of_window = |r: &Vec<[f64; 5]>| -> Vec<f64> {
-            (apart..r.len() - apart).map(|i| (r[i + apart][k] - 2.0 * r[i][k] + r[i - apart][k]).abs()).collect()
-        };
-        (MAD_TO_SIGMA * median(residuals.iter().flat_map(of_window)).unwrap_or(0.0)).powi(2)
-    };
-    // 1² + 2² + 1²
-    let white = 2.0 + 4.0;
-    let wheel = [second(0) / white, second(1) / white];
-    let x = &found.ground.model.x;
-    let (rolls, lever) = (x[RADIUS] * radius, x[TRACK] * track);
-    let along = 0.5 * WINDOW as f64 * STEP * STEP * rolls * rolls * (wheel[0] + wheel[1]);
-    let integrated = windows.pieces.iter().any(|p| p.integrated);
-    let heading = second(HEADING) / white;
-    let turned = if integrated {
-        0.5 * WINDOW as f64 * second(HEADING) / (2.0 * apart as f64)
-    } else {
-        2.0 * heading + along / (lever * lever)
-    };
-    let position = 2.0 * (second(3) + second(4)) / white + motion[POSITION] * heading + 0.25 * along;
-    [wheel[0], wheel[1], turned, position]
 }
 
 #[cfg(test)]
@@ -387,6 +309,14 @@ mod tests {
         let truth = || Truth { wheel_push: rough, ..Truth::perfect() };
         let (alone, beside) = (diagnosed(&truth(), None), diagnosed(&truth(), Some(&truth())));
         assert_eq!((alone.verdict, beside.verdict), (Verdict::Unknown, Verdict::NoMismatch), "{:?}", beside.ranked);
+    }
+
+    #[test]
+    fn what_lasts_for_seconds_is_unknown_beside_references_that_leave_little() {
+        let held = |t: f64, side: usize| if side == 0 && (40.0..47.0).contains(&t) { -1.5 } else { 0.0 };
+        let d = diagnosed(&Truth { wheel_push: held, ..Truth::perfect() }, Some(&Truth::perfect()));
+        assert_eq!(d.verdict, Verdict::Unknown, "{:?}", d.ranked);
+        assert_eq!(remainder(&d).place.as_deref(), Some("on the left side"));
     }
 
     #[test]

@@ -12,7 +12,7 @@
 //! * `search`, `identify`, `identified`: which elements improve forecasts of windows that were left out.
 //! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
-//! * `left`: what the best answer leaves, where, and whether its cause is unknown.
+//! * `left`, `squares`: what the best answer leaves, where, and whether its cause is unknown.
 //! * `moved`: radius and track that the robot file may have wrong.
 //! * `name`, `element_words`, `words`: elements as causes with intervals; sentences.
 //! * `next/*`: which commands would tell the remaining responses apart.
@@ -37,6 +37,7 @@ mod replica;
 mod run;
 mod search;
 mod settings;
+mod squares;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
@@ -49,8 +50,8 @@ use inference::robust::mean_with_error;
 use robot_model::Robot;
 
 use catalogue::answer::{NONE, UNKNOWN};
-use inference::{DiagnosisError, Options};
-use verdict::{Cause, Diagnosis, Element, Response, Verdict};
+use inference::{DiagnosisError, Options, gyro_beside_pose};
+use verdict::{Cause, Diagnosis, Element, GyroBesidePose, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
@@ -197,6 +198,9 @@ pub fn diagnose_response(
     }
     let all = !case.references.is_empty();
     out.sentences = words::sentences(&out, &response, (&figures, is_drive_confirmed), nominal[1], all, &remains, begun);
+    let shares = |runs: &[ResponseRun]| runs.iter().filter_map(|run| run.gyro_share).collect::<Vec<_>>();
+    let gyro = gyro_beside_pose::compared(shares(&case.references), shares(&case.recordings));
+    gyro.filter(|gyro| gyro.is_off).iter().for_each(|gyro| add_gyro(&mut out, gyro));
     out.traces = traces::traces(&case.recordings, &windows, &folds);
     let corrected = Base { drive: found.drive.model.clone(), ground: found.ground.model.clone() };
     let corrected = if is_confirmed.contains(&true) { &corrected } else { &base };
@@ -207,6 +211,25 @@ pub fn diagnose_response(
         next::advise(&windows, &base, &found, nominal, remains.mostly, length)
     });
     Ok(out)
+}
+
+/// Adds a gyro whose scale is off beside the pose: a response is fitted to the pose, and does not see it.
+fn add_gyro(out: &mut Diagnosis, gyro: &GyroBesidePose) {
+    let cause = gyro_beside_pose::cause(gyro);
+    for none in out.ranked.iter_mut().filter(|c| c.effect == NONE.id) {
+        none.probability = none.probability.min(1.0 - cause.probability);
+    }
+    out.indistinguishable.push(vec![cause.effect.clone()]);
+    out.ranked.push(cause);
+    out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    if out.verdict == Verdict::NoMismatch {
+        out.verdict = Verdict::Explained;
+        let others = out.sentences.drain(..).skip(1);
+        out.sentences =
+            [gyro_beside_pose::told(gyro), words::NOTHING_ELSE.to_owned()].into_iter().chain(others).collect();
+    } else {
+        out.sentences.push(gyro_beside_pose::told(gyro));
+    }
 }
 
 fn enough(runs: &[ResponseRun], what: &'static str) -> Result<Windows, DiagnosisError> {

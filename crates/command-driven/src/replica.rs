@@ -137,7 +137,7 @@ impl Replicas {
         let nominal = [self.robot.wheel_radius, 2.0 * self.robot.half_track];
         let mut driven = |base: &Base, template: &Template, place: usize| {
             let pieces = template.pieces.iter().map(|left| left.driven(base, nominal, normal)).collect();
-            ResponseRun { name: format!("{}_{place}", template.name), pieces, hold: template.hold }
+            ResponseRun { name: format!("{}_{place}", template.name), pieces, gyro_share: None, hold: template.hold }
         };
         let own = if references == self.references.len() { &self.references } else { &self.recordings };
         let right = own.iter().cycle().take(references).enumerate();

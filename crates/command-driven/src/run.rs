@@ -3,6 +3,7 @@
 use recordings::{Channel, Recording, Signal};
 
 use inference::DiagnosisError;
+use inference::gyro_beside_pose::{GyroShare, gyro_share};
 
 use crate::controller::{H, SUBSTEPS};
 use crate::settings::SETTINGS;
@@ -22,6 +23,8 @@ pub struct ResponseRun {
     pub name: String,
     /// Stretches without a gap.
     pub(crate) pieces: Vec<Piece>,
+    /// What share of the turning that a pose shows a gyro shows; `None` without both.
+    pub gyro_share: Option<GyroShare>,
     /// For how long wheel speeds repeat one value while they change, s: they are sample-held.
     pub hold: f64,
 }
@@ -110,7 +113,11 @@ impl ResponseRun {
         if pieces.iter().all(|p| p.wheel.iter().flatten().all(|w| w.abs() < 1e-9)) {
             return Err(DiagnosisError::NoMotion { recording: name });
         }
-        Ok(Self { name, pieces, hold: hold(wheel[0]).max(hold(wheel[1])) })
+        let gyro_share = yaw.zip(gyro).and_then(|(yaw, gyro)| {
+            let times = |c: &Channel| seconds(c).collect::<Vec<_>>();
+            gyro_share((&times(gyro), gyro.values()), (&times(yaw), &headings))
+        });
+        Ok(Self { name, pieces, gyro_share, hold: hold(wheel[0]).max(hold(wheel[1])) })
     }
 
     /// Whole windows of 2 s.

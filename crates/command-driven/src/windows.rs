@@ -115,7 +115,7 @@ mod tests {
             integrated: false,
             position: None,
         };
-        let run = ResponseRun { name: "r".to_owned(), pieces: vec![piece.clone(), piece], hold: 0.0 };
+        let run = ResponseRun { name: "r".to_owned(), pieces: vec![piece.clone(), piece], gyro_share: None, hold: 0.0 };
         let w = Windows::new(&[run]);
         let blocks: Vec<usize> = w.list.iter().map(|w| w.block).collect();
         assert_eq!(blocks[..10], [0, 0, 0, 1, 1, 1, 2, 2, 2, 3]);

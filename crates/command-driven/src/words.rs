@@ -114,6 +114,10 @@ fn where_left(remains: &Remains) -> String {
     )
 }
 
+/// What is said of the response where something beside it is missing.
+pub(crate) const NOTHING_ELSE: &str =
+    "Nothing else is missing: the wheels do what is commanded and the body follows them, as the simulation says.";
+
 /// What the named causes say.
 /// `is_drive_confirmed`: whether forecasts of the wheels gain by what was fitted between command and wheel.
 fn explained(

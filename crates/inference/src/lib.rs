@@ -9,6 +9,7 @@
 //! * `expected_information`, `advice`: which drive to record next, in bits.
 //! * `experiment`: what a kind of robot says so that data left out of its fit are forecast like all others'.
 //! * `hypothesis`: what may be missing: every scope that an effect of the catalogue may have.
+//! * `gyro_beside_pose`: what share of a robot's turning its gyro shows, where a pose shows all of it.
 //! * `known`: the effects that may be named: the catalogue's, and those of one's own.
 //! * `corrected`: a correction as a robot and effects that a plant takes.
 //! * `options`: settings of a diagnosis; `error`: why a diagnosis could not be made.
@@ -26,6 +27,8 @@ pub mod evidence;
 pub mod expected_information;
 #[cfg(feature = "solver")]
 pub mod experiment;
+#[cfg(feature = "solver")]
+pub mod gyro_beside_pose;
 pub mod hypothesis;
 mod interpolate;
 mod known;

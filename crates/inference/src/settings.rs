@@ -37,6 +37,32 @@
         worse_quantity: f64 = 1.1, "1", "guess; equal to the other";
     }
 
+    /// A gyro beside the heading of a pose.
+    gyro_beside_pose: GyroAndPose {
+        /// Length of the windows over which turning adds up.
+        window: f64 = 4.0, "s", "guess; long beside delays, short beside the drift of a zero";
+        /// Windows that tell something, at least.
+        windows: usize = 8, "1", "guess; three numbers are fitted";
+        /// Times that a late clock is set right.
+        rounds: usize = 3, "1", "guess; its lateness is told by a straight line";
+        /// Turning of a window, root mean square, below which nothing is told.
+        least: f64 = 0.1, "rad", "guess; noise of poses is a tenth of it";
+        /// Longest gap of either signal in a window.
+        gap: f64 = 0.5, "s", "guess; poses of 2 Hz and more";
+        /// Deviations beyond so many sigmas are outliers.
+        outlier: f64 = 4.0, "1", "guess";
+        /// One sigma of the scale from which on nothing is told.
+        surest: f64 = 0.02, "1", "guess; what matters is as much";
+        /// One sigma by which the scale differs from drive to drive.
+        drive: f64 = 0.003, "1", "guess; temperature, mounting";
+        /// One sigma of the scale of a gyro that nobody calibrated.
+        of_sheets: f64 = 0.01, "1", "data sheets of MEMS gyros: 1 to 3 % at most";
+        /// A scale is off where it differs by so many sigmas.
+        clear: f64 = 3.0, "1", "guess";
+        /// Probability of one that is off, at most.
+        surely: f64 = 0.99, "1", "guess; a pose may be wrong, too";
+    }
+
     /// A constant of a fit by residuals unless set otherwise.
     constant: Fitting {
         /// Step of finite differences, in scales of the constant.

@@ -5,6 +5,7 @@
 //! * `plan`: what is to be rehearsed; `error`: why nothing could be.
 //! * `rehearse`: the whole way, from a case to shares of replicas.
 //! * `of_fit`: the same by the equations of a fit to whole drives, without simulating.
+//! * `of_loads`: of robots whose wheel speeds are given, by loads drawn about those of their steady driving.
 //! * `of_response`: of responses to commands, by driving the same commands again.
 //! * `assemble`: hides each cause at each size in replicas and counts the diagnoses that find it.
 //! * `hidden`: an effect of a given size, in the form in which a replica has it.
@@ -17,6 +18,7 @@ mod assemble;
 mod error;
 mod hidden;
 mod of_fit;
+mod of_loads;
 mod of_response;
 mod plan;
 mod random;
@@ -31,6 +33,7 @@ mod words;
 
 pub use error::RehearsalError;
 pub use of_fit::rehearse_fit;
+pub use of_loads::RehearsingLoads;
 pub use of_response::RehearsingResponse;
 pub use plan::Plan;
 pub use rehearse::{Rehearsing, rehearse};

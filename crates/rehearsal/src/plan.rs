@@ -7,7 +7,7 @@ use verdict::NotRehearsed;
 
 use crate::error::RehearsalError;
 use crate::hidden::Hidden;
-use crate::settings::{Planned, PlannedOfFit, PlannedOfResponse, SETTINGS};
+use crate::settings::{Planned, PlannedOfFit, PlannedOfLoads, PlannedOfResponse, SETTINGS};
 
 const PLAN: Planned = SETTINGS.plan;
 
@@ -58,6 +58,12 @@ impl Plan {
     /// The plan for robots that are given commands: whole drives are diagnosed.
     pub fn of_response() -> Self {
         let PlannedOfResponse { sizes, replicas, fault_free } = SETTINGS.plan_of_response;
+        Self { sizes: sizes.to_vec(), replicas, fault_free, ..Self::default() }
+    }
+
+    /// The plan for robots that are given wheel speeds: nothing is simulated row by row, and whole drives are taken.
+    pub fn of_loads() -> Self {
+        let PlannedOfLoads { sizes, replicas, fault_free } = SETTINGS.plan_of_loads;
         Self { sizes: sizes.to_vec(), replicas, fault_free, ..Self::default() }
     }
 

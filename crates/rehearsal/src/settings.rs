@@ -44,6 +44,16 @@
         fault_free: usize = 12, "1", "guess; with none alarmed, Wilson's interval ends at a quarter";
     }
 
+    /// What is rehearsed of steady loads unless the caller says otherwise.
+    plan_of_loads: PlannedOfLoads {
+        /// Sizes that are hidden, in sizes of interest.
+        sizes: [f64; 3] = [1.0, 2.0, 4.0], "1", "guess; octaves from the size below which nobody would act: loads of one floor scatter by as much";
+        /// Replicas of each size.
+        replicas: usize = 3, "1", "four minutes of two cores";
+        /// Replicas in which nothing is hidden, at least.
+        fault_free: usize = 24, "1", "guess; with none alarmed, Wilson's interval ends at a seventh";
+    }
+
     /// Robots that are drawn about the robot file.
     constants: Constants {
         /// Farthest move of a constant, in the robot file's sigmas.

@@ -92,6 +92,26 @@ pub(crate) fn limits_of_response(plan: &Plan, references: usize) -> Vec<String> 
     out
 }
 
+/// What limits an answer about steady loads.
+pub(crate) fn limits_of_loads(plan: &Plan, references: usize) -> Vec<String> {
+    let mut out = vec![
+        "replicas are loads of as much steady driving as was recorded, not rows: what changes inside a drive (ground, standing, clocks) is \
+         not drawn, and what is hidden obeys the very laws by which it is looked for: on a real robot less is found than here"
+            .to_owned(),
+        format!(
+            "constants are drawn within {} sigmas of what is known of them, each load within its standard error and what drives of one \
+             robot differ by; each day's drive train is colder or warmer",
+            SETTINGS.constants.farthest
+        ),
+        ALONE.to_owned(),
+        format!("each size has {} replicas: read the intervals, not the shares", plan.replicas),
+    ];
+    if references == 0 {
+        out.push(NO_REFERENCE.to_owned());
+    }
+    out
+}
+
 /// What is not drawn.
 const ALONE: &str = "a cause is hidden alone and throughout; instants and pairs are not drawn";
 

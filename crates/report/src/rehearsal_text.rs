@@ -121,11 +121,12 @@ pub(crate) fn driven(rehearsal: &Rehearsal) -> Vec<String> {
     let drives = &rehearsal.drives;
     let recordings: Vec<String> =
         drives.recordings.iter().map(|(name, seconds)| format!("{name} ({seconds:.1} s)")).collect();
-    let noise = drives
+    let noise: Vec<String> = drives
         .noise
         .iter()
-        .map(|n| format!("{} {} {} at {} Hz ({})", n.channel, number(n.sigma), n.unit, two_digits(n.rate), n.source));
-    vec![
+        .map(|n| format!("{} {} {} at {} Hz ({})", n.channel, number(n.sigma), n.unit, two_digits(n.rate), n.source))
+        .collect();
+    let mut out = vec![
         format!(
             "{} replicas of each size, {} with nothing hidden, seed {}; found is what at least {:.0} % of replicas have",
             drives.replicas,
@@ -134,8 +135,11 @@ pub(crate) fn driven(rehearsal: &Rehearsal) -> Vec<String> {
             100.0 * drives.wanted_share
         ),
         format!("inputs of {}; {} fault-free references", recordings.join(", "), drives.references),
-        format!("noise (one sigma): {}", noise.collect::<Vec<_>>().join(", ")),
-    ]
+    ];
+    if !noise.is_empty() {
+        out.push(format!("noise (one sigma): {}", noise.join(", ")));
+    }
+    out
 }
 
 #[cfg(test)]

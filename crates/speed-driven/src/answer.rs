@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use crate::cause::cause;
 use crate::compare::steady_seconds;
+use crate::comparison::Comparison;
 use crate::found;
 use crate::groups::explains;
 use crate::guesses::guesses;
-use crate::name::{Comparison, Named, Naming};
+use crate::name::{Named, Naming};
 use crate::sentences::sentences;
 use crate::settings::{NAMING, naming::Answer};
 use crate::traces::Forecasts;
@@ -30,11 +31,7 @@ pub(super) fn verdict(
     let mut out = Diagnosis::withheld();
     let naming = compared.map(|(_, naming)| naming);
     if let Some((comparison, naming)) = compared {
-        weigh(naming, &mut out);
-        // Too little was driven to say that nothing differs.
-        if out.verdict == Verdict::NoMismatch && steady_seconds(&loads).iter().sum::<f64>() < ANSWER.needed {
-            out.verdict = Verdict::Withheld;
-        }
+        weigh(naming, &loads, &mut out);
         // Recordings that agree once the named cause is taken off are no groups.
         let is_first = |best: &&Named| out.ranked.first().is_some_and(|c| best.ids().contains(&c.effect.as_str()));
         let best = naming.effects.first().filter(|_| out.verdict == Verdict::Explained).filter(is_first);
@@ -61,8 +58,18 @@ pub(super) fn verdict(
     (out, of_loads)
 }
 
+/// What loads that are the same throughout say, without what was measured beside them.
+pub(crate) fn of_whole_drives(naming: Option<&Naming>, loads: &Loads) -> Diagnosis {
+    let mut out = Diagnosis::withheld();
+    if let Some(naming) = naming {
+        weigh(naming, loads, &mut out);
+    }
+    found::add(&mut out, naming, loads);
+    out
+}
+
 /// Probabilities, kind of answer and classes from the evidence.
-fn weigh(naming: &Naming, out: &mut Diagnosis) {
+fn weigh(naming: &Naming, loads: &Loads, out: &mut Diagnosis) {
     let effects = naming.causes();
     let scores: Vec<f64> = [0.0, naming.unknown].into_iter().chain(effects.iter().map(|e| e.score)).collect();
     let shares = probabilities(&scores, ANSWER.temperature);
@@ -78,6 +85,7 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
         for (part, id) in e.ids().into_iter().enumerate() {
             match causes.iter_mut().find(|c| c.effect == id) {
                 Some(c) => c.probability += p,
+                None if e.causes() == 1 => causes.push(on_either_side(cause(e, part, p), e, naming)),
                 None => causes.push(cause(e, part, p)),
             }
         }
@@ -91,7 +99,9 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
 
     let named = 1.0 - none - unknown;
     out.verdict = if none >= named.max(unknown) {
-        Verdict::NoMismatch
+        // Too little was driven to say that nothing differs.
+        let is_enough = steady_seconds(loads).iter().sum::<f64>() >= ANSWER.needed;
+        if is_enough { Verdict::NoMismatch } else { Verdict::Withheld }
     } else if unknown > named {
         Verdict::Unknown
     } else {
@@ -102,6 +112,22 @@ fn weigh(naming: &Naming, out: &mut Diagnosis) {
     {
         out.indistinguishable = (0..best.causes()).map(|k| class(&effects, best, k)).collect();
     }
+}
+
+/// A cause of one side, which is on neither where the other side has as much less of it, and the loads do not tell which.
+fn on_either_side(cause: Cause, e: &Named, naming: &Naming) -> Cause {
+    let size = |named: &Named| named.values.first().copied().unwrap_or(0.0);
+    let is_mirrored = |other: &&Named| {
+        other.causes() == 1
+            && other.ids() == e.ids()
+            && other.parts[0].side() != e.parts[0].side()
+            && size(other) * size(e) < 0.0
+            && is_within_odds(other.score, e.score, ANSWER.indistinguishable)
+    };
+    let Some(other) = naming.effects.iter().find(is_mirrored) else { return cause };
+    let ([more, less], spec) = (if size(e) > 0.0 { [e, other] } else { [other, e] }, e.parts[0].spec());
+    let side = |named: &Named| named.parts[0].side().map_or("", inference::words::side);
+    Cause { name: format!("{} ({} more, or {} less)", spec.name, side(more), side(less)), side: None, ..cause }
 }
 
 /// The likeliest effects that could stand in for one member of the best hypothesis, itself first.

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use verdict::{Load, Loads, Quantity, Ratio};
 
+use crate::model::{Operating, predicted};
 use crate::pieces;
 use crate::settings::{MEASURING, NAMING, measuring::Ratios, measuring::Scatter};
 use inference::robust::NINETY;
+use robot_model::Robot;
 
 const RATIOS: Ratios = MEASURING.ratios;
 const SCATTER: Scatter = MEASURING.scatter;
@@ -21,6 +23,13 @@ pub(crate) struct Reference {
     pub(crate) speed: [f64; 2],
     /// Share of it in which the right side was the outer one.
     pub(crate) right_outer: f64,
+}
+
+impl Reference {
+    /// Where and how it was driven.
+    pub(crate) fn at(&self) -> Operating {
+        Operating { quantity: self.quantity, speed: self.speed, right_outer: self.right_outer }
+    }
 }
 
 /// What the interval of a ratio says.
@@ -59,6 +68,7 @@ pub(crate) fn scatter(quantity: Quantity) -> f64 {
         Quantity::EffectiveTrack => SCATTER.track,
         Quantity::Asymmetry => SCATTER.asymmetry,
         Quantity::SpinAsymmetry => SCATTER.spin_asymmetry,
+        Quantity::Drift => SCATTER.drift,
         Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => SCATTER.turning,
     }
 }
@@ -128,8 +138,15 @@ pub(crate) fn matching<'a>(l: &Load, references: &'a [Reference]) -> Option<(&'a
         .map(|r| (r, r.class != class(l)))
 }
 
-/// Every load over its reference, and pooled where recordings agree.
-pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, Vec<Ratio>) {
+/// By how much a load differs from its reference because the robot drove at other speeds, by its laws: on the scale on which they are
+/// compared.
+fn by_speeds(l: &Load, r: &Reference, robot: &Robot<f64>) -> f64 {
+    predicted(robot, &[], Operating::of(l)) - predicted(robot, &[], r.at())
+}
+
+/// Every load over its reference, and pooled where recordings agree. Intervals hold the ratio at the speeds that were driven, and what the
+/// laws of the robot make of it at those of the references.
+pub(crate) fn ratios(loads: &[Load], references: &[Reference], robot: &Robot<f64>) -> (Vec<Ratio>, Vec<Ratio>) {
     let mut singles = Vec::new();
     let mut groups: BTreeMap<Quantity, Vec<(&Load, &Reference, bool)>> = BTreeMap::new();
     for l in loads {
@@ -139,7 +156,7 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
         let Some((r, other)) = matching(l, references).filter(|_| !parted) else { continue };
         let (centre, error) = scaled(l);
         let e = (error.powi(2) + scatter(l.quantity).powi(2) + r.error.powi(2)).sqrt();
-        singles.push(ratio(l.recording.clone(), l, centre - r.centre, e, other));
+        singles.push(ratio(l.recording.clone(), l, centre - r.centre, (e, by_speeds(l, r, robot)), other));
         groups.entry(l.quantity).or_default().push((l, r, other));
     }
     let mut pooled = Vec::new();
@@ -173,7 +190,9 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
         let own = list.iter().zip(&w).map(|((l, ..), w)| scaled(l).0 * w).sum::<f64>() / total;
         sample.value = if quantity.is_difference() { own } else { own.exp() };
         sample.error = (sd * sd / n + 1.0 / inverse).sqrt() * if quantity.is_difference() { 1.0 } else { sample.value };
-        let mut joint = ratio(names.join(", "), &sample, mean, e, list.iter().any(|l| l.2));
+        let shifts = list.iter().zip(&w).map(|((l, r, _), w)| w * by_speeds(l, r, robot));
+        let shift = shifts.sum::<f64>() / total;
+        let mut joint = ratio(names.join(", "), &sample, mean, (e, shift), list.iter().any(|l| l.2));
         let outer = || list.iter().map(|(l, ..)| l.speed[1]);
         joint.range = [outer().fold(f64::MAX, f64::min), outer().fold(0.0, f64::max)];
         pooled.push(joint);
@@ -181,7 +200,7 @@ pub(crate) fn ratios(loads: &[Load], references: &[Reference]) -> (Vec<Ratio>, V
     (singles, pooled)
 }
 
-fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Ratio {
+fn ratio(recording: String, l: &Load, d: f64, (e, by_speeds): (f64, f64), other_speed: bool) -> Ratio {
     let of = |x: f64| if l.quantity.is_difference() { x } else { x.exp() };
     Ratio {
         recording,
@@ -191,7 +210,7 @@ fn ratio(recording: String, l: &Load, d: f64, e: f64, other_speed: bool) -> Rati
         value: l.value,
         half: NINETY * l.error,
         ratio: of(d),
-        interval: [of(d - NINETY * e), of(d + NINETY * e)],
+        interval: [of(d - by_speeds.max(0.0) - NINETY * e), of(d - by_speeds.min(0.0) + NINETY * e)],
         seconds: l.seconds,
         firm: l.seconds >= RATIOS.firm,
         other_speed,
@@ -204,7 +223,7 @@ pub(crate) fn steady_seconds(loads: &Loads) -> [f64; 2] {
         let own = loads.ratios.iter().filter(|r| match r.quantity {
             Quantity::StraightLoad => straight,
             Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => !straight,
-            Quantity::EffectiveTrack | Quantity::Asymmetry | Quantity::SpinAsymmetry => false,
+            Quantity::EffectiveTrack | Quantity::Asymmetry | Quantity::SpinAsymmetry | Quantity::Drift => false,
         });
         own.map(|r| r.seconds).fold(0.0, |sum, seconds| sum + seconds)
     };
@@ -214,6 +233,7 @@ pub(crate) fn steady_seconds(loads: &Loads) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::robot;
 
     fn load(recording: &str, quantity: Quantity, value: f64, speed: f64) -> Load {
         let (recording, error) = (recording.to_owned(), 0.02 * value);
@@ -227,7 +247,7 @@ mod tests {
             .enumerate()
             .map(|(i, v)| load(&format!("run_{i}"), Quantity::StraightLoad, *v, 0.5))
             .collect();
-        ratios(&loads, &reference)
+        ratios(&loads, &reference, &robot())
     }
 
     #[test]

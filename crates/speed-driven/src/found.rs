@@ -6,12 +6,14 @@ use std::collections::BTreeMap;
 use catalogue::answer::NONE;
 use catalogue::command_driven::EFFECTIVE_TRACK;
 use catalogue::speed_driven::{SOFT_GROUND, STANDING};
+use inference::gyro_beside_pose;
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
-use robot_model::effects::{coulomb_side, gyro_scale};
+use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, wheel_radius_mismatch};
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{
-    Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, Standstill, TurningChange, Verdict,
+    Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
+    TurningChange, Verdict,
 };
 
 use crate::cause::cause;
@@ -31,7 +33,7 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
         for difference in strongest(loads) {
             match difference.quantity {
-                Quantity::EffectiveTrack => insert(out, tracks(difference)),
+                Quantity::EffectiveTrack => insert(out, tracks(difference, loads.gyro.is_some())),
                 _ => insert_fitting(out, naming),
             }
         }
@@ -55,6 +57,14 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
     }
+    if let Some(drift) = &loads.drift {
+        insert(out, drifts(drift));
+        out.indistinguishable.rotate_right(1);
+    }
+    if let Some(gyro) = loads.gyro.as_ref().filter(|gyro| gyro.is_off) {
+        insert(out, vec![gyro_beside_pose::cause(gyro)]);
+        out.indistinguishable.rotate_right(1);
+    }
     if let Some(cause) = standing(&loads.standstills) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
@@ -64,10 +74,34 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     }
 }
 
+/// Whether a ratio is no finding of its own: what it is about changes inside each of its recordings, so that it is no one value; or it is
+/// of the sides, and their wheels have radii of their own.
+fn is_told_elsewhere(r: &Ratio, loads: &Loads) -> bool {
+    let is_of_sides = matches!(r.quantity, Quantity::Asymmetry | Quantity::SpinAsymmetry);
+    if r.quantity == Quantity::Drift || (is_of_sides && loads.drift.is_some()) {
+        return true;
+    }
+    let changes_in = |recording: &str| {
+        let straight =
+            loads.changes.found.iter().map(|c| &c.recording).chain(loads.side_changes.iter().map(|c| &c.recording));
+        let turning = loads.turning_changes.iter().map(|c| &c.recording);
+        let is_here = |other: &String| other == recording;
+        loads.grounds.iter().any(|g| g.recording == recording)
+            || match r.quantity {
+                Quantity::StraightLoad | Quantity::Asymmetry => straight.into_iter().any(is_here),
+                Quantity::TurningLoad | Quantity::ArcSum | Quantity::SpinSum => turning.into_iter().any(is_here),
+                Quantity::EffectiveTrack | Quantity::SpinAsymmetry | Quantity::Drift => false,
+            }
+    };
+    r.recording.split(", ").all(changes_in)
+}
+
 /// The clearest difference of the effective track and that of the loads, the clearer first.
 pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
     let of = |track: bool| {
-        let own = reported(loads).filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
+        // A drift is told by itself.
+        let of_whole = reported(loads).filter(|r| !is_told_elsewhere(r, loads));
+        let own = of_whole.filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
         own.filter(|r| judgement(r) == Judgement::Differs).max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))
     };
     let mut out: Vec<&Ratio> = [of(true), of(false)].into_iter().flatten().collect();
@@ -75,13 +109,38 @@ pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
     out
 }
 
+/// Wheels of one side that roll as if they had another radius, or an encoder of that side with another scale.
+fn drifts(drift: &SideDrift) -> Vec<Cause> {
+    let SideDrift { difference, half, side } = drift;
+    // As much more on the right is as much less on the left.
+    let size = if side.as_deref() == Some(inference::words::side(0)) { -difference } else { *difference };
+    let cause = |id: &str, probability: f64, size: f64, unit: &str| {
+        let label = catalogue::find(id).map_or(id, |entry| entry.label());
+        let place = side.as_deref().unwrap_or("right, or left the other way round");
+        Cause {
+            magnitude: Some(size),
+            sigma: Some(half / NINETY),
+            unit: unit.to_owned().into(),
+            side: side.clone(),
+            ..Cause::plain(id, &format!("{label}: {place}"), probability)
+        }
+    };
+    let [radius, encoder] = [&wheel_radius_mismatch::SPEC, &encoder_scale::SPEC];
+    vec![
+        cause(radius.id, ANSWER.drift[0], size, radius.parameters[0].unit),
+        // An encoder that shows more makes its side turn less.
+        cause(encoder.id, ANSWER.drift[1], 1.0 / (1.0 + size) - 1.0, encoder.parameters[0].unit),
+    ]
+}
+
 /// Probability that a ratio differs, by its interval.
 fn differs(r: &Ratio) -> f64 {
     1.0 - 2.0 * Normal::standard().cdf(-sigmas(r))
 }
 
-/// Another effective track; a longer one may be soft ground, and either a gyro that reads another share of the turning.
-pub(crate) fn tracks(r: &Ratio) -> Vec<Cause> {
+/// Another effective track; a longer one may be soft ground, and either a gyro that reads another share of the turning, where no pose
+/// tells.
+pub(crate) fn tracks(r: &Ratio, gyro_is_known: bool) -> Vec<Cause> {
     let spec = EFFECTIVE_TRACK;
     let soft = (r.ratio > 1.0).then(|| Cause::plain(SOFT_GROUND.id, SOFT_GROUND.name, ANSWER.soft * differs(r)));
     let measured = Cause {
@@ -96,7 +155,7 @@ pub(crate) fn tracks(r: &Ratio) -> Vec<Cause> {
         unit: gyro_scale::SPEC.parameters[0].unit.into(),
         ..Cause::plain(gyro_scale::SPEC.id, gyro_scale::SPEC.name, ANSWER.gyro * differs(r))
     };
-    std::iter::once(measured).chain(soft).chain([gyro]).collect()
+    std::iter::once(measured).chain(soft).chain(Some(gyro).filter(|_| !gyro_is_known)).collect()
 }
 
 /// "Nothing is missing" becomes at most as probable as it is that this ratio, whose interval excludes no difference, does not

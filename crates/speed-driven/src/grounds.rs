@@ -5,15 +5,16 @@
 //! a recording, by causes that need no hand on the robot: nobody touches it on the way.
 
 use robot_model::Robot;
-use robot_model::tunable::COUNT as NUISANCES;
-use verdict::{LoadChange, Loads, OtherGround, Ratio};
+use robot_model::tunable::{COUNT as NUISANCES, tuned};
+use verdict::{Load, LoadChange, Loads, OtherGround, Ratio};
 
 use crate::compare::{Judgement, Reference, judgement, ratios};
+use crate::comparison::Comparison;
 use crate::differences;
 use crate::extract::{extract, is_steady_turn};
 use crate::found::fitting;
 use crate::model::Tuned;
-use crate::name::{Comparison, Named, Open, name};
+use crate::name::{Named, Open, name};
 use crate::pieces::{GRADE, STANDING};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING};
@@ -113,11 +114,16 @@ fn stretches(run: &SpeedRun, loads: &Loads) -> Vec<Stretch> {
 }
 
 impl Usual<'_> {
+    /// Loads over the references'.
+    pub(crate) fn ratios(&self, loads: &[Load]) -> (Vec<Ratio>, Vec<Ratio>) {
+        ratios(loads, self.references, &tuned(self.robot, self.sigma, &self.calibrated.theta))
+    }
+
     /// The ground of a stretch, by its rows beside slopes; `None` where no load of these differs from the references'.
     fn ground(&self, run: &SpeedRun, stretch: Stretch, slopes: &[[f64; 2]]) -> Option<OtherGround> {
         let Stretch { interval, reach: [from, _], until, .. } = stretch;
         let (loads, _) = extract(&only(run, &[interval], slopes));
-        let (ratios, _) = ratios(&loads, self.references);
+        let (ratios, _) = self.ratios(&loads);
         if !ratios.iter().any(|r: &Ratio| judgement(r) == Judgement::Differs) {
             return None;
         }
@@ -143,7 +149,7 @@ pub(crate) enum Measured {
 /// Leaves the rows of these grounds out of all that is measured of the recordings, as those in which a body stands. Ground that
 /// covers most of the steady driving is what they were driven on: then the rows beside it are left out, if their loads are the
 /// references'. Rows of which nobody knows the ground are left out of both.
-pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[Reference]) -> Measured {
+pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, usual: &Usual<'_>) -> Measured {
     let of =
         |run: &SpeedRun| -> Vec<&OtherGround> { loads.grounds.iter().filter(|g| g.recording == run.name).collect() };
     let changes = |run: &SpeedRun| !of(run).is_empty();
@@ -171,7 +177,7 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, references: &[R
     }
     let differs = |run: &SpeedRun| {
         let (loads, _) = extract(run);
-        ratios(&loads, references).0.iter().any(|r| judgement(r) == Judgement::Differs)
+        usual.ratios(&loads).0.iter().any(|r| judgement(r) == Judgement::Differs)
     };
     if beside.iter().filter(|run| changes(run)).any(differs) {
         return Measured::Everything;

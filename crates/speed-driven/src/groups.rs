@@ -6,9 +6,10 @@
 use verdict::{Loads, Quantity, Ratio, RecordingGroup};
 
 use crate::compare::{Judgement, judgement};
+use crate::comparison::Comparison;
 use crate::found::{fitting, tracks as tracks_alone};
 use crate::grounds::Usual;
-use crate::name::{Comparison, Difference, Named, Open, name};
+use crate::name::{Difference, Named, Open, name};
 
 /// A quantity of which the recordings show no one value: those that show least and most of it.
 pub(crate) struct Disagreement<'a> {
@@ -67,7 +68,7 @@ pub(crate) fn groups(loads: &Loads, differences: &[Difference], usual: &Usual<'_
         let causes = match (tracks.first(), of_loads.is_empty()) {
             (None, true) => Vec::new(),
             // A track is no load: no effect of the robot's loads is to be asked for.
-            (Some(track), true) => tracks_alone(track).into_iter().map(|c| c.effect).collect(),
+            (Some(track), true) => tracks_alone(track, loads.gyro.is_some()).into_iter().map(|c| c.effect).collect(),
             (_, false) => {
                 let comparison = Comparison::new(&own, usual.robot, usual.sigma, usual.calibrated);
                 let naming = comparison.and_then(|c| name(&c, open));

@@ -1,5 +1,7 @@
 //! Where a robot travels to: a slope is that of a place and a heading.
 
+use verdict::Quantity;
+
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, changes::Jumps};
 use crate::straight::is_straight;
@@ -39,6 +41,15 @@ pub(crate) fn goes_one_way(run: &SpeedRun) -> bool {
     let Some(&first) = rows.first() else { return true };
     let other = rows.iter().filter(|&&i| apart(directions[i], directions[first]) > JUMPS.other_heading).count();
     (other as f64) * run.period() < JUMPS.elsewhere
+}
+
+/// Whether all straight driving may be on one slope, by what was measured in which recordings: drives at several places, or in several
+/// headings, share none.
+pub(crate) fn may_be_one_slope<'a>(measured: impl Iterator<Item = (Quantity, &'a String)>, runs: &[SpeedRun]) -> bool {
+    let mut straight = measured.filter(|(quantity, _)| *quantity == Quantity::StraightLoad).map(|(_, name)| name);
+    let first = straight.next();
+    let one_place = straight.all(|name| Some(name) == first);
+    one_place && runs.iter().filter(|run| Some(&run.name) == first).all(goes_one_way)
 }
 
 #[cfg(test)]

@@ -4,9 +4,13 @@
 //! recordings; nothing.
 
 use catalogue::revealed_by;
-use catalogue::speed_driven::SOFT_GROUND;
+use catalogue::speed_driven::{SOFT_GROUND, STANDING};
+use inference::gyro_beside_pose;
 use inference::words::quantity;
-use verdict::{Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, Standstill, Verdict};
+use robot_model::effects::{gyro_scale, wheel_radius_mismatch};
+use verdict::{
+    Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict,
+};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{largest_side_change, longest, strongest};
@@ -26,16 +30,35 @@ const NINETY_PER_CENT: &str = " (90 %)";
 pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
     let standing = standing(&loads.standstills);
     let slope: Vec<String> = loads.slope.iter().map(|s| under_all(s, theirs)).collect();
-    let leads = standing.is_empty() && slope.is_empty();
+    let gyro: Vec<String> = loads.gyro.iter().filter(|gyro| gyro.is_off).map(gyro_beside_pose::told).collect();
+    let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
+    let leads = [&standing, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
     let rest = match of_loads {
-        Verdict::Explained => located(disagreeing(loads, theirs, named(d)), loads),
+        Verdict::Explained => located(disagreeing(loads, theirs, named(d, loads)), loads),
         Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
         Verdict::NoMismatch | Verdict::Withheld => {
             let differences = differences(d, loads, theirs);
             if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
         }
     };
-    [standing, slope, rest].concat()
+    [standing, gyro, drift, slope, rest].concat()
+}
+
+/// A side whose wheels roll as if they had another radius.
+fn drifts(drift: &SideDrift) -> String {
+    let SideDrift { difference, half, side } = drift;
+    let of = match side.as_deref() {
+        Some(side) if side == inference::words::side(0) => format!("left by {:+.3} ± {half:.3} (90 %)", -difference),
+        Some(side) => format!("{side} by {difference:+.3} ± {half:.3} (90 %)"),
+        None => format!(
+            "right by {difference:+.3} ± {half:.3} (90 %), or left by {:+.3}; the loads do not tell which",
+            -difference
+        ),
+    };
+    format!(
+        "Missing: wheels of one side of another radius, as a share: {of}. While both sides turn alike, the body turns as if they did not: \
+         compare the tyres of both sides, then the counts per turn of their encoders, which look the same."
+    )
 }
 
 /// One slope under all driving.
@@ -111,7 +134,7 @@ fn changes(of_loads: Verdict, loads: &Loads, (leads, theirs): (bool, &str)) -> V
             }
         },
         _ if loads.standstills.is_empty() => warmth.clone().unwrap_or_else(|| {
-            "Apart from that slope the simulation explains the loads; nothing else needs to be added to it.".to_owned()
+            "Apart from that the simulation explains the loads of steady driving; nothing else needs to be added to it.".to_owned()
         }),
         _ => warmth
             .clone()
@@ -173,13 +196,21 @@ fn warmth(loads: &Loads, theirs: &str) -> Option<String> {
 /// The clearest differences, though none of their causes is likely enough to be named; the class that fits each.
 fn differences(d: &Diagnosis, loads: &Loads, theirs: &str) -> Vec<String> {
     let strongest = strongest(loads);
+    // What changes inside recordings is told as a change.
+    if strongest.is_empty() {
+        return Vec::new();
+    }
     let mut out: Vec<String> = strongest.iter().map(|r| difference(r, theirs)).collect();
     let all = reported(loads).filter(|r| judgement(r) == Judgement::Differs).count();
     if all > strongest.len() {
         out.push(format!("In all, {all} loads differ from {theirs}; the others are listed below."));
     }
     for r in strongest {
-        out.extend(if r.quantity == Quantity::EffectiveTrack { vec![slips(r)] } else { fits(d, loads) });
+        out.extend(if r.quantity == Quantity::EffectiveTrack {
+            vec![slips(r, loads.gyro.is_some())]
+        } else {
+            fits(d, loads)
+        });
     }
     out
 }
@@ -205,15 +236,19 @@ fn difference(r: &Ratio, theirs: &str) -> String {
     format!("Difference: in {of} the {what} is {load}, measured over {seconds}{tentative}.")
 }
 
-/// What another effective track means, and what to do.
-fn slips(r: &Ratio) -> String {
+/// What another effective track means, and what to do; a gyro may be behind it where no pose tells.
+fn slips(r: &Ratio, gyro_is_known: bool) -> String {
     let percent = 100.0 * (1.0 - 1.0 / r.ratio).abs();
     let how = if r.ratio > 1.0 { "less" } else { "more" };
+    let (gyro, pose) = if gyro_is_known {
+        (String::new(), "")
+    } else {
+        (format!(", or a gyro that reads {:.0} % of what it read", 100.0 / r.ratio), ", or record a pose,")
+    };
     format!(
         "The body turns by {percent:.0} % {how} than the same wheel speeds turned it before: ground that gives way or holds \
-         otherwise, other tyres, or a gyro that reads {reads} of what it read. Spin both ways on both grounds, or record a pose, to be \
-         sure; if it is the ground or the tyres, give the simulation this track.",
-        reads = format_args!("{:.0} %", 100.0 / r.ratio)
+         otherwise, or other tyres{gyro}. Spin both ways on both grounds{pose} to be sure; if it is the ground or the tyres, give the \
+         simulation this track."
     )
 }
 
@@ -278,8 +313,12 @@ fn standing(all: &[Standstill]) -> Vec<String> {
 }
 
 /// The causes that the loads name, and what tells the members of a class apart.
-fn named(d: &Diagnosis) -> Vec<String> {
-    let of_loads = |class: &&Vec<String>| class.iter().all(|id| *id != catalogue::speed_driven::STANDING.id);
+fn named(d: &Diagnosis, loads: &Loads) -> Vec<String> {
+    // What is told by itself.
+    let gyro = loads.gyro.filter(|gyro| gyro.is_off).map(|_| gyro_scale::SPEC.id);
+    let drift = loads.drift.as_ref().map(|_| wheel_radius_mismatch::SPEC.id);
+    let apart_from_loads: Vec<&str> = [Some(STANDING.id), gyro, drift].into_iter().flatten().collect();
+    let of_loads = |class: &&Vec<String>| class.iter().all(|id| !apart_from_loads.contains(&id.as_str()));
     let of = |id: &String| d.ranked.iter().find(|c| c.effect == *id);
     let mut out = Vec::new();
     for class in d.indistinguishable.iter().filter(of_loads) {

@@ -11,7 +11,7 @@
 //! * `standstill`: a robot that stands although it is commanded to drive; its rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
-//! * `model`, `name`: loads that the plant predicts, and which effects could make them differ.
+//! * `model`, `comparison`, `name`: loads that the plant predicts, and which effects could make them differ.
 //! * `answer`, `cause`, `found`: probabilities, classes, limits; causes that were measured where and when they are.
 //! * `speeds`: speeds that are measured with noise, and those that are commanded.
 //! * `guesses`: what a mapping may have wrong.
@@ -22,9 +22,11 @@
 //! * `power`: signs of torques that no robot can have.
 //! * `plane`: one slope under all driving, by loads and directions of travel.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`: rows that show that.
+//! * `drift`: a side whose wheels roll as if they had another radius.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `grounds`, `groups`, `ground`: several grounds in one recording or in several, soft ground as one cause.
 //! * `law`, `forecast`, `traces`: rows that were left out of a fit, forecast and drawn.
+//! * `replica`: loads drawn about those of a case, of which it is known what is missing.
 //! * `settings`: every tuned number.
 //! * `next`: which steady loads would tell the remaining effects apart.
 
@@ -36,6 +38,8 @@ mod changed;
 mod changes;
 mod clock;
 mod compare;
+mod comparison;
+mod drift;
 mod extract;
 mod forecast;
 mod found;
@@ -57,6 +61,7 @@ mod one_side;
 mod pieces;
 mod plane;
 mod power;
+mod replica;
 mod rows;
 mod run;
 mod scrub;
@@ -77,23 +82,26 @@ mod words;
 mod zero;
 
 use robot_model::Robot;
-use robot_model::tunable::{COUNT as NUISANCES, place_of, tunables};
-use verdict::{Changes, ClockError, Diagnosis, Forecast, FreeRun, Load, Loads, Quantity, Verdict, Withheld};
+use robot_model::effects::wheel_radius_mismatch;
+use robot_model::tunable::{COUNT as NUISANCES, place_of, tunables, tuned};
+use verdict::{ClockError, Diagnosis, Forecast, FreeRun, Load, Loads, Quantity, Verdict, Withheld};
 
 use crate::next::advise_steady;
-use inference::{DiagnosisError, Options};
+use inference::{DiagnosisError, Options, gyro_beside_pose};
 
 use answer::{limits, verdict};
-use compare::{Reference, matching, references, scaled};
+use compare::{Reference, references};
+use comparison::{Comparison, differences, of_reference};
 use grounds::Measured;
 use model::tune;
-use name::{Comparison, Difference, Open, name};
+use name::{Open, name};
 use pieces::{ByClass, Usual};
 
 pub use body_rates::BodyRates;
 pub use clock::{Alignment, align, box_mean};
 pub(crate) use model::{Operating, Tuned, predicted, sensitivity};
 pub(crate) use name::{Named, Naming};
+pub use replica::Replicas;
 pub use run::SpeedRun;
 use traces::{Fits, Forecasts};
 
@@ -122,6 +130,26 @@ pub struct SteadyCase {
     pub references: Vec<SpeedRun>,
     /// Recordings in which it is not.
     pub recordings: Vec<SpeedRun>,
+}
+
+impl SteadyCase {
+    /// Torque of the robot's weight at a wheel's radius, N m, and by which share torques may be off against it.
+    fn weight(&self, robot: &Robot<f64>) -> (f64, f64) {
+        let of_mass = place_of("mass").map_or(0.0, |place| self.sigma[place]);
+        (robot.mass * robot.gravity * robot.wheel_radius, self.torque_sigma.hypot(of_mass))
+    }
+
+    /// One sigma of a quantity, on the scale on which it is compared, that the plant's constants do not hold.
+    fn sigma_beside_constants(&self, quantity: Quantity) -> f64 {
+        let [radius, track] = self.geometry_sigma;
+        match quantity {
+            Quantity::EffectiveTrack => radius.hypot(track),
+            // Of two radii that are known as well as that.
+            Quantity::Drift => radius * std::f64::consts::SQRT_2,
+            Quantity::Asymmetry | Quantity::SpinAsymmetry => 0.0,
+            _ => self.torque_sigma,
+        }
+    }
 }
 
 /// Diagnoses a speed-driven case; of the options those count that say whether to advise on the next drive and whether the
@@ -166,10 +194,9 @@ pub fn diagnose_steady(
     attitude::set_level(&marked.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
-    let weight = robot.mass * robot.gravity * robot.wheel_radius;
-    let scale_sigma = case.torque_sigma.hypot(place_of("mass").map_or(0.0, |place| case.sigma[place]));
-    let slope = plane::take_off(&mut marked.recordings, &usual, (weight, scale_sigma));
-    let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight);
+    let weight = case.weight(&robot);
+    let slope = plane::take_off(&mut marked.recordings, &usual, weight);
+    let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight.0);
     let side_changes = one_side::mark(&mut marked.recordings);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
@@ -185,27 +212,31 @@ pub fn diagnose_steady(
     let calibrated = tune(&robot, &case.sigma, &known).ok_or(DiagnosisError::Singular { stage: "calibration" })?;
 
     progress("looking into the recordings");
-    let mut loads =
-        Loads { standstills, changes, slope, side_changes, ..within(&marked, &robot, &refs, reference_loads.clone()) };
+    let as_on_references = tuned(&robot, &case.sigma, &calibrated.theta);
+    let found_inside = within(&marked, &as_on_references, &refs, reference_loads.clone());
+    let mut loads = Loads { standstills, changes, slope, side_changes, ..found_inside };
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     one_side::drop_what_shows_it(&mut loads);
     // Other ground in a part of a recording is reported by itself, too: what is left is the recording's.
-    let measured = grounds::leave_out(&mut marked.recordings, &loads, &refs);
+    let measured = grounds::leave_out(&mut marked.recordings, &loads, &usual);
     loads.on_grounds = measured == Measured::Grounds;
     let left_out = measured != Measured::Everything;
     let (of_recordings, not_given) = if left_out { all_loads(&marked.recordings) } else { (of_recordings, not_given) };
     let refs = references_of(&of_recordings);
-    (loads.ratios, loads.pooled) = compare::ratios(&of_recordings, &refs);
+    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
+    (loads.ratios, loads.pooled) = usual.ratios(&of_recordings);
     loads.withheld = withheld;
     let case = &marked;
 
     progress("weighing the effects");
     let differences = differences(&of_recordings, &refs);
-    let open = Open { same_robot: options.same_robot, one_slope: may_be_one_slope(&differences, &case.recordings) };
+    let compared = differences.iter().map(|d| (d.here.at.quantity, &d.recording));
+    let one_slope = heading::may_be_one_slope(compared, &case.recordings);
+    let open = Open { same_robot: options.same_robot, one_slope };
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
     let naming = comparison.as_ref().and_then(|c| name(c, open));
-    let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
+    loads.drift = comparison.as_ref().and_then(Comparison::side_drift);
     loads.groups = groups::groups(&loads, &differences, &usual, open);
 
     progress("forecasting recordings that were not used");
@@ -228,10 +259,7 @@ pub fn diagnose_steady(
     out.free_runs = free_runs;
     out.traces = traces;
     out.correction = correction;
-    // Where nothing is missing there is nothing to correct.
-    if of_loads == Verdict::NoMismatch {
-        out.correction.effects.clear();
-    }
+    drop_what_loads_do_not_ask_for(&mut out, of_loads);
     out.free_runs.extend(inner);
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
@@ -249,13 +277,12 @@ pub fn diagnose_steady(
     Ok(out)
 }
 
-/// Whether all straight driving may be on one slope: drives at several places, or in several headings, share none.
-fn may_be_one_slope(differences: &[Difference], runs: &[SpeedRun]) -> bool {
-    let mut straight =
-        differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad).map(|d| &d.recording);
-    let first = straight.next();
-    let one_place = straight.all(|name| Some(name) == first);
-    one_place && runs.iter().filter(|run| Some(&run.name) == first).all(heading::goes_one_way)
+/// Where the loads lack nothing there is nothing to correct but wheels of another radius.
+fn drop_what_loads_do_not_ask_for(out: &mut Diagnosis, of_loads: Verdict) {
+    if of_loads == Verdict::NoMismatch {
+        let drifts = out.steady.as_ref().is_some_and(|loads| loads.drift.is_some());
+        out.correction.effects.retain(|e| drifts && e.effect == wheel_radius_mismatch::SPEC.id);
+    }
 }
 
 /// The largest speed of a side, m/s.
@@ -279,15 +306,10 @@ fn from_file(case: &SteadyCase, robot: &Robot<f64>, loads: &[Load]) -> Vec<Refer
     references(loads)
         .into_iter()
         .map(|r| {
-            let at = Operating { quantity: r.quantity, speed: r.speed, right_outer: r.right_outer };
+            let at = r.at();
             let centre = predicted(robot, &[], at);
             let by_constants = sensitivity(robot, &case.sigma, &[0.0; NUISANCES], &[at]);
-            let [radius, track] = case.geometry_sigma;
-            let beside = match r.quantity {
-                Quantity::EffectiveTrack => radius.hypot(track),
-                Quantity::Asymmetry | Quantity::SpinAsymmetry => 0.0,
-                _ => case.torque_sigma,
-            };
+            let beside = case.sigma_beside_constants(r.quantity);
             let error = (0..NUISANCES).map(|k| by_constants[(0, k)].powi(2)).sum::<f64>().sqrt().hypot(beside);
             Reference { centre, error, ..r }
         })
@@ -324,26 +346,11 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
     let track = track_of(refs);
     let nominal =
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
-    let mut out = Loads {
-        ratios: Vec::new(),
-        pooled: Vec::new(),
-        references,
-        withheld: Vec::new(),
-        changes: Changes::default(),
-        slope: None,
-        side_changes: Vec::new(),
-        turning_changes: Vec::new(),
-        grounds: Vec::new(),
-        on_grounds: false,
-        groups: Vec::new(),
-        agree_by_cause: false,
-        turning: Vec::new(),
-        standstills: Vec::new(),
-        forecasts: Vec::new(),
-        clocks: Vec::new(),
-    };
+    let shares = |runs: &[SpeedRun]| runs.iter().filter_map(|run| run.gyro_share).collect::<Vec<_>>();
+    let gyro = gyro_beside_pose::compared(shares(&case.references), shares(&case.recordings));
+    let mut out = Loads { references, gyro, ..Loads::default() };
     for run in &case.recordings {
-        out.turning_changes.extend(scrub::turning_changes(run, turning_load, sides));
+        out.turning_changes.extend(scrub::turning_changes(run, robot, turning_load, sides));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);
         if let Some(straight) = straight.filter(|_| alike && run.yaw_rate.is_none()) {
             out.turning.extend(turning::turning(run, straight));
@@ -370,30 +377,4 @@ fn clock_error(run: &SpeedRun) -> Option<ClockError> {
         error: alignment.error(),
         left_out: alignment.left_out.clone(),
     })
-}
-
-fn of_reference(r: &Reference) -> model::Measured {
-    let at = Operating { quantity: r.quantity, speed: r.speed, right_outer: r.right_outer };
-    model::Measured { at, value: r.centre, error: r.error }
-}
-
-/// Every load less its reference. A sum of arcs is used only where the turning load itself is not known.
-fn differences(loads: &[Load], refs: &[Reference]) -> Vec<Difference> {
-    loads
-        .iter()
-        .filter(|l| {
-            l.quantity != Quantity::ArcSum
-                || !loads.iter().any(|o| o.recording == l.recording && o.quantity == Quantity::TurningLoad)
-        })
-        .filter_map(|l| {
-            let (r, _) = matching(l, refs)?;
-            let (value, error) = scaled(l);
-            let at = Operating { quantity: l.quantity, speed: l.speed, right_outer: l.right_outer };
-            Some(Difference {
-                recording: l.recording.clone(),
-                here: model::Measured { at, value, error },
-                reference: of_reference(r),
-            })
-        })
-        .collect()
 }

@@ -6,8 +6,9 @@ use inference::robust::{mean, rms};
 use robot_model::effect::LoadTerm;
 use robot_model::tunable::COUNT as NUISANCES;
 use robot_model::{Active, Plant, Robot, State};
-use verdict::Quantity;
+use verdict::{Load, Quantity};
 
+use crate::drift;
 use crate::run::SpeedRun;
 use crate::settings::NAMING;
 use crate::settings::naming::{Calibration, SteadyPlant};
@@ -25,6 +26,13 @@ pub(crate) struct Operating {
     pub(crate) speed: [f64; 2],
     /// Share of it in which the right side is the outer one.
     pub(crate) right_outer: f64,
+}
+
+impl Operating {
+    /// Of a load.
+    pub(crate) fn of(load: &Load) -> Self {
+        Self { quantity: load.quantity, speed: load.speed, right_outer: load.right_outer }
+    }
 }
 
 /// Means of a steady drive over all headings that matter: torque of each side, yaw rate.
@@ -82,6 +90,7 @@ fn shown(robot: &Robot<f64>, doses: &[Dose], quantity: Quantity, [l, r]: [f64; 2
         }
         Quantity::SpinSum => 0.5 * (torque[0] + torque[1]),
         Quantity::EffectiveTrack => (r - l) / if yaw.abs() > 1e-6 { yaw } else { 1e-6 },
+        Quantity::Drift => drift::of_doses(doses),
     }
 }
 

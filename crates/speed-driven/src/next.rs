@@ -243,7 +243,7 @@ mod tests {
             theta: [0.0; NUISANCES],
             covariance: Mat::from_fn(NUISANCES, NUISANCES, |i, j| 0.01 * f64::from(i == j)),
         };
-        let naming = Naming { effects, unknown: -10.0 };
+        let naming = Naming { effects, unknown: -10.0, drift: None };
         advise_steady(0.8, &robot(), &usual_sigma(), &calibrated, Some(&naming))
     }
 

@@ -154,7 +154,8 @@ fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> 
 
 /// Nose up at the rows by an accelerometer, rad; `None` without one.
 fn levels_at_rows(run: &SpeedRun) -> Option<Vec<f64>> {
-    let (rates, alignment) = (run.body_rates.as_ref()?, run.alignment.as_ref()?);
+    let Some(rates) = &run.body_rates else { return run.level.clone() };
+    let alignment = run.alignment.as_ref()?;
     let level = rates.level.as_ref()?;
     Some(run.time.iter().zip(&alignment.lag).map(|(t, lag)| interpolate(&rates.time, level, t + lag)).collect())
 }
@@ -271,7 +272,7 @@ fn level(runs: &mut [SpeedRun], found: &Found, usual: &Usual, weight: f64) {
             }
         }
         // What is left of turning rates about the other axes is the slope's.
-        run.body_rates = None;
+        (run.body_rates, run.level) = (None, None);
     }
 }
 
@@ -380,7 +381,7 @@ mod tests {
         let d = d.expect("a diagnosis");
         assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Explained, "grade"), "{:?}", d.sentences);
         assert!(d.sentences[0].starts_with("Sloping ground under all driving"), "{:?}", d.sentences);
-        assert!(d.sentences[1].starts_with("Apart from that slope the simulation explains"), "{:?}", d.sentences);
+        assert!(d.sentences[1].starts_with("Apart from that the simulation explains"), "{:?}", d.sentences);
         let angle = d.ranked[0].magnitude.expect("an angle").to_degrees();
         assert!((angle - 4.0).abs() < 1.0, "{angle}");
     }

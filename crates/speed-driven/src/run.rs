@@ -10,6 +10,7 @@ use crate::rows::joined;
 use crate::settings::{MEASURING, measuring::Rows};
 use crate::speeds::{held_at, steadied};
 use crate::stamps::{origin, samples};
+use inference::gyro_beside_pose::{GyroShare, gyro_share};
 use inference::{DiagnosisError, interpolate};
 
 const ROWS: Rows = MEASURING.rows;
@@ -39,10 +40,14 @@ pub struct SpeedRun {
     pub magnitude_only: bool,
     /// Yaw rate at the rows after its clock was aligned, rad/s, NaN where the gyro was off; `None` without a gyro.
     pub yaw_rate: Option<Vec<f64>>,
+    /// What share of the turning that a pose shows the gyro shows; the yaw rate is then that of the pose. `None` without both.
+    pub gyro_share: Option<GyroShare>,
     /// The gyro's clock against the rows'; `None` without a gyro.
     pub alignment: Option<Alignment>,
     /// Turning rates of the body about all three axes, on the gyro's clock; `None` where one is missing.
     pub body_rates: Option<BodyRates>,
+    /// Nose up at the rows by an accelerometer, rad, where turning rates about one axis alone are known; `None` without one.
+    pub level: Option<Vec<f64>>,
     /// Whether the robot stands at a row although it is commanded to drive: such rows say nothing of loads or tracks.
     pub standing: Vec<bool>,
     /// Whether the straight load at a row belongs to a change inside the recording, which is reported by itself.
@@ -104,8 +109,10 @@ impl SpeedRun {
             averaged,
             magnitude_only: attributes.magnitude_only,
             yaw_rate: None,
+            gyro_share: None,
             alignment: None,
             body_rates: BodyRates::new(recording),
+            level: None,
             standing: vec![false; time.len()],
             changed: vec![false; time.len()],
             unused: Vec::new(),
@@ -114,29 +121,13 @@ impl SpeedRun {
             speed,
         };
 
-        // The gyro's clock is another one as a rule.
-        if let Some(gyro) = recording.get(Signal::GyroZ) {
-            let (t, values) = samples(gyro, origin);
-            let smooth = clock::box_mean(&t, values, ROWS.gyro_mean);
-            let turning: Vec<f64> = run.speed[1].iter().zip(&run.speed[0]).map(|(r, l)| r - l).collect();
-            let alignment = if gyro.clock() == left.clock() {
-                Alignment { lag: vec![0.0; run.time.len()], left_out: Vec::new() }
-            } else {
-                clock::align(&run.time, &turning, &t, &smooth)
-            };
-            let (first, last) = (t.first().copied().unwrap_or(0.0), t.last().copied().unwrap_or(0.0));
-            let at = |(a, b): (&f64, &f64)| {
-                // Where the gyro was off nothing is known.
-                let inside = a + b > first - ROWS.gyro_edge && a + b < last + ROWS.gyro_edge;
-                if inside { interpolate(&t, &smooth, a + b) } else { f64::NAN }
-            };
-            run.yaw_rate = Some(run.time.iter().zip(&alignment.lag).map(at).collect());
-            run.alignment = Some(alignment);
+        run.take_gyro(recording, left, origin);
+        let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
+        let speed = |a: &Alignment| (run.time.iter().zip(&a.lag).map(|(t, lag)| t + lag).collect::<Vec<_>>(), &forward);
+        if run.body_rates.is_none() {
+            run.level = run.alignment.as_ref().map(speed).and_then(|(rows, v)| level(recording, [&rows, v], &rows));
         }
         if let Some(mut rates) = run.body_rates.take() {
-            let forward: Vec<f64> = (0..run.time.len()).map(|i| run.forward(i)).collect();
-            let speed =
-                |a: &Alignment| (run.time.iter().zip(&a.lag).map(|(t, lag)| t + lag).collect::<Vec<_>>(), &forward);
             if let Some(alignment) = &run.alignment {
                 rates.take_offsets_off(&run.rests(alignment));
             }
@@ -145,17 +136,44 @@ impl SpeedRun {
             run.body_rates = Some(rates);
         }
         let rates = [Signal::GyroX, Signal::GyroY];
-        let levels = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+        let levels = run.level.is_some() || run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
         let is_used = |s: &Signal| {
             speeds[kind].contains(s)
                 || run.commanded.is_some() && speeds[1].contains(s)
                 || loads[load].contains(s)
                 || *s == Signal::GyroZ
+                || *s == Signal::PoseYaw && run.gyro_share.is_some()
                 || run.body_rates.is_some() && rates.contains(s)
                 || levels && [Signal::AccelX, Signal::AccelZ].contains(s)
         };
         run.unused = recording.channels().iter().map(Channel::signal).filter(|s| !is_used(s)).collect();
         Ok(run)
+    }
+
+    /// Takes the yaw rate of a gyro, whose clock is another one as a rule, at the rows: as a pose shows it, where there is one.
+    fn take_gyro(&mut self, recording: &Recording, left: &Channel, origin: i64) {
+        let Some(gyro) = recording.get(Signal::GyroZ) else { return };
+        let (t, values) = samples(gyro, origin);
+        let smooth = clock::box_mean(&t, values, ROWS.gyro_mean);
+        let turning: Vec<f64> = self.speed[1].iter().zip(&self.speed[0]).map(|(r, l)| r - l).collect();
+        let alignment = if gyro.clock() == left.clock() {
+            Alignment { lag: vec![0.0; self.time.len()], left_out: Vec::new() }
+        } else {
+            clock::align(&self.time, &turning, &t, &smooth)
+        };
+        let (first, last) = (t.first().copied().unwrap_or(0.0), t.last().copied().unwrap_or(0.0));
+        let at = |(a, b): (&f64, &f64)| {
+            // Where the gyro was off nothing is known.
+            let inside = a + b > first - ROWS.gyro_edge && a + b < last + ROWS.gyro_edge;
+            if inside { interpolate(&t, &smooth, a + b) } else { f64::NAN }
+        };
+        self.gyro_share = recording.get(Signal::PoseYaw).and_then(|yaw| {
+            let headings = yaw.unwrapped();
+            gyro_share((&t, values), (&samples(yaw, origin).0, &headings))
+        });
+        let share = self.gyro_share.map_or(1.0, |of| of.share);
+        self.yaw_rate = Some(self.time.iter().zip(&alignment.lag).map(|row| at(row) / share).collect());
+        self.alignment = Some(alignment);
     }
 
     /// Stretches in which the wheels stand, from and until on the gyro's clock, s.
@@ -176,6 +194,7 @@ impl SpeedRun {
             commanded: self.commanded.as_ref().map(|of| of.each_ref().map(cut)),
             torque: [0, 1].map(|j| cut(&self.torque[j])),
             yaw_rate: self.yaw_rate.as_ref().map(cut),
+            level: self.level.as_ref().map(cut),
             standing: self.standing[..rows].to_vec(),
             changed: self.changed[..rows].to_vec(),
             ..self.clone()
@@ -329,8 +348,9 @@ pub(crate) mod tests {
         let all = plain.channels().iter().cloned().chain(more.map(level)).collect();
         let full = Recording::new("run", plain.clocks().to_vec(), all).expect("a recording");
         let run = SpeedRun::new(&full, RADIUS, CONSTANT).expect("a run");
-        // One rate of two is missing: the other says nothing of slopes.
-        assert!(run.unused.len() == 2 && more.iter().all(|s| run.unused.contains(s)), "{:?}", run.unused);
+        // One rate of two is missing: the other says nothing of slopes, of which the accelerometer does.
+        assert_eq!(run.unused, [Signal::GyroX]);
+        assert!(run.level.is_some_and(|level| level.iter().all(|tilt| tilt.abs() < 0.1)));
     }
 
     #[test]

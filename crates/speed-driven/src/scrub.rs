@@ -1,12 +1,14 @@
 //! When inside a recording turning begins or ceases to cost another torque: another ground.
 
-use crate::extract::is_steady_turn;
+use crate::extract::{inner_outer, is_steady_turn, right_outer};
 use crate::level::levels;
+use crate::model::{Operating, predicted};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, changes::Scrub};
 use crate::straight::Reading;
 use inference::robust::{NINETY, mean, median, rms};
-use verdict::{TurningChange, Way};
+use robot_model::Robot;
+use verdict::{Quantity, TurningChange, Way};
 
 const SCRUB: Scrub = CHANGES.scrub;
 
@@ -87,9 +89,27 @@ fn one_way(run: &SpeedRun, rows: &[usize]) -> Option<Way> {
     }
 }
 
-/// Changes of what turning costs. `usual` is the references' torque in spins or arcs, N m, where they turned, and `sides`
+/// Torque that turns take by the robot's laws on one ground, N m: at the mean speeds of the arcs and of the spins among these rows.
+fn expected(run: &SpeedRun, robot: &Robot<f64>, rows: &[usize]) -> Option<f64> {
+    let (spins, arcs): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&i| run.spins(i));
+    let of = |quantity: Quantity, rows: &[usize]| {
+        let speed = [0, 1].map(|j| mean(rows.iter().map(|&i| inner_outer(run, i)[j])));
+        let speed = [speed[0]?, speed[1]?];
+        let at = Operating { quantity, speed, right_outer: right_outer(run, rows) };
+        Some(rows.len() as f64 * predicted(robot, &[], at).exp())
+    };
+    let sum: f64 = [of(Quantity::ArcSum, &arcs), of(Quantity::SpinSum, &spins)].into_iter().flatten().sum();
+    (!rows.is_empty()).then(|| sum / rows.len() as f64)
+}
+
+/// Changes of what turning costs a robot. `usual` is the references' torque in spins or arcs, N m, where they turned, and `sides`
 /// what their sides read.
-pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) -> Vec<TurningChange> {
+pub(crate) fn turning_changes(
+    run: &SpeedRun,
+    robot: &Robot<f64>,
+    usual: Option<f64>,
+    sides: Sides,
+) -> Vec<TurningChange> {
     let readings = readings(run, sides);
     let seen: Vec<usize> = (0..readings.len()).filter(|&i| readings[i].is_some()).collect();
     let period = run.period();
@@ -136,6 +156,13 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
         if (ratio - 1.0).abs() < half || sides.is_usual(mean) {
             continue;
         }
+        // Turns of another yaw rate cost another torque where bearings do most of it.
+        let rest: Vec<usize> = seen.iter().copied().filter(|&i| other(i) == 0).collect();
+        let by_speeds =
+            expected(run, robot, piece).zip(expected(run, robot, &rest)).map_or(1.0, |(here, rest)| here / rest);
+        if (ratio / by_speeds - 1.0).abs() < half {
+            continue;
+        }
         // A middle between two grounds makes the usual one of them look like another.
         let of_references = like_references.map_or(ratio, |usual| mean / usual);
         if (of_references - 1.0).abs() < half || (of_references > 1.0) != (ratio > 1.0) {
@@ -143,7 +170,6 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
         }
 
         let one_way = one_way(run, piece);
-        let rest: Vec<usize> = seen.iter().copied().filter(|&i| other(i) == 0).collect();
         // Turns one way beside turns the other way tell nothing but the sides, unless these are known.
         if !sides.known
             && one_way.is_some()
@@ -173,7 +199,7 @@ pub(crate) fn turning_changes(run: &SpeedRun, usual: Option<f64>, sides: Sides) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{Leg, drive};
+    use crate::testing::{Leg, drive, robot};
 
     const EQUAL: Sides = Sides { factor: [1.0; 2], known: true, range: None };
 
@@ -186,7 +212,7 @@ mod tests {
     #[test]
     fn dearer_turning_from_some_moment_on_is_found() {
         let legs = [rounds(4, 20.0), rounds(4, 32.0)].concat();
-        let found = turning_changes(&drive(&legs, false), Some(25.5), EQUAL);
+        let found = turning_changes(&drive(&legs, false), &robot(), Some(25.5), EQUAL);
         assert_eq!(found.len(), 1, "{found:?}");
         let c = &found[0];
         // The fourth turn ends at 40 s; the next begins at 44 s and is steady a second later.
@@ -197,9 +223,9 @@ mod tests {
 
     #[test]
     fn one_ground_is_no_change_though_it_be_another_one() {
-        assert_eq!(turning_changes(&drive(&rounds(6, 20.0), false), Some(25.5), EQUAL), []);
-        assert_eq!(turning_changes(&drive(&rounds(6, 32.0), false), Some(25.5), EQUAL), []);
-        assert_eq!(turning_changes(&drive(&[Leg::straight(30.0)], false), Some(25.5), EQUAL), []);
+        assert_eq!(turning_changes(&drive(&rounds(6, 20.0), false), &robot(), Some(25.5), EQUAL), []);
+        assert_eq!(turning_changes(&drive(&rounds(6, 32.0), false), &robot(), Some(25.5), EQUAL), []);
+        assert_eq!(turning_changes(&drive(&[Leg::straight(30.0)], false), &robot(), Some(25.5), EQUAL), []);
     }
 
     #[test]
@@ -209,14 +235,14 @@ mod tests {
         let left = || (0..4).flat_map(|_| [Leg::straight(4.0), Leg::turn(6.0)]).collect::<Vec<_>>();
         let right = || (0..4).flat_map(|_| [Leg::straight(4.0), Leg::right(6.0)]).collect::<Vec<_>>();
         let run = drive(&own([left(), right()].concat()), false);
-        assert_ne!(turning_changes(&run, Some(25.5), EQUAL), [], "the sides look like two grounds");
+        assert_ne!(turning_changes(&run, &robot(), Some(25.5), EQUAL), [], "the sides look like two grounds");
         let sides = Sides::of(&[drive(&own(rounds(6, 20.0)), false)]);
-        assert_eq!(turning_changes(&run, Some(25.5), sides), []);
+        assert_eq!(turning_changes(&run, &robot(), Some(25.5), sides), []);
         // Nobody knows the sides: two ways of turning are no two grounds.
-        assert_eq!(turning_changes(&run, Some(25.5), Sides::of(&[])), []);
+        assert_eq!(turning_changes(&run, &robot(), Some(25.5), Sides::of(&[])), []);
         // Another ground is still told, and that it was driven one way only.
         let both = own([left(), right(), vec![Leg { scrub: 45.0, ..Leg::right(12.0) }]].concat());
-        let found = turning_changes(&drive(&both, false), Some(25.5), sides);
+        let found = turning_changes(&drive(&both, false), &robot(), Some(25.5), sides);
         assert_eq!(found.iter().map(|c| c.one_way).collect::<Vec<_>>(), [Some(Way::Right)], "{found:?}");
     }
 
@@ -226,9 +252,9 @@ mod tests {
         let mixed = |n: usize| [rounds(n, 18.0), rounds(n, 36.0)].concat();
         let sides = Sides::of(&[drive(&mixed(3), false)]);
         let run = |scrub: f64| drive(&[rounds(5, 20.0), rounds(3, scrub)].concat(), false);
-        assert_ne!(turning_changes(&run(36.0), Some(25.5), EQUAL), [], "nobody knows what turns take");
-        assert_eq!(turning_changes(&run(36.0), Some(25.5), sides), []);
-        assert_eq!(turning_changes(&run(90.0), Some(25.5), sides).len(), 1);
+        assert_ne!(turning_changes(&run(36.0), &robot(), Some(25.5), EQUAL), [], "nobody knows what turns take");
+        assert_eq!(turning_changes(&run(36.0), &robot(), Some(25.5), sides), []);
+        assert_eq!(turning_changes(&run(90.0), &robot(), Some(25.5), sides).len(), 1);
         // A few turns say little.
         assert_eq!(Sides::of(&[drive(&rounds(2, 36.0), false)]).range, None);
     }
@@ -237,7 +263,7 @@ mod tests {
     fn usual_ground_is_no_other_one_beside_ground_that_is_little_dearer() {
         // Most turns cost a fifth more than the references', and what is like these is so, too.
         let legs = [rounds(3, 18.5), rounds(8, 25.5)].concat();
-        let found = turning_changes(&drive(&legs, false), Some(25.5), EQUAL);
+        let found = turning_changes(&drive(&legs, false), &robot(), Some(25.5), EQUAL);
         assert_eq!(found, []);
     }
 }

@@ -7,8 +7,9 @@ use robot_model::tunable::{tunables, tuned};
 use verdict::{Compared, Correction, FreeRun, Trace, instant, rounded};
 
 use crate::SteadyCase;
+use crate::comparison;
 use crate::model::{Measured, Rows, Tuned, predicted_rows, tune};
-use crate::name::{self, Difference, Named, Naming};
+use crate::name::{Difference, Named, Naming};
 use crate::run::SpeedRun;
 
 /// All that a recording's forecast is fitted with.
@@ -60,7 +61,7 @@ impl Experiment for Fits<'_> {
         let data: Vec<Measured> =
             self.known.iter().copied().chain(others.iter().filter(|d| !d.is_track()).map(|d| d.here)).collect();
         let retuned = tune(self.robot, &self.case.sigma, &data)?;
-        let comparison = name::Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated);
+        let comparison = comparison::Comparison::new(&others, self.robot, &self.case.sigma, self.calibrated);
         let refitted = |named: &Named| {
             let fitted = comparison.as_ref().and_then(|c| c.refit(named));
             self.calibrated_with(fitted.map_or_else(Vec::new, |fitted| fitted.doses()))
@@ -135,6 +136,8 @@ impl<'a> Fits<'a> {
             .best()
             .into_iter()
             .flat_map(|e| (0..e.parts.len()).map(|k| e.parts[k].at(e.of(k).0, &Vec::new(), &[])));
+        let drift = self.naming.and_then(|naming| naming.drift);
+        let effects = effects.chain(drift.map(|(variant, share)| variant.at(&[share], &Vec::new(), &[])));
         Correction {
             tuning: tunings.map(|((t, sigma), x)| (t.id.to_owned(), sigma * x)).collect(),
             effects: effects.collect(),

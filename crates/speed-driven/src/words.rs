@@ -42,6 +42,11 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
             "{:.3} ± {:.3} m (90 %), {:.2} times {theirs} (90 % interval {a:.2} to {b:.2})",
             r.value, r.half, r.ratio
         ),
+        Quantity::Drift => format!(
+            "{:.3} {} {theirs} (90 % interval of the difference {a:+.3} to {b:+.3})",
+            r.ratio.abs(),
+            if r.ratio < 0.0 { "below" } else { "above" }
+        ),
         Quantity::Asymmetry | Quantity::SpinAsymmetry => format!(
             "{:.2} {} {theirs} (90 % interval of the difference {a:+.2} to {b:+.2})",
             r.ratio.abs(),
@@ -54,7 +59,11 @@ pub(crate) fn compared(r: &Ratio, theirs: &str) -> String {
 /// "straight load at 0.52 m/s".
 fn named_at(r: &Ratio) -> String {
     let ([slow, fast], name) = (r.range, r.quantity.name());
-    let sign = if r.quantity.is_difference() { " (right less left, as a share of both)" } else { "" };
+    let sign = match r.quantity {
+        Quantity::Drift => " (right less left speed that would turn the body as much, as a share of the speed)",
+        quantity if quantity.is_difference() => " (right less left, as a share of both)",
+        _ => "",
+    };
     match r.quantity {
         Quantity::StraightLoad | Quantity::Asymmetry if fast - slow > SENTENCES.one_speed => {
             format!("{name}{sign} at {slow:.2} to {fast:.2} m/s")

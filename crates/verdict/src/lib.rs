@@ -7,6 +7,7 @@
 //! * `diagnosis`: all that a diagnosis says; `cause`: a possible cause with probability and size.
 //! * `located`: where, when and how much; `trace`: recordings beside the simulation.
 //! * `free_run`: errors on recordings left out of a fit; `trial`: hypotheses that were fitted.
+//! * `turning`: what turns a body otherwise than its wheels say, and what shows another turning than there is.
 //! * `correction`: the simulation as it should be; `prediction`: the response of a held-out drive.
 //! * `law`: a law for what has no name.
 //! * `loads`: steady loads of speed-driven robots.
@@ -33,6 +34,7 @@ mod retuned;
 mod simulator;
 mod trace;
 mod trial;
+mod turning;
 
 use std::borrow::Cow;
 
@@ -51,8 +53,8 @@ pub use law::{
     UnnamedCause, one_of, sentence_case,
 };
 pub use loads::{
-    Changes, ClockError, Forecast, GroundSlope, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio,
-    RecordingGroup, SideChange, Standstill, Turning, TurningChange, Way, Withheld,
+    Changes, Forecast, GroundSlope, Hidden, Load, LoadChange, Loads, OtherGround, Quantity, Ratio, RecordingGroup,
+    SideChange, Standstill, Turning, TurningChange, Way, Withheld,
 };
 pub use located::{Cell, Finding, Located, Regime, Remainder, ResidualModel, ResidualTorque, Span, TorqueCertificate};
 pub use prediction::{ErrorAhead, PredictedPath, Prediction, SimulatedPath};
@@ -66,6 +68,7 @@ pub use retuned::Retuned;
 pub use simulator::SimulatorConstants;
 pub use trace::{Compared, Trace, instant, rounded};
 pub use trial::Trial;
+pub use turning::{ClockError, GyroBesidePose, SideDrift};
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{FreeRun, Word};
+use crate::{ClockError, FreeRun, GyroBesidePose, SideDrift, Word};
 
 /// Loads of a speed-driven case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Loads {
     /// Each recording's loads over the references'.
     pub ratios: Vec<Ratio>,
@@ -25,6 +25,12 @@ pub struct Loads {
     pub side_changes: Vec<SideChange>,
     /// When inside a recording turning begins or ceases to cost another torque.
     pub turning_changes: Vec<TurningChange>,
+    /// What a gyro shows of the turning that a pose shows, where both were recorded; turning rates here are those of the pose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gyro: Option<GyroBesidePose>,
+    /// A side whose wheels roll as if they had another radius; `None` where none is clear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drift: Option<SideDrift>,
     /// Stretches inside recordings on other ground, each a finding of its own; the longest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grounds: Vec<OtherGround>,
@@ -48,19 +54,6 @@ pub struct Loads {
     pub clocks: Vec<ClockError>,
 }
 
-/// The gyro's clock of a recording against that of the speeds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ClockError {
-    /// Name of the recording.
-    pub recording: String,
-    /// Smallest and largest lag in the recording, s.
-    pub lag: [f64; 2],
-    /// Median and 90 % quantile of the error on turns left out of the alignment, s; `None` below three turns.
-    pub error: Option<[f64; 2]>,
-    /// Error of each turn left out, s.
-    pub left_out: Vec<f64>,
-}
-
 /// What is measured in steady driving.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -79,6 +72,8 @@ pub enum Quantity {
     Asymmetry,
     /// Right less left torque over their sum in spins, each without its sign.
     SpinAsymmetry,
+    /// Right less left speed that would turn the body as it turns in straight driving, over the speed.
+    Drift,
 }
 
 impl Quantity {
@@ -92,6 +87,7 @@ impl Quantity {
             Self::EffectiveTrack => "effective track",
             Self::Asymmetry => "asymmetry of the straight load",
             Self::SpinAsymmetry => "asymmetry of the load in spins",
+            Self::Drift => "drift in straight driving",
         }
     }
 
@@ -99,14 +95,14 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::EffectiveTrack => "m",
-            Self::Asymmetry | Self::SpinAsymmetry => "-",
+            Self::Asymmetry | Self::SpinAsymmetry | Self::Drift => "-",
             _ => "N m",
         }
     }
 
     /// Compared as a difference; all others as a ratio.
     pub fn is_difference(self) -> bool {
-        matches!(self, Self::Asymmetry | Self::SpinAsymmetry)
+        matches!(self, Self::Asymmetry | Self::SpinAsymmetry | Self::Drift)
     }
 }
 
@@ -395,7 +391,7 @@ impl Forecast {
 mod tests {
     use super::*;
 
-    const ALL: [Quantity; 7] = [
+    const ALL: [Quantity; 8] = [
         Quantity::StraightLoad,
         Quantity::TurningLoad,
         Quantity::ArcSum,
@@ -403,11 +399,12 @@ mod tests {
         Quantity::EffectiveTrack,
         Quantity::Asymmetry,
         Quantity::SpinAsymmetry,
+        Quantity::Drift,
     ];
 
     #[test]
     fn each_quantity_has_a_name_of_its_own_and_loads_are_torques() {
-        assert_eq!(ALL.map(Quantity::unit), ["N m", "N m", "N m", "N m", "m", "-", "-"]);
+        assert_eq!(ALL.map(Quantity::unit), ["N m", "N m", "N m", "N m", "m", "-", "-", "-"]);
         for (word, quantity) in [("straight", ALL[0]), ("turning", ALL[1]), ("arcs", ALL[2]), ("spins", ALL[3])] {
             assert!(quantity.name().contains(word) && quantity.name().contains("load"), "{}", quantity.name());
         }
@@ -419,6 +416,6 @@ mod tests {
     /// The asymmetry is a share already and may be zero, so that no ratio can be taken of it.
     #[test]
     fn only_asymmetries_are_compared_as_a_difference() {
-        assert_eq!(ALL.map(Quantity::is_difference), [false, false, false, false, false, true, true]);
+        assert_eq!(ALL.map(Quantity::is_difference), [false, false, false, false, false, true, true, true]);
     }
 }

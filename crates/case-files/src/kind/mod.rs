@@ -37,11 +37,6 @@ pub trait Kind: Sync {
         None
     }
 
-    /// Why its inputs cannot be driven again with something hidden; `None` where they can.
-    fn no_rehearsal(&self) -> Option<&'static str> {
-        None
-    }
-
     /// Why the robot cannot be exported as a model with masses and forces; `None` where it can.
     fn no_forces(&self) -> Option<&'static str> {
         None

@@ -32,13 +32,6 @@ impl Kind for SpeedDriven {
         Some("its drives are not forecast freely, but `lacuna simulate` computes the torque that their speeds take")
     }
 
-    fn no_rehearsal(&self) -> Option<&'static str> {
-        Some(
-            "such robots cannot be rehearsed yet: of recorded wheel speeds the plant gives loads, and no replica of their \
-             currents' noise and of steady driving is drawn",
-        )
-    }
-
     fn no_prediction(&self) -> Option<&'static str> {
         Some("held-out drives of a speed-driven robot are not predicted; the last thirds of its recordings are")
     }

@@ -114,7 +114,7 @@ impl<'a> Forecaster<'a> {
         let poses = driven(&rival.ground.model.x, self.nominal, &piece.wheel);
         piece.heading = Some(poses.iter().map(|p| p[2]).collect());
         piece.position = self.has_position.then(|| poses.iter().map(|p| [p[0], p[1]]).collect());
-        ResponseRun { name: String::new(), pieces: vec![piece], hold: 0.0 }
+        ResponseRun { name: String::new(), pieces: vec![piece], gyro_share: None, hold: 0.0 }
     }
 
     /// How far a rival's forecasts of these windows are off.

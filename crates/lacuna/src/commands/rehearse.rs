@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use case_files::case_folder::CaseFolder;
 use case_files::columns_case::ColumnsCase;
 use case_files::envelope::Program;
-use case_files::{kind, own_effects};
+use case_files::own_effects;
 use clap::Args as ClapArgs;
 use inference::{KnownEffects, Options};
-use rehearsal::{Plan, RehearsalError, Rehearsing, RehearsingResponse, rehearse_fit};
+use rehearsal::{Plan, RehearsalError, Rehearsing, RehearsingLoads, RehearsingResponse, rehearse_fit};
 use robot_file::Causality;
 use serde_json::json;
 use verdict::Rehearsal;
@@ -42,6 +42,9 @@ Of robots whose files name their columns (wheel counts, cars, any wheels) the
 constants are fitted to the recordings, and replicas are drawn from the
 equations of that fit: of whole drives, 40 of each size, in seconds. Sizes are
 then multiples of what a cause usually has [default: 0.125,0.25,0.5,1].
+
+Of robots whose wheel speeds are given loads of as much steady driving as was
+recorded are drawn, 3 of each size [default: 1,2,4], in minutes.
 
 Of robots that are given commands whole drives are driven again by the response
 of their references, or by wheels that do what is commanded, and diagnosed: 3 of
@@ -82,7 +85,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "COUNT")]
     replicas: Option<usize>,
     /// Replicas in which nothing is hidden: how often one would be alarmed for nothing [default:
-    /// 12, or as many as of each size; 200 where the equations of a fit are used].
+    /// 12, or as many as of each size; 24 of steady loads; 200 where the equations of a fit are used].
     #[arg(long, value_name = "COUNT")]
     fault_free: Option<usize>,
     /// Beginning of each recording and reference that is driven again, s [default: 12].
@@ -172,21 +175,40 @@ pub(crate) fn run(args: &Args, verbose: bool) -> Result<Outcome> {
         let names: Vec<&str> = known.all().map(|effect| effect.spec().id).collect();
         plan.checked(&names).map_err(told)?;
     }
-    if let Some(why) = kind::of(robot.causality).no_rehearsal() {
-        bail!("robot '{}' is {}; {why}", robot.name, robot.causality.name());
-    }
     let (folder, mapping) = diagnose::read(&args.input, known)?;
-    if robot.causality == Causality::CommandDriven {
-        known.refused_for(robot.causality.name())?;
-        return of_response(args, (&folder, &mapping), progress, verbose);
+    let options = Options { known, ..Options::default() };
+    match robot.causality {
+        Causality::TorqueDriven => {}
+        Causality::SpeedDriven => return of_loads(args, (&folder, &mapping), &options, progress, verbose),
+        Causality::CommandDriven => {
+            known.refused_for(robot.causality.name())?;
+            return of_response(args, (&folder, &mapping), progress, verbose);
+        }
     }
-    let (case, options) = (folder.torque_driven()?, Options { known, ..Options::default() });
+    let case = folder.torque_driven()?;
     progress.stage("looking which effects these inputs can show");
     let rehearsing = Rehearsing::new(&case, &plan, &options).map_err(told)?;
     drop(progress);
 
     let rehearsal = counted(rehearsing.count(), verbose, |listener| rehearsing.run(listener)).map_err(told)?;
     tell(args, &folder, &mapping, &rehearsal)
+}
+
+/// Rehearses a robot whose wheel speeds are given.
+fn of_loads(
+    args: &Args,
+    (folder, mapping): (&CaseFolder, &str),
+    options: &Options,
+    progress: Progress,
+    verbose: bool,
+) -> Result<Outcome> {
+    args.refuse_parts_of_drives(&folder.robot.name)?;
+    let plan = args.plan(options.known, Plan::of_loads());
+    let case = folder.speed_driven()?;
+    let rehearsing = RehearsingLoads::new(&case, &plan, options, &|what| progress.stage(what)).map_err(told)?;
+    drop(progress);
+    let rehearsal = counted(rehearsing.count(), verbose, |listener| rehearsing.run(listener));
+    tell(args, folder, mapping, &rehearsal)
 }
 
 /// Rehearses a robot that is given commands.

@@ -55,6 +55,42 @@ fn torques_that_are_only_planned_are_rehearsed_into_text_json_and_a_page() {
     assert!(again == json, "another answer to the same question");
 }
 
+/// Straight driving at two speeds and turns both ways, with the torques that they take.
+fn steady(scale: f64) -> String {
+    let mut out = "time_s,wheel_speed_left_rad_s,wheel_speed_right_rad_s,current_left_A,current_right_A\n".to_owned();
+    let legs =
+        [([4.0, 4.0], [1.0, 1.0]), ([2.0, 5.0], [-1.5, 3.5]), ([6.0, 6.0], [1.1, 1.1]), ([5.0, 2.0], [3.5, -1.5])];
+    for k in 0..1200 {
+        let ([l, r], torque) = legs[(k / 100) % 4];
+        let scatter = 0.02 * [0.8, -1.1, 0.4, -0.1, 0.9, -0.9][k % 6];
+        let [left, right] = torque.map(|torque| scale * torque + scatter);
+        writeln!(out, "{:.2},{l},{r},{left:.4},{right:.4}", 0.1 * k as f64).unwrap();
+    }
+    out
+}
+
+#[test]
+fn set_speeds_are_rehearsed_by_their_steady_loads() {
+    let bench = Bench::empty();
+    let constant = "[parameters]\ntorque_per_current = { value = 1.0, unit = \"N m/A\", sigma = 0.05, source = \"guess\" }";
+    let robot = ROBOT.replace("torque-driven", "speed-driven").replace("[parameters]", constant);
+    bench.write("case/robot.toml", &robot);
+    for (name, scale) in [("reference/a", 1.0), ("reference/b", 1.01), ("recordings/c", 0.99)] {
+        bench.write(&format!("case/{name}.csv"), &steady(scale));
+    }
+    let of = ["--effects", "rolling-resistance,gyro-bias", "--size", "1,30", "--replicas", "1", "--fault-free", "2"];
+    let run = bench.run(&[&["rehearse", "case"][..], &of, &["--html", "r.html"]].concat());
+    assert_eq!(run.code(), Some(0), "{}", run.err());
+    for told in
+        ["of 2 replicas", "rolling_resistance", "gyro_bias: it changes no load", "2 fault-free references", "not rows"]
+    {
+        assert!(run.out().contains(told), "no `{told}` in {}", run.out());
+    }
+    assert!(!run.out().contains("noise (one sigma)") && bench.read("r.html").contains("data-chart"));
+    let refused = bench.run(&["rehearse", "case", "--seconds", "3"]);
+    assert_eq!(refused.code(), Some(2), "{}", refused.err());
+}
+
 #[test]
 fn plans_that_make_no_sense_are_wrong_usage() {
     let bench = bench();
@@ -81,8 +117,6 @@ fn cases_that_cannot_be_rehearsed_are_refused_in_a_sentence() {
         run.failed(&["cannot write 'nowhere/out'", "no folder 'nowhere'", "make it"]);
     }
     bench.run(&["rehearse", "case", "--html", "case"]).failed(&["'case'", "it is a folder", "name a file in it"]);
-    bench.write("other.toml", &ROBOT.replace("torque-driven", "speed-driven"));
-    bench.run(&["rehearse", "case", "--robot", "other.toml"]).failed(&["speed-driven", "cannot be rehearsed"]);
     bench.run(&["rehearse", "case", "--seconds", "1"]).failed(&["'plan' has 100 rows", "record longer"]);
     bench.write("case/recordings/plan.csv", &planned());
     bench.run(&["rehearse", "case"]).failed(&["wheel_angle_left or wheel_speed_left"]);

@@ -205,6 +205,14 @@
         set_point_error: f64 = 0.015, "1", "guess";
     }
 
+    /// Drift in straight driving.
+    drift: Drift {
+        /// A drift differs where it does so by so many sigmas.
+        clear: f64 = 3.0, "1", "guess; its side has to be looked for on the robot";
+        /// Least speed of straight driving.
+        least_speed: f64 = 0.05, "m/s", "guess; below, a gyro's zero is as large as any drift";
+    }
+
     /// What a mapping may have wrong.
     guesses: Guesses {
         /// A value is negative beyond this share of the largest.
@@ -223,6 +231,8 @@
     scatter: Scatter {
         /// Straight load.
         straight: f64 = 0.05, "1", "open Husky runs, widened";
+        /// By how much the straight load may differ at twice the speed.
+        by_speed: f64 = 0.25, "1", "guess; what bearings add";
         /// Turning load, and sums with the straight load.
         turning: f64 = 0.065, "1", "open Husky runs, widened";
         /// Effective track.
@@ -231,6 +241,8 @@
         asymmetry: f64 = 0.15, "1", "drive trains wind up in turns and keep up to a fifth of the load on one side";
         /// The same of spins, in which both sides push alike.
         spin_asymmetry: f64 = 0.05, "1", "guess: half of what the loads of turns scatter by";
+        /// Drift in straight driving.
+        drift: f64 = 0.005, "1", "guess; tyres and how they are loaded: half a per cent of the radius";
     }
 
     /// Loads over those of the references.

@@ -68,6 +68,12 @@
         firsts: usize = 4, "1", "guess";
     }
 
+    /// Loads drawn about those of a case.
+    replicas: Replicas {
+        /// Drives that differ as is usual, which count beside those that were measured.
+        usual_drives: u32 = 1, "1", "guess; two references alone say little of what drives differ by";
+    }
+
     /// Probabilities and classes.
     answer: Answer {
         /// Divisor of scores before they become probabilities: those of steady loads are nats as they are.
@@ -78,6 +84,8 @@
             left rolling resistance alone although every straight drive goes one way";
         /// What is this much less probable than "nothing is missing" stands in for nothing.
         least_plausible: f64 = 2.0, "nats", "guess";
+        /// Probability that a drift is of the wheels of a side, and of its encoder.
+        drift: [f64; 2] = [0.75, 0.24], "1", "guess; wheels wear and are changed, encoders are configured once";
         /// Probability of a body that was seen to stand: a gyro that is off looks alike.
         standing: f64 = 0.99, "1", "guess";
         /// Wheels that spin with less than so many times what a side takes straight ahead find no hold.
