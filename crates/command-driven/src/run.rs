@@ -2,8 +2,8 @@
 
 use recordings::{Channel, Recording, Signal};
 
-use inference::DiagnosisError;
 use inference::gyro_beside_pose::{GyroShare, gyro_share};
+use inference::{DiagnosisError, interpolate};
 
 use crate::controller::{H, SUBSTEPS};
 use crate::settings::SETTINGS;
@@ -115,7 +115,10 @@ impl ResponseRun {
         }
         let gyro_share = yaw.zip(gyro).and_then(|(yaw, gyro)| {
             let times = |c: &Channel| seconds(c).collect::<Vec<_>>();
-            gyro_share((&times(gyro), gyro.values()), (&times(yaw), &headings))
+            let (instants, [left, right]) = (times(wheel[0]), wheel.map(|side| (times(side), side.values())));
+            let at = |side: &(Vec<f64>, &[f64]), t: f64| interpolate(&side.0, side.1, t);
+            let difference: Vec<f64> = instants.iter().map(|t| at(&right, *t) - at(&left, *t)).collect();
+            gyro_share((&times(gyro), gyro.values()), (&times(yaw), &headings), (&instants, &difference))
         });
         Ok(Self { name, pieces, gyro_share, hold: hold(wheel[0]).max(hold(wheel[1])) })
     }

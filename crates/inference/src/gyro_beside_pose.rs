@@ -27,14 +27,19 @@ pub struct GyroShare {
 /// A signal: its instants, s, which rise, and its values.
 pub type Signal<'a> = (&'a [f64], &'a [f64]);
 
-/// Scale of a gyro, rad/s, beside the heading of a pose, rad, unwrapped; `None` where too little was turned to tell.
-pub fn gyro_share((instants, rates): Signal<'_>, (seen, headings): Signal<'_>) -> Option<GyroShare> {
+/// Scale of a gyro, rad/s, beside the heading of a pose, rad, unwrapped; `None` where too little was turned to tell, where both do not show
+/// one turning, or where the heading is reckoned from the wheels: `differences` of their speeds then tell as much, and no pose.
+pub fn gyro_share(
+    (instants, rates): Signal<'_>,
+    (seen, headings): Signal<'_>,
+    differences: Signal<'_>,
+) -> Option<GyroShare> {
+    if is_reckoned(differences, (seen, headings)) {
+        return None;
+    }
     let begin = instants.first()?.max(*seen.first()?);
     let end = instants.last()?.min(*seen.last()?);
-    let mut turned = vec![0.0; instants.len()];
-    for k in 1..instants.len() {
-        turned[k] = turned[k - 1] + 0.5 * (rates[k] + rates[k - 1]) * (instants[k] - instants[k - 1]);
-    }
+    let turned = integral(instants, rates);
     // Where either of them is missing its turning is not known.
     let is_whole = |times: &[f64], from: f64, until: f64| {
         let inside = &times[times.partition_point(|t| *t < from)..times.partition_point(|t| *t <= until)];
@@ -68,7 +73,34 @@ pub fn gyro_share((instants, rates): Signal<'_>, (seen, headings): Signal<'_>) -
     let most = RULES.outlier * MAD_TO_SIGMA * median_absolute_deviation(&left)?;
     let kept: Vec<[f64; 4]> = windows.into_iter().zip(left).filter(|(_, e)| e.abs() <= most).map(|(w, _)| w).collect();
     let Fitted { values, sigma } = fitted(&kept)?;
-    (sigma < RULES.surest).then_some(GyroShare { share: values[0], sigma })
+    let [least, most] = RULES.one_turning;
+    (sigma < RULES.surest && (least..=most).contains(&values[0])).then_some(GyroShare { share: values[0], sigma })
+}
+
+/// Whether a heading is reckoned from the wheels: it turns as the difference of their speeds does, by one factor, where the turning of a
+/// body scatters about that as its wheels slip.
+fn is_reckoned((instants, differences): Signal<'_>, (seen, headings): Signal<'_>) -> bool {
+    let by_wheels = integral(instants, differences);
+    let count = seen.last().zip(seen.first()).map_or(0.0, |(last, first)| (last - first) / RULES.window) as usize;
+    let change = |t: &[f64], z: &[f64], k: usize| {
+        let from = seen[0] + RULES.window * k as f64;
+        interpolate(t, z, from + RULES.window) - interpolate(t, z, from)
+    };
+    let both: Vec<[f64; 2]> =
+        (0..count).map(|k| [change(instants, &by_wheels, k), change(seen, headings, k)]).collect();
+    let sum = |i: usize, k: usize| both.iter().map(|b| b[i] * b[k]).sum::<f64>();
+    let factor = sum(0, 1) / sum(0, 0);
+    let left = both.iter().map(|[wheels, body]| (body - factor * wheels).powi(2)).sum::<f64>();
+    left < RULES.reckoned.powi(2) * sum(1, 1)
+}
+
+/// What a rate adds up to since the first of its instants.
+fn integral(instants: &[f64], rates: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; instants.len()];
+    for k in 1..instants.len() {
+        out[k] = out[k - 1] + 0.5 * (rates[k] + rates[k - 1]) * (instants[k] - instants[k - 1]);
+    }
+    out
 }
 
 /// Scale, zero and lateness, and one sigma of the scale.
@@ -159,6 +191,11 @@ mod tests {
 
     /// A minute of turns to and fro: what a gyro of this scale, zero, rad/s, and lateness, s, shows, beside the heading.
     fn share(scale: f64, zero: f64, late: f64) -> Option<GyroShare> {
+        beside_wheels(scale, zero, late, 0.1)
+    }
+
+    /// The same beside wheels that slip by a share that comes and goes.
+    fn beside_wheels(scale: f64, zero: f64, late: f64, slip: f64) -> Option<GyroShare> {
         let time: Vec<f64> = (0..6000).map(|k| 0.01 * f64::from(k)).collect();
         let rate = |t: f64| 0.5 * (0.9 * t).sin() + 0.3 * (0.37 * t).cos();
         let heading = |t: f64| -0.5 / 0.9 * (0.9 * t).cos() + 0.3 / 0.37 * (0.37 * t).sin();
@@ -166,7 +203,16 @@ mod tests {
         let rates: Vec<f64> = time.iter().map(|t| scale * rate(t - late) + zero).collect();
         let seen: Vec<f64> = time.iter().step_by(7).copied().collect();
         let headings: Vec<f64> = seen.iter().enumerate().map(|(k, t)| heading(*t) + scatter(k)).collect();
-        gyro_share((&time, &rates), (&seen, &headings))
+        let wheels: Vec<f64> = time.iter().map(|t| 1.3 * rate(*t) * (1.0 + slip * (0.2 * t).sin())).collect();
+        gyro_share((&time, &rates), (&seen, &headings), (&time, &wheels))
+    }
+
+    #[test]
+    fn a_heading_that_is_reckoned_from_the_wheels_tells_nothing_of_a_gyro_nor_does_one_of_another_sign() {
+        assert!(beside_wheels(1.08, 0.0, 0.0, 0.1).is_some());
+        assert_eq!(beside_wheels(1.08, 0.0, 0.0, 0.0), None);
+        assert_eq!(share(-1.0, 0.0, 0.0), None, "the gyro is turned over");
+        assert_eq!(share(57.3, 0.0, 0.0), None, "it counts degrees");
     }
 
     #[test]
@@ -182,13 +228,14 @@ mod tests {
     fn drives_without_turning_or_without_a_pose_for_most_of_the_time_tell_nothing() {
         let time: Vec<f64> = (0..600).map(|k| 0.1 * f64::from(k)).collect();
         let scatter: Vec<f64> = (0..600).map(|k| 0.002 * [0.8, -1.1, 0.4, -0.1, 0.9][k % 5]).collect();
-        assert_eq!(gyro_share((&time, &scatter), (&time, &scatter)), None);
+        let wheels = (&time[..], &[0.0; 600][..]);
+        assert_eq!(gyro_share((&time, &scatter), (&time, &scatter), wheels), None);
         let turned: Vec<f64> = time.iter().map(|t| t.sin()).collect();
         let now_and_then: Vec<f64> = time.iter().step_by(20).copied().collect();
         let rate: Vec<f64> = time.iter().map(|t| t.cos()).collect();
         let seen: Vec<f64> = turned.iter().step_by(20).copied().collect();
-        assert_eq!(gyro_share((&time, &rate), (&now_and_then, &seen)), None);
-        assert!(gyro_share((&time, &rate), (&time, &turned)).is_some());
+        assert_eq!(gyro_share((&time, &rate), (&now_and_then, &seen), wheels), None);
+        assert!(gyro_share((&time, &rate), (&time, &turned), wheels).is_some());
     }
 
     #[test]

@@ -47,6 +47,10 @@
         rounds: usize = 3, "1", "guess; its lateness is told by a straight line";
         /// Turning of a window, root mean square, below which nothing is told.
         least: f64 = 0.1, "rad", "guess; noise of poses is a tenth of it";
+        /// Turning that the wheels leave of a heading, as a share, below which it is reckoned from them.
+        reckoned: f64 = 0.02, "1", "guess; rows of ten a second leave a hundredth, wheels that slip in turns several";
+        /// Least and largest share of the turning that a gyro may show; beyond it is another unit or another way up.
+        one_turning: [f64; 2] = [0.5, 1.5], "1", "guess";
         /// Longest gap of either signal in a window.
         gap: f64 = 0.5, "s", "guess; poses of 2 Hz and more";
         /// Deviations beyond so many sigmas are outliers.

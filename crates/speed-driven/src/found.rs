@@ -99,7 +99,6 @@ fn is_told_elsewhere(r: &Ratio, loads: &Loads) -> bool {
 /// The clearest difference of the effective track and that of the loads, the clearer first.
 pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
     let of = |track: bool| {
-        // A drift is told by itself.
         let of_whole = reported(loads).filter(|r| !is_told_elsewhere(r, loads));
         let own = of_whole.filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
         own.filter(|r| judgement(r) == Judgement::Differs).max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))

@@ -169,7 +169,7 @@ impl SpeedRun {
         };
         self.gyro_share = recording.get(Signal::PoseYaw).and_then(|yaw| {
             let headings = yaw.unwrapped();
-            gyro_share((&t, values), (&samples(yaw, origin).0, &headings))
+            gyro_share((&t, values), (&samples(yaw, origin).0, &headings), (&self.time, &turning))
         });
         let share = self.gyro_share.map_or(1.0, |of| of.share);
         self.yaw_rate = Some(self.time.iter().zip(&alignment.lag).map(|row| at(row) / share).collect());

@@ -72,7 +72,8 @@ fn steady(scale: f64) -> String {
 #[test]
 fn set_speeds_are_rehearsed_by_their_steady_loads() {
     let bench = Bench::empty();
-    let constant = "[parameters]\ntorque_per_current = { value = 1.0, unit = \"N m/A\", sigma = 0.05, source = \"guess\" }";
+    let constant =
+        "[parameters]\ntorque_per_current = { value = 1.0, unit = \"N m/A\", sigma = 0.05, source = \"guess\" }";
     let robot = ROBOT.replace("torque-driven", "speed-driven").replace("[parameters]", constant);
     bench.write("case/robot.toml", &robot);
     for (name, scale) in [("reference/a", 1.0), ("reference/b", 1.01), ("recordings/c", 0.99)] {
