@@ -10,7 +10,7 @@ use verdict::{Cause, GyroBesidePose};
 
 use crate::algebra::{inverse_spd, solve_spd};
 use crate::interpolate;
-use crate::robust::{MAD_TO_SIGMA, NINETY, median_absolute_deviation, normal_cdf, rms};
+use crate::robust::{MAD_TO_SIGMA, NINETY, median, median_absolute_deviation, normal_cdf, rms};
 use crate::settings::{GyroAndPose, Settings};
 
 const RULES: GyroAndPose = Settings::DEFAULT.gyro_beside_pose;
@@ -91,7 +91,9 @@ fn is_reckoned((instants, differences): Signal<'_>, (seen, headings): Signal<'_>
     let sum = |i: usize, k: usize| both.iter().map(|b| b[i] * b[k]).sum::<f64>();
     let factor = sum(0, 1) / sum(0, 0);
     let left = both.iter().map(|[wheels, body]| (body - factor * wheels).powi(2)).sum::<f64>();
-    left < RULES.reckoned.powi(2) * sum(1, 1)
+    // Speeds that are logged seldom add up to the heading more roughly than the robot reckoned it.
+    let period = median(instants.windows(2).map(|w| w[1] - w[0])).unwrap_or(0.0);
+    left < RULES.reckoned.max(RULES.reckoned_of_rows * period).powi(2) * sum(1, 1)
 }
 
 /// What a rate adds up to since the first of its instants.

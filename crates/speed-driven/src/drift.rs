@@ -109,7 +109,10 @@ mod tests {
             let gyro_share = Some(inference::gyro_beside_pose::GyroShare { share, sigma: 0.002 });
             SpeedRun { gyro_share, ..drifting(name, 0.0) }
         };
-        let case = case(vec![with(1.0, "right")], vec![with(1.08, "a"), with(1.08, "b")]);
+        // The pose of the third says nothing of its gyro.
+        let mut plain = drifting("c", 0.0);
+        plain.yaw_rate.iter_mut().flatten().for_each(|rate| *rate *= 1.08);
+        let case = case(vec![with(1.0, "right")], vec![with(1.08, "a"), with(1.08, "b"), plain]);
         let d = diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis");
         assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Explained, "gyro_scale"), "{:?}", d.ranked);
         assert!(d.sentences[0].starts_with("Missing: gyro scale error by +0.080"), "{:?}", d.sentences);

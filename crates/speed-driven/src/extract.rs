@@ -143,8 +143,9 @@ pub(crate) fn extract(run: &SpeedRun) -> (Vec<Load>, Vec<Withheld>) {
         let nearest = nearest(&loads).or_else(|| nearest(&whole));
         if let Some(s) = nearest {
             // Straight driving at another speed, or at another time, takes a little more or less.
-            let by_speed = SCATTER.by_speed * gap(&s, forward) / forward.max(f64::MIN_POSITIVE);
-            let of_straight = s.error.hypot(s.value * SCATTER.straight.hypot(by_speed.min(1.0)));
+            let speeds = [0.5 * (s.speed[0] + s.speed[1]), forward].map(|v| v.max(MEASURING.drift.least_speed));
+            let by_speed = SCATTER.by_speed * (speeds[0] / speeds[1]).log2().abs();
+            let of_straight = s.error.hypot(s.value * SCATTER.straight.hypot(by_speed));
             let error = c.error.hypot(0.5 * of_straight);
             loads.push(load(Quantity::TurningLoad, &c, c.mean - 0.5 * s.value, error));
         }

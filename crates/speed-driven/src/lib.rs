@@ -321,8 +321,18 @@ fn track_of(refs: &[Reference]) -> Option<f64> {
     refs.iter().find(|r| r.quantity == Quantity::EffectiveTrack).map(|r| r.centre.exp())
 }
 
+/// Turns what a gyro shows in drives whose pose says nothing of it into what it would by its share in the others.
+fn as_in_the_others(runs: &mut [SpeedRun]) {
+    let Some(usual) = gyro_beside_pose::together(runs.iter().filter_map(|run| run.gyro_share)) else { return };
+    for run in runs.iter_mut().filter(|run| run.gyro_share.is_none()) {
+        run.yaw_rate.iter_mut().flatten().for_each(|rate| *rate /= usual.share);
+    }
+}
+
 /// Subtracts from currents and yaw rates what their sensors read at rest; returns sentences about it.
 fn take_off_zeros(case: &mut SteadyCase) -> Vec<String> {
+    as_in_the_others(&mut case.references);
+    as_in_the_others(&mut case.recordings);
     let of_currents = zero::remove(&mut case.references, &mut case.recordings).map(zero::told);
     let of_gyros = gyro_zero::remove(&mut case.references, &mut case.recordings);
     of_currents.into_iter().chain(of_gyros).collect()

@@ -232,7 +232,7 @@
         /// Straight load.
         straight: f64 = 0.05, "1", "open Husky runs, widened";
         /// By how much the straight load may differ at twice the speed.
-        by_speed: f64 = 0.25, "1", "guess; what bearings add";
+        by_speed: f64 = 0.1, "1", "guess; what bearings add";
         /// Turning load, and sums with the straight load.
         turning: f64 = 0.065, "1", "open Husky runs, widened";
         /// Effective track.
