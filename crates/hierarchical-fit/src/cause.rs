@@ -56,6 +56,11 @@ impl Cause {
         self.of.as_ref().map_or_else(|| self.spec.id.to_owned(), |of| format!("{} ({of})", self.spec.id))
     }
 
+    /// Puts the constants that it moves where they were known to be.
+    pub fn take_from(&self, constants: &mut [f64], known: &[f64]) {
+        self.moves().into_iter().for_each(|k| constants[k] = known[k]);
+    }
+
     /// Indices of the constants that it moves, each once, the one first whose value is its size.
     pub fn moves(&self) -> Vec<usize> {
         let mut out: Vec<usize> = Vec::new();

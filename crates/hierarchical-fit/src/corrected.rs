@@ -33,9 +33,7 @@ impl<D: Observed> Solved<D> {
     /// Constants with what is named but for a cause.
     fn without_cause(&self, cause: usize) -> Vec<f64> {
         let mut out = self.named.posterior.mean.as_slice().to_vec();
-        for k in self.causes[cause].moves() {
-            out[k] = self.prior.mean[k];
-        }
+        self.causes[cause].take_from(&mut out, self.prior.mean.as_slice());
         out
     }
 

@@ -84,7 +84,7 @@ impl Solved {
                 // The others all have it.
                 Some((of_all, _)) => {
                     let mut theta = self.named.posterior.mean.clone();
-                    self.causes[of_all.cause].moves().into_iter().for_each(|k| theta[k] = self.prior.mean[k]);
+                    self.causes[of_all.cause].take_from(theta.as_mut_slice(), self.prior.mean.as_slice());
                     implied(robot, drive, &laws(robot, &self.constants, theta.as_slice()))
                 }
                 None => implied(robot, drive, &corrected),

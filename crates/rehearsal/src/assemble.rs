@@ -23,6 +23,11 @@ pub(crate) struct Effect<T> {
 /// What is hidden in a replica: so many sizes of interest of a cause, or nothing.
 pub(crate) type Hidden<'a, T> = Option<(&'a T, f64)>;
 
+/// How many diagnoses a plan asks for.
+pub(crate) fn diagnoses<T>(plan: &Plan, effects: &[Effect<T>]) -> usize {
+    plan.fault_free + plan.replicas * effects.iter().map(|effect| effect.sizes.len()).sum::<usize>()
+}
+
 /// Hides each cause at each of its sizes in as many replicas as the plan asks for, and counts the answers. `answer` diagnoses a replica, by
 /// its number and by what is hidden in it.
 pub(crate) fn assembled<T: Sync>(

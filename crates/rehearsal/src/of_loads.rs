@@ -6,7 +6,7 @@ use inference::hypothesis::Sizes;
 use speed_driven::{Replicas, SteadyCase};
 use verdict::{NotRehearsed, Rehearsal, RehearsedDrives};
 
-use crate::assemble::{Effect, assembled};
+use crate::assemble::{Effect, assembled, diagnoses};
 use crate::error::RehearsalError;
 use crate::hidden::Hidden;
 use crate::plan::Plan;
@@ -76,8 +76,7 @@ impl RehearsingLoads {
 
     /// How many diagnoses will be made.
     pub fn count(&self) -> usize {
-        let sizes: usize = self.effects.iter().map(|effect| effect.sizes.len()).sum();
-        self.plan.fault_free + self.plan.replicas * sizes
+        diagnoses(&self.plan, &self.effects)
     }
 
     /// Diagnoses all replicas, on as many threads as rayon has; the answer depends on none of them. `listener` is told what was diagnosed,
@@ -86,9 +85,7 @@ impl RehearsingLoads {
         let Self { plan, replicas, references, .. } = self;
         let answer = |replica: usize, hidden: Option<(&Hidden, f64)>| {
             let scored = self.answer(replica, hidden);
-            let what = hidden.map_or_else(|| "nothing hidden".to_owned(), |(h, m)| format!("{} {m} x", h.spec().id));
-            let others: Vec<&str> = scored.others.iter().map(String::as_str).collect();
-            listener(&format!("replica {}, {what}: {}", replica + 1, words::answer(scored.kind, &others)));
+            listener(&words::diagnosed(replica, hidden.map(|(h, m)| (h.spec().id, m)), &scored));
             scored
         };
         let drives = RehearsedDrives {

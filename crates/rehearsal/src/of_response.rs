@@ -5,7 +5,7 @@ use command_driven::{Hideable, Replicas, ResponseCase, diagnose_response};
 use inference::Options;
 use verdict::{NotRehearsed, Rehearsal, RehearsedDrives, SensorNoise};
 
-use crate::assemble::{Effect, Hidden, assembled};
+use crate::assemble::{Effect, Hidden, assembled, diagnoses};
 use crate::error::RehearsalError;
 use crate::plan::Plan;
 use crate::random::{Purpose, Stream};
@@ -58,8 +58,7 @@ impl RehearsingResponse {
 
     /// How many diagnoses will be made.
     pub fn count(&self) -> usize {
-        let sizes: usize = self.effects.iter().map(|effect| effect.sizes.len()).sum();
-        self.plan.fault_free + self.plan.replicas * sizes
+        diagnoses(&self.plan, &self.effects)
     }
 
     /// Diagnoses all replicas, on as many threads as rayon has; the answer depends on none of them. `listener` is told what was diagnosed,
@@ -68,9 +67,7 @@ impl RehearsingResponse {
         let Self { plan, replicas, references, .. } = self;
         let answer = |replica: usize, hidden: Hidden<'_, Hideable>| {
             let scored = self.answer(replica, hidden);
-            let what = hidden.map_or_else(|| "nothing hidden".to_owned(), |(h, m)| format!("{} {m} x", h.spec.id));
-            let others: Vec<&str> = scored.others.iter().map(String::as_str).collect();
-            listener(&format!("replica {}, {what}: {}", replica + 1, words::answer(scored.kind, &others)));
+            listener(&words::diagnosed(replica, hidden.map(|(h, m)| (h.spec.id, m)), &scored));
             scored
         };
         let noise = |channel: &str, sigma: f64| SensorNoise {

@@ -211,12 +211,8 @@ impl<'a> Rehearsing<'a> {
 
     /// A line for whoever waits.
     fn told(&self, job: Job, done: &Done) -> String {
-        let what = job.hidden.map_or_else(
-            || "nothing hidden".to_owned(),
-            |(place, multiple)| format!("{} {multiple} x", self.effects[place].spec().id),
-        );
-        let others: Vec<&str> = done.scored.others.iter().map(String::as_str).collect();
-        format!("replica {}, {what}: {}", job.replica + 1, words::answer(done.scored.kind, &others))
+        let hidden = job.hidden.map(|(place, multiple)| (self.effects[place].spec().id, multiple));
+        words::diagnosed(job.replica, hidden, &done.scored)
     }
 
     fn drives(&self) -> RehearsedDrives {

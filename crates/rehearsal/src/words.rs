@@ -5,11 +5,11 @@ use verdict::RehearsedEffect;
 
 use crate::plan::Plan;
 use crate::replica::Template;
-use crate::score::Kind;
+use crate::score::{Kind, Scored};
 use crate::settings::SETTINGS;
 
 /// An answer in a few words.
-pub(crate) fn answer(kind: Kind, others: &[&str]) -> String {
+fn answer(kind: Kind, others: &[&str]) -> String {
     let others = others.join(", ");
     match kind {
         Kind::First if others.is_empty() => "named".to_owned(),
@@ -20,6 +20,13 @@ pub(crate) fn answer(kind: Kind, others: &[&str]) -> String {
         Kind::Wrong => format!("named {others}"),
         Kind::Withheld => "no answer".to_owned(),
     }
+}
+
+/// A line about a replica for whoever waits: what was hidden, so many sizes of interest of it, and what was answered.
+pub(crate) fn diagnosed(replica: usize, hidden: Option<(&str, f64)>, scored: &Scored) -> String {
+    let what = hidden.map_or_else(|| "nothing hidden".to_owned(), |(id, multiple)| format!("{id} {multiple} x"));
+    let others: Vec<&str> = scored.others.iter().map(String::as_str).collect();
+    format!("replica {}, {what}: {}", replica + 1, answer(scored.kind, &others))
 }
 
 /// What was shortened or left away.
