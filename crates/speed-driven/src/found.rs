@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use catalogue::answer::NONE;
+use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::command_driven::EFFECTIVE_TRACK;
 use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::gyro_beside_pose;
@@ -12,7 +12,7 @@ use robot_model::effect::LoadTerm;
 use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, wheel_radius_mismatch};
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{
-    Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
+    Cause, Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
     TurningChange, Verdict,
 };
 
@@ -45,16 +45,8 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     }
     // What no law of the catalogue explains stays unexplained beside what was measured by itself.
     let is_unknown = out.verdict == Verdict::Unknown;
-    if let Some(slope) = &loads.slope {
-        let sigma = slope.half.to_radians() / NINETY;
-        let grade = catalogue::find(&GRADE).map_or("", |entry| entry.label());
-        let cause = Cause {
-            magnitude: Some(slope.slope.to_radians()),
-            sigma: Some(sigma),
-            unit: "rad".into(),
-            ..Cause::plain(&GRADE, grade, ANSWER.changed)
-        };
-        insert(out, vec![cause]);
+    if let Some(slope) = loads.slope.as_ref().filter(|slope| !slope.is_level) {
+        insert(out, vec![slopes(slope)]);
         out.indistinguishable.rotate_right(1);
     }
     if let Some(drift) = &loads.drift {
@@ -69,8 +61,23 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
     }
-    if is_unknown {
+    if loads.slope.is_some_and(|slope| slope.is_level) {
+        insert(out, vec![Cause::plain(UNKNOWN.id, UNKNOWN.name, ANSWER.changed)]);
+        out.indistinguishable.pop();
+    }
+    if is_unknown || out.ranked.first().is_some_and(|first| first.effect == UNKNOWN.id) {
         out.verdict = Verdict::Unknown;
+    }
+}
+
+/// A slope under all driving.
+fn slopes(slope: &GroundSlope) -> Cause {
+    let name = catalogue::find(&GRADE).map_or("", |entry| entry.label());
+    Cause {
+        magnitude: Some(slope.slope.to_radians()),
+        sigma: Some(slope.half.to_radians() / NINETY),
+        unit: "rad".into(),
+        ..Cause::plain(&GRADE, name, ANSWER.changed)
     }
 }
 

@@ -20,7 +20,7 @@
 //! * `mounting`: how the inertial unit leans in the body; `zero`, `gyro_zero`: what current
 //!   sensors read when nothing flows, and a gyro while the robot stands.
 //! * `power`: signs of torques that no robot can have.
-//! * `plane`: one slope under all driving, by loads and directions of travel.
+//! * `plane`, `directed_pull`: one slope under all driving, by loads and directions of travel.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`: rows that show that.
 //! * `drift`: a side whose wheels roll as if they had another radius.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
@@ -39,6 +39,7 @@ mod changes;
 mod clock;
 mod compare;
 mod comparison;
+mod directed_pull;
 mod drift;
 mod extract;
 mod forecast;
@@ -201,7 +202,7 @@ pub fn diagnose_steady(
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
-    if refs.is_empty() && standstills.is_empty() {
+    if refs.is_empty() && standstills.is_empty() && slope.is_none() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
@@ -249,7 +250,7 @@ pub fn diagnose_steady(
         naming: naming.as_ref(),
     };
     let (forecasts, correction) = (fits.forecasts(), fits.correction());
-    loads.withheld.extend(not_given);
+    withhold(&mut loads, not_given);
     let inner: Vec<FreeRun> = loads.forecasts.iter().map(Forecast::free_run).collect();
 
     // The loads alone give a verdict; what was measured beside them may lead over it.

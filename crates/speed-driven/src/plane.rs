@@ -7,26 +7,15 @@ use inference::interpolate;
 use inference::robust::{NINETY, mean, median};
 use verdict::GroundSlope;
 
+use crate::directed_pull::{Stretch, on_one_slope, pull_of, rivals};
 use crate::heading::{apart, directions, headings};
 use crate::pieces::{Usual, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, changes::Jumps, changes::Plane};
-use crate::straight::{Reading, readings};
+use crate::straight::{Reading, is_straight, readings};
 
 const PLANE: Plane = CHANGES.plane;
 const JUMPS: Jumps = CHANGES.jumps;
-
-/// A stretch of straight driving: where it goes, rad; its load and the references' at its speed, N m; whether that is only a bound.
-struct Stretch {
-    direction: f64,
-    load: f64,
-    usual: f64,
-    /// Slope uphill along the way by an accelerometer, rad; `None` without one.
-    tilt: Option<f64>,
-    is_bound: bool,
-    /// 1 forward, −1 backward.
-    way: f64,
-}
 
 /// The slope under all driving, and where uphill is in each recording.
 struct Found {
@@ -59,99 +48,6 @@ fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
     pieces(&run.time, rows, PLANE.gap).into_iter().filter_map(of).collect()
 }
 
-/// How badly a stretch fits a load of level ground (over the usual) and a pull along its direction, N m, of which the drive train
-/// loses an unknown share, N m; in nats, saturated.
-fn misfit(s: &Stretch, is_unsigned: bool, level: f64, [pull, lost]: [f64; 2]) -> f64 {
-    let sum = level * s.usual + pull;
-    let expected = if is_unsigned { sum.abs() } else { sum };
-    let sigma = (PLANE.scatter * s.usual).hypot(lost);
-    let off = if s.is_bound { (expected - s.load).max(0.0) } else { s.load - expected };
-    0.5 * (off / sigma).powi(2).min(PLANE.far_off * PLANE.far_off)
-}
-
-/// Levels of a drive train that are tried, over the usual, and what each costs.
-fn levels(spread: f64) -> impl Iterator<Item = (f64, f64)> {
-    let steps = PLANE.levels;
-    (-steps..=steps).map(move |k| {
-        let z = PLANE.widest * f64::from(k) / f64::from(steps);
-        ((z * spread).exp(), 0.5 * z * z)
-    })
-}
-
-/// The best fit of a recording on a slope whose pull is `pull`, N m: its cost, nats, and where uphill is.
-fn on_slope(stretches: &[Stretch], is_unsigned: bool, spread: f64, pull: f64) -> (f64, f64) {
-    let turn = std::f64::consts::TAU / PLANE.directions as f64;
-    let mut best = (f64::MAX, 0.0);
-    for uphill in (0..PLANE.directions).map(|k| turn * k as f64) {
-        for (level, price) in levels(spread) {
-            let along = |s: &Stretch| pull * (s.direction - uphill).cos();
-            let of =
-                |s: &Stretch| misfit(s, is_unsigned, level, [1.0, CHANGES.slopes.losses].map(|share| share * along(s)));
-            let cost = price + stretches.iter().map(of).sum::<f64>();
-            if cost < best.0 {
-                best = (cost, uphill);
-            }
-        }
-    }
-    best
-}
-
-/// The best fit of recordings on one level ground that resists `ratio` times as much, where something holds the robot back by `pull`,
-/// N m, whichever way it looks, nats.
-fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, (ratio, pull): (f64, f64)) -> f64 {
-    let of_run = |stretches: &Vec<Stretch>| {
-        let of_level = |(level, price): (f64, f64)| {
-            price + stretches.iter().map(|s| misfit(s, is_unsigned, ratio * level, [pull * s.way, 0.0])).sum::<f64>()
-        };
-        levels(spread).map(of_level).fold(f64::MAX, f64::min)
-    };
-    all.iter().map(of_run).sum()
-}
-
-/// The best fit of recordings on level ground of which parts resist `ratio` times as much, nats.
-fn on_two_grounds(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, ratio: f64) -> f64 {
-    let of_run = |stretches: &Vec<Stretch>| {
-        let of_level = |(level, price): (f64, f64)| {
-            let of = |s: &Stretch| {
-                let [one, other] = [1.0, ratio].map(|r| misfit(s, is_unsigned, r * level, [0.0; 2]));
-                one.min(other) + std::f64::consts::LN_2
-            };
-            price + stretches.iter().map(of).sum::<f64>()
-        };
-        levels(spread).map(of_level).fold(f64::MAX, f64::min)
-    };
-    all.iter().map(of_run).sum()
-}
-
-/// What a slope pulls, N m; `weight` is `m g r`, N m.
-fn pull_of(weight: f64, degrees: f64) -> f64 {
-    weight * degrees.to_radians().sin()
-}
-
-/// Cost of what rivals a slope, nats: level ground, firm or soft, with a rope or without, and ground that changes. Each pays for what
-/// it chooses.
-fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> f64 {
-    let ratios = || {
-        (1..=PLANE.ratios).flat_map(|k| {
-            let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
-            [ratio, 1.0 / ratio]
-        })
-    };
-    let least = |costs: &mut dyn Iterator<Item = f64>| costs.fold(f64::MAX, f64::min);
-    let two = least(&mut ratios().map(|ratio| on_two_grounds(all, is_unsigned, spread, ratio))) + PLANE.per_number;
-    let ropes = || {
-        (0..=PLANE.ropes).map(|k| pull_of(weight, PLANE.steepest * k as f64 / PLANE.ropes as f64)).flat_map(|p| [p, -p])
-    };
-    let one =
-        least(&mut std::iter::once(1.0).chain(ratios()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
-            |(ratio, rope)| {
-                let chosen = f64::from(u8::from(ratio != 1.0)) + f64::from(u8::from(rope != 0.0));
-                on_level_ground(all, is_unsigned, spread, (ratio, rope)) + PLANE.per_number * chosen
-            },
-        ));
-    one.min(two)
-}
-
 /// Nose up at the rows by an accelerometer, rad; `None` without one.
 fn levels_at_rows(run: &SpeedRun) -> Option<Vec<f64>> {
     let Some(rates) = &run.body_rates else { return run.level.clone() };
@@ -160,25 +56,43 @@ fn levels_at_rows(run: &SpeedRun) -> Option<Vec<f64>> {
     Some(run.time.iter().zip(&alignment.lag).map(|(t, lag)| interpolate(&rates.time, level, t + lag)).collect())
 }
 
+/// What an accelerometer says of a slope under all driving.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tilts {
+    /// The body tilts as the slope makes it, or nothing measures that.
+    AsOnSlope,
+    /// The body stays level.
+    Level,
+    /// Neither.
+    Otherwise,
+}
+
 /// Whether the body tilts as a slope of so many degrees under all driving makes it, where an accelerometer shows that.
-fn tilts_with(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> bool {
-    let of_run = |(stretches, uphill): (&Vec<Stretch>, &Option<f64>)| -> Vec<[f64; 2]> {
+fn tilts(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> Tilts {
+    // What a slope leaves of the tilts, what is seen there, what level ground leaves, and the slope's own, each less the lean
+    // of an accelerometer, which shows in all directions.
+    let of_run = |(stretches, uphill): (&Vec<Stretch>, &Option<f64>)| -> Vec<[f64; 4]> {
         let Some(uphill) = uphill else { return Vec::new() };
         let pair = |s: &Stretch| Some([s.tilt?, degrees.to_radians() * (s.direction - uphill).cos()]);
-        let mut pairs: Vec<[f64; 2]> = stretches.iter().filter_map(pair).collect();
-        // An accelerometer that leans shows that in all directions.
-        if pairs.len() >= PLANE.leans_from
-            && let Some(lean) = mean(pairs.iter().map(|[seen, own]| seen - own))
-        {
-            for [seen, _] in &mut pairs {
-                *seen -= lean;
-            }
-        }
+        let pairs: Vec<[f64; 2]> = stretches.iter().filter_map(pair).collect();
+        let lean = |of: &dyn Fn(&[f64; 2]) -> f64| {
+            if pairs.len() < PLANE.leans_from { 0.0 } else { mean(pairs.iter().map(of)).unwrap_or(0.0) }
+        };
+        let [off, seen_on_level, own] = [lean(&|[seen, own]| seen - own), lean(&|pair| pair[0]), lean(&|pair| pair[1])];
         pairs
+            .iter()
+            .map(|pair| [pair[0] - pair[1] - off, pair[0] - off, pair[0] - seen_on_level, pair[1] - own])
+            .collect()
     };
-    let pairs: Vec<[f64; 2]> = all.iter().zip(uphill).flat_map(of_run).collect();
-    let squares = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(|pair| of(pair).powi(2)).sum::<f64>();
-    pairs.is_empty() || squares(&|[seen, own]| seen - own) < PLANE.tilt_left * squares(&|[seen, _]| *seen)
+    let all: Vec<[f64; 4]> = all.iter().zip(uphill).flat_map(of_run).collect();
+    let [by_slope, seen, by_level, own] = [0, 1, 2, 3].map(|k| all.iter().map(|row| row[k].powi(2)).sum::<f64>());
+    if all.is_empty() || by_slope < PLANE.tilt_left * seen {
+        Tilts::AsOnSlope
+    } else if by_level < PLANE.tilt_left * own {
+        Tilts::Level
+    } else {
+        Tilts::Otherwise
+    }
 }
 
 /// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
@@ -199,15 +113,13 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
     // Likeliest slope, by the cost of all recordings.
     let spread = usual.unequal.ln();
     let pull = |degrees: f64| pull_of(weight, degrees);
-    let cost = |degrees: f64| -> f64 { all.iter().map(|s| on_slope(s, is_unsigned, spread, pull(degrees)).0).sum() };
+    let on = |degrees: f64| on_one_slope(&all, is_unsigned, spread, pull(degrees));
     let steps = (PLANE.steepest / PLANE.step).round() as usize;
-    let costs: Vec<f64> = (0..=steps).map(|k| cost(PLANE.step * k as f64)).collect();
+    let costs: Vec<f64> = (0..=steps).map(|k| on(PLANE.step * k as f64).0).collect();
     let best = (0..=steps).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
     let slope = PLANE.step * best as f64;
-
-    let chosen = 1 + all.iter().filter(|stretches| !stretches.is_empty()).count();
-    let own = costs[best] + PLANE.per_number * chosen as f64;
-    if slope < PLANE.least || best == steps || own + PLANE.least_gain > rivals(&all, is_unsigned, spread, weight) {
+    let gain = rivals(&all, is_unsigned, spread, weight) - costs[best];
+    if slope < PLANE.least || best == steps || gain < PLANE.least_gain {
         return None;
     }
 
@@ -222,12 +134,13 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
         return None;
     }
     let over = || all.iter().flatten().map(|s| s.load / s.usual);
-    let uphill: Vec<Option<f64>> =
-        all.iter().map(|s| (!s.is_empty()).then(|| on_slope(s, is_unsigned, spread, pull(slope)).1)).collect();
-    if !tilts_with(&all, slope, &uphill) {
+    let uphill = on(slope).1;
+    let tilts = tilts(&all, slope, &uphill);
+    if tilts == Tilts::Otherwise {
         return None;
     }
     let told = GroundSlope {
+        is_level: tilts == Tilts::Level,
         slope,
         half: half.max(PLANE.step).hypot(NINETY * scale_sigma * slope),
         ratios: [over().fold(f64::MAX, f64::min), over().fold(0.0, f64::max)],
@@ -240,8 +153,23 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
 /// with its relative error.
 pub(crate) fn take_off(runs: &mut [SpeedRun], usual: &Usual, weight: (f64, f64)) -> Option<GroundSlope> {
     let found = find(runs, usual, weight)?;
-    level(runs, &found, usual, weight.0);
+    if found.told.is_level {
+        keep_spins(runs);
+    } else {
+        level(runs, &found, usual, weight.0);
+    }
     Some(found.told)
+}
+
+/// Leaves out all but spins on the spot. What pulls without being a slope may pull more here than there, so that it cannot be taken off;
+/// in spins it drives one side by as much as it holds back the other.
+fn keep_spins(runs: &mut [SpeedRun]) {
+    for run in runs {
+        for i in 0..run.time.len() {
+            run.standing[i] |= run.speed[0][i] * run.speed[1][i] >= 0.0;
+        }
+        (run.body_rates, run.level) = (None, None);
+    }
 }
 
 /// Takes what the slope pulls off the torques. Rows at which a side shows nothing because
@@ -258,15 +186,21 @@ fn level(runs: &mut [SpeedRun], found: &Found, usual: &Usual, weight: f64) {
                 run.standing[i] = true;
                 continue;
             }
+            // Without a sign a side that is driven beyond what it resists reads what it holds back. Spins resist more than any slope pulls;
+            // in an arc nothing says what the inner side would read.
             let expected = usual.load[class(run.forward(i).abs())].or(usual.any()).unwrap_or(0.0);
+            let is_spin = run.speed[0][i] * run.speed[1][i] < 0.0;
+            let holds_back = along.map(|along| run.magnitude_only && !is_spin && 0.5 * expected + along < 0.0);
+            if holds_back.contains(&true) && !is_straight(run, i, MEASURING.straight.hold) {
+                run.standing[i] = true;
+                continue;
+            }
             for j in 0..2 {
                 let torque = run.torque[j][i];
                 if !run.magnitude_only {
                     run.torque[j][i] = torque - own;
                 } else if run.reads(i, j) {
-                    // Without a sign a side that is driven beyond what it resists reads what it holds back.
-                    let holds_back = 0.5 * expected + along[j] < 0.0;
-                    let shown = if holds_back { -torque.abs() } else { torque.abs() };
+                    let shown = if holds_back[j] { -torque.abs() } else { torque.abs() };
                     run.torque[j][i] = (shown - along[j]).max(0.0);
                 }
             }
@@ -322,14 +256,12 @@ mod tests {
         };
         let own = |k: u32| slope.to_radians() * (0.9 * f64::from(k)).cos();
         let all = |tilt: &dyn Fn(u32) -> f64| vec![(0..7).map(|k| at(k, tilt(k))).collect::<Vec<_>>()];
-        let confirms = |tilt: &dyn Fn(u32) -> f64| tilts_with(&all(tilt), slope, &[Some(0.0)]);
-        assert!(confirms(&own) && confirms(&|k| own(k) + 0.06));
-        assert!(!confirms(&|k| -own(k)));
-        assert!(!confirms(&|k| 0.1 * f64::from(k % 3)));
-        assert!(
-            tilts_with(&[vec![Stretch { tilt: None, ..at(0, 0.0) }]], slope, &[Some(0.0)]),
-            "nothing speaks against it"
-        );
+        let told = |tilt: &dyn Fn(u32) -> f64| tilts(&all(tilt), slope, &[Some(0.0)]);
+        assert_eq!([told(&own), told(&|k| own(k) + 0.06)], [Tilts::AsOnSlope; 2]);
+        assert_eq!([told(&|_| 0.0), told(&|k| 0.06 + 0.1 * own(k))], [Tilts::Level; 2], "a rope or wind pulls");
+        assert_eq!([told(&|k| -own(k)), told(&|k| 0.1 * f64::from(k % 3))], [Tilts::Otherwise; 2]);
+        let unseen = vec![Stretch { tilt: None, ..at(0, 0.0) }];
+        assert_eq!(tilts(&[unseen], slope, &[Some(0.0)]), Tilts::AsOnSlope, "nothing speaks against it");
     }
 
     #[test]
@@ -384,5 +316,25 @@ mod tests {
         assert!(d.sentences[1].starts_with("Apart from that the simulation explains"), "{:?}", d.sentences);
         let angle = d.ranked[0].magnitude.expect("an angle").to_degrees();
         assert!((angle - 4.0).abs() < 1.0, "{angle}");
+    }
+
+    #[test]
+    fn what_pulls_like_a_slope_on_ground_that_an_accelerometer_shows_level_is_unknown() {
+        let pulled = |(k, uphill): (usize, f64)| {
+            let run = drive(&on_plane(4.0, uphill), false);
+            SpeedRun { name: k.to_string(), level: Some(vec![0.0; run.time.len()]), ..run }
+        };
+        let runs = [0.4, 2.0].into_iter().enumerate().map(pulled).collect();
+        let d = diagnose_steady(&case(vec![drive(&rounds(3), false)], runs), &Options::default(), &|_| {});
+        let d = d.expect("a diagnosis");
+        assert_eq!((d.verdict, d.ranked[0].effect.as_str()), (Verdict::Unknown, "unknown"), "{:?}", d.sentences);
+        assert!(d.sentences[0].starts_with("Something pulls the robot towards one direction"), "{:?}", d.sentences);
+        let loads = d.steady.expect("loads");
+        assert!(
+            loads.slope.is_some_and(|slope| slope.is_level && (slope.slope - 4.0).abs() < 1.0),
+            "{:?}",
+            loads.slope
+        );
+        assert!(loads.changes.found.is_empty() && loads.changes.hidden.is_empty(), "{:?}", loads.changes);
     }
 }

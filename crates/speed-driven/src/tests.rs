@@ -85,7 +85,7 @@ fn without_references_a_track_is_as_unsure_as_the_file_says_of_radius_and_track(
 #[test]
 fn a_slope_beside_loads_that_nothing_explains_leaves_these_unknown_and_is_one_class() {
     let mut d = diagnosis(&[&rounds(3)]);
-    let slope = GroundSlope { slope: 3.0, half: 0.5, ratios: [0.5, 1.5], stretches: 8 };
+    let slope = GroundSlope { slope: 3.0, half: 0.5, ratios: [0.5, 1.5], stretches: 8, is_level: false };
     let loads = Loads { slope: Some(slope), ..d.steady.take().expect("loads") };
     d.indistinguishable = vec![vec!["grade".to_owned()]];
     for before in [Verdict::Unknown, Verdict::Explained] {

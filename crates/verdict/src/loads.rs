@@ -318,7 +318,7 @@ pub struct Turning {
     pub way: Way,
 }
 
-/// A slope under all driving.
+/// A slope under all driving, or something else that pulls towards one direction as it does.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GroundSlope {
     /// Its angle, degrees.
@@ -329,6 +329,9 @@ pub struct GroundSlope {
     pub ratios: [f64; 2],
     /// Stretches of straight driving that it rests on.
     pub stretches: usize,
+    /// Whether an accelerometer shows that the ground is level, so that something else pulls as the slope would.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_level: bool,
 }
 
 /// A stretch in which the robot was commanded to drive and did not: its body stood, or its wheels did.
