@@ -286,6 +286,15 @@ fn drop_what_loads_do_not_ask_for(out: &mut Diagnosis, of_loads: Verdict) {
     }
 }
 
+/// Adds what too little steady driving did not give. Where only spins are compared the rest was driven, and is left out.
+fn withhold(loads: &mut Loads, not_given: Vec<Withheld>) {
+    if loads.slope.is_some_and(|slope| slope.is_level) {
+        loads.changes.hidden.clear();
+    } else {
+        loads.withheld.extend(not_given);
+    }
+}
+
 /// The largest speed of a side, m/s.
 fn fastest(runs: &[SpeedRun]) -> f64 {
     runs.iter().flat_map(|run| run.speed.iter().flatten()).fold(0.0, |most, v| most.max(v.abs()))
