@@ -69,6 +69,7 @@ pub use sentences::{Wording, lacking_in_all, of_recordings};
 pub use session::{Marginal, Session, joint};
 pub use solve::{Solved, begun, solve};
 pub use table::{Column, Table, or_nan};
+pub use telling::UnevenSensor;
 pub use weigh::{Evidence, Posterior};
 
 /// Log odds of a cause before the data are seen, nats.

@@ -12,7 +12,7 @@ use crate::name::Weighed;
 use crate::observed::Observed;
 use crate::settings::SETTINGS;
 use crate::solve::Solved;
-use crate::telling::{Found, Unaccounted};
+use crate::telling::{Found, Unaccounted, UnevenSensor};
 use crate::weigh::Posterior;
 
 /// A constant as it is told.
@@ -80,6 +80,8 @@ pub struct Said {
     pub unconfirmed: Option<Unconfirmed>,
     /// The same that the best answer leaves of the references; `None` without any.
     pub left_of_references: Option<f64>,
+    /// A sensor that shows another share of small sizes than of large ones.
+    pub uneven: Option<UnevenSensor>,
     /// The same that the noise of what is measured alone would leave.
     pub share_of_noise: f64,
     /// The same from which on something unknown is likelier; without references.
@@ -116,6 +118,7 @@ impl<D: Observed> Solved<D> {
             unconfirmed: None,
             shares: [data.share(prior.mean.as_slice()), data.share(named.retuned.mean.as_slice()), self.share()],
             left_of_references: self.left_of_references,
+            uneven: None,
             share_of_noise: data.share_of_noise(),
             doubted: None,
             constants: estimates(&Posterior {
@@ -167,7 +170,8 @@ impl Said {
         let [_, retuned, left] = self.without_noise();
         let is_left = left > rules.most
             || (left > rules.share && left > rules.of_retuned * retuned)
-            || is_beyond_references(left, self.left_of_references);
+            || is_beyond_references(left, self.left_of_references)
+            || self.uneven.is_some();
         self.answer = if is_left || (self.is_scattered && !self.named.is_empty()) {
             Answer::Unknown
         } else if !self.named.is_empty() {
@@ -226,7 +230,9 @@ impl Said {
             beside_references: self.left_of_references.map(|usual| [self.without_noise()[2], usual]),
             beside_usual: self.doubted.map(|usual| [self.without_noise()[2], usual]),
             unconfirmed: self.unconfirmed.as_ref(),
-            unknown: if self.is_scattered {
+            unknown: if let Some(uneven) = self.uneven {
+                Unaccounted::Uneven(uneven)
+            } else if self.is_scattered {
                 Unaccounted::Scattered(self.scatter)
             } else if self.is_refuted {
                 Unaccounted::Refuted
@@ -287,6 +293,7 @@ mod tests {
             unconfirmed: None,
             shares,
             left_of_references: None,
+            uneven: None,
             share_of_noise: 0.0,
             doubted: None,
         }
@@ -316,6 +323,15 @@ mod tests {
         assert_eq!(decided([0.2, 0.12, 0.11], false, 1.5, true), Answer::Unknown);
         assert_eq!(decided([0.9, 0.3, 0.12], false, 1.5, true), Answer::Named);
         assert_eq!(decided([2.0, 1.9, 0.5], false, 1.5, true), Answer::Unknown);
+    }
+
+    #[test]
+    fn a_sensor_of_uneven_shares_is_unknown_however_little_is_left() {
+        let uneven =
+            UnevenSensor { sensor: "encoder", quantity: "speed", unit: "m/s", limit: 2.6, small: 1.0, large: 0.7 };
+        let mut said = Said { uneven: Some(uneven), ..named([0.9, 0.02, 0.01]) };
+        said.decide(Unexplained { share: 0.1, of_retuned: 0.8, most: 0.4, doubted: 0.04 }, |_| true);
+        assert_eq!((said.answer, said.found().unknown), (Answer::Unknown, Unaccounted::Uneven(uneven)));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::cause::Cause;
 use crate::found::{Answer, Estimate, NamedCause};
 use crate::said::{Unconfirmed, beyond_references};
 use crate::settings::SETTINGS;
-use crate::telling::{Found, Unaccounted, gains};
+use crate::telling::{Found, Unaccounted, UnevenSensor, gains};
 
 /// How a kind of comparison calls what it compares.
 #[derive(Debug, Clone, Copy)]
@@ -99,6 +99,11 @@ impl Found<'_> {
                 Unaccounted::Refuted => format!(
                     "Something is missing that the candidates do not account for: with them drives that were left out of the fit are \
                      forecast worse than as stated ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned)."
+                ),
+                Unaccounted::Uneven(UnevenSensor { sensor, quantity, unit, limit, small, large }) => format!(
+                    "Something is missing that none of the causes accounts for: the {sensor} shows {small:.2} times the {quantity} \
+                     that the pose gives up to {limit:.2} {unit}, and {large:.2} times beyond. No scale of a sensor \
+                     does that: one that reaches its end does, or wheels that slip."
                 ),
                 Unaccounted::SlipsBelowZero => format!(
                     "Something is missing that none of the causes accounts for: several slips below zero fit best, which slip does not do \

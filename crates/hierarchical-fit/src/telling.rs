@@ -50,8 +50,27 @@ pub enum Unaccounted {
     Scattered(f64),
     /// Left-out drives are forecast worse with the causes than as stated.
     Refuted,
+    /// A sensor shows another share of small sizes than of large ones.
+    Uneven(UnevenSensor),
     /// Several slips below zero fit best.
     SlipsBelowZero,
+}
+
+/// A sensor that shows another share of small sizes than of large ones, which no scale does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnevenSensor {
+    /// Its name.
+    pub sensor: &'static str,
+    /// What it measures.
+    pub quantity: &'static str,
+    /// Unit of that.
+    pub unit: &'static str,
+    /// Between small and large sizes.
+    pub limit: f64,
+    /// Share that it shows of small ones.
+    pub small: f64,
+    /// Share that it shows of large ones.
+    pub large: f64,
 }
 
 impl Found<'_> {

@@ -90,10 +90,10 @@ impl Compared {
         if 2 * count < rows { f64::INFINITY } else { sum / count as f64 }
     }
 
-    /// Whether speeds agree with the clocks as they are.
-    fn agrees(&self) -> bool {
+    /// Whether speeds agree with the clocks as they are, to this share of their mean.
+    fn agrees(&self, wrong: f64) -> bool {
         let usual = mean(self.of_pose.iter().flatten().map(|v| size(*v))).unwrap_or(0.0);
-        self.as_it_is <= RULES.wrong * usual
+        self.as_it_is <= wrong * usual
     }
 
     /// Offset, s, and rate of the other device's clock that make speeds agree: it is behind by `offset + rate t` at the time `t`
@@ -141,9 +141,9 @@ pub struct Clocks {
 }
 
 impl Clocks {
-    /// The clocks of drives; `None` where those of most agree as they are.
-    pub fn of_most(compared: &[Compared]) -> Option<Self> {
-        if compared.iter().all(Compared::agrees) {
+    /// The clocks of drives; `None` where the speeds of all agree with the clocks as they are, to the share `wrong` of their mean.
+    pub fn of_most(compared: &[Compared], wrong: f64) -> Option<Self> {
+        if compared.iter().all(|drive| drive.agrees(wrong)) {
             return None;
         }
         // One that disagrees asks for all: a slow or short drive shows its clock less.

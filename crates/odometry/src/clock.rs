@@ -39,7 +39,7 @@ fn of_most(robot: &WheeledRobot, drives: &[Drive]) -> Option<Clocks> {
         let path = implied(robot, drive, &Laws::given(robot));
         Compared::new(speeds(&drive.time, &drive.pose), fine_speeds(&drive.time, &path))
     };
-    Clocks::of_most(&drives.iter().map(compared).collect::<Vec<Compared>>())
+    Clocks::of_most(&drives.iter().map(compared).collect::<Vec<Compared>>(), RULES.wrong)
 }
 
 /// `None` where the clocks of most agree as they are.

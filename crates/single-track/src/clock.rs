@@ -49,7 +49,7 @@ pub(crate) fn joined(case: &Case) -> (Cow<'_, Case>, Option<Apart>) {
 /// The clocks of drives with a pose; `None` where those of most agree, or are apart by no more than a fit finds.
 fn clocks(drives: &[Drive]) -> Option<Clocks> {
     let compared: Vec<Compared> = drives.iter().filter_map(compared).collect();
-    let found = Clocks::of_most(&compared)?;
+    let found = Clocks::of_most(&compared, RULES.wrong)?;
     let [offset, rate] = found.usual;
     let length = drives.iter().map(Drive::duration).fold(0.0, f64::max);
     (offset.abs().max((offset + rate * length).abs()) > RULES.apart).then_some(found)

@@ -16,6 +16,7 @@ use crate::left_out::{Table, left_out_of};
 use crate::model::{Laws, STEP};
 use crate::next_drive;
 use crate::rows::Shown;
+use crate::sensors::uneven;
 use crate::settings::SETTINGS;
 use crate::solve::solve;
 use crate::traces::{predicted, trace};
@@ -147,6 +148,7 @@ fn findings(case: &Case, solved: &Solved<Shown<'_>>, apart: Option<&Apart>) -> F
         said.rival = None;
     }
     let has_references = !case.references.is_empty();
+    said.uneven = uneven(solved);
     said.decide(UNEXPLAINED, |e| is_known(&data.model, has_references, e));
     let mut told = of_recordings(case.references.iter().chain(&case.recordings).flat_map(|d| d.told.iter().cloned()));
     told.extend(solved.lacking_in_all());

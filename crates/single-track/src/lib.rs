@@ -33,6 +33,7 @@ mod model;
 mod next_drive;
 mod rivals;
 mod rows;
+mod sensors;
 mod settings;
 mod simulate;
 mod solve;

@@ -230,6 +230,11 @@ impl<'a> Shown<'a> {
         out
     }
 
+    /// What gyro and encoder show, in the order of their rows.
+    pub(crate) fn shown_by_sensors(&self) -> impl Iterator<Item = f64> {
+        self.reported[self.messages.clone()].iter().flat_map(|m| [m.gyro, m.encoder]).flatten()
+    }
+
     /// Changes of the errors with each constant, by central differences.
     pub(crate) fn columns_of(&self, constants: &[Constant], theta: &[f64]) -> Vec<Vec<f64>> {
         let of = |k: usize| {

@@ -18,6 +18,8 @@
     clock: Clock {
         /// Delay up to which a fit finds it by itself.
         apart: f64 = 0.4, "s", "guess; the fit is linear over the time in which a car turns in";
+        /// Clocks are looked at where speed and turning differ by more than this share of their mean.
+        wrong: f64 = 0.06, "1", "guess; gyro and encoder are known to some per cent, and wheels slip by as much";
         /// Longest time between messages that a line bridges.
         held: f64 = 0.3, "s", "guess; three messages at 10 Hz";
         /// What offsets and rates of single drives are resolved to, one sigma.
@@ -314,6 +316,14 @@
         warm: f64 = 2.0, "s", "guess; ten lags of a slow servo";
         /// Factors on the scatter of drives within a drive, of which one is chosen on the other drives.
         freedom: [f64; 3] = [1.0, 3.0, 10.0], "1", "guess; constants of a manoeuvre differ more than those of a drive";
+    }
+
+    /// Sensors beside the pose.
+    sensors: Sensors {
+        /// By how much the share that a sensor shows of large sizes differs from that of small ones, from which on no scale does it.
+        uneven: f64 = 0.15, "share", "guess; driven wheels slip by some per cent more where a car is fast";
+        /// Rows of a sensor below which nothing is said.
+        least: usize = 200, "1", "guess: ten seconds of twenty rows each";
     }
 
     /// When something is left that no cause accounts for.

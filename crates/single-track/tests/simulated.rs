@@ -217,6 +217,7 @@ fn clocks_of_car_and_pose_that_are_far_apart_are_told_with_their_sizes() {
     for (clocks, id, size) in [
         ([0.0, 0.03], "car_clock_rate", -0.03),
         ([2.0, -0.02], "car_clock_rate", 0.02),
+        ([0.05, 0.018], "car_clock_rate", -0.018),
         ([-1.5, 0.0], "car_clock_delay", -1.5),
     ] {
         let findings = of(Vec::new(), apart(centre, clocks, 5));

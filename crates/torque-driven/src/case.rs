@@ -4,7 +4,9 @@ use recordings::{Recording, Signal};
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, USUAL_POSE_SIGMA, usual_sigma};
 
+use crate::motion::GyroError;
 use crate::run::Run;
+use crate::windows::{CutOptions, Segment, cut};
 use inference::{DiagnosisError, GivenEffects};
 
 /// A torque-driven case.
@@ -156,6 +158,47 @@ impl HeldOut {
             .collect();
         let stamps = left.t_ns().to_vec();
         Ok(Self { name, period: period_ns as f64 * 1e-9, first_time: start as f64 * 1e-9, stamps, torque, restarts })
+    }
+
+    /// The same of a recording without a velocity of the body: from states that poses, gyro and wheels show together, smoothed as for a
+    /// diagnosis, every `seconds`.
+    ///
+    /// # Errors
+    /// When torque is missing, or the recording is too short or shows too little.
+    pub fn of_measured(
+        recording: &Recording,
+        (robot, pose_sigma): (&Robot<f64>, f64),
+        seconds: f64,
+    ) -> Result<Self, DiagnosisError> {
+        let run = Run::new(recording)?;
+        let cutting = CutOptions {
+            segment: seconds,
+            pose_sigma,
+            gyro: GyroError::default(),
+            wheel_radius: robot.wheel_radius,
+            contacts: robot.contacts(),
+        };
+        let segments = cut(&run, &cutting).segments;
+        let inputs = Self::inputs(recording)?;
+        let restart = |segment: &Segment| {
+            let since = run.from + segment.row as f64 * run.period - inputs.first_time;
+            let row = (since / inputs.period).round().max(0.0) as usize;
+            let start = segment.start;
+            Restart {
+                row,
+                pose: [start.position[0], start.position[1], start.yaw],
+                velocity: start.velocity,
+                gyro: start.yaw_rate,
+                wheel_speed: start.wheel_speed,
+                wheel_angle: start.wheel_angle,
+            }
+        };
+        let restarts: Vec<Restart> = segments.iter().map(restart).collect();
+        if restarts.is_empty() {
+            let needed = (2.0 * seconds / inputs.period) as usize;
+            return Err(DiagnosisError::TooShort { recording: inputs.name, rows: inputs.torque.len(), needed });
+        }
+        Ok(Self { restarts, ..inputs })
     }
 
     /// The same with restarts at least `seconds` apart: of a recording that holds the whole state in every row.

@@ -87,9 +87,12 @@ impl Judged<'_> {
             if at_stops(&without.fitted) > at_stops(&best.trial.fitted) {
                 return None;
             }
-            // Nor is one that lies beyond belief where the effect leaves it near.
-            let [far, near] = [&without, &best.trial].map(|trial| farthest(self.problem, &trial.fitted));
-            if far > RULES.believable && far > RULES.nearer * near {
+            // Nor is one that lies beyond belief where the effect leaves it near: any, or the one that is the effect under another name.
+            let both = [&without, &best.trial];
+            let is_beyond = |[far, near]: [f64; 2]| far > RULES.believable && far > RULES.nearer * near;
+            let own = StandIn::of(&variant, self.problem.robot).filter(|constant| !constant.may_be_of_tyres());
+            let of_own = own.map(|constant| both.map(|trial| moves(self.problem, &trial.fitted)[constant.place]));
+            if is_beyond(both.map(|trial| farthest(self.problem, &trial.fitted))) || of_own.is_some_and(is_beyond) {
                 return None;
             }
             let without = left_out_costs(self, &without);
@@ -121,10 +124,14 @@ fn at_stops(fitted: &Fitted) -> usize {
     fitted.point.theta.iter().filter(|x| x.abs() >= fit::SETTINGS.fit.farthest).count()
 }
 
-/// By how many sigmas the constant lies from where it is known to be that lies farthest.
+/// By how many sigmas each constant lies from where it is known to be.
+fn moves(problem: &Problem<'_>, fitted: &Fitted) -> Vec<f64> {
+    fitted.point.theta.iter().zip(problem.centre).map(|(own, centre)| (own - centre).abs()).collect()
+}
+
+/// The same of the constant that lies farthest.
 fn farthest(problem: &Problem<'_>, fitted: &Fitted) -> f64 {
-    let moves = fitted.point.theta.iter().zip(problem.centre);
-    moves.map(|(own, centre)| (own - centre).abs()).fold(0.0, f64::max)
+    moves(problem, fitted).into_iter().fold(0.0, f64::max)
 }
 
 /// What left-out segments gain by a hypothesis over another one, by their costs under both, and its standard error, nats.

@@ -145,10 +145,12 @@ impl Calibrated {
     ) -> Result<Diagnosis, DiagnosisError> {
         let (out, is_turned) = self.diagnose_turned(case, options, progress, true)?;
         // Where no slope is found, nothing says where recordings head.
-        if is_turned && !headings::is_slope(&out) {
-            return Ok(self.diagnose_turned(case, options, progress, false)?.0);
-        }
-        Ok(out)
+        let out = if is_turned && !headings::is_slope(&out) {
+            self.diagnose_turned(case, options, progress, false)?.0
+        } else {
+            out
+        };
+        Ok(self.of_some_drives(case, options, progress, &out)?.unwrap_or(out))
     }
 
     /// The same with recordings that may be turned until the slopes that they show agree, and whether any is.
@@ -300,7 +302,8 @@ impl Calibrated {
     ) -> Decision {
         let decision = self.judged(case, options, sensors, made_of, decision).without_sizes_of_zero();
         let decision = self.judged(case, options, sensors, made_of, &decision).without_unconfirmed(retuned);
-        self.judged(case, options, sensors, made_of, &decision).with_either_side()
+        let decision = self.judged(case, options, sensors, made_of, &decision).with_either_side();
+        self.judged(case, options, sensors, made_of, &decision).with_what_forecasts_better()
     }
 
     /// What an answer is made of.

@@ -239,7 +239,7 @@ pub(crate) fn without(h: &Hypothesis, left_out: usize) -> Hypothesis {
 }
 
 /// The best hypothesis that shares no effect with the winner and is no larger.
-fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
+pub(crate) fn placebo<'a>(answer: &'a Judged<'_>) -> Option<&'a Scored> {
     let winner = answer.winner()?.trial.hypothesis.ids();
     let shared = |s: &Scored| s.trial.hypothesis.ids().iter().any(|id| winner.contains(id));
     let all = answer.decision.scored.iter();

@@ -14,12 +14,12 @@
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
 //! * `hypothesis`: effects that are missing together.
-//! * `headings`: where recordings without a pose head, by the slope that each shows.
-//! * `search`, `several`, `other_side`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
+//! * `in_some_drives`: what is there in some recordings only. `headings`: where recordings without a pose head, by the slope that each shows.
+//! * `search`, `several`, `other_side`, `later_side`, `refits`, `fit`, `run_numbers`, `normal`, `trial`: refits of the finalists in free run, alone, in
 //!   pairs and threes; `nothing`: re-tuned constants alone; `disc`, `onset`: place and time; `handed_over`: effects that hide
 //!   in a constant.
-//! * `decide`, `prices`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities; `confirmed`, `which_side`:
-//!   what left-out recordings say of them.
+//! * `decide`, `prices`, `decision`, `judged`, `visits`, `stand_in`, `structure`, `level`: from fits to probabilities; `confirmed`, `which_side`,
+//!   `contradicted`: what left-out recordings say of them.
 //! * `retuned`: constants that moved farther than they are known; `simulator`: those that a simulator's logs show;
 //!   `fitted_robot`: a robot from such logs alone.
 //! * `four_motors`: whether the wheels of a side have a motor each, where the robot file does not say it.
@@ -40,6 +40,7 @@ mod candidate;
 mod case;
 mod channel;
 mod confirmed;
+mod contradicted;
 mod decide;
 mod decision;
 mod diagnose;
@@ -53,7 +54,9 @@ mod four_motors;
 mod handed_over;
 mod headings;
 mod hypothesis;
+mod in_some_drives;
 mod judged;
+mod later_side;
 mod leave_out;
 mod level;
 mod limits;

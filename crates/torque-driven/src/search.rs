@@ -7,7 +7,6 @@ use law::OwnEffect;
 use crate::candidate::Candidate;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::nothing::{is_far, without_effect};
-use crate::other_side;
 use crate::refits::{
     Places, Starts, best_first, better, by_id, converge_members, converge_wholes, include_handed_over, polish,
     refit_from,
@@ -16,6 +15,7 @@ use crate::screen::screen;
 use crate::settings::search::{Finalists, Retuning, SETTINGS};
 use crate::several::{pairs, thirds};
 use crate::trial::{SearchResult, Trial, include};
+use crate::{later_side, other_side};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const RETUNING: Retuning = SETTINGS.retuning;
@@ -95,6 +95,7 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
     best_first(&mut singles);
 
     other_side::include(problem, &mut singles);
+    later_side::include(problem, &origin, &mut singles);
 
     // An unconverged null would invent a gain for whatever comes next: polish it from the best single's tuning. Where only
     // the robot file holds the constants, an effect can spare "nothing" a long way: it starts from several.

@@ -24,7 +24,11 @@ impl Kind for TorqueDriven {
     }
 
     fn forecast(&self, robot: &RobotSpec, drive: &Recording, restart: f64) -> Result<Forecast> {
-        let held = HeldOut::new(drive)?.restarting_every(restart);
+        // Few recordings hold the velocity of the body; those that do are simulated ones.
+        let held = match HeldOut::new(drive) {
+            Ok(held) => held.restarting_every(restart),
+            Err(_) => HeldOut::of_measured(drive, (&robot.robot, robot.pose_sigma), restart)?,
+        };
         let prediction = torque_driven::forecast(&robot.robot, &robot.active(&held.name)?, &held, &Options::default());
         let [wheel, yaw] = compare(&prediction, drive, &held);
         let errors = vec![("wheel speed, rad/s".to_owned(), wheel), ("yaw rate, rad/s".to_owned(), yaw)];
